@@ -1,0 +1,5 @@
+//! The host side of servoid.
+#![forbid(unsafe_code)]
+
+pub mod recording;
+pub mod solve;

@@ -1,0 +1,3 @@
+//! The command line `servoid`.
+#![forbid(unsafe_code)]
+fn main() {}

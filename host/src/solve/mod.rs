@@ -1,0 +1,129 @@
+//! Search methods behind one door: each minimises a cost over the unit cube, and every single model
+//! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The search is over: the budget is spent or the user asked to stop. Solvers return at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop;
+
+/// A cost over the unit cube `[0, 1]^dim`. Lower is better; never NaN (infinity for "impossible").
+pub trait Objective: Sync {
+    /// Number of unknowns.
+    fn dim(&self) -> usize;
+    /// Cost of the point `x`.
+    fn cost(&self, x: &[f64]) -> f64;
+    /// Residual vector whose squares the least-squares methods sum, or `None` where there is none.
+    fn residuals(&self, _x: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+    /// A start from the data (regression), if there is one.
+    fn start(&self) -> Option<Vec<f64>> {
+        None
+    }
+}
+
+/// Counts evaluations against a budget, keeps the best point and the curve of best costs.
+pub struct Evaluator<'a> {
+    objective: &'a dyn Objective,
+    budget: usize,
+    stop: &'a AtomicBool,
+    observer: &'a mut dyn FnMut(usize, f64),
+    evaluations: usize,
+    best: Vec<f64>,
+    best_cost: f64,
+    curve: Vec<(usize, f64)>,
+}
+
+impl<'a> Evaluator<'a> {
+    /// `observer` is called after each evaluation with the count so far and the best cost.
+    pub fn new(
+        objective: &'a dyn Objective,
+        budget: usize,
+        stop: &'a AtomicBool,
+        observer: &'a mut dyn FnMut(usize, f64),
+    ) -> Self {
+        let best = vec![0.5; objective.dim()];
+        Evaluator {
+            objective,
+            budget,
+            stop,
+            observer,
+            evaluations: 0,
+            best,
+            best_cost: f64::INFINITY,
+            curve: Vec::new(),
+        }
+    }
+
+    /// The problem being solved.
+    pub fn objective(&self) -> &dyn Objective {
+        self.objective
+    }
+
+    /// Number of unknowns.
+    pub fn dim(&self) -> usize {
+        self.objective.dim()
+    }
+
+    /// Evaluations left.
+    pub fn left(&self) -> usize {
+        if self.stop.load(Ordering::Relaxed) { 0 } else { self.budget - self.evaluations }
+    }
+
+    /// Cost at `x`, whose coordinates are first clamped to the cube.
+    pub fn evaluate(&mut self, x: &[f64]) -> Result<f64, Stop> {
+        if self.left() == 0 {
+            return Err(Stop);
+        }
+        let x: Vec<f64> = x.iter().map(|v| v.clamp(0.0, 1.0)).collect();
+        let cost = self.objective.cost(&x);
+        self.record(&x, cost);
+        Ok(cost)
+    }
+
+    /// Books one evaluation that was made elsewhere (a residual vector, a lane of a batch).
+    pub fn record(&mut self, x: &[f64], cost: f64) {
+        self.evaluations += 1;
+        if cost < self.best_cost {
+            self.best_cost = cost;
+            self.best.copy_from_slice(x);
+            self.curve.push((self.evaluations, cost));
+        }
+        (self.observer)(self.evaluations, self.best_cost);
+    }
+
+    /// What was found.
+    pub fn finish(self) -> Found {
+        Found {
+            x: self.best,
+            cost: self.best_cost,
+            evaluations: self.evaluations,
+            curve: self.curve,
+            interrupted: self.stop.load(Ordering::Relaxed),
+        }
+    }
+}
+
+/// Result of a search.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Best point of the unit cube.
+    pub x: Vec<f64>,
+    /// Its cost.
+    pub cost: f64,
+    /// Model evaluations spent, all of them.
+    pub evaluations: usize,
+    /// Every improvement: evaluations so far, best cost.
+    pub curve: Vec<(usize, f64)>,
+    /// Whether the user stopped it.
+    pub interrupted: bool,
+}
+
+/// A search method. The same seed gives the same evaluations in the same order.
+pub trait Solver: Sync {
+    /// Its name on the command line.
+    fn name(&self) -> &'static str;
+    /// Searches until it has converged or `evaluator` says [`Stop`].
+    fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64);
+}
