@@ -1,0 +1,45 @@
+//! Coulomb friction.
+
+use super::{Budget, Description, Effect, Parameter, Shaft};
+use crate::scalar::{Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+
+/// Friction of constant size `Tc` against motion; at rest it holds up to the same size.
+#[derive(Clone, Copy, Debug)]
+pub struct Coulomb<S> {
+    torque: S,
+}
+
+impl<S: Scalar> Effect<S> for Coulomb<S> {
+    const DESCRIPTION: Description = Description {
+        name: "coulomb",
+        title: "Coulomb friction",
+        parameters: &[Parameter {
+            name: "torque",
+            quantity: Quantity::Torque,
+            range: (0.0, 0.5),
+            typical: 0.04,
+            amplitude: true,
+        }],
+        equation: "T = Tc*sgn(w); |T| <= Tc at rest",
+        signature: "residual torque changes sign with speed and does not grow with it",
+        exposed_by: "a slow triangle through zero, or steps of both signs",
+        look_alikes: &["stribeck", "asym_coulomb", "brush_drop", "lugre"],
+        source: "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
+    };
+    const FRICTION: bool = true;
+
+    fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
+        Coulomb {
+            torque: S::from_f64(units.lower(values[0], Quantity::Torque).to_f64()),
+        }
+    }
+
+    #[inline(always)]
+    fn friction(&self, _shaft: &Shaft<S>) -> Budget<S> {
+        Budget {
+            moving: self.torque,
+            holding: self.torque,
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Dead zone of the power stage.
+
+use super::{Description, Effect, Parameter, Shaft};
+use crate::scalar::{Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+
+/// The stage loses `V0` of the command's magnitude, and gives nothing below it.
+#[derive(Clone, Copy, Debug)]
+pub struct DeadZone<S> {
+    volts: S,
+}
+
+impl<S: Scalar> Effect<S> for DeadZone<S> {
+    const DESCRIPTION: Description = Description {
+        name: "dead_zone",
+        title: "dead zone of the power stage",
+        parameters: &[Parameter {
+            name: "voltage",
+            quantity: Quantity::Voltage,
+            range: (0.0, 0.5),
+            typical: 0.03,
+            amplitude: true,
+        }],
+        equation: "v = sgn(u)*max(|u| - V0, 0)",
+        signature: "no motion below a command that is the same at all angles; a constant voltage missing above it",
+        exposed_by: "a slow triangle of small amplitude",
+        look_alikes: &["coulomb", "brush_drop", "stribeck"],
+        source: "Kara, Eker, Energy Conversion and Management 45, 2004",
+    };
+
+    fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
+        DeadZone {
+            volts: S::from_f64(units.lower(values[0], Quantity::Voltage).to_f64()),
+        }
+    }
+
+    #[inline(always)]
+    fn drive(&self, volts: S, _shaft: &Shaft<S>) -> S {
+        volts - volts.min(self.volts).max(-self.volts)
+    }
+}

@@ -1,0 +1,41 @@
+//! Constant torque on the shaft.
+
+use super::{Description, Effect, Parameter, Shaft};
+use crate::scalar::{Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+
+/// A constant torque against positive rotation, as of a weight on a drum.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadTorque<S> {
+    torque: S,
+}
+
+impl<S: Scalar> Effect<S> for LoadTorque<S> {
+    const DESCRIPTION: Description = Description {
+        name: "load_torque",
+        title: "constant load torque",
+        parameters: &[Parameter {
+            name: "torque",
+            quantity: Quantity::Torque,
+            range: (-0.5, 0.5),
+            typical: 0.04,
+            amplitude: true,
+        }],
+        equation: "T = T0",
+        signature: "constant residual torque, also at rest and with the bridge open",
+        exposed_by: "coasting with the bridge open, or holding at rest",
+        look_alikes: &["offset_voltage", "asym_coulomb"],
+        source: "any text on drives",
+    };
+
+    fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
+        LoadTorque {
+            torque: S::from_f64(units.lower(values[0], Quantity::Torque).to_f64()),
+        }
+    }
+
+    #[inline(always)]
+    fn torque(&self, _shaft: &Shaft<S>) -> S {
+        self.torque
+    }
+}

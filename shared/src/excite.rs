@@ -1,0 +1,304 @@
+//! Excitations: what to command so that the motor shows what it is.
+//!
+//! An [`Experiment`] is a shape with a length and an amplitude; a plan is a list of them, and
+//! [`commands`] turns a plan into one command a sample. Amplitudes are parts of the supply.
+
+use crate::rng::{self, Generator};
+use crate::scalar::Real;
+
+/// One command, held for one sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Command<R> {
+    /// Drive, as a part of the supply, in `[-1, 1]`.
+    pub drive: R,
+    /// False while the bridge is to be open, so that the motor coasts.
+    pub enabled: bool,
+}
+
+/// The form of an experiment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// Nothing.
+    Rest,
+    /// One step at the start.
+    Step,
+    /// Steps of both signs at 30, 65 and 100 %, each followed by as long a pause at 0 V (or with the bridge open).
+    Steps {
+        /// Open the bridge in the pauses.
+        open: bool,
+    },
+    /// Up and down through both signs in this many levels.
+    Staircase {
+        /// Levels from zero to the top.
+        levels: u32,
+    },
+    /// Triangle waves through both signs.
+    Triangle {
+        /// Number of whole waves.
+        waves: u32,
+    },
+    /// Full reversals.
+    Reversals {
+        /// Number of reversals.
+        count: u32,
+    },
+    /// Sine of rising frequency (logarithmic).
+    Chirp {
+        /// Frequency at the start, Hz.
+        from_hz: f64,
+        /// Frequency at the end, Hz.
+        to_hz: f64,
+    },
+    /// Random levels held for random times.
+    Telegraph {
+        /// Number of levels, from −1 to 1.
+        levels: u32,
+        /// Mean holding time, s.
+        hold_s: f64,
+    },
+    /// Sum of odd sine lines with phases that keep the crest low (Schroeder, 1970).
+    Multisine {
+        /// Lowest line, Hz.
+        base_hz: f64,
+        /// Number of odd lines.
+        lines: u32,
+    },
+}
+
+/// A shape, its length and its amplitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Experiment {
+    /// The form.
+    pub shape: Shape,
+    /// Length, s.
+    pub seconds: f64,
+    /// Largest drive, as a part of the supply.
+    pub amplitude: f64,
+}
+
+const fn experiment(shape: Shape, seconds: f64, amplitude: f64) -> Experiment {
+    Experiment {
+        shape,
+        seconds,
+        amplitude,
+    }
+}
+
+/// The twenty seconds that tell effects apart: at least four magnitudes of both signs, slow and
+/// fast, hot after cold.
+pub const COMMISSIONING: [Experiment; 7] = [
+    experiment(Shape::Triangle { waves: 1 }, 3.2, 0.25),
+    experiment(Shape::Triangle { waves: 1 }, 2.6, 1.0),
+    experiment(Shape::Steps { open: false }, 5.2, 1.0),
+    experiment(Shape::Reversals { count: 5 }, 2.0, 1.0),
+    experiment(
+        Shape::Telegraph {
+            levels: 7,
+            hold_s: 0.08,
+        },
+        3.0,
+        1.0,
+    ),
+    experiment(
+        Shape::Chirp {
+            from_hz: 1.0,
+            to_hz: 60.0,
+        },
+        2.4,
+        0.8,
+    ),
+    experiment(Shape::Steps { open: false }, 1.6, 1.0),
+];
+
+/// The same, with the bridge open in the pauses: it parts electrical effects from mechanical ones.
+pub const COMMISSIONING_COAST: [Experiment; 7] = [
+    COMMISSIONING[0],
+    COMMISSIONING[1],
+    experiment(Shape::Steps { open: true }, 5.2, 1.0),
+    COMMISSIONING[3],
+    COMMISSIONING[4],
+    COMMISSIONING[5],
+    experiment(Shape::Steps { open: true }, 1.6, 1.0),
+];
+
+impl Shape {
+    /// One of each, with usual settings, by name.
+    pub const ALL: [(&'static str, Shape); 9] = [
+        ("rest", Shape::Rest),
+        ("step", Shape::Step),
+        ("steps", Shape::Steps { open: false }),
+        ("coast", Shape::Steps { open: true }),
+        ("staircase", Shape::Staircase { levels: 5 }),
+        ("triangle", Shape::Triangle { waves: 2 }),
+        ("reversals", Shape::Reversals { count: 8 }),
+        (
+            "chirp",
+            Shape::Chirp {
+                from_hz: 0.5,
+                to_hz: 60.0,
+            },
+        ),
+        (
+            "telegraph",
+            Shape::Telegraph {
+                levels: 7,
+                hold_s: 0.08,
+            },
+        ),
+    ];
+
+    /// What it reveals.
+    pub fn reveals(self) -> &'static str {
+        match self {
+            Shape::Rest => "drift, offsets of the drive, a load at rest",
+            Shape::Step => "gain and time constants; nothing that needs a reversal",
+            Shape::Steps { open: false } => "gain, time constants, friction of both directions",
+            Shape::Steps { open: true } => {
+                "friction apart from back-EMF and from electrical effects"
+            }
+            Shape::Staircase { .. } => "curvature of speed against voltage, dead zone",
+            Shape::Triangle { .. } => "friction against speed, dead zone, stiction",
+            Shape::Reversals { .. } => "currents near stall: saturation, supply sag",
+            Shape::Chirp { .. } => "delay, inductance, compliance",
+            Shape::Telegraph { .. } => "everything a little, at many levels",
+            Shape::Multisine { .. } => "frequency response, and nonlinearity at the even lines",
+        }
+    }
+}
+
+/// The commands of a plan, one a sample of `interval` seconds. The seed matters to telegraphs only.
+pub fn commands<R: Real>(plan: &[Experiment], interval: R, seed: u64) -> Commands<'_, R> {
+    Commands {
+        plan,
+        interval,
+        sample: 0,
+        rng: rng::seeded(seed),
+        level: R::zero(),
+        hold: 0,
+    }
+}
+
+/// Iterator over the commands of a plan.
+#[derive(Clone, Debug)]
+pub struct Commands<'a, R> {
+    plan: &'a [Experiment],
+    interval: R,
+    sample: u32,
+    rng: Generator,
+    level: R,
+    hold: u32,
+}
+
+impl<R: Real> Iterator for Commands<'_, R> {
+    type Item = Command<R>;
+
+    fn next(&mut self) -> Option<Command<R>> {
+        let (first, rest) = self.plan.split_first()?;
+        let interval = self.interval.to_f64();
+        let samples = libm::round(first.seconds / interval) as u32;
+        if self.sample >= samples {
+            self.plan = rest;
+            self.sample = 0;
+            self.hold = 0;
+            return self.next();
+        }
+        let k = self.sample;
+        self.sample += 1;
+        let whole = R::from_f64(k as f64) / R::from_f64(samples as f64);
+        let seconds = R::from_f64(k as f64) * self.interval;
+        let (value, enabled) = self.value(first, whole, seconds);
+        let limit = R::from_f64(1.0);
+        let drive = (value * R::from_f64(first.amplitude))
+            .min(limit)
+            .max(-limit);
+        Some(Command { drive, enabled })
+    }
+}
+
+impl<R: Real> Commands<'_, R> {
+    /// Value in `[-1, 1]` at the part `whole` of the experiment, `seconds` after its start.
+    fn value(&mut self, experiment: &Experiment, whole: R, seconds: R) -> (R, bool) {
+        let one = R::from_f64(1.0);
+        let real = R::from_f64;
+        match experiment.shape {
+            Shape::Rest => (R::zero(), true),
+            Shape::Step => (one, true),
+            Shape::Steps { open } => {
+                const LEVELS: [f64; 6] = [0.30, -0.30, 0.65, -0.65, 1.0, -1.0];
+                let twelfth = slot(whole, 2 * LEVELS.len() as u32);
+                let driven = twelfth.is_multiple_of(2);
+                let level = if driven {
+                    LEVELS[twelfth as usize / 2]
+                } else {
+                    0.0
+                };
+                (real(level), driven || !open)
+            }
+            Shape::Staircase { levels } => {
+                let levels = levels.max(1);
+                let k = slot(whole, 4 * levels) as f64;
+                let n = levels as f64;
+                let climbed = if k < n {
+                    k + 1.0
+                } else if k < 3.0 * n {
+                    2.0 * n - 1.0 - k
+                } else {
+                    k - 4.0 * n
+                };
+                (real(climbed / n), true)
+            }
+            Shape::Triangle { waves } => {
+                let phase = whole * real(waves as f64);
+                let phase = phase - real(libm::floor(phase.to_f64()));
+                let quarter = phase * real(4.0);
+                let value = if quarter < one {
+                    quarter
+                } else if quarter < real(3.0) {
+                    real(2.0) - quarter
+                } else {
+                    quarter - real(4.0)
+                };
+                (value, true)
+            }
+            Shape::Reversals { count } => {
+                let k = slot(whole, count + 1);
+                (if k.is_multiple_of(2) { one } else { -one }, true)
+            }
+            Shape::Chirp { from_hz, to_hz } => {
+                // Phase of a logarithmic sweep: f0·T/ln(f1/f0)·((f1/f0)^(t/T) − 1).
+                let ratio = real(to_hz / from_hz).ln();
+                let span = real(from_hz * experiment.seconds) / ratio;
+                let turns = span * ((ratio * whole).exp() - one);
+                (turns.sin_cos_turns().0, true)
+            }
+            Shape::Telegraph { levels, hold_s } => {
+                if self.hold == 0 {
+                    let levels = levels.max(2);
+                    let k = rng::below(&mut self.rng, levels) as f64;
+                    self.level = real(2.0 * k / (levels - 1) as f64 - 1.0);
+                    let mean = hold_s / self.interval.to_f64();
+                    let part = 0.5 + rng::uniform::<R>(&mut self.rng).to_f64();
+                    self.hold = (libm::round(mean * part) as u32).max(1);
+                }
+                self.hold -= 1;
+                (self.level, true)
+            }
+            Shape::Multisine { base_hz, lines } => {
+                let mut sum = R::zero();
+                for line in 0..lines {
+                    let order = (2 * line + 1) as f64;
+                    let phase = real(-((line * (line + 1)) as f64) / (2.0 * lines as f64));
+                    sum = sum + (real(base_hz * order) * seconds + phase).sin_cos_turns().0;
+                }
+                // The crest of such a sum stays below 1.7 times its RMS, √(lines/2).
+                let crest = real(1.7 * libm::sqrt(lines.max(1) as f64 / 2.0));
+                ((sum / crest).min(one).max(-one), true)
+            }
+        }
+    }
+}
+
+/// Which of `slots` equal parts holds the part `whole`.
+fn slot<R: Real>(whole: R, slots: u32) -> u32 {
+    ((whole.to_f64() * slots as f64) as u32).min(slots.saturating_sub(1))
+}

@@ -1,0 +1,149 @@
+//! Particle swarm (Kennedy, Eberhart, 1995) with inertia weight (Shi, Eberhart, 1998).
+
+use super::{Candidate, Optimiser, sanitised};
+use crate::rng::{self, Generator};
+use crate::scalar::Real;
+
+/// Settings of [`Pso`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PsoSettings {
+    /// Part of the velocity that is kept.
+    pub inertia: f64,
+    /// Pull towards a particle's own best point.
+    pub cognitive: f64,
+    /// Pull towards the swarm's best point.
+    pub social: f64,
+    /// Largest velocity, as a part of the cube's edge.
+    pub fastest: f64,
+}
+
+impl Default for PsoSettings {
+    /// The constriction coefficients of Clerc and Kennedy (2002).
+    fn default() -> Self {
+        PsoSettings {
+            inertia: 0.729_8,
+            cognitive: 1.496_18,
+            social: 1.496_18,
+            fastest: 0.5,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Particle<R, const D: usize> {
+    x: [R; D],
+    velocity: [R; D],
+    best: Candidate<R, D>,
+}
+
+/// Particle swarm of up to `P` particles over up to `D` unknowns.
+#[derive(Clone, Debug)]
+pub struct Pso<R, const P: usize, const D: usize> {
+    settings: PsoSettings,
+    dim: usize,
+    particles: [Particle<R, D>; P],
+    population: usize,
+    asked: usize,
+    told: usize,
+    rng: Generator,
+    best: Candidate<R, D>,
+}
+
+impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
+    /// `population` (at most `P`) particles over `dim` (at most `D`) unknowns.
+    pub fn new(dim: usize, population: usize, settings: PsoSettings, seed: u64) -> Self {
+        let mut rng = rng::seeded(seed);
+        let dim = dim.min(D);
+        let particles = core::array::from_fn(|_| {
+            let mut particle = Particle {
+                x: [R::zero(); D],
+                velocity: [R::zero(); D],
+                best: Candidate::unknown(),
+            };
+            for d in 0..dim {
+                particle.x[d] = rng::uniform(&mut rng);
+                particle.velocity[d] =
+                    (rng::uniform::<R>(&mut rng) - particle.x[d]) * R::from_f64(0.5);
+            }
+            particle
+        });
+        Pso {
+            settings,
+            dim,
+            particles,
+            population: population.clamp(1, P),
+            asked: 0,
+            told: 0,
+            rng,
+            best: Candidate::unknown(),
+        }
+    }
+
+    /// Moves the swarm: a particle that would leave the cube bounces off its wall.
+    fn fly(&mut self) {
+        let real = R::from_f64;
+        let (one, fastest) = (real(1.0), real(self.settings.fastest));
+        for particle in &mut self.particles[..self.population] {
+            for d in 0..self.dim {
+                let x = particle.x[d];
+                let own = real(self.settings.cognitive) * rng::uniform::<R>(&mut self.rng);
+                let swarm = real(self.settings.social) * rng::uniform::<R>(&mut self.rng);
+                let mut velocity = real(self.settings.inertia) * particle.velocity[d]
+                    + own * (particle.best.x[d] - x)
+                    + swarm * (self.best.x[d] - x);
+                velocity = velocity.min(fastest).max(-fastest);
+                let mut next = x + velocity;
+                if next < R::zero() || next > one {
+                    let wall = if next < R::zero() { R::zero() } else { one };
+                    next = (wall + wall - next).max(R::zero()).min(one);
+                    velocity = -velocity * real(0.5);
+                }
+                particle.velocity[d] = velocity;
+                particle.x[d] = next;
+            }
+        }
+    }
+}
+
+impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Pso<R, P, D> {
+    fn dim(&self) -> usize {
+        self.dim
+    }
+    fn batch(&self) -> usize {
+        self.population - self.asked % self.population
+    }
+    fn ask(&mut self) -> [R; D] {
+        if self.asked == self.population {
+            self.fly();
+            self.asked = 0;
+            self.told = 0;
+        }
+        let x = self.particles[self.asked].x;
+        self.asked += 1;
+        x
+    }
+    fn tell(&mut self, cost: R) {
+        let Some(particle) = self.particles[..self.population].get_mut(self.told) else {
+            return;
+        };
+        self.told += 1;
+        let cost = sanitised(cost);
+        // The first visit counts even if it is impossible: a particle needs a best point.
+        if cost < particle.best.cost || particle.best.cost.to_f64().is_infinite() {
+            particle.best = Candidate {
+                x: particle.x,
+                cost,
+            };
+            if cost < self.best.cost || self.best.cost.to_f64().is_infinite() {
+                self.best = particle.best;
+            }
+        }
+    }
+    fn bound(&self) -> R {
+        let oldest = self.told.min(self.population - 1);
+        self.particles[oldest].best.cost
+    }
+    fn best(&self) -> Candidate<R, D> {
+        self.best
+    }
+}

@@ -1,0 +1,257 @@
+//! Fixed point for cores without a floating-point unit.
+//!
+//! A [`Fixed`] is 64 bits with 60 below the point: it holds magnitudes below 8 per unit. Products
+//! read only the rounded upper 32 bits of it (28 below the point), one 32 × 32 → 64 multiplication
+//! each; sums keep all 64. So a slow motor's small increments are never rounded away, which is what
+//! makes plain 32-bit fixed point drift.
+//!
+//! A multiplier keeps 31 significant bits whatever its size: a mantissa and a shift.
+
+use super::{Angle, ErrorValue, Scalar};
+use core::ops::{Add, Mul, Neg, Sub};
+
+/// Bits below the point.
+const POINT: u32 = 60;
+/// Bits below the point in the upper word, which products read.
+const UPPER_POINT: u32 = POINT - 32;
+
+/// A number of magnitude below 8 with 60 bits below the point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Fixed(i64);
+
+/// A multiplier: `mantissa · 2^(−shift)`, the mantissa normalised to 31 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedCoefficient {
+    mantissa: i32,
+    shift: i32,
+}
+
+/// Largest shift of a multiplier; anything smaller than 2⁻³⁰ in magnitude gradually loses bits.
+const MAX_SHIFT: i32 = 61;
+
+impl Fixed {
+    /// The upper word, rounded to nearest.
+    #[inline(always)]
+    fn upper(self) -> i64 {
+        self.0.wrapping_add(1 << 31) >> 32
+    }
+
+    /// As a float, for reports and tests.
+    pub fn to_f64(self) -> f64 {
+        self.0 as f64 / (1u64 << POINT) as f64
+    }
+}
+
+/// `value · 2^(−shift)`, rounded to nearest, for shifts of either sign.
+#[inline(always)]
+fn shifted(value: i64, shift: i32) -> i64 {
+    if shift <= 0 {
+        value << (-shift).min(63)
+    } else {
+        let shift = shift.min(63);
+        (value >> (shift - 1)).wrapping_add(1) >> 1
+    }
+}
+
+impl Add for Fixed {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Fixed(self.0.wrapping_add(other.0))
+    }
+}
+
+impl Sub for Fixed {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Fixed(self.0.wrapping_sub(other.0))
+    }
+}
+
+impl Neg for Fixed {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Fixed(self.0.wrapping_neg())
+    }
+}
+
+impl Mul for Fixed {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Fixed((self.upper() * other.upper()) << (POINT - 2 * UPPER_POINT))
+    }
+}
+
+impl Scalar for Fixed {
+    type Mask = bool;
+    type Coefficient = FixedCoefficient;
+    type Angle = FixedAngle;
+    const LIMIT: f64 = 8.0;
+
+    fn from_f64(x: f64) -> Self {
+        // `as` saturates, and gives zero for NaN.
+        Fixed((x * (1u64 << POINT) as f64) as i64)
+    }
+
+    fn coefficient(x: f64) -> FixedCoefficient {
+        // Only the bits of the float are read: no soft-float arithmetic on a small core.
+        let bits = x.to_bits();
+        let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
+        if exponent < 30 - MAX_SHIFT || exponent > 30 {
+            return FixedCoefficient {
+                mantissa: 0,
+                shift: 0,
+            };
+        }
+        let significand = (bits & ((1 << 52) - 1)) | (1 << 52);
+        // 53 bits to 31 (value in [2³⁰, 2³¹)), rounded; a carry to 2³¹ is clipped by one part in 2³¹.
+        let rounded = ((significand >> 21) + 1) >> 1;
+        let magnitude = rounded.min(i32::MAX as u64) as i32;
+        FixedCoefficient {
+            mantissa: if x < 0.0 { -magnitude } else { magnitude },
+            shift: 30 - exponent,
+        }
+    }
+
+    #[inline(always)]
+    fn times(self, k: FixedCoefficient) -> Self {
+        let product = self.upper() * k.mantissa as i64;
+        Fixed(shifted(product, k.shift - (POINT - UPPER_POINT) as i32))
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> bool {
+        self.0 < other.0
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, a: Self, b: Self) -> Self {
+        if mask { a } else { b }
+    }
+
+    fn sin_cos_turns(self) -> (Self, Self) {
+        (
+            sin_turns(self.0),
+            sin_turns(self.0.wrapping_add(1 << (POINT - 2))),
+        )
+    }
+
+    fn exp_decay(self) -> Self {
+        // e^x = (e^(x/256))^256: the series is short there, and squaring is exact enough.
+        let x = Fixed(self.0.clamp(-(7 << POINT), 0) >> 8);
+        let one = Fixed(1 << POINT);
+        let half = Fixed(1 << (POINT - 1));
+        let mut y = one + x + x * x * half;
+        for _ in 0..8 {
+            y = y * y;
+        }
+        y
+    }
+}
+
+/// Sine of a fraction of a turn: the turn is folded to a quarter and a polynomial does the rest.
+fn sin_turns(raw: i64) -> Fixed {
+    // The fraction of a turn, as a signed number of quarter turns in [-2, 2).
+    let quarters = Fixed((raw << (64 - POINT)) >> 2);
+    let two = Fixed(2 << POINT);
+    let one = Fixed(1 << POINT);
+    // sin(π − a) = sin(a)
+    let folded = if one < quarters {
+        two - quarters
+    } else if quarters < -one {
+        -two - quarters
+    } else {
+        quarters
+    };
+    let square = folded * folded;
+    // Taylor series of sin(π/2 · x); the last term left out is below 6e-8 on [-1, 1].
+    const SERIES: [f64; 6] = [
+        -3.598843235212085e-6,
+        1.6044118478735982e-4,
+        -4.681754135318687e-3,
+        7.969262624616704e-2,
+        -6.459640975062462e-1,
+        core::f64::consts::FRAC_PI_2,
+    ];
+    let mut sum = Fixed::zero();
+    for term in SERIES {
+        sum = sum * square + Fixed::from_f64(term);
+    }
+    sum * folded
+}
+
+/// Counts with 32 bits below the point; wraps like the encoder's counter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FixedAngle(i64);
+
+impl Angle<Fixed> for FixedAngle {
+    type Error = FixedError;
+
+    fn from_counts(counts: f64) -> Self {
+        let whole = libm::floor(counts);
+        let fraction = ((counts - whole) * 4_294_967_296.0) as i64;
+        FixedAngle(
+            ((<f64 as Angle<f64>>::floor(counts) as i64) << 32) | fraction.min(u32::MAX as i64),
+        )
+    }
+    #[inline(always)]
+    fn advance(self, step: Fixed, counts_per_unit: FixedCoefficient) -> Self {
+        let product = step.upper() * counts_per_unit.mantissa as i64;
+        FixedAngle(self.0.wrapping_add(shifted(
+            product,
+            counts_per_unit.shift - (32 - UPPER_POINT) as i32,
+        )))
+    }
+    #[inline(always)]
+    fn floor(self) -> i32 {
+        (self.0 >> 32) as i32
+    }
+    #[inline(always)]
+    fn minus(self, counts: i32) -> FixedError {
+        FixedError(self.0.wrapping_sub((counts as i64) << 32) >> 16)
+    }
+    fn turns(self, counts_per_rev: u32) -> Fixed {
+        let within = (self.0 >> 32).rem_euclid(counts_per_rev as i64) as u64;
+        // within + fraction, as a fraction of a turn with 60 bits below the point.
+        let fraction = self.0 as u32 as u64;
+        let rest = ((within << 32) | fraction) / counts_per_rev as u64;
+        Fixed((rest << (POINT - 32)) as i64)
+    }
+}
+
+/// Counts with 16 bits below the point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FixedError(i64);
+
+impl Add for FixedError {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        FixedError(self.0.saturating_add(other.0))
+    }
+}
+
+impl ErrorValue for FixedError {
+    fn from_f64(x: f64) -> Self {
+        FixedError((x * 65_536.0) as i64)
+    }
+    fn to_f64(self) -> f64 {
+        self.0 as f64 / 65_536.0
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        FixedError(self.0.saturating_abs())
+    }
+    #[inline(always)]
+    fn squared(self) -> Self {
+        let limited = self.0.clamp(-(1 << 31), 1 << 31);
+        FixedError((limited * limited) >> 16)
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        FixedError(self.0 & !0xffff)
+    }
+}

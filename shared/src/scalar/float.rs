@@ -1,0 +1,197 @@
+//! f64 and f32 as [`Scalar`]s.
+//!
+//! f64 keeps the angle as one number. f32 keeps whole counts in an integer and the rest as a
+//! fraction: as one number it would lose a count after a few revolutions.
+
+use super::{Angle, ErrorValue, Real, Scalar};
+
+/// Remainder for counts that the 32-bit counter has wrapped.
+const WRAP: f64 = 4_294_967_296.0;
+
+macro_rules! float_scalar {
+    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sin:path, $cos:path, $bits:expr) => {
+        impl Scalar for $t {
+            type Mask = bool;
+            type Coefficient = $t;
+            type Angle = $angle;
+            const LIMIT: f64 = f64::INFINITY;
+
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                x as $t
+            }
+            #[inline(always)]
+            fn coefficient(x: f64) -> Self {
+                x as $t
+            }
+            #[inline(always)]
+            fn times(self, k: Self) -> Self {
+                self * k
+            }
+            #[inline(always)]
+            fn less(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn select(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+            #[inline]
+            fn sin_cos_turns(self) -> (Self, Self) {
+                let radians = self * (core::f64::consts::TAU as $t);
+                ($sin(radians), $cos(radians))
+            }
+            #[inline]
+            fn exp_decay(self) -> Self {
+                $exp(self)
+            }
+        }
+
+        impl Real for $t {
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            fn exp(self) -> Self {
+                $exp(self)
+            }
+            fn ln(self) -> Self {
+                $ln(self)
+            }
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            fn is_finite(self) -> bool {
+                <$t>::is_finite(self)
+            }
+            fn from_bits_uniform(bits: u64) -> Self {
+                const BITS: u32 = $bits;
+                (bits >> (64 - BITS)) as $t / (1u64 << BITS) as $t
+            }
+        }
+
+        impl ErrorValue for $t {
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                x as $t
+            }
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <Self as Scalar>::abs(self)
+            }
+            #[inline(always)]
+            fn squared(self) -> Self {
+                self * self
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                libm::floor(self as f64) as $t
+            }
+        }
+    };
+}
+
+float_scalar!(
+    f64,
+    f64,
+    libm::exp,
+    libm::log,
+    libm::sqrt,
+    libm::sin,
+    libm::cos,
+    53
+);
+float_scalar!(
+    f32,
+    SplitAngle,
+    libm::expf,
+    libm::logf,
+    libm::sqrtf,
+    libm::sinf,
+    libm::cosf,
+    24
+);
+
+impl Angle<f64> for f64 {
+    type Error = f64;
+
+    #[inline(always)]
+    fn from_counts(counts: f64) -> Self {
+        counts
+    }
+    #[inline(always)]
+    fn advance(self, step: f64, counts_per_unit: f64) -> Self {
+        self + step * counts_per_unit
+    }
+    #[inline]
+    fn floor(self) -> i32 {
+        let whole = libm::floor(self);
+        // `as` saturates: take the remainder first, as the counter does.
+        (whole - WRAP * libm::floor(whole / WRAP)) as u32 as i32
+    }
+    #[inline(always)]
+    fn minus(self, counts: i32) -> f64 {
+        let difference = self - counts as f64;
+        if libm::fabs(difference) < WRAP / 2.0 {
+            difference
+        } else {
+            difference - WRAP * libm::floor(difference / WRAP + 0.5)
+        }
+    }
+    #[inline]
+    fn turns(self, counts_per_rev: u32) -> f64 {
+        let turns = self / counts_per_rev as f64;
+        turns - libm::floor(turns)
+    }
+}
+
+/// Whole counts and a fraction in `[0, 1)`, so that the sum of many small steps stays exact to
+/// the last bits of one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SplitAngle {
+    whole: i32,
+    fraction: f32,
+}
+
+impl Angle<f32> for SplitAngle {
+    type Error = f32;
+
+    fn from_counts(counts: f64) -> Self {
+        let whole = libm::floor(counts);
+        SplitAngle {
+            whole: <f64 as Angle<f64>>::floor(counts),
+            fraction: (counts - whole) as f32,
+        }
+    }
+    #[inline(always)]
+    fn advance(self, step: f32, counts_per_unit: f32) -> Self {
+        let sum = self.fraction + step * counts_per_unit;
+        // `as` truncates towards zero, which one instruction does; then step down below zero.
+        let mut whole = sum as i32;
+        let mut fraction = sum - whole as f32;
+        if fraction < 0.0 {
+            fraction += 1.0;
+            whole -= 1;
+        }
+        SplitAngle {
+            whole: self.whole.wrapping_add(whole),
+            fraction,
+        }
+    }
+    #[inline(always)]
+    fn floor(self) -> i32 {
+        self.whole
+    }
+    #[inline(always)]
+    fn minus(self, counts: i32) -> f32 {
+        self.whole.wrapping_sub(counts) as f32 + self.fraction
+    }
+    #[inline]
+    fn turns(self, counts_per_rev: u32) -> f32 {
+        let within = (self.whole as i64).rem_euclid(counts_per_rev as i64);
+        (within as f32 + self.fraction) / counts_per_rev as f32
+    }
+}

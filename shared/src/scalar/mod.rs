@@ -1,0 +1,128 @@
+//! The number that a model is computed in.
+//!
+//! The equations are written once, over [`Scalar`]. Three things set it apart from "a float":
+//!
+//! * multipliers are a type of their own ([`Scalar::Coefficient`]), so that a fixed-point number can
+//!   keep 31 significant bits in a coefficient of any size;
+//! * the shaft angle is a type of its own ([`Angle`]), wide enough not to lose low bits over an hour;
+//! * comparisons give a [`Mask`] and choices are [`Scalar::select`], so that a SIMD lane type, where
+//!   every lane is another candidate, can be a `Scalar` too.
+
+mod fixed;
+mod float;
+mod mask;
+
+pub use fixed::{Fixed, FixedCoefficient};
+pub use mask::Mask;
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A signed number near one: voltages, speeds and torques per unit.
+pub trait Scalar:
+    Copy
+    + Default
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Neg<Output = Self>
+    + Mul<Output = Self>
+{
+    /// Result of a comparison.
+    type Mask: Mask;
+    /// A multiplier that is fixed for the life of a model.
+    type Coefficient: Copy + Debug;
+    /// The shaft angle in encoder counts.
+    type Angle: Angle<Self>;
+    /// Magnitudes below this are represented; infinity for floats.
+    const LIMIT: f64;
+
+    /// The nearest representable number; saturates at [`LIMIT`](Self::LIMIT).
+    fn from_f64(x: f64) -> Self;
+    /// A multiplier of any size from 2⁻³⁰ to 2³⁰ in magnitude, or nearly zero.
+    fn coefficient(x: f64) -> Self::Coefficient;
+    /// `self · k`.
+    fn times(self, k: Self::Coefficient) -> Self;
+    /// `self < other`.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `a` where the mask is set, else `b`.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// Sine and cosine of an angle given as a fraction of a turn.
+    fn sin_cos_turns(self) -> (Self, Self);
+    /// `e` to the power `self`, for `self ≤ 0`.
+    fn exp_decay(self) -> Self;
+
+    /// Zero.
+    fn zero() -> Self {
+        Self::default()
+    }
+    /// Magnitude.
+    fn abs(self) -> Self {
+        Self::select(self.less(Self::zero()), -self, self)
+    }
+    /// The smaller of two.
+    fn min(self, other: Self) -> Self {
+        Self::select(other.less(self), other, self)
+    }
+    /// The larger of two.
+    fn max(self, other: Self) -> Self {
+        Self::select(self.less(other), other, self)
+    }
+    /// −1, 0 or 1.
+    fn signum(self) -> Self {
+        let one = Self::from_f64(1.0);
+        let zero = Self::zero();
+        Self::select(
+            self.less(zero),
+            -one,
+            Self::select(zero.less(self), one, zero),
+        )
+    }
+}
+
+/// Shaft angle in encoder counts, kept so that it never loses low bits.
+pub trait Angle<S: Scalar>: Copy + Default + Debug {
+    /// A difference of angles in counts, the stuff of which costs are summed.
+    type Error: ErrorValue;
+    /// From a number of counts.
+    fn from_counts(counts: f64) -> Self;
+    /// Adds `step · counts_per_unit` counts.
+    fn advance(self, step: S, counts_per_unit: S::Coefficient) -> Self;
+    /// The encoder's reading: rounded down, and wrapped like its 32-bit counter.
+    fn floor(self) -> i32;
+    /// `self − counts`, by way of the shorter way round the 32-bit counter.
+    fn minus(self, counts: i32) -> Self::Error;
+    /// Position within a revolution, as a fraction of a turn in `[0, 1)`.
+    fn turns(self, counts_per_rev: u32) -> S;
+}
+
+/// An angle error in counts.
+pub trait ErrorValue: Copy + Default + Debug + PartialOrd + Add<Output = Self> {
+    /// From a number of counts; saturates.
+    fn from_f64(x: f64) -> Self;
+    /// In counts.
+    fn to_f64(self) -> f64;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// Square; saturates in fixed point beyond 2¹⁵ counts.
+    fn squared(self) -> Self;
+    /// Rounded down to whole counts.
+    fn floor(self) -> Self;
+}
+
+/// A floating-point [`Scalar`] with the functions that set-up code needs (never the hot loop).
+/// All of them come from `libm`, so that the PC and the MCU get the same bits.
+pub trait Real: Scalar<Coefficient = Self, Mask = bool> + PartialOrd + Div<Output = Self> {
+    /// As f64, exactly.
+    fn to_f64(self) -> f64;
+    /// Natural exponential.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+    /// A uniform number in `[0, 1)` from 64 random bits, with as many of them as fit.
+    fn from_bits_uniform(bits: u64) -> Self;
+}

@@ -1,0 +1,124 @@
+//! f32 and fixed point stay within one encoder count of f64 over ten seconds, for motors of all
+//! sizes, linear and with effects.
+
+mod motors;
+
+use motors::{BENCHES, Bench};
+use shared::effects::{EffectSet, Kind};
+use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands};
+use shared::model::{Model, Plan, State};
+use shared::scalar::{Angle, ErrorValue, Fixed, Scalar};
+
+const INTERVAL: f64 = 1e-3;
+
+fn plan(bench: &Bench, effects: &[(Kind, &[f64])]) -> Plan<f64> {
+    let mut set = EffectSet::default();
+    for (kind, values) in effects {
+        set.push(*kind, values).expect("a valid effect");
+    }
+    Plan {
+        effects: set,
+        substeps: 2,
+        ..Plan::linear(bench.physical.machine(), bench.units(INTERVAL))
+    }
+}
+
+/// Angle in counts after each sample.
+fn run<S: Scalar>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
+    let model = Model::<S>::new(plan).expect("a valid model");
+    let mut state = State::<S>::default();
+    drive
+        .iter()
+        .map(|command| {
+            model.step(&mut state, S::from_f64(command.drive), !command.enabled);
+            state.angle.minus(0).to_f64()
+        })
+        .collect()
+}
+
+fn furthest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn every_format_stays_within_one_count_of_f64_over_ten_seconds() {
+    let step = [Experiment {
+        shape: Shape::Step,
+        seconds: 10.0,
+        amplitude: 1.0,
+    }];
+    for (name, experiments) in [
+        ("step", &step[..]),
+        ("commissioning", &COMMISSIONING[..]),
+        ("coasting", &COMMISSIONING_COAST[..]),
+    ] {
+        let drive: Vec<_> = commands::<f64>(experiments, INTERVAL, 1)
+            .take(10_000)
+            .collect();
+        for bench in &BENCHES {
+            let plan = plan(bench, &[]);
+            let exact = run::<f64>(&plan, &drive);
+            let single = furthest(&exact, &run::<f32>(&plan, &drive));
+            let fixed = furthest(&exact, &run::<Fixed>(&plan, &drive));
+            let travel = exact.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+            println!(
+                "{name:13} {:34} {travel:9.0} counts: f32 {single:.4}, fixed {fixed:.5}",
+                bench.name
+            );
+            assert!(
+                single < 1.0,
+                "{name}, {}: f32 is {single} counts off",
+                bench.name
+            );
+            assert!(
+                fixed < 1.0,
+                "{name}, {}: fixed point is {fixed} counts off",
+                bench.name
+            );
+        }
+    }
+}
+
+#[test]
+fn every_effect_in_every_format_stays_within_one_count_of_f64() {
+    let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
+    for bench in &BENCHES {
+        for &kind in Kind::ALL {
+            let values: Vec<f64> = typical(kind, bench);
+            let plan = plan(bench, &[(kind, &values)]);
+            let exact = run::<f64>(&plan, &drive);
+            let single = furthest(&exact, &run::<f32>(&plan, &drive));
+            let fixed = furthest(&exact, &run::<Fixed>(&plan, &drive));
+            println!(
+                "{:34} {:14}: f32 {single:.4}, fixed {fixed:.5}",
+                bench.name,
+                kind.name()
+            );
+            assert!(
+                fixed < 1.0,
+                "{} with {}: fixed point {fixed} off",
+                bench.name,
+                kind.name()
+            );
+            assert!(
+                single < 1.0,
+                "{} with {}: f32 {single} off",
+                bench.name,
+                kind.name()
+            );
+        }
+    }
+}
+
+/// Typical values of an effect in SI for a bench.
+fn typical(kind: Kind, bench: &Bench) -> Vec<f64> {
+    let no_load = bench.supply * bench.physical.machine().response().gain;
+    kind.description()
+        .parameters
+        .iter()
+        .map(|p| p.scaled(p.typical, bench.supply, no_load))
+        .collect()
+}
