@@ -53,6 +53,7 @@ pub struct Model<S: Scalar> {
     open: [StepMap<S::Coefficient>; LEVELS + 1],
     held: [StepMap<S::Coefficient>; LEVELS + 1],
     counts_per_unit: S::Coefficient,
+    /// Whole, for the position within a revolution.
     counts_per_rev: u32,
     effects: Lowered<S>,
     substeps: u16,
@@ -101,7 +102,7 @@ impl<S: Scalar> Model<S> {
             open: maps(Connection::Open)?,
             held: maps(Connection::Held)?,
             counts_per_unit: S::coefficient(plan.units.counts_per_unit().to_f64()),
-            counts_per_rev: plan.units.counts_per_rev,
+            counts_per_rev: (plan.units.counts_per_rev.to_f64() + 0.5) as u32,
             effects,
             substeps,
         })

@@ -69,17 +69,18 @@ pub struct PerUnit<R> {
     pub speed: R,
     /// Sample interval, s.
     pub interval: R,
-    /// Encoder counts per revolution.
-    pub counts_per_rev: u32,
+    /// Encoder counts per revolution; fractional behind some gears.
+    pub counts_per_rev: R,
 }
 
 impl<R: Real> PerUnit<R> {
     /// Checks that the bases are positive and finite.
-    pub fn new(volts: R, speed: R, interval: R, counts_per_rev: u32) -> Result<Self, ModelError> {
+    pub fn new(volts: R, speed: R, interval: R, counts_per_rev: R) -> Result<Self, ModelError> {
         for (name, value) in [
             ("base voltage", volts),
             ("base speed", speed),
             ("sample interval", interval),
+            ("counts per revolution", counts_per_rev),
         ] {
             if !(value.is_finite() && value > R::zero()) {
                 return Err(ModelError::Parameter {
@@ -87,12 +88,6 @@ impl<R: Real> PerUnit<R> {
                     value: value.to_f64(),
                 });
             }
-        }
-        if counts_per_rev == 0 {
-            return Err(ModelError::Parameter {
-                name: "counts per revolution",
-                value: 0.0,
-            });
         }
         Ok(PerUnit {
             volts,
@@ -137,7 +132,7 @@ impl<R: Real> PerUnit<R> {
 
     /// Encoder counts that the shaft turns at base speed in one interval.
     pub fn counts_per_unit(&self) -> R {
-        self.speed * self.interval * R::from_f64(self.counts_per_rev as f64)
+        self.speed * self.interval * self.counts_per_rev
             / R::from_f64(core::f64::consts::TAU)
     }
 }

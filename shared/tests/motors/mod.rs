@@ -58,7 +58,7 @@ impl Bench {
             R::from_f64(self.supply),
             R::from_f64(no_load * 1.3),
             R::from_f64(interval),
-            self.counts_per_rev,
+            R::from_f64(self.counts_per_rev as f64),
         )
         .expect("positive bases")
     }

@@ -1,0 +1,175 @@
+//! The cost of a point of the unit cube, and the residuals behind it.
+
+use super::data::Data;
+use super::simulate::{Candidate, Method, Simulation};
+use super::unknowns::Structure;
+use crate::solve::Objective;
+use shared::cost::Cost;
+use shared::error::ModelError;
+use std::ops::Range;
+
+/// How far the model runs on its own before it is set back to the measurement.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Horizon {
+    /// From the first sample to the last: the open-loop error.
+    Whole,
+    /// In windows, each started from the measured angle and speed.
+    Windows(Vec<Window>),
+}
+
+/// One window of a [`Horizon`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Window {
+    /// Its samples.
+    pub range: Range<usize>,
+    /// Measured speed at its first sample, rad/s.
+    pub speed: f64,
+}
+
+impl Horizon {
+    /// Windows of `seconds`, with the speed taken from `2·half + 1` samples.
+    pub fn windows(data: &Data, seconds: f64, half: usize) -> Self {
+        let mut windows = Vec::new();
+        let mut from = 0;
+        while from + 1 < data.len() {
+            let end = data.time_s[from] + seconds;
+            let to = from + data.time_s[from..].partition_point(|&t| t < end);
+            let to = to.max(from + 2).min(data.len());
+            let counts_s = data.speed_counts_s(from, half);
+            let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
+            windows.push(Window { range: from..to, speed });
+            from = to;
+        }
+        Horizon::Windows(windows)
+    }
+}
+
+/// What is known of the angle at the first sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartAngle {
+    /// The encoder started exactly at zero of its first cell, as in the paper.
+    Known,
+    /// Somewhere in its cell: the best offset is taken for each candidate.
+    Free,
+}
+
+/// A recording, a model with unknowns, and a cost.
+pub struct FitProblem<'a> {
+    /// The data.
+    pub data: &'a Data,
+    /// The unknowns.
+    pub structure: Structure,
+    /// What is summed.
+    pub cost: Cost,
+    /// Factor on the sum: the sample interval for an integral, 1 for a plain sum.
+    pub weight: f64,
+    /// How far the model runs on its own.
+    pub horizon: Horizon,
+    /// What is known of the start.
+    pub start_angle: StartAngle,
+    /// How the model is run.
+    pub method: Method,
+    /// A start from regression, in the unit cube.
+    pub start: Option<Vec<f64>>,
+}
+
+impl FitProblem<'_> {
+    /// Model minus measured angle in counts at every sample. Measured is the reading itself: a model
+    /// that is right lies half a count above a floored one.
+    pub fn errors(&self, candidate: &Candidate) -> Result<Vec<f64>, ModelError> {
+        errors(self.data, candidate, self.method, &self.horizon, self.start_angle, self.cost)
+    }
+
+    fn candidate(&self, x: &[f64]) -> Candidate {
+        self.structure.candidate(&self.structure.values(x))
+    }
+
+    fn sum(&self, errors: &[f64]) -> f64 {
+        let shift = reading_shift(self.data);
+        let sum: f64 = errors.iter().map(|&e| self.cost.sample(e + shift)).sum();
+        if sum.is_nan() { f64::INFINITY } else { sum * self.weight }
+    }
+}
+
+/// Costs take the distance above a floored reading; other readings are the angle itself.
+fn reading_shift(data: &Data) -> f64 {
+    if data.quantised { 0.0 } else { shared::encoder::FLOOR_OFFSET_COUNTS }
+}
+
+/// Runs a candidate over a horizon; see [`FitProblem::errors`].
+pub fn errors(
+    data: &Data,
+    candidate: &Candidate,
+    method: Method,
+    horizon: &Horizon,
+    start_angle: StartAngle,
+    cost: Cost,
+) -> Result<Vec<f64>, ModelError> {
+    let simulation = Simulation::new(data, candidate, method)?;
+    let mut errors = vec![0.0; data.len()];
+    match horizon {
+        Horizon::Whole => {
+            let start = match start_angle {
+                StartAngle::Known => data.counts[0],
+                StartAngle::Free => data.centre(0),
+            };
+            simulation.run(0..data.len(), start, candidate.start_speed, |k, angle| {
+                errors[k] = angle - data.counts[k];
+            });
+            if start_angle == StartAngle::Free {
+                let centre = data.centre(0) - data.counts[0];
+                let middle = match cost {
+                    Cost::Absolute { .. } => median(&errors),
+                    Cost::Squared | Cost::Interval { .. } => mean(&errors),
+                };
+                for error in &mut errors {
+                    *error += centre - middle;
+                }
+            }
+        }
+        Horizon::Windows(windows) => {
+            for window in windows {
+                let start = data.centre(window.range.start);
+                simulation.run(window.range.clone(), start, window.speed, |k, angle| {
+                    errors[k] = angle - data.counts[k];
+                });
+            }
+        }
+    }
+    Ok(errors)
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Root mean square of model minus measurement, in counts, where the measurement is the centre of
+/// the cell that was read.
+pub fn rms_counts(data: &Data, errors: &[f64]) -> f64 {
+    let centre = if data.quantised { shared::encoder::FLOOR_OFFSET_COUNTS } else { 0.0 };
+    let sum: f64 = errors.iter().map(|e| (e - centre) * (e - centre)).sum();
+    Cost::rms(sum, errors.len())
+}
+
+impl Objective for FitProblem<'_> {
+    fn dim(&self) -> usize {
+        self.structure.dim()
+    }
+
+    fn cost(&self, x: &[f64]) -> f64 {
+        match self.errors(&self.candidate(x)) {
+            Ok(errors) => self.sum(&errors),
+            Err(_) => f64::INFINITY,
+        }
+    }
+
+    fn start(&self) -> Option<Vec<f64>> {
+        self.start.clone()
+    }
+}

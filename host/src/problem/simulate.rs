@@ -1,0 +1,74 @@
+//! One candidate, run along the data.
+
+use super::data::Data;
+use shared::discretise::Discretisation;
+use shared::effects::EffectSet;
+use shared::error::ModelError;
+use shared::model::{Model, Plan, State};
+use shared::motor::Machine;
+use std::ops::Range;
+
+/// A model with all its numbers, in SI.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// The linear machine.
+    pub machine: Machine<f64>,
+    /// Effects with their parameters.
+    pub effects: EffectSet<f64>,
+    /// Speed at the first sample, rad/s.
+    pub start_speed: f64,
+}
+
+/// How a candidate is run.
+#[derive(Clone, Copy, Debug)]
+pub struct Method {
+    /// Exact, or the paper's Euler step.
+    pub discretisation: Discretisation,
+    /// Steps to a sample interval where there are effects.
+    pub substeps: u16,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Method { discretisation: Discretisation::Exact, substeps: 1 }
+    }
+}
+
+/// The models of one candidate, one for each length of interval in the data.
+pub struct Simulation<'a> {
+    data: &'a Data,
+    models: Vec<Model<f64>>,
+}
+
+impl<'a> Simulation<'a> {
+    /// Discretises the candidate for the data's intervals.
+    pub fn new(data: &'a Data, candidate: &Candidate, method: Method) -> Result<Self, ModelError> {
+        let models = data
+            .lengths
+            .iter()
+            .map(|length| {
+                let units = data.units.with_interval(data.units.interval * length);
+                Model::new(&Plan {
+                    machine: candidate.machine,
+                    effects: candidate.effects,
+                    units,
+                    discretisation: method.discretisation,
+                    substeps: method.substeps,
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Simulation { data, models })
+    }
+
+    /// Runs over the samples of `range` from an angle in counts and a speed in rad/s; calls `each`
+    /// with the sample and the model's angle (counts) there.
+    pub fn run(&self, range: Range<usize>, angle: f64, speed: f64, mut each: impl FnMut(usize, f64)) {
+        // The current starts at zero: what it really was dies out within the electrical time constant.
+        let mut state = State { current: 0.0, speed: speed / self.data.units.speed, angle };
+        for k in range {
+            each(k, state.angle);
+            let model = &self.models[self.data.length_of[k] as usize];
+            model.step(&mut state, self.data.command[k], self.data.is_open(k));
+        }
+    }
+}

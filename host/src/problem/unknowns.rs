@@ -1,0 +1,251 @@
+//! Which numbers are searched for, in which coordinates, and what they mean.
+//!
+//! The default coordinates are the identifiable ones. Searching in the six physical parameters
+//! instead, as the paper does, is searching along valleys whose floor is flat.
+
+use super::data::Data;
+use super::simulate::Candidate;
+use shared::effects::{EffectSet, Kind};
+use shared::motor::{Machine, Physical, Response};
+
+/// How a unit-cube coordinate is stretched to a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    Linear,
+    /// Evenly in the logarithm.
+    Log,
+}
+
+/// One unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// Name, with the effect's name before a point for an effect's parameter.
+    pub name: String,
+    /// Unit symbol.
+    pub unit: &'static str,
+    /// Search range in that unit.
+    pub range: (f64, f64),
+    /// How the range is searched.
+    pub scale: Scale,
+}
+
+impl Unknown {
+    fn new(name: &str, unit: &'static str, range: (f64, f64), scale: Scale) -> Self {
+        Unknown { name: name.to_owned(), unit, range, scale }
+    }
+
+    /// Value at the coordinate `x` in `[0, 1]`.
+    pub fn value(&self, x: f64) -> f64 {
+        let (low, high) = self.range;
+        match self.scale {
+            Scale::Linear => low + (high - low) * x,
+            Scale::Log => low * (high / low).powf(x),
+        }
+    }
+
+    /// Coordinate of a value, clamped to `[0, 1]`.
+    pub fn coordinate(&self, value: f64) -> f64 {
+        let (low, high) = self.range;
+        let x = match self.scale {
+            Scale::Linear => (value - low) / (high - low),
+            Scale::Log => (value.max(low) / low).ln() / (high / low).ln(),
+        };
+        if x.is_finite() { x.clamp(0.0, 1.0) } else { 0.5 }
+    }
+}
+
+/// The coordinates of the linear machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Base {
+    /// Gain, a1 and electrical time constant: all that voltage and angle determine; with viscous
+    /// friction as a part of the damping where something makes it separable from back-EMF.
+    Response {
+        /// Whether the part of viscous friction is searched for.
+        damping: bool,
+    },
+    /// The six physical parameters in the paper's box.
+    Physical {
+        /// Range of each of them, SI.
+        range: (f64, f64),
+    },
+    /// Behind a current loop: inertia and viscous friction per unit of the command.
+    CurrentDriven,
+}
+
+/// The unknowns of a model: base coordinates, then each effect's parameters, then nuisances.
+#[derive(Clone, Debug)]
+pub struct Structure {
+    /// Coordinates of the linear machine.
+    pub base: Base,
+    /// Effects, in order.
+    pub effects: Vec<Kind>,
+    /// Whether the speed at the first sample is unknown (else the motor starts at rest).
+    pub start_speed: bool,
+    /// The unknowns.
+    pub unknowns: Vec<Unknown>,
+}
+
+/// Name of the unknown speed at the first sample.
+pub const START_SPEED: &str = "start_speed";
+
+impl Structure {
+    /// The unknowns with search ranges around `centre`, a first guess at the machine.
+    pub fn around(
+        data: &Data,
+        base: Base,
+        effects: &[Kind],
+        centre: &Machine<f64>,
+        start_speed: bool,
+    ) -> Self {
+        let no_load = data.units.speed;
+        let mut unknowns = base_unknowns(base, data, centre);
+        for &kind in effects {
+            for parameter in kind.description().parameters {
+                let scaled = |x| parameter.scaled(x, data.supply, no_load);
+                unknowns.push(Unknown::new(
+                    &format!("{}.{}", kind.name(), parameter.name),
+                    parameter.quantity.unit(),
+                    (scaled(parameter.range.0), scaled(parameter.range.1)),
+                    if parameter.amplitude { Scale::Linear } else { Scale::Log },
+                ));
+            }
+        }
+        if start_speed {
+            unknowns.push(Unknown::new(START_SPEED, "rad/s", (-1.5 * no_load, 1.5 * no_load), Scale::Linear));
+        }
+        Structure { base, effects: effects.to_vec(), start_speed, unknowns }
+    }
+
+    /// Number of unknowns.
+    pub fn dim(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// Values at a point of the unit cube.
+    pub fn values(&self, x: &[f64]) -> Vec<f64> {
+        self.unknowns.iter().zip(x).map(|(unknown, &x)| unknown.value(x)).collect()
+    }
+
+    /// Point of the unit cube with these values.
+    pub fn coordinates(&self, values: &[f64]) -> Vec<f64> {
+        self.unknowns.iter().zip(values).map(|(unknown, &v)| unknown.coordinate(v)).collect()
+    }
+
+    /// The model with these values of the unknowns.
+    pub fn candidate(&self, values: &[f64]) -> Candidate {
+        let (base, mut rest) = values.split_at(base_len(self.base));
+        let machine = match self.base {
+            Base::Response { damping } => {
+                let (gain, a1, electrical) = (base[0], base[1], base[2]);
+                let part = if damping { base[3] } else { 0.0 };
+                machine(gain, a1, electrical, part)
+            }
+            Base::Physical { .. } => Physical {
+                inductance: base[0],
+                resistance: base[1],
+                kt: base[2],
+                inertia: base[3],
+                viscous: base[4],
+                kb: base[5],
+            }
+            .machine(),
+            Base::CurrentDriven => Machine { kb: 0.0, damping: base[1], inertia: base[0], electrical: 0.0 },
+        };
+        let mut effects = EffectSet::default();
+        for &kind in &self.effects {
+            let (own, further) = rest.split_at(kind.description().parameters.len());
+            // Values come from finite ranges and the caller checked the number of effects.
+            let _ = effects.push(kind, own);
+            rest = further;
+        }
+        let start_speed = if self.start_speed { rest.first().copied().unwrap_or(0.0) } else { 0.0 };
+        Candidate { machine, effects, start_speed }
+    }
+
+    /// Values of the unknowns that describe `machine`; effects and nuisances as given.
+    pub fn values_of(&self, machine: &Machine<f64>, effects: &[f64], start_speed: f64) -> Vec<f64> {
+        let response = machine.response();
+        let mut values = match self.base {
+            Base::Response { damping } => {
+                let mut base = vec![response.gain, response.a1, machine.electrical];
+                if damping {
+                    base.push(machine.damping * response.gain);
+                }
+                base
+            }
+            // One of many with this response: a resistance of one ohm and equal constants.
+            Base::Physical { .. } => {
+                let k = machine.kb;
+                vec![machine.electrical, 1.0, k, machine.inertia * k, machine.damping * k, k]
+            }
+            Base::CurrentDriven => vec![machine.inertia, machine.damping],
+        };
+        values.extend_from_slice(effects);
+        if self.start_speed {
+            values.push(start_speed);
+        }
+        values
+    }
+}
+
+/// The machine with a given gain, a1 and electrical time constant, of whose damping `part` is
+/// viscous: `m + τe·b = a1·D` with `D = 1/gain`, `b = part·D`.
+fn machine(gain: f64, a1: f64, electrical: f64, part: f64) -> Machine<f64> {
+    let total = 1.0 / gain;
+    let damping = part * total;
+    Machine {
+        kb: total - damping,
+        damping,
+        inertia: (a1 * total - electrical * damping).max(a1 * total * 1e-6),
+        electrical,
+    }
+}
+
+fn base_len(base: Base) -> usize {
+    match base {
+        Base::Response { damping: false } => 3,
+        Base::Response { damping: true } => 4,
+        Base::Physical { .. } => 6,
+        Base::CurrentDriven => 2,
+    }
+}
+
+/// Search ranges reach this factor to both sides of the first guess.
+const REACH: f64 = 20.0;
+
+fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown> {
+    let around = |value: f64| (value / REACH, value * REACH);
+    match base {
+        Base::Response { damping } => {
+            let Response { gain, a1, .. } = centre.response();
+            let slowest = (a1.max(centre.electrical) * 4.0).max(data.units.interval);
+            let mut unknowns = vec![
+                Unknown::new("gain", "rad/(s*V)", around(gain), Scale::Log),
+                Unknown::new("a1", "s", around(a1), Scale::Log),
+                Unknown::new("electrical_time_constant", "s", (0.0, slowest), Scale::Linear),
+            ];
+            if damping {
+                unknowns.push(Unknown::new("viscous_part", "1", (0.0, 0.98), Scale::Linear));
+            }
+            unknowns
+        }
+        Base::Physical { range } => [
+            ("inductance", "H"),
+            ("resistance", "ohm"),
+            ("kt", "N*m/A"),
+            ("inertia", "kg*m^2"),
+            ("viscous", "N*m*s/rad"),
+            ("kb", "V*s/rad"),
+        ]
+        .map(|(name, unit)| Unknown::new(name, unit, range, Scale::Linear))
+        .to_vec(),
+        Base::CurrentDriven => {
+            let fastest = data.supply / data.units.speed;
+            vec![
+                Unknown::new("inertia", "V*s^2/rad", around(centre.inertia), Scale::Log),
+                Unknown::new("damping", "V*s/rad", (0.0, (4.0 * centre.damping).max(fastest)), Scale::Linear),
+            ]
+        }
+    }
+}
