@@ -1,6 +1,10 @@
-//! The host side of servoid.
+//! The host side of servoid: recordings in, models and verdicts out.
+//!
+//! The flow, which is also the order to read the modules in:
+//! `recording → units → model (motor + effects + encoder) → cost → optimiser → fit → residual → report`.
 #![forbid(unsafe_code)]
 
+pub mod bench;
 pub mod fit;
 pub mod problem;
 pub mod recording;

@@ -1,0 +1,75 @@
+//! The elastic, perhaps loose, coupling between the motor and a second inertia.
+
+/// How the load hangs on the motor shaft. The bench splits the machine's inertia between the two, so
+/// that a stiff coupling without gap is the plain machine again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// Share of the total inertia that sits on the load side, in 0…1.
+    pub load_share: f64,
+    /// Compliance 1/k, rad/(N·m).
+    pub compliance_rad_n_m: f64,
+    /// Damping ratio of the oscillation of the two inertias against each other.
+    pub damping_ratio: f64,
+    /// Half of the gap, rad: the load is free while the twist is smaller.
+    pub half_gap_rad: f64,
+}
+
+impl Coupling {
+    /// Both couplings in series, in front of one load.
+    pub(super) fn in_series_with(self, other: Coupling) -> Coupling {
+        Coupling {
+            load_share: self.load_share.max(other.load_share),
+            compliance_rad_n_m: self.compliance_rad_n_m + other.compliance_rad_n_m,
+            damping_ratio: self.damping_ratio.max(other.damping_ratio),
+            half_gap_rad: self.half_gap_rad + other.half_gap_rad,
+        }
+    }
+}
+
+/// A coupling on a given machine.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shaft {
+    pub(super) motor_inertia_kg_m2: f64,
+    pub(super) load_inertia_kg_m2: f64,
+    stiffness_n_m_rad: f64,
+    damping_n_m_s: f64,
+    half_gap_rad: f64,
+}
+
+impl Shaft {
+    pub(super) fn new(coupling: Coupling, inertia_kg_m2: f64) -> Self {
+        let load = coupling.load_share * inertia_kg_m2;
+        let motor = inertia_kg_m2 - load;
+        let stiffness = 1.0 / coupling.compliance_rad_n_m;
+        let reduced = motor * load / inertia_kg_m2;
+        Shaft {
+            motor_inertia_kg_m2: motor,
+            load_inertia_kg_m2: load,
+            stiffness_n_m_rad: stiffness,
+            damping_n_m_s: 2.0 * coupling.damping_ratio * (stiffness * reduced).sqrt(),
+            half_gap_rad: coupling.half_gap_rad,
+        }
+    }
+
+    /// Torque that the motor side passes to the load side, N·m, at `twist` = motor − load, rad, and its
+    /// rate, rad/s. Flanks that touch push and never pull (Nordin and Gutman, "Controlling mechanical
+    /// systems with backlash – a survey", Automatica 38(10), 2002, dead-zone model with damping).
+    pub(super) fn torque(&self, twist: f64, twist_rate: f64) -> f64 {
+        if self.half_gap_rad == 0.0 {
+            return self.stiffness_n_m_rad * twist + self.damping_n_m_s * twist_rate;
+        }
+        let depth = twist.abs() - self.half_gap_rad;
+        if depth <= 0.0 {
+            return 0.0;
+        }
+        let side = twist.signum();
+        let push = self.stiffness_n_m_rad * depth + self.damping_n_m_s * twist_rate * side;
+        push.max(0.0) * side
+    }
+
+    /// How fast the two inertias move against each other, 1/s.
+    pub(super) fn stiffness_per_s(&self) -> f64 {
+        let mobility = 1.0 / self.motor_inertia_kg_m2 + 1.0 / self.load_inertia_kg_m2;
+        (self.stiffness_n_m_rad * mobility).sqrt() + self.damping_n_m_s * mobility
+    }
+}

@@ -1,0 +1,155 @@
+//! The effects that the bench can hide in a motor: what an effect may touch, and the catalogue.
+
+use super::chance::Chance;
+use super::coupling::Coupling;
+use super::machine::Machine;
+
+mod cogging;
+mod coulomb;
+mod dead_zone;
+mod delay;
+mod load_torque;
+mod offset_voltage;
+mod stribeck;
+
+/// Every effect, in the order in which the signal meets them from the command to the counter. The
+/// bench applies them in this order, whatever the order in which they were asked for.
+pub static CATALOGUE: &[&Kind] = &[
+    &delay::KIND,
+    &offset_voltage::KIND,
+    &dead_zone::KIND,
+    &cogging::KIND,
+    &load_torque::KIND,
+    &coulomb::KIND,
+    &stribeck::KIND,
+];
+
+/// One entry of the catalogue.
+pub struct Kind {
+    /// The name, as the contract spells it.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub about: &'static str,
+    /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
+    pub electrical: bool,
+    /// Its parameters, in the order in which `build` takes them.
+    pub params: &'static [Param],
+    /// Makes the effect from its parameters, already scaled by the strength.
+    pub build: fn(&[f64], &Machine) -> Box<dyn Effect>,
+}
+
+/// One physical parameter of an effect.
+pub struct Param {
+    /// Its name in `effect:name=value`.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it is, in a few words.
+    pub about: &'static str,
+    /// Whether the effect's strength multiplies it. At strength 0 the effect vanishes.
+    pub scales: bool,
+    /// Least and largest value that make sense.
+    pub range: (f64, f64),
+    /// A typical value on the given machine.
+    pub typical: fn(&Machine) -> f64,
+}
+
+impl Kind {
+    /// The entry of that name.
+    pub fn find(name: &str) -> Option<&'static Kind> {
+        CATALOGUE.iter().copied().find(|kind| kind.name == name)
+    }
+}
+
+/// What an effect sees of the motor at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct At {
+    /// Angle of the motor shaft, rad.
+    pub angle: f64,
+    /// Speed of the motor shaft, rad/s.
+    pub speed: f64,
+    /// Armature current, A.
+    pub current: f64,
+    /// The effect's own memory, in its own unit.
+    pub memory: f64,
+}
+
+/// What a friction sees of the shaft while it slides, or is about to.
+#[derive(Clone, Copy, Debug)]
+pub struct Sliding {
+    /// Direction of the motion, or of the torque that would start it: +1 or −1.
+    pub direction: f64,
+    /// Magnitude of the speed, rad/s; 0 asks for the torque that holds the shaft.
+    pub speed: f64,
+    /// Torque passed from the motor to its load, N·m, ≥ 0.
+    pub transmitted: f64,
+}
+
+/// The winding's parameters at one instant; an effect multiplies what it changes.
+#[derive(Clone, Copy, Debug)]
+pub struct Winding {
+    /// Armature resistance, Ω.
+    pub resistance_ohm: f64,
+    /// Incremental armature inductance, H.
+    pub inductance_h: f64,
+    /// Torque constant, N·m/A.
+    pub kt_n_m_a: f64,
+    /// Back-EMF constant, V·s/rad.
+    pub kb_v_s_rad: f64,
+}
+
+/// A physical effect. Every hook does nothing unless overridden.
+pub trait Effect: Send + Sync {
+    /// Time by which the command reaches the bridge late, s.
+    fn latency_s(&self) -> f64 {
+        0.0
+    }
+
+    /// Voltage behind this effect, from the voltage before it.
+    fn volts(&self, volts: f64, _at: &At) -> f64 {
+        volts
+    }
+
+    /// Changes the winding's parameters.
+    fn winding(&self, _winding: &mut Winding, _at: &At) {}
+
+    /// Torque added to the shaft, N·m, positive forward.
+    fn torque(&self, _at: &At) -> f64 {
+        0.0
+    }
+
+    /// Budget of dry friction, N·m, ≥ 0: it opposes motion and holds a resting shaft.
+    fn friction(&self, _sliding: &Sliding) -> f64 {
+        0.0
+    }
+
+    /// The coupling to a second inertia, if this effect puts one on the shaft.
+    fn coupling(&self) -> Option<Coupling> {
+        None
+    }
+
+    /// Value of the memory at the start, if the effect has a memory.
+    fn memory(&self) -> Option<f64> {
+        None
+    }
+
+    /// Rate of change of the memory, per s.
+    fn memory_rate(&self, _at: &At) -> f64 {
+        0.0
+    }
+
+    /// How fast the effect's own dynamics are, 1/s; the substep follows it.
+    fn stiffness_per_s(&self, _at: &At) -> f64 {
+        0.0
+    }
+
+    /// Angle that the encoder sees, rad, from the shaft's angle.
+    fn sensed_angle(&self, angle: f64) -> f64 {
+        angle
+    }
+
+    /// Counts lost during a sample of `dt` s at `speed` rad/s; positive when a forward count is lost.
+    fn lost_counts(&self, _speed: f64, _dt: f64, _chance: &mut Chance) -> i64 {
+        0
+    }
+}

@@ -1,0 +1,68 @@
+//! Stribeck friction: stiction that falls off as the shaft begins to slide.
+
+use super::{Effect, Kind, Param, Sliding};
+
+/// T = −(Tc + ΔT·exp(−|ω/ωs|^δ))·sgn ω, and at rest it holds against up to Tc + ΔT (Tustin 1947 with
+/// δ = 1; Armstrong-Hélouvry, "Control of Machines with Friction", 1991, with δ = 2). The law is
+/// whole: it contains its own Coulomb part.
+struct Stribeck {
+    coulomb_n_m: f64,
+    extra_n_m: f64,
+    speed_rad_s: f64,
+    exponent: f64,
+}
+
+pub(super) static KIND: Kind = Kind {
+    name: "stribeck",
+    about: "dry friction that is larger at rest than in motion",
+    electrical: false,
+    params: &[
+        Param {
+            name: "coulomb",
+            unit: "N*m",
+            about: "sliding friction Tc far above the Stribeck speed",
+            scales: true,
+            range: (0.0, f64::INFINITY),
+            typical: |machine| 0.03 * machine.stall_torque_n_m(),
+        },
+        Param {
+            name: "extra",
+            unit: "N*m",
+            about: "excess of static over sliding friction, Ts − Tc",
+            scales: true,
+            range: (0.0, f64::INFINITY),
+            typical: |machine| 0.03 * machine.stall_torque_n_m(),
+        },
+        Param {
+            name: "speed",
+            unit: "rad/s",
+            about: "Stribeck speed ωs, where the excess has fallen to 37 %",
+            scales: false,
+            range: (f64::MIN_POSITIVE, f64::INFINITY),
+            typical: |machine| 0.03 * machine.top_speed_rad_s(),
+        },
+        Param {
+            name: "exponent",
+            unit: "1",
+            about: "shape δ: 1 exponential, 2 Gaussian",
+            scales: false,
+            range: (0.5, 4.0),
+            typical: |_| 2.0,
+        },
+    ],
+    build: |values, _| {
+        Box::new(Stribeck {
+            coulomb_n_m: values[0],
+            extra_n_m: values[1],
+            speed_rad_s: values[2],
+            exponent: values[3],
+        })
+    },
+};
+
+impl Effect for Stribeck {
+    fn friction(&self, sliding: &Sliding) -> f64 {
+        let decay = (-(sliding.speed / self.speed_rad_s).powf(self.exponent)).exp();
+        self.coulomb_n_m + self.extra_n_m * decay
+    }
+}

@@ -1,0 +1,226 @@
+//! One hidden effect as ordered: which, with which parameters, how strong.
+
+use super::effects::{Effect, Kind, Param};
+use super::{BenchError, Machine};
+use std::fmt;
+
+/// A physical effect to hide in the motor. Print it and it reads back: `coulomb:torque=0.01,strength=2`.
+#[derive(Clone)]
+pub struct Hidden {
+    kind: &'static Kind,
+    values: Vec<f64>,
+    strength: f64,
+}
+
+impl Hidden {
+    /// The effect of that name as it is typical on `machine`: a few per cent of stall torque or supply.
+    ///
+    /// # Errors
+    /// [`BenchError::UnknownEffect`] with the nearest name.
+    pub fn typical(name: &str, machine: &Machine) -> Result<Self, BenchError> {
+        let kind = Kind::find(name).ok_or_else(|| BenchError::unknown_effect(name))?;
+        let values = kind
+            .params
+            .iter()
+            .map(|param| (param.typical)(machine))
+            .collect();
+        Ok(Hidden {
+            kind,
+            values,
+            strength: 1.0,
+        })
+    }
+
+    /// Reads `name`, or `name:key=value,key=value` with the parameters in SI units and perhaps
+    /// `strength=…`; what is not given is typical on `machine`.
+    ///
+    /// # Errors
+    /// Names the part that cannot be read, with the nearest name, and the range of a value.
+    pub fn parse(spec: &str, machine: &Machine) -> Result<Self, BenchError> {
+        let (name, settings) = spec.split_once(':').unwrap_or((spec, ""));
+        let mut hidden = Self::typical(name.trim(), machine)?;
+        for part in settings
+            .split(',')
+            .map(str::trim)
+            .filter(|part| !part.is_empty())
+        {
+            let (key, text) = part
+                .split_once('=')
+                .ok_or_else(|| BenchError::NotAnAssignment {
+                    spec: spec.into(),
+                    part: part.into(),
+                })?;
+            hidden.set_text(key.trim(), text.trim())?;
+        }
+        Ok(hidden)
+    }
+
+    /// Sets the parameter `key`, in its SI unit, or the `strength`.
+    ///
+    /// # Errors
+    /// [`BenchError::UnknownParameter`] with the nearest name; [`BenchError::OutOfRange`].
+    pub fn set(&mut self, key: &str, value: f64) -> Result<(), BenchError> {
+        if key == STRENGTH.name {
+            self.strength = self.checked(&STRENGTH, value)?;
+            return Ok(());
+        }
+        let (index, param) = self.param(key)?;
+        self.values[index] = self.checked(param, value)?;
+        Ok(())
+    }
+
+    /// The same effect, `strength` times as strong as typical or as set; 0 leaves the plain machine.
+    ///
+    /// # Errors
+    /// [`BenchError::OutOfRange`] unless `strength` is finite and not negative.
+    pub fn scaled(mut self, strength: f64) -> Result<Self, BenchError> {
+        self.set(STRENGTH.name, strength)?;
+        Ok(self)
+    }
+
+    /// The effect's name.
+    pub fn name(&self) -> &'static str {
+        self.kind.name
+    }
+
+    /// Its true parameters with the strength applied: name, value, unit.
+    pub fn parameters(&self) -> impl Iterator<Item = (&'static str, f64, &'static str)> + '_ {
+        let params = self.kind.params.iter();
+        params
+            .zip(self.effective())
+            .map(|(param, value)| (param.name, value, param.unit))
+    }
+
+    /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
+    pub(super) fn is_electrical(&self) -> bool {
+        self.kind.electrical
+    }
+
+    /// Makes the effect itself.
+    ///
+    /// # Errors
+    /// [`BenchError::OutOfRange`] when the strength carries a parameter out of its range.
+    pub(super) fn build(&self, machine: &Machine) -> Result<Box<dyn Effect>, BenchError> {
+        let values = self.effective();
+        for (param, value) in self.kind.params.iter().zip(&values) {
+            self.checked(param, *value)?;
+        }
+        Ok((self.kind.build)(&values, machine))
+    }
+
+    fn effective(&self) -> Vec<f64> {
+        let scale = |param: &Param| if param.scales { self.strength } else { 1.0 };
+        self.kind
+            .params
+            .iter()
+            .zip(&self.values)
+            .map(|(p, value)| value * scale(p))
+            .collect()
+    }
+
+    fn param(&self, key: &str) -> Result<(usize, &'static Param), BenchError> {
+        let mut params = self.kind.params.iter().enumerate();
+        params
+            .find(|(_, param)| param.name == key)
+            .ok_or_else(|| BenchError::unknown_parameter(self.kind, key))
+    }
+
+    fn set_text(&mut self, key: &str, text: &str) -> Result<(), BenchError> {
+        let unit = if key == STRENGTH.name {
+            STRENGTH.unit
+        } else {
+            self.param(key)?.1.unit
+        };
+        let value = text.parse().map_err(|_| BenchError::NotANumber {
+            effect: self.name(),
+            key: key.into(),
+            text: text.into(),
+            unit,
+        })?;
+        self.set(key, value)
+    }
+
+    fn checked(&self, param: &Param, value: f64) -> Result<f64, BenchError> {
+        let (low, high) = param.range;
+        if value.is_finite() && (low..=high).contains(&value) {
+            return Ok(value);
+        }
+        Err(BenchError::OutOfRange {
+            effect: self.name(),
+            key: param.name,
+            value,
+            low,
+            high,
+            unit: param.unit,
+        })
+    }
+}
+
+/// The strength, described like a parameter.
+static STRENGTH: Param = Param {
+    name: "strength",
+    unit: "1",
+    about: "multiplies every amplitude of the effect",
+    scales: false,
+    range: (0.0, f64::INFINITY),
+    typical: |_| 1.0,
+};
+
+impl fmt::Display for Hidden {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.name())?;
+        for (param, value) in self.kind.params.iter().zip(&self.values) {
+            write!(f, "{}={value},", param.name)?;
+        }
+        write!(f, "{}={}", STRENGTH.name, self.strength)
+    }
+}
+
+impl fmt::Debug for Hidden {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Hidden({self})")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::effects::CATALOGUE;
+    use super::*;
+
+    #[test]
+    fn every_effect_prints_and_reads_back() {
+        let machine = Machine::gearmotor();
+        for kind in CATALOGUE {
+            let hidden = Hidden::typical(kind.name, &machine)
+                .unwrap()
+                .scaled(0.3)
+                .unwrap();
+            let again = Hidden::parse(&hidden.to_string(), &machine).unwrap();
+            assert_eq!(hidden.to_string(), again.to_string());
+            assert!(hidden.build(&machine).is_ok(), "{hidden}");
+        }
+    }
+
+    #[test]
+    fn every_refusal_says_what_was_seen_and_what_is_needed() {
+        let cases = [
+            ("colomb", "did you mean `coulomb`?"),
+            ("coulomb:torq=1", "did you mean `torque`?"),
+            ("coulomb:torque", "expected key=value"),
+            (
+                "coulomb:torque=big",
+                "`big` is not a number; give one in N*m",
+            ),
+            ("coulomb:torque=-1", "needs 0 to inf N*m"),
+            ("coulomb:torque=nan", "needs 0 to inf N*m"),
+            ("coulomb:torque=inf", "needs 0 to inf N*m"),
+            ("coulomb:strength=-1", "needs 0 to inf 1"),
+        ];
+        for (spec, expected) in cases {
+            let message = Hidden::parse(spec, &Machine::paper())
+                .unwrap_err()
+                .to_string();
+            assert!(message.contains(expected), "{spec}: {message}");
+        }
+    }
+}

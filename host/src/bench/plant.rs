@@ -1,0 +1,334 @@
+//! The motor's differential equations, integrated finely, with every stop and release located.
+//!
+//! ```text
+//! L di/dt  = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
+//! J dω/dt  = Kt i − b ω + ΣT − Tshaft − F sgn ω     Machinery", ch. 2: separately excited machine)
+//! Jl dωl/dt = Tshaft                               load side, if there is one
+//! ```
+//!
+//! F is the budget of dry friction. The shaft is either sliding in a known direction or held; within a
+//! substep that state is fixed, so that the right-hand side is smooth. A substep in which the shaft
+//! stops, or the torque outgrows the budget, is cut where that happens (Filippov's solution, as in
+//! Karnopp's friction model but without his velocity band).
+
+use super::coupling::Shaft;
+use super::effects::{At, Effect, Sliding, Winding};
+use super::{Coupling, Machine};
+
+/// Most effects with a memory that can act at once; a law checks it against the catalogue.
+const MEMORIES: usize = 4;
+/// Substeps in the shortest time constant at [`DEFAULT_SUBSTEP_HZ`].
+const STEPS_PER_TIME_CONSTANT: f64 = 6.0;
+/// The substep rate unless the bench asks for another, Hz.
+pub(super) const DEFAULT_SUBSTEP_HZ: f64 = 40_000.0;
+/// A stop or release is located to this share of the substep.
+const EVENT_TOLERANCE: f64 = 1e-9;
+
+/// What the bridge feeds to the armature.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Feed {
+    /// A voltage, V.
+    Volts(f64),
+    /// A current that the amplifier enforces, A.
+    Amps(f64),
+    /// Nothing: the bridge is open.
+    Open,
+}
+
+/// What changes with time; also used for its rate of change.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct State {
+    pub(super) angle: f64,
+    pub(super) speed: f64,
+    pub(super) current: f64,
+    load_angle: f64,
+    load_speed: f64,
+    memory: [f64; MEMORIES],
+}
+
+impl State {
+    fn ahead(&self, rate: &State, dt: f64) -> State {
+        let mut next = *self;
+        next.angle += dt * rate.angle;
+        next.speed += dt * rate.speed;
+        next.current += dt * rate.current;
+        next.load_angle += dt * rate.load_angle;
+        next.load_speed += dt * rate.load_speed;
+        for (value, rate) in next.memory.iter_mut().zip(&rate.memory) {
+            *value += dt * rate;
+        }
+        next
+    }
+}
+
+/// How dry friction grips the shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Grip {
+    /// There is no dry friction.
+    None,
+    /// The shaft slides in direction +1 or −1.
+    Sliding(f64),
+    /// Friction holds the shaft at rest.
+    Held,
+}
+
+/// Torques on the motor shaft but for dry friction, N·m.
+struct Torques {
+    net: f64,
+    transmitted: f64,
+    shaft: f64,
+}
+
+/// The machine with its effects, in motion.
+pub(super) struct Plant<'a> {
+    machine: Machine,
+    effects: &'a [Box<dyn Effect>],
+    /// Index into the state's memory, for each effect.
+    memory_of: Vec<Option<usize>>,
+    shaft: Option<Shaft>,
+    motor_inertia_kg_m2: f64,
+    substep_hz: f64,
+    grip: Grip,
+    pub(super) state: State,
+}
+
+impl<'a> Plant<'a> {
+    /// The machine at rest at `angle` rad, without current.
+    pub(super) fn new(
+        machine: Machine,
+        effects: &'a [Box<dyn Effect>],
+        substep_hz: f64,
+        angle: f64,
+    ) -> Self {
+        let coupling = effects
+            .iter()
+            .filter_map(|e| e.coupling())
+            .reduce(Coupling::in_series_with);
+        let shaft = coupling.map(|coupling| Shaft::new(coupling, machine.inertia_kg_m2));
+        let mut state = State {
+            angle,
+            speed: 0.0,
+            current: 0.0,
+            load_angle: angle,
+            load_speed: 0.0,
+            memory: [0.0; MEMORIES],
+        };
+        let mut slots = 0..MEMORIES;
+        let memory_of: Vec<_> = effects
+            .iter()
+            .map(|effect| {
+                let start = effect.memory()?;
+                let slot = slots.next()?;
+                state.memory[slot] = start;
+                Some(slot)
+            })
+            .collect();
+        let mut plant = Plant {
+            machine,
+            effects,
+            memory_of,
+            motor_inertia_kg_m2: shaft.map_or(machine.inertia_kg_m2, |s| s.motor_inertia_kg_m2),
+            shaft,
+            substep_hz,
+            grip: Grip::None,
+            state,
+        };
+        let stall = machine.stall_torque_n_m();
+        if [1.0, -1.0]
+            .iter()
+            .any(|direction| plant.budget(*direction, 0.0, stall) > 0.0)
+        {
+            plant.grip = Grip::Held;
+        }
+        plant
+    }
+
+    /// Advances by `duration` s while the bridge feeds the armature with `feed`.
+    pub(super) fn advance(&mut self, feed: Feed, duration: f64) {
+        match feed {
+            Feed::Volts(_) => {}
+            Feed::Amps(current) => self.state.current = current,
+            Feed::Open => self.state.current = 0.0,
+        }
+        if self.grip == Grip::Held {
+            self.settle();
+        }
+        let mut left = duration;
+        while left > 0.0 {
+            let steps = (left / self.longest_step(feed)).ceil();
+            left -= self.step(feed, left / steps);
+        }
+    }
+
+    /// One substep of `dt` s, or less if the grip changes within; returns the time taken.
+    fn step(&mut self, feed: Feed, dt: f64) -> f64 {
+        let whole = self.runge_kutta(feed, dt);
+        if !self.grip_changes(&whole) {
+            self.state = whole;
+            return dt;
+        }
+        let (mut before, mut after) = (0.0, dt);
+        while after - before > EVENT_TOLERANCE * dt {
+            let middle = 0.5 * (before + after);
+            if self.grip_changes(&self.runge_kutta(feed, middle)) {
+                after = middle;
+            } else {
+                before = middle;
+            }
+        }
+        self.state = self.runge_kutta(feed, after);
+        self.settle();
+        after
+    }
+
+    /// Whether the shaft has stopped sliding, or the torque has outgrown what holds it.
+    fn grip_changes(&self, state: &State) -> bool {
+        match self.grip {
+            Grip::None => false,
+            Grip::Sliding(direction) => state.speed * direction < 0.0,
+            Grip::Held => !self.holds(state),
+        }
+    }
+
+    fn holds(&self, state: &State) -> bool {
+        let torques = self.torques(state, &self.winding(state));
+        torques.net.abs() <= self.budget(torques.net.signum(), 0.0, torques.transmitted)
+    }
+
+    /// Decides for a shaft at rest whether friction holds it, or which way it slides.
+    fn settle(&mut self) {
+        self.state.speed = 0.0;
+        self.grip = if self.holds(&self.state) {
+            Grip::Held
+        } else {
+            let torques = self.torques(&self.state, &self.winding(&self.state));
+            Grip::Sliding(torques.net.signum())
+        };
+    }
+
+    /// The classical fourth-order method (Hairer, Nørsett and Wanner, "Solving ODEs I", table II.1.2).
+    fn runge_kutta(&self, feed: Feed, dt: f64) -> State {
+        let state = &self.state;
+        let k1 = self.rate(feed, state);
+        let k2 = self.rate(feed, &state.ahead(&k1, 0.5 * dt));
+        let k3 = self.rate(feed, &state.ahead(&k2, 0.5 * dt));
+        let k4 = self.rate(feed, &state.ahead(&k3, dt));
+        let sixth = dt / 6.0;
+        state
+            .ahead(&k1, sixth)
+            .ahead(&k2, 2.0 * sixth)
+            .ahead(&k3, 2.0 * sixth)
+            .ahead(&k4, sixth)
+    }
+
+    /// The right-hand side of the differential equations.
+    fn rate(&self, feed: Feed, state: &State) -> State {
+        let winding = self.winding(state);
+        let torques = self.torques(state, &winding);
+        let accelerating = match self.grip {
+            Grip::None => torques.net,
+            Grip::Sliding(direction) => {
+                let speed = (direction * state.speed).max(0.0);
+                torques.net - direction * self.budget(direction, speed, torques.transmitted)
+            }
+            Grip::Held => 0.0,
+        };
+        let mut memory = [0.0; MEMORIES];
+        for (index, effect) in self.effects.iter().enumerate() {
+            if let Some(slot) = self.memory_of[index] {
+                memory[slot] = effect.memory_rate(&self.at(index, state));
+            }
+        }
+        State {
+            angle: state.speed,
+            speed: accelerating / self.motor_inertia_kg_m2,
+            current: self.current_rate(feed, state, &winding),
+            load_angle: state.load_speed,
+            load_speed: self
+                .shaft
+                .map_or(0.0, |shaft| torques.shaft / shaft.load_inertia_kg_m2),
+            memory,
+        }
+    }
+
+    fn current_rate(&self, feed: Feed, state: &State, winding: &Winding) -> f64 {
+        let Feed::Volts(command) = feed else {
+            return 0.0;
+        };
+        let mut volts = command;
+        for (index, effect) in self.effects.iter().enumerate() {
+            volts = effect.volts(volts, &self.at(index, state));
+        }
+        let back_emf = winding.kb_v_s_rad * state.speed;
+        (volts - winding.resistance_ohm * state.current - back_emf) / winding.inductance_h
+    }
+
+    fn torques(&self, state: &State, winding: &Winding) -> Torques {
+        let motor = winding.kt_n_m_a * state.current;
+        let mut external = 0.0;
+        for (index, effect) in self.effects.iter().enumerate() {
+            external += effect.torque(&self.at(index, state));
+        }
+        let shaft = self.shaft.map_or(0.0, |shaft| {
+            shaft.torque(
+                state.angle - state.load_angle,
+                state.speed - state.load_speed,
+            )
+        });
+        Torques {
+            net: motor - self.machine.viscous_n_m_s * state.speed + external - shaft,
+            transmitted: (motor - external).abs(),
+            shaft,
+        }
+    }
+
+    fn winding(&self, state: &State) -> Winding {
+        let mut winding = Winding {
+            resistance_ohm: self.machine.resistance_ohm,
+            inductance_h: self.machine.inductance_h,
+            kt_n_m_a: self.machine.kt_n_m_a,
+            kb_v_s_rad: self.machine.kb_v_s_rad,
+        };
+        for (index, effect) in self.effects.iter().enumerate() {
+            effect.winding(&mut winding, &self.at(index, state));
+        }
+        winding
+    }
+
+    fn budget(&self, direction: f64, speed: f64, transmitted: f64) -> f64 {
+        let sliding = Sliding {
+            direction,
+            speed,
+            transmitted,
+        };
+        self.effects
+            .iter()
+            .map(|effect| effect.friction(&sliding))
+            .sum()
+    }
+
+    fn at(&self, index: usize, state: &State) -> At {
+        At {
+            angle: state.angle,
+            speed: state.speed,
+            current: state.current,
+            memory: self.memory_of[index].map_or(0.0, |slot| state.memory[slot]),
+        }
+    }
+
+    /// The longest substep that resolves the fastest dynamics at this instant, s.
+    fn longest_step(&self, feed: Feed) -> f64 {
+        let mut fastest = self.shaft.map_or(0.0, |shaft| shaft.stiffness_per_s());
+        if let Feed::Volts(_) = feed {
+            let winding = self.winding(&self.state);
+            fastest += winding.resistance_ohm / winding.inductance_h;
+        }
+        for (index, effect) in self.effects.iter().enumerate() {
+            fastest += effect.stiffness_per_s(&self.at(index, &self.state));
+        }
+        let refinement = self.substep_hz / DEFAULT_SUBSTEP_HZ;
+        1.0 / self
+            .substep_hz
+            .max(STEPS_PER_TIME_CONSTANT * refinement * fastest)
+    }
+}

@@ -1,0 +1,231 @@
+//! The bench itself: plays a drive into the plant and reads the encoder.
+
+use super::chance::Chance;
+use super::effects::{CATALOGUE, Effect};
+use super::encoder::Encoder;
+use super::plant::{DEFAULT_SUBSTEP_HZ, Feed, Plant};
+use super::timeline::Timeline;
+use super::{BenchError, DriveSample, Hidden, Machine};
+use std::f64::consts::TAU;
+
+/// What the command sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Amplifier {
+    /// The armature voltage, V.
+    Voltage,
+    /// The armature current, A: an ideal current loop, so that neither L nor back-EMF shows.
+    Current,
+}
+
+/// A motor on the bench, with its hidden effects, its encoder and its sources of chance.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    /// The motor.
+    pub machine: Machine,
+    /// What is hidden in it, each effect at most once; the order does not matter.
+    pub effects: Vec<Hidden>,
+    /// What the command sets.
+    pub amplifier: Amplifier,
+    /// Encoder counts per revolution of the motor shaft, after quadrature.
+    pub counts_per_rev: u32,
+    /// Sample interval, s.
+    pub sample_s: f64,
+    /// Largest deviation of a sample's time from its multiple of the interval, s. The true time is recorded.
+    pub jitter_s: f64,
+    /// Substeps of the integration per second; at least 20 000.
+    pub substep_hz: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Angle at the start, rad; `None` draws one revolution's angle from the seed.
+    pub start_angle_rad: Option<f64>,
+    /// Standard deviation of the current sensor's noise, A.
+    pub current_noise_a: f64,
+    /// What the current sensor reads at no current, A.
+    pub current_zero_a: f64,
+}
+
+/// A run on the bench: one entry of each column per drive sample.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    /// Time of the sample, s.
+    pub time_s: Vec<f64>,
+    /// Command, V (or A, see [`Amplifier`]), given just after the reading and held until the next row.
+    pub voltage_v: Vec<f64>,
+    /// Whether the bridge is told to drive.
+    pub enabled: Vec<bool>,
+    /// The encoder's counter.
+    pub counts: Vec<i64>,
+    /// Reading of the current sensor, A.
+    pub current_a: Vec<f64>,
+    /// True angle of the motor shaft, rad.
+    pub angle_rad: Vec<f64>,
+    /// True speed of the motor shaft, rad/s.
+    pub speed_rad_s: Vec<f64>,
+}
+
+impl Bench {
+    /// The plain machine under voltage control: 4096 counts, 1 ms, no jitter, no noise, seed 0.
+    pub fn new(machine: Machine) -> Self {
+        Bench {
+            machine,
+            effects: Vec::new(),
+            amplifier: Amplifier::Voltage,
+            counts_per_rev: 4096,
+            sample_s: 1e-3,
+            jitter_s: 0.0,
+            substep_hz: DEFAULT_SUBSTEP_HZ,
+            seed: 0,
+            start_angle_rad: None,
+            current_noise_a: 0.0,
+            current_zero_a: 0.0,
+        }
+    }
+
+    /// Plays the drive and records. Row k is read at its time before its command acts.
+    ///
+    /// # Errors
+    /// A setting, command or effect that makes no sense; [`BenchError::Diverged`].
+    pub fn run(&self, drive: &[DriveSample]) -> Result<Run, BenchError> {
+        self.check(drive)?;
+        let effects = self.assemble()?;
+        let latency_s = effects.iter().map(|effect| effect.latency_s()).sum();
+        let times_s = self.sample_times(drive.len());
+        let mut timeline = Timeline::new(drive, &times_s, latency_s);
+        let mut plant = Plant::new(self.machine, &effects, self.substep_hz, self.start_angle());
+        let mut encoder = Encoder::new(&effects, self.counts_per_rev, self.seed);
+        let mut noise = Chance::new(self.seed, "current noise");
+        let mut run = Run::default();
+        for (row, sample) in drive.iter().enumerate() {
+            let now = times_s[row];
+            let state = plant.state;
+            if !(state.angle.is_finite() && state.speed.is_finite() && state.current.is_finite()) {
+                return Err(BenchError::Diverged { time_s: now });
+            }
+            run.time_s.push(now);
+            run.voltage_v.push(sample.volts);
+            run.enabled.push(sample.enabled);
+            run.counts.push(encoder.read(state.angle));
+            run.current_a
+                .push(state.current + self.current_zero_a + self.current_noise_a * noise.normal());
+            run.angle_rad.push(state.angle);
+            run.speed_rad_s.push(state.speed);
+            if let Some(next) = times_s.get(row + 1) {
+                timeline.play(now, *next, |sample, dt| {
+                    plant.advance(self.feed(sample), dt)
+                });
+                encoder.pass((plant.state.angle - state.angle) / (next - now), next - now);
+            }
+        }
+        Ok(run)
+    }
+
+    fn feed(&self, sample: DriveSample) -> Feed {
+        match (sample.enabled, self.amplifier) {
+            (false, _) => Feed::Open,
+            (true, Amplifier::Voltage) => Feed::Volts(sample.volts),
+            (true, Amplifier::Current) => Feed::Amps(sample.volts),
+        }
+    }
+
+    fn sample_times(&self, rows: usize) -> Vec<f64> {
+        let mut chance = Chance::new(self.seed, "sample times");
+        let jitter = |row| {
+            if row == 0 {
+                0.0
+            } else {
+                self.jitter_s * (2.0 * chance.uniform() - 1.0)
+            }
+        };
+        let deviations = (0..rows).map(jitter);
+        deviations
+            .enumerate()
+            .map(|(row, late)| row as f64 * self.sample_s + late)
+            .collect()
+    }
+
+    fn start_angle(&self) -> f64 {
+        let drawn = TAU * Chance::new(self.seed, "start angle").uniform();
+        self.start_angle_rad.unwrap_or(drawn)
+    }
+
+    /// The effects in the order of the catalogue.
+    fn assemble(&self) -> Result<Vec<Box<dyn Effect>>, BenchError> {
+        let mut effects = Vec::new();
+        for kind in CATALOGUE {
+            let mut orders = self
+                .effects
+                .iter()
+                .filter(|hidden| hidden.name() == kind.name);
+            if let Some(hidden) = orders.next() {
+                effects.push(hidden.build(&self.machine)?);
+            }
+            if orders.next().is_some() {
+                return Err(BenchError::Twice(kind.name));
+            }
+        }
+        Ok(effects)
+    }
+
+    fn check(&self, drive: &[DriveSample]) -> Result<(), BenchError> {
+        self.machine.check()?;
+        let interval = self.sample_s;
+        let counts = f64::from(self.counts_per_rev);
+        let at_least_zero = |value: f64| value >= 0.0 && value.is_finite();
+        let start = self.start_angle_rad.unwrap_or(0.0);
+        let settings = [
+            ("counts_per_rev", counts, counts >= 1.0, "at least 1"),
+            (
+                "sample_s",
+                interval,
+                interval > 0.0 && interval.is_finite(),
+                "above zero",
+            ),
+            (
+                "jitter_s",
+                self.jitter_s,
+                at_least_zero(self.jitter_s) && self.jitter_s < 0.5 * interval,
+                "zero to less than half the sample interval",
+            ),
+            (
+                "substep_hz",
+                self.substep_hz,
+                (20e3..=10e6).contains(&self.substep_hz),
+                "20 000 to 10 000 000",
+            ),
+            (
+                "start_angle_rad",
+                start,
+                start.is_finite(),
+                "a finite number",
+            ),
+            (
+                "current_noise_a",
+                self.current_noise_a,
+                at_least_zero(self.current_noise_a),
+                "zero or above",
+            ),
+            (
+                "current_zero_a",
+                self.current_zero_a,
+                self.current_zero_a.is_finite(),
+                "a finite number",
+            ),
+        ];
+        for (setting, value, holds, need) in settings {
+            BenchError::require(holds, setting, value, need)?;
+        }
+        if let Some(row) = drive.iter().position(|sample| !sample.volts.is_finite()) {
+            return Err(BenchError::BadCommand {
+                row,
+                value: drive[row].volts,
+            });
+        }
+        let electrical = self.effects.iter().find(|hidden| hidden.is_electrical());
+        match (self.amplifier, electrical) {
+            (Amplifier::Current, Some(hidden)) => {
+                Err(BenchError::HiddenByCurrentLoop(hidden.name()))
+            }
+            _ => Ok(()),
+        }
+    }
+}
