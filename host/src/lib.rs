@@ -6,6 +6,8 @@
 
 pub mod bench;
 pub mod fit;
+pub mod input;
+pub mod output;
 pub mod problem;
 pub mod recording;
 pub mod solve;

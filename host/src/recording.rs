@@ -11,7 +11,7 @@ pub enum Drive {
 
 /// One recording, in SI units and encoder counts, checked on entry: all columns have equal length,
 /// every number is finite and time increases.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// Where it came from, for messages.
     pub source: String,
@@ -44,5 +44,58 @@ impl Recording {
     /// Whether there is no sample at all.
     pub fn is_empty(&self) -> bool {
         self.time_s.is_empty()
+    }
+
+    /// Time from the first sample to the last, s.
+    pub fn duration_s(&self) -> f64 {
+        match (self.time_s.first(), self.time_s.last()) {
+            (Some(first), Some(last)) => last - first,
+            _ => 0.0,
+        }
+    }
+
+    /// Median time between samples, s; zero for fewer than two. Of an even number the upper of the middle two.
+    pub fn median_interval_s(&self) -> f64 {
+        let mut steps: Vec<f64> = self
+            .time_s
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .collect();
+        if steps.is_empty() {
+            return 0.0;
+        }
+        let middle = steps.len() / 2;
+        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    }
+
+    /// The samples before `seconds` after the first, and the rest; `None` where either would have fewer than
+    /// two. To fit one part and hold out the other.
+    pub fn split_at(&self, seconds: f64) -> Option<(Recording, Recording)> {
+        let start = *self.time_s.first()?;
+        let cut = self.time_s.partition_point(|time| time - start < seconds);
+        if cut < 2 || self.len() - cut < 2 {
+            return None;
+        }
+        let before = self.rows(0..cut, format!("{} (first {seconds} s)", self.source));
+        let after = self.rows(
+            cut..self.len(),
+            format!("{} (after {seconds} s)", self.source),
+        );
+        Some((before, after))
+    }
+
+    fn rows(&self, rows: std::ops::Range<usize>, source: String) -> Recording {
+        Recording {
+            source,
+            time_s: self.time_s[rows.clone()].to_vec(),
+            command: self.command[rows.clone()].to_vec(),
+            counts: self.counts[rows.clone()].to_vec(),
+            current_a: self
+                .current_a
+                .as_ref()
+                .map(|current| current[rows.clone()].to_vec()),
+            enabled: self.enabled.as_ref().map(|enabled| enabled[rows].to_vec()),
+            ..*self
+        }
     }
 }

@@ -1,0 +1,51 @@
+//! One cell to one finite number or switch.
+
+use super::read_error::ReadFault;
+use super::suggest::shown;
+
+/// A finite number.
+pub(super) fn number(text: &str) -> Result<f64, ReadFault> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) if value.is_nan() => Err(ReadFault::Nan { text: shown(text) }),
+        Ok(_) => Err(ReadFault::Infinite { text: shown(text) }),
+        Err(_) if text.is_empty() => Err(ReadFault::EmptyCell),
+        Err(_) => Err(ReadFault::NotANumber {
+            text: shown(text),
+            remedy: remedy(text),
+        }),
+    }
+}
+
+/// A number that a conversion of `text` has made, which must still be finite.
+pub(super) fn finite(value: f64, text: &str) -> Result<f64, ReadFault> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(ReadFault::Infinite { text: shown(text) })
+    }
+}
+
+/// 0 or 1, false or true.
+pub(super) fn switch(text: &str) -> Result<bool, ReadFault> {
+    if text.eq_ignore_ascii_case("true") {
+        return Ok(true);
+    }
+    if text.eq_ignore_ascii_case("false") {
+        return Ok(false);
+    }
+    match number(text) {
+        Ok(1.0) => Ok(true),
+        Ok(0.0) => Ok(false),
+        Err(ReadFault::EmptyCell) => Err(ReadFault::EmptyCell),
+        _ => Err(ReadFault::NotASwitch { text: shown(text) }),
+    }
+}
+
+fn remedy(text: &str) -> &'static str {
+    if text.contains(',') && text.replace(',', ".").parse::<f64>().is_ok() {
+        "write a point for the decimal comma"
+    } else {
+        "write a plain number such as 0.25 or 1e-3, without a unit"
+    }
+}

@@ -1,0 +1,280 @@
+//! The text of a `motor.toml` to [`MotorFile`] and back.
+
+use std::fmt::Write;
+
+use super::motor_error::{MotorFault, MotorFileError};
+use super::motor_file::{Columns, Fact, Known, MotorFile};
+use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
+use super::section::{Found, Section, Text};
+use crate::recording::Drive;
+
+const DRIVES: &[(&str, Drive)] = &[("voltage", Drive::Voltage), ("current", Drive::Current)];
+
+const FACTS: [&str; 7] = [
+    "resistance_ohm",
+    "inductance_h",
+    "kt_n_m_a",
+    "kb_v_s_rad",
+    "inertia_kg_m2",
+    "viscous_n_m_s",
+    "kt_equals_kb",
+];
+const TOP: [&str; 4] = ["name", "counts_per_rev", "supply_v", "metres_per_rev"];
+
+/// Keys that stand in one section only, to tell where a lost one belongs.
+const HOMES: [(&str, &[&str]); 4] = [
+    ("", &TOP),
+    ("columns", &["enabled"]),
+    ("drive", &["kind"]),
+    ("known", &FACTS),
+];
+
+impl MotorFile {
+    /// Reads the text of a motor file; `source` names it in errors.
+    ///
+    /// # Errors
+    /// `source:line:column` of a syntax error, of a key nobody reads (with the nearest that is), or of a value
+    /// of the wrong type, not finite or not positive.
+    pub fn parse(text: &str, source: &str) -> Result<Self, MotorFileError> {
+        // Editors on Windows put a byte order mark first, which TOML does not allow.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut top = Section::top(Text { source, text })?;
+        let mut file = MotorFile {
+            source: Some(source.into()),
+            name: top.string("name")?.map(|found| found.value),
+            counts_per_rev: value(top.positive("counts_per_rev")?),
+            supply_v: value(top.positive("supply_v")?),
+            metres_per_rev: value(top.positive("metres_per_rev")?),
+            columns: columns(top.section("columns")?)?,
+            ..MotorFile::default()
+        };
+        let unit_section = top.section("units")?;
+        let drive_section = top.section("drive")?;
+        file.drive = drive(drive_section)?;
+        file.units = units(unit_section, file.drive)?;
+        file.known = known(top.section("known")?)?;
+        top.finish(|key| home_of(key, ""))?;
+        Ok(file)
+    }
+
+    /// The text that [`parse`](Self::parse) reads back as this value.
+    pub fn to_toml(&self) -> String {
+        let mut out = String::new();
+        let mut line = |key: &str, value: Option<String>| {
+            if let Some(value) = value {
+                // Writing to a String cannot fail.
+                let _ = writeln!(out, "{key} = {value}");
+            }
+        };
+        line("name", self.name.as_deref().map(quoted));
+        line("counts_per_rev", self.counts_per_rev.map(number));
+        line("supply_v", self.supply_v.map(number));
+        line("metres_per_rev", self.metres_per_rev.map(number));
+        for (key, name) in [
+            ("columns.time", &self.columns.time),
+            ("columns.voltage", &self.columns.voltage),
+            ("columns.angle", &self.columns.angle),
+            ("columns.current", &self.columns.current),
+            ("columns.enabled", &self.columns.enabled),
+        ] {
+            line(key, name.as_deref().map(quoted));
+        }
+        line("units.time", word(TimeUnit::ALL, self.units.time));
+        line("units.voltage", word(CommandUnit::ALL, self.units.voltage));
+        line("units.angle", word(AngleUnit::ALL, self.units.angle));
+        line("units.current", word(CurrentUnit::ALL, self.units.current));
+        line("drive.kind", word(DRIVES, self.drive));
+        for (key, fact) in self.known.facts() {
+            line(&format!("known.{key}"), fact.map(fact_text));
+        }
+        line(
+            "known.kt_equals_kb",
+            self.known.kt_equals_kb.then(|| "true".into()),
+        );
+        out
+    }
+}
+
+impl Known {
+    /// Every fact with its key in `[known]`, in the order of the file.
+    pub fn facts(&self) -> [(&'static str, Option<Fact>); 6] {
+        [
+            ("resistance_ohm", self.resistance_ohm),
+            ("inductance_h", self.inductance_h),
+            ("kt_n_m_a", self.kt_n_m_a),
+            ("kb_v_s_rad", self.kb_v_s_rad),
+            ("inertia_kg_m2", self.inertia_kg_m2),
+            ("viscous_n_m_s", self.viscous_n_m_s),
+        ]
+    }
+}
+
+fn value<T>(found: Option<Found<T>>) -> Option<T> {
+    found.map(|found| found.value)
+}
+
+fn columns(mut section: Section<'_>) -> Result<Columns, MotorFileError> {
+    let columns = Columns {
+        time: section.column("time")?,
+        voltage: section.column("voltage")?,
+        angle: section.column("angle")?,
+        current: section.column("current")?,
+        enabled: section.column("enabled")?,
+    };
+    section.finish(|key| home_of(key, "columns"))?;
+    Ok(columns)
+}
+
+fn drive(mut section: Section<'_>) -> Result<Drive, MotorFileError> {
+    let kind = value(section.word("kind", DRIVES)?);
+    section.finish(|key| home_of(key, "drive"))?;
+    Ok(kind.unwrap_or(Drive::Voltage))
+}
+
+fn units(mut section: Section<'_>, drive: Drive) -> Result<Units, MotorFileError> {
+    let voltage = section.word("voltage", CommandUnit::ALL)?;
+    if let Some(found) = &voltage {
+        fits_drive(found.value, drive).map_err(|fault| section.error(&found.span, fault))?;
+    }
+    let units = Units {
+        time: value(section.word("time", TimeUnit::ALL)?).unwrap_or_default(),
+        voltage: value(voltage).unwrap_or_default(),
+        angle: value(section.word("angle", AngleUnit::ALL)?).unwrap_or_default(),
+        current: value(section.word("current", CurrentUnit::ALL)?).unwrap_or_default(),
+    };
+    section.finish(|key| home_of(key, "units"))?;
+    Ok(units)
+}
+
+/// A current amplifier takes volts at its input or amperes; a bridge takes volts or a duty.
+fn fits_drive(unit: CommandUnit, drive: Drive) -> Result<(), MotorFault> {
+    match (unit, drive) {
+        (CommandUnit::Amperes, Drive::Voltage) | (CommandUnit::Milliamperes, Drive::Voltage) => {
+            let unit = if unit == CommandUnit::Amperes {
+                "A"
+            } else {
+                "mA"
+            };
+            let remedy = "for an amplifier that closes a current loop write kind = \"current\" under [drive]";
+            Err(MotorFault::DriveUnit {
+                unit,
+                kind: "voltage",
+                remedy,
+            })
+        }
+        (CommandUnit::Duty, Drive::Current) => {
+            let remedy = "a duty is a voltage: write kind = \"voltage\" under [drive], or give the command in V or A";
+            Err(MotorFault::DriveUnit {
+                unit: "duty",
+                kind: "current",
+                remedy,
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn known(mut section: Section<'_>) -> Result<Known, MotorFileError> {
+    let facts = Known {
+        resistance_ohm: fact(&mut section, "resistance_ohm")?,
+        inductance_h: fact(&mut section, "inductance_h")?,
+        kt_n_m_a: fact(&mut section, "kt_n_m_a")?,
+        kb_v_s_rad: fact(&mut section, "kb_v_s_rad")?,
+        inertia_kg_m2: fact(&mut section, "inertia_kg_m2")?,
+        viscous_n_m_s: fact(&mut section, "viscous_n_m_s")?,
+        kt_equals_kb: false,
+    };
+    let equal = section.boolean("kt_equals_kb")?;
+    if let (Some(Found { value: true, span }), Some(kt), Some(kb)) =
+        (&equal, facts.kt_n_m_a, facts.kb_v_s_rad)
+        && contradict(kt, kb)
+    {
+        let fault = MotorFault::UnequalConstants {
+            kt: kt.value,
+            kb: kb.value,
+        };
+        return Err(section.error(span, fault));
+    }
+    section.finish(|key| home_of(key, "known"))?;
+    Ok(Known {
+        kt_equals_kb: value(equal).unwrap_or(false),
+        ..facts
+    })
+}
+
+/// Whether no common value lies within both tolerances; constants are taken to be rounded at the sixth digit.
+fn contradict(a: Fact, b: Fact) -> bool {
+    let reach = |fact: Fact| fact.value * fact.tolerance.unwrap_or(0.0).max(1e-6);
+    (a.value - b.value).abs() > reach(a) + reach(b)
+}
+
+/// `key = 1.2` or `key = { value = 1.2, tolerance = 0.05 }`.
+fn fact(section: &mut Section<'_>, key: &'static str) -> Result<Option<Fact>, MotorFileError> {
+    let (mut inner, span) = match section.positive_or_section(key)? {
+        None => return Ok(None),
+        Some(Ok(found)) => {
+            return Ok(Some(Fact {
+                value: found.value,
+                tolerance: None,
+            }));
+        }
+        Some(Err(found)) => (found.value, found.span),
+    };
+    let value = inner.positive("value")?;
+    let tolerance = inner.positive("tolerance")?;
+    if let Some(found) = tolerance.as_ref().filter(|found| found.value >= 1.0) {
+        return Err(inner.error(&found.span, MotorFault::Tolerance { value: found.value }));
+    }
+    let Some(value) = value else {
+        let remedy = "write { value = 1.2, tolerance = 0.05 }, or the number alone";
+        return Err(inner.error(
+            &span,
+            MotorFault::MissingKey {
+                key: format!("{key}.value"),
+                remedy,
+            },
+        ));
+    };
+    inner.finish(|_| None)?;
+    Ok(Some(Fact {
+        value: value.value,
+        tolerance: tolerance.map(|found| found.value),
+    }))
+}
+
+/// Where a key belongs that stands in the wrong section `here`. A key written below a `[section]` falls
+/// into it, the commonest slip in TOML.
+fn home_of(key: &str, here: &str) -> Option<String> {
+    let (home, _) = HOMES
+        .iter()
+        .find(|(home, keys)| *home != here && keys.contains(&key))?;
+    Some(match *home {
+        "" => "it belongs above the first [section]".into(),
+        home => format!("it belongs under [{home}]"),
+    })
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
+fn number(value: f64) -> String {
+    toml::Value::from(value).to_string()
+}
+
+fn word<T: PartialEq>(all: &[(&str, T)], value: T) -> Option<String> {
+    all.iter()
+        .find(|(_, unit)| *unit == value)
+        .map(|(name, _)| quoted(name))
+}
+
+fn fact_text(fact: Fact) -> String {
+    match fact.tolerance {
+        None => number(fact.value),
+        Some(tolerance) => format!(
+            "{{ value = {}, tolerance = {} }}",
+            number(fact.value),
+            number(tolerance)
+        ),
+    }
+}

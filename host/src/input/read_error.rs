@@ -1,0 +1,320 @@
+//! What can be wrong with a recording, each with its remedy.
+
+use std::io;
+
+use super::place::Place;
+use super::suggest::quoted_list;
+
+/// A recording that cannot be used: where, and why.
+#[derive(Debug, thiserror::Error)]
+#[error("{place}: {fault}")]
+pub struct ReadError {
+    /// File, line, number of the cell and its name.
+    pub place: Box<Place>,
+    /// What was seen there and what to do.
+    pub fault: ReadFault,
+}
+
+impl ReadError {
+    /// A fault at a place.
+    pub(super) fn new(place: Place, fault: ReadFault) -> Self {
+        ReadError {
+            place: Box::new(place),
+            fault,
+        }
+    }
+}
+
+/// A column that the recording must have and has not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingColumn {
+    /// Key in `[columns]`.
+    pub key: &'static str,
+    /// The name looked for.
+    pub wanted: String,
+    /// Whether the user's `[columns]` asked for that name.
+    pub mapped: bool,
+    /// The header's name that comes nearest, and the unit its ending tells.
+    pub near: Option<(String, Option<&'static str>)>,
+}
+
+/// What was seen in a recording, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadFault {
+    /// The system refused to read it.
+    #[error("cannot be read: {0}; check the path and its permissions")]
+    Io(io::Error),
+    /// The path is a folder.
+    #[error("is a folder; name the CSV file inside it")]
+    Folder,
+    /// Nothing but comments and blank lines.
+    #[error(
+        "is empty; a recording has a header row (t_s,voltage_v,angle_counts) and at least two samples"
+    )]
+    Empty,
+    /// Not UTF-8, or a NUL byte.
+    #[error("this is not UTF-8 text; save the recording as CSV in UTF-8")]
+    NotText,
+    /// A line that does not end.
+    #[error(
+        "the line does not end within {limit} bytes; a recording has one short row a sample: is this a CSV file?"
+    )]
+    LineTooLong {
+        /// The limit in bytes.
+        limit: usize,
+    },
+    /// Lines ended by carriage returns alone.
+    #[error("a carriage return inside the line; save the file with line ends LF or CRLF")]
+    CarriageReturn,
+    /// A quote that the line does not close.
+    #[error(
+        "a quote (\") is opened and not closed on this line; numbers need no quotes: remove it"
+    )]
+    OpenQuote,
+    /// More rows than will be held in memory.
+    #[error("more than {limit} samples; split the recording, or keep every second row")]
+    TooManyRows {
+        /// The limit in rows.
+        limit: usize,
+    },
+    /// The memory is not there.
+    #[error("no memory for more samples; split the recording, or keep every second row")]
+    OutOfMemory,
+    /// The first row holds numbers.
+    #[error(
+        "the first row holds numbers ({first}) where the columns' names must stand; add a header row such as \
+         t_s,voltage_v,angle_counts (a line that begins with # is a comment, not a header)"
+    )]
+    NoHeader {
+        /// The first row.
+        first: String,
+    },
+    /// Columns that are not there.
+    #[error("{}", missing_text(.missing, .header, .motor))]
+    MissingColumns {
+        /// What is missing.
+        missing: Vec<MissingColumn>,
+        /// The names the header has.
+        header: Vec<String>,
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// Two columns of one name.
+    #[error("the header has this name {times} times; rename all but the one that is meant")]
+    RepeatedColumn {
+        /// How often.
+        times: usize,
+    },
+    /// A row with too many or too few cells.
+    #[error(
+        "the row has {cells} cells, the header {header}; write one cell a column, or correct the separators"
+    )]
+    Ragged {
+        /// Cells in the row.
+        cells: usize,
+        /// Cells in the header.
+        header: usize,
+    },
+    /// An empty cell.
+    #[error("the cell is empty; fill in the number or remove the row")]
+    EmptyCell,
+    /// Text where a number belongs.
+    #[error("{text:?} is not a number; {remedy}")]
+    NotANumber {
+        /// The cell.
+        text: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// NaN.
+    #[error(
+        "{text:?} is not a number (NaN); remove the row or find out why the logger had no value"
+    )]
+    Nan {
+        /// The cell.
+        text: String,
+    },
+    /// Infinite, or beyond what a double holds.
+    #[error("{text:?} is infinite or too large; remove the row or correct the number")]
+    Infinite {
+        /// The cell.
+        text: String,
+    },
+    /// Neither 0 nor 1.
+    #[error(
+        "{text:?} is neither 0 nor 1; write 1 while the bridge drives the motor and 0 while it is open"
+    )]
+    NotASwitch {
+        /// The cell.
+        text: String,
+    },
+    /// Time goes back.
+    #[error(
+        "time goes back from {before} s to {now} s; it must increase from row to row: sort the rows, or cut the \
+         recording where the clock was reset"
+    )]
+    TimeBack {
+        /// Time of the row before, s.
+        before: f64,
+        /// Time of this row, s.
+        now: f64,
+    },
+    /// Time stands still.
+    #[error(
+        "time repeats {now} s; it must increase from row to row: remove the repeated row, or log time with more digits"
+    )]
+    TimeRepeats {
+        /// Time of both rows, s.
+        now: f64,
+    },
+    /// A reading no 32-bit counter can hold.
+    #[error(
+        "{counts} counts are beyond a 32-bit counter (-2147483648 ... 2147483647); subtract the first reading from all \
+         (the angle may start anywhere)"
+    )]
+    BeyondCounter {
+        /// The reading, counts.
+        counts: f64,
+    },
+    /// A fraction of a count.
+    #[error(
+        "{counts} is not a whole number of counts; if the column holds an angle, name its unit under [units] in \
+         {motor}: angle = \"rad\" (or deg, rev, m)"
+    )]
+    FractionalCounts {
+        /// The reading.
+        counts: f64,
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// Too short to be a recording.
+    #[error("the recording has {} after the header; at least two samples are needed", samples(*.0))]
+    TooFewSamples(usize),
+    /// The encoder is unknown.
+    #[error(
+        "counts_per_rev is not known; add `counts_per_rev = 2048` (your encoder's lines times 4) at the top of \
+         {motor}, or give --counts-per-rev"
+    )]
+    NoCountsPerRev {
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// A duty without a supply.
+    #[error(
+        "the command is a duty, so the supply voltage is needed; add `supply_v = 24.0` (your supply) at the top of \
+         {motor}, or give --supply-v"
+    )]
+    NoSupply {
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// Metres without a pitch.
+    #[error(
+        "the angle is in metres, so the travel per revolution is needed; add `metres_per_rev = 0.0025` (your screw or \
+         pulley) at the top of {motor}"
+    )]
+    NoMetresPerRev {
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// A number of the motor file, or of a flag in its place, that has no meaning.
+    #[error("{key} is {value}; a finite number greater than zero is needed")]
+    NotPositive {
+        /// The key.
+        key: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// Nothing was commanded.
+    #[error(
+        "the command is zero in every row while the bridge is driven, so there is no response to fit; record the motor \
+         while a voltage is applied, or map the right column"
+    )]
+    NoCommand,
+    /// The encoder stood still.
+    #[error(
+        "the encoder reads {counts} counts in every row: it never moved; check its wiring, the voltage against \
+         friction, and the angle's column"
+    )]
+    NeverMoved {
+        /// The reading.
+        counts: f64,
+    },
+    /// The encoder moved by less than can be fitted.
+    #[error(
+        "the encoder moved only {travel} counts; at least {needed} are needed to tell motion from quantisation: apply \
+         more voltage or record longer"
+    )]
+    TooLittleTravel {
+        /// Largest less smallest reading, counts.
+        travel: f64,
+        /// What is needed, counts.
+        needed: f64,
+    },
+    /// A counter of 16 or 32 bits that ran over.
+    #[error(
+        "the encoder jumps from {from} to {to} counts at t = {time_s} s, as a {bits}-bit counter does when it runs \
+         over; add the multiples of 2^{bits} in the logger, so that the reading is cumulative"
+    )]
+    CounterRanOver {
+        /// Time of the second reading, s.
+        time_s: f64,
+        /// Reading before.
+        from: f64,
+        /// Reading after.
+        to: f64,
+        /// Width of the counter.
+        bits: u32,
+    },
+}
+
+fn samples(count: usize) -> &'static str {
+    match count {
+        0 => "no sample",
+        1 => "one sample",
+        _ => "too few samples",
+    }
+}
+
+/// All missing columns in one message, and the lines that map what the header has.
+fn missing_text(missing: &[MissingColumn], header: &[String], motor: &str) -> String {
+    let wanted: Vec<&str> = missing
+        .iter()
+        .map(|column| column.wanted.as_str())
+        .collect();
+    let plural = if missing.len() == 1 {
+        "column"
+    } else {
+        "columns"
+    };
+    let mut text = format!(
+        "no {plural} {}; the header has {}",
+        quoted_list(&wanted),
+        quoted_list(header)
+    );
+    if missing.iter().any(|column| column.mapped) {
+        text += &format!(" ([columns] in {motor} asks for it)");
+    }
+    text += &format!(". Say in {motor} which is which:\n    [columns]");
+    for column in missing {
+        text += &match &column.near {
+            Some((near, _)) => format!("\n    {} = {near:?}", column.key),
+            None => format!("\n    {} = \"...\"", column.key),
+        };
+    }
+    let units: Vec<String> = missing
+        .iter()
+        .filter_map(|column| {
+            Some(format!(
+                "\n    {} = {:?}",
+                column.key,
+                column.near.as_ref()?.1?
+            ))
+        })
+        .collect();
+    if !units.is_empty() {
+        text += "\n    [units]";
+        text += &units.concat();
+    }
+    text
+}
