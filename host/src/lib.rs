@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bench;
+pub mod error;
 pub mod fit;
 pub mod input;
 pub mod output;

@@ -165,6 +165,17 @@ impl<S: Scalar> Model<S> {
         }
     }
 
+    /// Speed of a shaft that broke loose within the smallest part of a step, in which the pull rose
+    /// evenly from `before` to `pull`: the excess over friction acts for the rest of the part.
+    fn started(&self, map: &StepMap<S::Coefficient>, pull: S, before: S, budget: &Budget<S>) -> S {
+        let excess = pull.abs() - budget.holding;
+        let rest = excess.part_of(pull.abs() - before.abs());
+        let mean = excess * S::from_f64(0.5) + (budget.holding - budget.moving);
+        let torque = mean * rest * pull.signum();
+        // The map's last column answers to a torque against positive rotation.
+        (-torque).times(map.speed[3])
+    }
+
     /// Takes one substep in the largest parts that hold no stop and no release.
     fn slide_and_stick(
         &self,
@@ -193,12 +204,23 @@ impl<S: Scalar> Model<S> {
             let speed = state.speed + slide.speed;
             let turns_back = (speed * sense).less(zero);
             let breaks_loose = budget.holding.less((current - torque).abs()).and(holds);
-            if turns_back.or(breaks_loose).any() && level < LEVELS {
-                level += 1;
-                continue;
+            if turns_back.or(breaks_loose).any() {
+                if level < LEVELS {
+                    level += 1;
+                    continue;
+                }
+                let pull = current - torque;
+                let started = self.started(&maps[level], pull, state.current - torque, budget);
+                let passed = passed_through(speed, pull, budget);
+                state.speed = S::select(
+                    holds,
+                    S::select(breaks_loose, started, zero),
+                    S::select(turns_back, passed, speed),
+                );
+            } else {
+                state.speed = S::select(holds, zero, speed);
             }
             state.current = current;
-            state.speed = S::select(turns_back.or(holds), zero, speed);
             state.angle = state
                 .angle
                 .advance(S::select(holds, zero, slide.angle), self.counts_per_unit);
@@ -208,6 +230,16 @@ impl<S: Scalar> Model<S> {
             }
         }
     }
+}
+
+/// Speed after a reversal within the smallest part of a step. The part was run with friction on
+/// the old side throughout; beyond the reversal the same pull meets friction on the new side, so
+/// the speed gained there shrinks as the net torque does. Zero if friction holds the pull.
+fn passed_through<S: Scalar>(speed: S, pull: S, budget: &Budget<S>) -> S {
+    let pull = pull.abs();
+    let share = (pull - budget.moving).part_of(pull + budget.moving);
+    let held = budget.holding.less(pull).not();
+    S::select(held, S::zero(), speed * share)
 }
 
 /// One linear map: held voltage, held torque.

@@ -169,6 +169,16 @@ impl Objective for FitProblem<'_> {
         }
     }
 
+    fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let mut errors = self.errors(&self.candidate(x)).ok()?;
+        let cost = self.sum(&errors);
+        let centre = self.data.centre(0) - self.data.counts[0];
+        for error in &mut errors {
+            *error -= centre;
+        }
+        errors.iter().all(|e| e.is_finite()).then_some((errors, cost))
+    }
+
     fn start(&self) -> Option<Vec<f64>> {
         self.start.clone()
     }

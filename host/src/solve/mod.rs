@@ -1,6 +1,8 @@
 //! Search methods behind one door: each minimises a cost over the unit cube, and every single model
 //! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
 
+pub mod lm_quick;
+
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The search is over: the budget is spent or the user asked to stop. Solvers return at once.
@@ -13,8 +15,9 @@ pub trait Objective: Sync {
     fn dim(&self) -> usize;
     /// Cost of the point `x`.
     fn cost(&self, x: &[f64]) -> f64;
-    /// Residual vector whose squares the least-squares methods sum, or `None` where there is none.
-    fn residuals(&self, _x: &[f64]) -> Option<Vec<f64>> {
+    /// Residual vector whose squares the least-squares methods sum, and the cost, from one and the
+    /// same evaluation; `None` where there is none.
+    fn residuals_and_cost(&self, _x: &[f64]) -> Option<(Vec<f64>, f64)> {
         None
     }
     /// A start from the data (regression), if there is one.
@@ -57,7 +60,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The problem being solved.
-    pub fn objective(&self) -> &dyn Objective {
+    pub fn objective(&self) -> &'a dyn Objective {
         self.objective
     }
 

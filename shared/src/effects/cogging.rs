@@ -1,6 +1,6 @@
 //! Cogging: the magnets prefer some angles.
 
-use super::{Description, Effect, Parameter, Shaft};
+use super::{Description, Effect, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -16,6 +16,7 @@ pub struct Cogging<S: Scalar> {
 impl<S: Scalar> Effect<S> for Cogging<S> {
     const DESCRIPTION: Description = Description {
         name: "cogging",
+        place: Place::Torque,
         title: "cogging torque",
         parameters: &[
             Parameter {

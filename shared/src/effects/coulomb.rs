@@ -1,6 +1,6 @@
 //! Coulomb friction.
 
-use super::{Budget, Description, Effect, Parameter, Shaft};
+use super::{Budget, Description, Effect, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -13,6 +13,7 @@ pub struct Coulomb<S> {
 impl<S: Scalar> Effect<S> for Coulomb<S> {
     const DESCRIPTION: Description = Description {
         name: "coulomb",
+        place: Place::Friction,
         title: "Coulomb friction",
         parameters: &[Parameter {
             name: "torque",

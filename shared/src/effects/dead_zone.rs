@@ -1,6 +1,6 @@
 //! Dead zone of the power stage.
 
-use super::{Description, Effect, Parameter, Shaft};
+use super::{Description, Effect, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -13,6 +13,7 @@ pub struct DeadZone<S> {
 impl<S: Scalar> Effect<S> for DeadZone<S> {
     const DESCRIPTION: Description = Description {
         name: "dead_zone",
+        place: Place::Drive,
         title: "dead zone of the power stage",
         parameters: &[Parameter {
             name: "voltage",

@@ -1,6 +1,6 @@
 //! Constant torque on the shaft.
 
-use super::{Description, Effect, Parameter, Shaft};
+use super::{Description, Effect, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -13,6 +13,7 @@ pub struct LoadTorque<S> {
 impl<S: Scalar> Effect<S> for LoadTorque<S> {
     const DESCRIPTION: Description = Description {
         name: "load_torque",
+        place: Place::Torque,
         title: "constant load torque",
         parameters: &[Parameter {
             name: "torque",

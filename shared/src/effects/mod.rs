@@ -58,11 +58,30 @@ impl Parameter {
     }
 }
 
+/// Where in the chain from command to encoder an effect acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Between command and winding.
+    Drive,
+    /// On the winding's own constants.
+    Winding,
+    /// A signed torque on the shaft.
+    Torque,
+    /// A friction budget on the shaft.
+    Friction,
+    /// Beyond a spring or a gap.
+    Load,
+    /// Between shaft and counter.
+    Sensed,
+}
+
 /// What an effect says about itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Description {
     /// Its name on the command line and in JSON.
     pub name: &'static str,
+    /// Where it acts.
+    pub place: Place,
     /// One line for a person.
     pub title: &'static str,
     /// Its parameters, at most [`MAX_PARAMETERS`].

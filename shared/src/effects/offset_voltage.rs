@@ -1,6 +1,6 @@
 //! Constant voltage added to the command.
 
-use super::{Description, Effect, Parameter, Shaft};
+use super::{Description, Effect, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -13,6 +13,7 @@ pub struct OffsetVoltage<S> {
 impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
     const DESCRIPTION: Description = Description {
         name: "offset_voltage",
+        place: Place::Drive,
         title: "voltage offset of the drive",
         parameters: &[Parameter {
             name: "voltage",

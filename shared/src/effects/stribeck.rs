@@ -1,6 +1,6 @@
 //! Stribeck friction: static friction above the sliding one.
 
-use super::{Budget, Description, Effect, Parameter, Shaft};
+use super::{Budget, Description, Effect, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -22,6 +22,7 @@ const REACH: f64 = 7.0;
 impl<S: Scalar> Effect<S> for Stribeck<S> {
     const DESCRIPTION: Description = Description {
         name: "stribeck",
+        place: Place::Friction,
         title: "Stribeck friction (larger near standstill)",
         parameters: &[
             Parameter {

@@ -139,6 +139,16 @@ impl Scalar for Fixed {
         )
     }
 
+    fn part_of(self, whole: Self) -> Self {
+        // Both are far from the top of their range here: 31 more bits fit before the division.
+        let (part, whole) = (self.0 >> 29, whole.0 >> 29);
+        if whole <= 0 {
+            return Fixed(0);
+        }
+        let bits = (part.clamp(0, whole) << 29) / whole;
+        Fixed(bits << (POINT - 29))
+    }
+
     fn exp_decay(self) -> Self {
         // e^x = (e^(x/256))^256: the series is short there, and squaring is exact enough.
         let x = Fixed(self.0.clamp(-(7 << POINT), 0) >> 8);

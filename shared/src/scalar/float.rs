@@ -42,6 +42,14 @@ macro_rules! float_scalar {
                 ($sin(radians), $cos(radians))
             }
             #[inline]
+            fn part_of(self, whole: Self) -> Self {
+                if whole > 0.0 {
+                    <$t>::min(<$t>::max(self / whole, 0.0), 1.0)
+                } else {
+                    0.0
+                }
+            }
+            #[inline]
             fn exp_decay(self) -> Self {
                 $exp(self)
             }

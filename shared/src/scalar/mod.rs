@@ -49,6 +49,8 @@ pub trait Scalar:
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
     /// Sine and cosine of an angle given as a fraction of a turn.
     fn sin_cos_turns(self) -> (Self, Self);
+    /// `self / whole` for `0 ≤ self ≤ whole`: a part in `[0, 1]`, zero of nothing.
+    fn part_of(self, whole: Self) -> Self;
     /// `e` to the power `self`, for `self ≤ 0`.
     fn exp_decay(self) -> Self;
 

@@ -1,0 +1,43 @@
+//! Everything that can go wrong, and the exit code that says so.
+
+use crate::bench::BenchError;
+use crate::input::{MotorFileError, ReadError};
+use crate::output::WriteError;
+use shared::error::ModelError;
+use thiserror::Error;
+
+/// An error with its remedy in its message.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A flag or argument that cannot be used.
+    #[error("{0}")]
+    Usage(String),
+    /// A recording that cannot be read or used.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A motor file that cannot be read.
+    #[error(transparent)]
+    Motor(#[from] MotorFileError),
+    /// The virtual bench refuses.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
+    /// No model can be built.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The work was done as far as it goes, and it does not go far enough.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl Error {
+    /// Exit code: 2 for wrong use, 1 for work that failed.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Usage(_) => 2,
+            _ => 1,
+        }
+    }
+}
