@@ -5,10 +5,16 @@
 #![forbid(unsafe_code)]
 
 pub mod bench;
+pub mod cli;
+pub mod cmd;
+pub mod compare;
 pub mod error;
 pub mod fit;
 pub mod input;
 pub mod output;
+pub mod plot;
 pub mod problem;
 pub mod recording;
+pub mod report;
+pub mod session;
 pub mod solve;

@@ -1,3 +1,17 @@
-//! The command line `servoid`.
+//! The command line `servoid`: parses, dispatches, and turns an error into a message and an exit code.
 #![forbid(unsafe_code)]
-fn main() {}
+
+use clap::Parser;
+use host::cli::Cli;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match host::cmd::run(cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("servoid: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

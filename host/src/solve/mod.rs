@@ -2,6 +2,7 @@
 //! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
 
 pub mod lm_quick;
+pub mod swarm;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -133,4 +134,24 @@ pub trait Solver: Sync {
     fn name(&self) -> &'static str;
     /// Searches until it has converged or `evaluator` says [`Stop`].
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64);
+}
+
+/// Every method, with its usual settings.
+pub fn all() -> Vec<Box<dyn Solver>> {
+    vec![
+        Box::new(lm_quick::LmQuick),
+        Box::new(swarm::ParticleSwarm::default()),
+        Box::new(swarm::Fireflies::default()),
+        Box::new(swarm::Random),
+    ]
+}
+
+/// Names of all methods.
+pub fn names() -> Vec<&'static str> {
+    all().iter().map(|solver| solver.name()).collect()
+}
+
+/// The method called `name`.
+pub fn by_name(name: &str) -> Option<Box<dyn Solver>> {
+    all().into_iter().find(|solver| solver.name() == name)
 }

@@ -1,0 +1,279 @@
+//! The shape of the command line, and nothing else.
+
+use crate::solve;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use shared::effects::Kind;
+use std::path::PathBuf;
+
+/// Identifies DC servo motors from encoder recordings: fits, compares methods, and reproduces the
+/// paper it grew from.
+#[derive(Debug, Parser)]
+#[command(name = "servoid", version, propagate_version = true, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// What every verb takes.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const EXAMPLES: &str = "Examples:
+  servoid demo
+  servoid simulate --machine gearmotor --hide coulomb --out bench.csv
+  servoid fit bench.csv --with coulomb
+  servoid compare bench.csv --seeds 30
+
+Results go to stdout, progress to stderr. Exit code 0: done; 1: the work failed; 2: wrong use.";
+
+/// Options of every verb.
+#[derive(Clone, Debug, Args)]
+pub struct Common {
+    /// Write the result as JSON to this file; `-` for stdout (then nothing else goes there)
+    #[arg(long, global = true, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long, global = true, default_value_t = 1, value_name = "N")]
+    pub seed: u64,
+    /// No progress bar, no remarks
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// The main job on built-in data, in a few seconds
+    Demo(DemoArgs),
+    /// The virtual bench makes recordings
+    Simulate(SimulateArgs),
+    /// Fits the model to a recording
+    Fit(FitArgs),
+    /// Compares search methods at an equal budget over many seeds
+    Compare(CompareArgs),
+    /// Reproduces the paper: its motor, its step, its bounds, its table beside ours
+    Paper(PaperArgs),
+    /// Prints a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+/// `servoid demo`.
+#[derive(Debug, Args)]
+pub struct DemoArgs {
+    /// Where the page goes
+    #[arg(long, default_value = "servoid-demo.html", value_name = "FILE")]
+    pub out: PathBuf,
+}
+
+/// `servoid simulate`.
+#[derive(Debug, Args)]
+pub struct SimulateArgs {
+    /// Motor on the bench (see --list)
+    #[arg(long, default_value = "gearmotor", value_name = "NAME")]
+    pub machine: String,
+    /// Hide an effect in it: a name, or name:key=value,key=value; may be repeated
+    #[arg(long, value_name = "EFFECT")]
+    pub hide: Vec<String>,
+    /// Excitation: commissioning, commissioning-coast, or the name of one shape (see --list)
+    #[arg(long, default_value = "commissioning", value_name = "NAME")]
+    pub excite: String,
+    /// Length, s; the usual one of the excitation if not given
+    #[arg(long, value_name = "S")]
+    pub seconds: Option<f64>,
+    /// Amplitude, as a part of the supply
+    #[arg(long, default_value_t = 1.0, value_name = "PART")]
+    pub amplitude: f64,
+    /// Sample interval, s
+    #[arg(long, default_value_t = 1e-3, value_name = "S")]
+    pub sample: f64,
+    /// Largest deviation of a sample's time, s
+    #[arg(long, default_value_t = 0.0, value_name = "S")]
+    pub jitter: f64,
+    /// Encoder counts per revolution
+    #[arg(long, default_value_t = 2000, value_name = "N")]
+    pub counts_per_rev: u32,
+    /// Also record the current
+    #[arg(long)]
+    pub current: bool,
+    /// Noise of the current sensor, A
+    #[arg(long, default_value_t = 0.0, value_name = "A")]
+    pub current_noise: f64,
+    /// Substeps of the plant a second
+    #[arg(long, value_name = "HZ")]
+    pub substep_hz: Option<f64>,
+    /// Where the recording goes; motor.toml is written beside it
+    #[arg(long, short, required_unless_present = "list", value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Do not write motor.toml beside the recording
+    #[arg(long)]
+    pub no_motor: bool,
+    /// List motors, effects and excitations
+    #[arg(long)]
+    pub list: bool,
+}
+
+/// What a user knows of the motor and the log: a file, or flags for each.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "The motor and the log")]
+pub struct MotorArgs {
+    /// What is known of the motor and its log; else motor.toml beside the recording
+    #[arg(long, value_name = "FILE")]
+    pub motor: Option<PathBuf>,
+    /// Encoder counts per revolution
+    #[arg(long, value_name = "N")]
+    pub counts_per_rev: Option<f64>,
+    /// Supply voltage, V
+    #[arg(long, value_name = "V")]
+    pub supply: Option<f64>,
+    /// Travel per revolution, m, for an angle logged in metres
+    #[arg(long, value_name = "M")]
+    pub metres_per_rev: Option<f64>,
+    /// Name of a column: time, voltage, angle, current or enabled, as in angle=qm
+    #[arg(long, value_name = "WHAT=NAME")]
+    pub column: Vec<String>,
+    /// Unit of a column, as in angle=rad
+    #[arg(long, value_name = "WHAT=UNIT")]
+    pub unit: Vec<String>,
+    /// What the command drives
+    #[arg(long, value_name = "voltage|current")]
+    pub drive: Option<String>,
+    /// A known fact, as in resistance_ohm=1.2 or resistance_ohm=1.2~0.05 (5 % tolerance)
+    #[arg(long, value_name = "FACT=VALUE")]
+    pub known: Vec<String>,
+    /// Torque and back-EMF constant are the same number (SI, no iron losses)
+    #[arg(long)]
+    pub kt_equals_kb: bool,
+}
+
+/// What the model is made of and what is minimised.
+#[derive(Clone, Debug, Args)]
+pub struct ModelArgs {
+    /// Effects beside the linear machine
+    #[arg(long, value_delimiter = ',', value_name = "EFFECT,…", value_parser = effect_names())]
+    pub with: Vec<String>,
+    /// What is minimised
+    #[arg(long, value_enum, default_value_t = CostName::Squared)]
+    pub cost: CostName,
+    /// Let the model run on its own for this long only, then set it back to the measurement, s
+    #[arg(long, value_name = "S")]
+    pub window: Option<f64>,
+    /// Discretisation of the model
+    #[arg(long, value_enum, default_value_t = Integrator::Exact)]
+    pub integrator: Integrator,
+    /// Steps to a sample interval where there are effects
+    #[arg(long, default_value_t = 2, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub substeps: u16,
+    /// Search range of an unknown, as in gain=10:100; may be repeated
+    #[arg(long, value_name = "NAME=LOW:HIGH", allow_hyphen_values = true)]
+    pub bounds: Vec<String>,
+}
+
+/// `servoid fit`.
+#[derive(Debug, Args)]
+pub struct FitArgs {
+    /// The recording
+    pub recording: PathBuf,
+    /// Another recording of the same motor, never fitted
+    #[arg(long, value_name = "FILE")]
+    pub validate: Option<PathBuf>,
+    /// Search method
+    #[arg(long, default_value = "lm", value_parser = algorithm_names())]
+    pub algorithm: String,
+    /// Model evaluations at most
+    #[arg(long, default_value_t = 20_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub budget: u64,
+    /// Plot of measured against model (SVG)
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// The model.
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// The motor.
+    #[command(flatten)]
+    pub motor: MotorArgs,
+}
+
+/// `servoid compare`.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// The recording
+    pub recording: PathBuf,
+    /// Search methods; all if not given
+    #[arg(long, value_delimiter = ',', value_parser = algorithm_names())]
+    pub algorithm: Vec<String>,
+    /// Model evaluations of each run
+    #[arg(long, default_value_t = 5000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub budget: u64,
+    /// Runs of each method, each with its own seed
+    #[arg(long, default_value_t = 30, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub seeds: u64,
+    /// Plot of best cost against evaluations (SVG)
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// The model.
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// The motor.
+    #[command(flatten)]
+    pub motor: MotorArgs,
+}
+
+/// `servoid paper`.
+#[derive(Debug, Args)]
+pub struct PaperArgs {
+    /// Runs of each method
+    #[arg(long, default_value_t = 30, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub seeds: u64,
+    /// Population
+    #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=64))]
+    pub population: u64,
+    /// Iterations
+    #[arg(long, default_value_t = 1000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub iterations: u64,
+    /// Folder for the Bode plot and the cost curves (SVG)
+    #[arg(long, value_name = "FOLDER")]
+    pub plots: Option<PathBuf>,
+    /// Length of the step response, s
+    #[arg(long, default_value_t = 10.0, value_name = "S")]
+    pub seconds: f64,
+    /// Sample interval, s
+    #[arg(long, default_value_t = 1e-3, value_name = "S")]
+    pub sample: f64,
+    /// Box of the six unknowns
+    #[arg(long, default_value = "1e-4:1.5", value_name = "LOW:HIGH", allow_hyphen_values = true)]
+    pub bounds: String,
+}
+
+/// Costs by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CostName {
+    /// Sum of squared errors
+    Squared,
+    /// Integral of the absolute error, reading floored and model not (the paper's figures)
+    Iae,
+    /// The same with the model floored too
+    IaeFloored,
+    /// Likelihood of the count's cell
+    Interval,
+}
+
+/// Discretisations by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Integrator {
+    /// Exact for held inputs
+    Exact,
+    /// The paper's explicit Euler step
+    Euler,
+}
+
+fn algorithm_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(solve::names())
+}
+
+fn effect_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Kind::ALL.iter().map(|kind| kind.name()))
+}

@@ -1,0 +1,42 @@
+//! `servoid compare`: search methods side by side on one recording.
+
+use super::{model, motor};
+use crate::cli::CompareArgs;
+use crate::compare::{self, Contest};
+use crate::error::Error;
+use crate::fit;
+use crate::output::write_whole;
+use crate::plot;
+use crate::problem::Data;
+use crate::report;
+use crate::session::Session;
+use crate::solve;
+
+pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
+    let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
+    let data = Data::new(&recording)?;
+    let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;
+    let mut problem = fit::problem(&data, &options)?;
+    model::apply_bounds(&mut problem, &args.model.bounds)?;
+    let names: Vec<&str> = if args.algorithm.is_empty() {
+        solve::names()
+    } else {
+        args.algorithm.iter().map(String::as_str).collect()
+    };
+    let solvers: Vec<_> = names.iter().filter_map(|name| solve::by_name(name)).collect();
+    let contest = Contest {
+        problem: &problem,
+        budget: options.budget,
+        seeds: (session.seed..).take(args.seeds as usize).collect(),
+    };
+    let bar = session.progress(args.seeds * solvers.len() as u64, "compare");
+    let rows = compare::run(&contest, &solvers, session.stop(), &|| bar.inc(1));
+    bar.finish_and_clear();
+    if let Some(path) = &args.plot {
+        let drawing = plot::cost_curves(&rows, contest.budget, args.model.cost.name())?;
+        write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
+        session.remark(&format!("plot: {}", path.display()));
+    }
+    let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
+    session.deliver(&text, &report::json::CompareJson::new(&contest, &rows))
+}

@@ -1,0 +1,30 @@
+//! One verb a file: read, call, write.
+
+mod compare;
+mod completions;
+mod demo;
+mod fit;
+mod model;
+mod motor;
+mod paper;
+mod simulate;
+
+use crate::cli::{Cli, Verb};
+use crate::error::Error;
+use crate::session::Session;
+
+/// Runs the verb.
+///
+/// # Errors
+/// Whatever went wrong, with its remedy.
+pub fn run(cli: Cli) -> Result<(), Error> {
+    let session = Session::new(&cli.common)?;
+    match cli.verb {
+        Verb::Demo(args) => demo::run(&session, &args),
+        Verb::Simulate(args) => simulate::run(&session, &args),
+        Verb::Fit(args) => fit::run(&session, &args),
+        Verb::Compare(args) => compare::run(&session, &args),
+        Verb::Paper(args) => paper::run(&session, &args),
+        Verb::Completions { shell } => completions::run(shell),
+    }
+}

@@ -1,0 +1,176 @@
+//! `servoid simulate`: the virtual bench makes a recording.
+
+use crate::bench::{Bench, DriveSample, Hidden, Machine, PRESETS};
+use crate::cli::SimulateArgs;
+use crate::error::Error;
+use crate::input::MotorFile;
+use crate::input::suggest::did_you_mean;
+use crate::output::{write_recording, write_whole};
+use crate::recording::{Drive, Recording};
+use crate::session::Session;
+use serde::Serialize;
+use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
+use std::path::Path;
+
+/// Usual length of a single shape, s.
+const USUAL_SECONDS: f64 = 10.0;
+/// Longest recording, samples: a day at 1 kHz would be a slip of a unit.
+const MOST_SAMPLES: f64 = 2e7;
+
+#[derive(Serialize)]
+struct Simulated<'a> {
+    schema: &'static str,
+    recording: String,
+    machine: &'a str,
+    hidden: Vec<String>,
+    excitation: &'a str,
+    samples: usize,
+    seed: u64,
+}
+
+pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
+    if args.list {
+        return session.deliver(&list(), &());
+    }
+    let out = args.out.as_deref().ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
+    let machine = Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
+    let effects = args
+        .hide
+        .iter()
+        .map(|text| Hidden::parse(text, &machine).map_err(|e| Error::Usage(format!("--hide: {e}"))))
+        .collect::<Result<Vec<_>, _>>()?;
+    let bench = bench(args, machine, effects, session.seed)?;
+    let plan = plan(args)?;
+    let drive: Vec<DriveSample> = commands::<f64>(&plan, args.sample, session.seed)
+        .map(|c| DriveSample { volts: c.drive * machine.supply_v, enabled: c.enabled })
+        .collect();
+    let recording = record(&bench, &drive, out)?;
+    let hidden: Vec<String> = bench.effects.iter().map(describe).collect();
+    write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
+    let mut text = format!("{}: {} samples, {:.3} s", out.display(), recording.len(), recording.duration_s());
+    if !args.no_motor {
+        let path = out.with_file_name("motor.toml");
+        let motor = MotorFile {
+            name: Some(args.machine.clone()),
+            counts_per_rev: Some(f64::from(args.counts_per_rev)),
+            supply_v: Some(machine.supply_v),
+            ..MotorFile::default()
+        };
+        write_whole(&path, |out| out.write_all(motor.to_toml().as_bytes()))?;
+        text += &format!("; what is known of the motor: {}", path.display());
+    }
+    text.push('\n');
+    session.deliver(&text, &Simulated {
+        schema: "servoid.simulate/1",
+        recording: out.display().to_string(),
+        machine: &args.machine,
+        hidden,
+        excitation: &args.excite,
+        samples: recording.len(),
+        seed: session.seed,
+    })
+}
+
+fn bench(args: &SimulateArgs, machine: Machine, effects: Vec<Hidden>, seed: u64) -> Result<Bench, Error> {
+    let mut bench = Bench::new(machine);
+    bench.effects = effects;
+    bench.counts_per_rev = args.counts_per_rev;
+    bench.sample_s = args.sample;
+    bench.jitter_s = args.jitter;
+    bench.current_noise_a = args.current_noise;
+    bench.seed = seed;
+    if let Some(hz) = args.substep_hz {
+        bench.substep_hz = hz;
+    }
+    Ok(bench)
+}
+
+/// Runs the bench and keeps what an owner of the motor would have logged.
+fn record(bench: &Bench, drive: &[DriveSample], out: &Path) -> Result<Recording, Error> {
+    let run = bench.run(drive)?;
+    let coasts = run.enabled.iter().any(|on| !on);
+    let current = bench.current_noise_a > 0.0 || bench.current_zero_a != 0.0;
+    Ok(Recording {
+        source: out.display().to_string(),
+        time_s: run.time_s,
+        command: run.voltage_v,
+        counts: run.counts.iter().map(|&count| count as f64).collect(),
+        current_a: current.then_some(run.current_a),
+        enabled: coasts.then_some(run.enabled),
+        counts_per_rev: f64::from(bench.counts_per_rev),
+        quantised: true,
+        supply_v: Some(bench.machine.supply_v),
+        drive: Drive::Voltage,
+    })
+}
+
+/// The experiments of the named excitation, stretched to the wanted length.
+fn plan(args: &SimulateArgs) -> Result<Vec<Experiment>, Error> {
+    if !(args.sample.is_finite() && args.sample > 0.0) {
+        return Err(Error::Usage(format!("--sample {}: must be a positive number of seconds", args.sample)));
+    }
+    if !(args.amplitude > 0.0 && args.amplitude <= 1.0) {
+        return Err(Error::Usage(format!("--amplitude {}: must be above 0 and at most 1", args.amplitude)));
+    }
+    let single;
+    let base: &[Experiment] = match args.excite.as_str() {
+        "commissioning" => &COMMISSIONING,
+        "commissioning-coast" => &COMMISSIONING_COAST,
+        name => {
+            let names: Vec<&str> = excitations().collect();
+            let (_, shape) = Shape::ALL.iter().find(|(known, _)| *known == name).ok_or_else(|| {
+                Error::Usage(format!("--excite {name}: unknown; {}", did_you_mean(name, &names)))
+            })?;
+            single = [Experiment { shape: *shape, seconds: USUAL_SECONDS, amplitude: 1.0 }];
+            &single
+        }
+    };
+    let usual: f64 = base.iter().map(|e| e.seconds).sum();
+    let seconds = args.seconds.unwrap_or(usual);
+    if !(seconds.is_finite() && seconds >= 2.0 * args.sample && seconds / args.sample <= MOST_SAMPLES) {
+        return Err(Error::Usage(format!(
+            "--seconds {seconds}: must give between 2 and {MOST_SAMPLES:e} samples of {} s", args.sample
+        )));
+    }
+    let stretch = |e: &Experiment| Experiment {
+        seconds: e.seconds * seconds / usual,
+        amplitude: e.amplitude * args.amplitude,
+        ..*e
+    };
+    Ok(base.iter().map(stretch).collect())
+}
+
+fn excitations() -> impl Iterator<Item = &'static str> {
+    ["commissioning", "commissioning-coast"].into_iter().chain(Shape::ALL.iter().map(|(name, _)| *name))
+}
+
+fn describe(hidden: &Hidden) -> String {
+    let parameters: Vec<String> =
+        hidden.parameters().map(|(name, value, unit)| format!("{name} = {value:.6} {unit}")).collect();
+    format!("{}: {}", hidden.name(), parameters.join(", "))
+}
+
+fn provenance(args: &SimulateArgs, hidden: &[String], seed: u64) -> Vec<String> {
+    let mut lines = vec![format!(
+        "made by servoid {} simulate: machine {}, excitation {}, seed {seed}",
+        env!("CARGO_PKG_VERSION"), args.machine, args.excite
+    )];
+    lines.extend(hidden.iter().map(|text| format!("hidden: {text}")));
+    lines
+}
+
+fn list() -> String {
+    let mut text = String::from("motors:\n");
+    for (name, machine) in PRESETS.iter().filter_map(|name| Some((name, Machine::preset(name).ok()?))) {
+        text += &format!("  {name:14} {} V, no-load {:.0} rad/s\n", machine.supply_v, machine.top_speed_rad_s());
+    }
+    text += "effects to hide:\n";
+    for kind in crate::bench::effects::CATALOGUE {
+        text += &format!("  {}\n", kind.name);
+    }
+    text += "excitations:\n  commissioning  all that tells effects apart, 20 s\n  commissioning-coast  the same, with the bridge open in the pauses\n";
+    for (name, shape) in Shape::ALL {
+        text += &format!("  {name:14} shows {}\n", shape.reveals());
+    }
+    text
+}

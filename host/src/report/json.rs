@@ -1,0 +1,190 @@
+//! JSON of `fit` and `compare`, as the README documents it. Keys are only ever added.
+
+use crate::compare::{Contest, Row, quantile};
+use crate::fit::Fit;
+use crate::fit::margins::{Loop, Margins};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Margins.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct MarginsJson {
+    /// dB; null where infinite.
+    pub gain_db: Option<f64>,
+    /// Degrees.
+    pub phase_deg: f64,
+}
+
+impl From<Margins> for MarginsJson {
+    fn from(margins: Margins) -> Self {
+        MarginsJson {
+            gain_db: Some(margins.gain_db).filter(|db| db.is_finite()),
+            phase_deg: margins.phase_deg,
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct ParameterJson {
+    name: String,
+    value: f64,
+    unit: &'static str,
+    std: Option<f64>,
+    identifiable: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct IdentifiableJson {
+    gain_rad_s_v: Option<f64>,
+    a1_s: Option<f64>,
+    a2_s2: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct WindowedJson {
+    window_s: f64,
+    rms_counts: f64,
+    relative: f64,
+    one_step_relative: f64,
+}
+
+/// `servoid.fit/1`.
+#[derive(Debug, Serialize)]
+pub struct FitJson {
+    schema: &'static str,
+    algorithm: String,
+    seed: u64,
+    evaluations: usize,
+    cost: f64,
+    cost_kind: &'static str,
+    rms_counts: f64,
+    validate_rms_counts: Option<f64>,
+    quantization_floor_counts: f64,
+    windowed: Option<WindowedJson>,
+    effects: Vec<&'static str>,
+    parameters: Vec<ParameterJson>,
+    identifiable: IdentifiableJson,
+    margins: Option<MarginsJson>,
+    effective_samples: f64,
+    notes: Vec<String>,
+    interrupted: bool,
+    version: &'static str,
+}
+
+impl From<&Fit> for FitJson {
+    fn from(fit: &Fit) -> Self {
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        FitJson {
+            schema: "servoid.fit/1",
+            algorithm: fit.algorithm.clone(),
+            seed: fit.seed,
+            evaluations: fit.evaluations,
+            cost: fit.cost,
+            cost_kind: fit.cost_kind,
+            rms_counts: fit.rms_counts,
+            validate_rms_counts: fit.validate_rms_counts,
+            quantization_floor_counts: shared::encoder::FLOOR_RMS_COUNTS,
+            windowed: fit.windowed.map(|w| WindowedJson {
+                window_s: w.window_s,
+                rms_counts: w.rms_counts,
+                relative: w.relative,
+                one_step_relative: w.one_step_relative,
+            }),
+            effects: fit.effects.clone(),
+            parameters: fit
+                .parameters
+                .iter()
+                .map(|p| ParameterJson {
+                    name: p.name.clone(),
+                    value: p.value,
+                    unit: p.unit,
+                    std: p.std,
+                    identifiable: p.identifiable,
+                })
+                .collect(),
+            identifiable: IdentifiableJson {
+                gain_rad_s_v: finite(fit.response.gain),
+                a1_s: finite(fit.response.a1),
+                a2_s2: finite(fit.response.a2),
+            },
+            margins: fit.margins.map(MarginsJson::from),
+            effective_samples: fit.effective_samples,
+            notes: fit.notes.clone(),
+            interrupted: fit.interrupted,
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+}
+
+/// `servoid.compare/1`.
+#[derive(Debug, Serialize)]
+pub struct CompareJson {
+    schema: &'static str,
+    budget: usize,
+    seeds: Vec<u64>,
+    rows: Vec<CompareRowJson>,
+}
+
+/// One method.
+#[derive(Debug, Serialize)]
+pub struct CompareRowJson {
+    algorithm: String,
+    median_cost: Option<f64>,
+    best_cost: Option<f64>,
+    worst_cost: Option<f64>,
+    /// Width of the middle half.
+    iqr_cost: Option<f64>,
+    quartiles_cost: Option<[f64; 2]>,
+    median_evaluations_to_1pct: Option<f64>,
+    wall_s: f64,
+    /// Of the best run.
+    parameters: BTreeMap<String, f64>,
+    margins: Option<MarginsJson>,
+    curve: Vec<(usize, f64)>,
+}
+
+impl CompareJson {
+    /// From the rows of a contest. "To 1 %" is measured against the least cost that any run found.
+    pub fn new(contest: &Contest<'_>, rows: &[Row]) -> Self {
+        let least = least_cost(rows);
+        CompareJson {
+            schema: "servoid.compare/1",
+            budget: contest.budget,
+            seeds: contest.seeds.clone(),
+            rows: rows.iter().map(|row| CompareRowJson::new(contest, row, least)).collect(),
+        }
+    }
+}
+
+/// Least cost of all runs of all methods.
+pub fn least_cost(rows: &[Row]) -> f64 {
+    rows.iter().flat_map(|row| &row.runs).fold(f64::INFINITY, |m, run| m.min(run.cost))
+}
+
+impl CompareRowJson {
+    /// One method's row, measured against `least`, the least cost that is known.
+    pub fn new(contest: &Contest<'_>, row: &Row, least: f64) -> Self {
+        let costs = row.costs();
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        let structure = &contest.problem.structure;
+        let values = row.best().map(|best| structure.values(&best.x));
+        let names = structure.unknowns.iter().map(|unknown| unknown.name.clone());
+        let quartiles = [quantile(&costs, 0.25), quantile(&costs, 0.75)];
+        CompareRowJson {
+            algorithm: row.algorithm.clone(),
+            median_cost: finite(quantile(&costs, 0.5)),
+            best_cost: costs.first().copied().and_then(finite),
+            worst_cost: costs.last().copied().and_then(finite),
+            iqr_cost: finite(quartiles[1] - quartiles[0]),
+            quartiles_cost: quartiles.iter().all(|q| q.is_finite()).then_some(quartiles),
+            median_evaluations_to_1pct: row.median_evaluations_to(1.01 * least),
+            wall_s: row.wall_s,
+            margins: values
+                .as_ref()
+                .and_then(|v| Loop::from(&structure.candidate(v).machine).margins())
+                .map(MarginsJson::from),
+            parameters: names.zip(values.unwrap_or_default()).collect(),
+            curve: row.curve(contest.budget, 0.5).into_iter().filter(|p| p.1.is_finite()).collect(),
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! One result, one writer a format.
+
+pub mod html;
+pub mod json;
+pub mod text;

@@ -1,0 +1,147 @@
+//! Results as text for a terminal of 80 columns.
+
+use super::json::least_cost;
+use crate::compare::{Row, quantile};
+use crate::fit::{Fit, Parameter};
+use crate::problem::Data;
+use crate::recording::Drive;
+use shared::encoder::FLOOR_RMS_COUNTS;
+use std::fmt::Write;
+
+/// A value with as many digits as its standard error deserves: `58.35908(3)`.
+pub fn with_error(value: f64, std: Option<f64>) -> String {
+    let Some(std) = std.filter(|std| *std > 0.0 && std.is_finite()) else {
+        return format!("{value:.5}").trim_end_matches('0').trim_end_matches('.').to_owned();
+    };
+    let size = value.abs().max(std).max(f64::MIN_POSITIVE);
+    let exponent = size.log10().floor() as i32;
+    // Plain notation for what reads well plainly, else a power of ten.
+    let shift = if (-3..6).contains(&exponent) { 0 } else { exponent };
+    let (value, std) = (value / 10f64.powi(shift), std / 10f64.powi(shift));
+    let digits = (1 - std.log10().floor() as i32).clamp(0, 12) as usize;
+    let uncertain = (std * 10f64.powi(digits as i32)).round();
+    let tail = if shift == 0 { String::new() } else { format!("e{shift}") };
+    if digits == 0 {
+        format!("{value:.0}({std:.0}){tail}")
+    } else {
+        format!("{value:.digits$}({uncertain:.0}){tail}")
+    }
+}
+
+fn parameter(p: &Parameter) -> String {
+    let value = match (p.std, p.identifiable) {
+        (None, _) => format!("{:.4e}, not determined", p.value),
+        (Some(_), true) => with_error(p.value, p.std),
+        (Some(std), false) => {
+            format!("{}, weak: below {:.3e}", with_error(p.value, p.std), p.value.abs() + 2.0 * std)
+        }
+    };
+    format!("  {:26} {value} {}\n", p.name, p.unit)
+}
+
+/// A fit.
+pub fn fit(fit: &Fit, data: &Data) -> String {
+    let mut out = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_fit(&mut out, fit, data);
+    out
+}
+
+fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
+    let effects = if fit.effects.is_empty() {
+        "linear motor".to_owned()
+    } else {
+        format!("linear motor + {}", fit.effects.join(" + "))
+    };
+    let end = data.time_s.last().copied().unwrap_or(0.0);
+    writeln!(out, "{}: {} samples, {end:.3} s, worth {:.0} independent ones", data.source, data.len(), fit.effective_samples)?;
+    writeln!(out, "{effects}, by {} in {} model evaluations (seed {})", fit.algorithm, fit.evaluations, fit.seed)?;
+    writeln!(out)?;
+    writeln!(out, "open-loop error   {:.4} counts RMS (encoder floor {FLOOR_RMS_COUNTS:.4})", fit.rms_counts)?;
+    if let Some(rms) = fit.validate_rms_counts {
+        writeln!(out, "held-out error    {rms:.4} counts RMS on the other recording, never fitted")?;
+    }
+    if let Some(w) = &fit.windowed {
+        writeln!(
+            out,
+            "free runs of {} s  {:.4} counts RMS, {:.2} % of the motion; one step {:.2} %",
+            w.window_s, w.rms_counts, 100.0 * w.relative, 100.0 * w.one_step_relative
+        )?;
+    }
+    writeln!(out, "cost ({})    {:.6}", fit.cost_kind, fit.cost)?;
+    writeln!(out)?;
+    if data.drive == Drive::Voltage {
+        let r = &fit.response;
+        writeln!(out, "theta/V = gain / (s (a2 s^2 + a1 s + 1)):")?;
+        writeln!(out, "  gain {:.6} rad/(s V), a1 {:.6e} s, a2 {:.6e} s^2", r.gain, r.a1, r.a2)?;
+        if let Some(m) = &fit.margins {
+            writeln!(out, "  position loop in radians: gain margin {:.2} dB, phase margin {:.2} deg", m.gain_db, m.phase_deg)?;
+        }
+        writeln!(out)?;
+    }
+    writeln!(out, "parameters, with the standard error of the last digits in brackets:")?;
+    for p in &fit.parameters {
+        out.push_str(&parameter(p));
+    }
+    for note in &fit.notes {
+        write!(out, "{}", wrapped(note))?;
+    }
+    Ok(())
+}
+
+/// A remark, folded to 80 columns behind a dash.
+fn wrapped(note: &str) -> String {
+    const WIDTH: usize = 78;
+    let mut out = String::from("-");
+    let mut column = 1;
+    for word in note.split_whitespace() {
+        if column + 1 + word.chars().count() > WIDTH {
+            out.push_str("\n ");
+            column = 1;
+        }
+        out.push(' ');
+        out.push_str(word);
+        column += 1 + word.chars().count();
+    }
+    out.push('\n');
+    out
+}
+
+/// A comparison of search methods.
+pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
+    let least = least_cost(rows);
+    let mut out = format!(
+        "{seeds} runs each, at most {budget} model evaluations a run; least cost known {least:.6}\n\n\
+         {:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n",
+        "method", "median", "quartile 1", "quartile 3", "worst", "evals to", "CPU s"
+    );
+    out += &format!("{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n", "", "cost", "", "", "", "1 %", "");
+    for row in rows {
+        let costs = row.costs();
+        let evaluations =
+            row.median_evaluations_to(1.01 * least).map_or("-".to_owned(), |n| format!("{n:.0}"));
+        out += &format!(
+            "{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8.3}\n",
+            row.algorithm,
+            short(quantile(&costs, 0.5)),
+            short(quantile(&costs, 0.25)),
+            short(quantile(&costs, 0.75)),
+            short(quantile(&costs, 1.0)),
+            evaluations,
+            row.wall_s,
+        );
+    }
+    out
+}
+
+/// Five significant digits in at most eleven columns.
+pub fn short(x: f64) -> String {
+    if !x.is_finite() {
+        "-".to_owned()
+    } else if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+        let digits = (4 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 7) as usize;
+        format!("{x:.digits$}")
+    } else {
+        format!("{x:.4e}")
+    }
+}

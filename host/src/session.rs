@@ -1,0 +1,93 @@
+//! What every verb shares: where results go, whether to show progress, and the user's Ctrl-C.
+
+use crate::cli::Common;
+use crate::error::Error;
+use crate::output::write_whole;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// One run of the program.
+pub struct Session {
+    json: Option<PathBuf>,
+    /// Seed of everything random.
+    pub seed: u64,
+    quiet: bool,
+    stop: Arc<AtomicBool>,
+}
+
+impl Session {
+    /// Reads the common options and takes over Ctrl-C: the first asks the work to stop with its best
+    /// result so far, the second ends the program.
+    pub fn new(common: &Common) -> Result<Self, Error> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&stop);
+        // In a process that already has a handler (a test harness) the work simply cannot be interrupted.
+        let _ = ctrlc::set_handler(move || {
+            if flag.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        });
+        Ok(Session { json: common.json.clone(), seed: common.seed, quiet: common.quiet, stop })
+    }
+
+    /// The flag that Ctrl-C sets.
+    pub fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+
+    /// A progress bar over `length` steps of `what`; invisible unless stderr is a terminal.
+    pub fn progress(&self, length: u64, what: &'static str) -> ProgressBar {
+        if self.quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
+        }
+        let style = ProgressStyle::with_template(
+            "{prefix} {bar:30} {pos}/{len}  {msg}  {eta} left",
+        )
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+        ProgressBar::new(length).with_style(style).with_prefix(what)
+    }
+
+    /// A remark on stderr, unless quiet.
+    pub fn remark(&self, text: &str) {
+        if !self.quiet {
+            eprintln!("{text}");
+        }
+    }
+
+    /// Delivers a result: the text to stdout and the JSON to its file, or with `--json -` the JSON
+    /// alone to stdout. Fails after delivery if the user stopped the work.
+    pub fn deliver(&self, text: &str, json: &impl Serialize) -> Result<(), Error> {
+        let to_stdout = self.json.as_ref().is_some_and(|path| path.as_os_str() == "-");
+        if !to_stdout {
+            print(text)?;
+        }
+        if let Some(path) = &self.json {
+            let mut rendered = serde_json::to_string_pretty(json)
+                .map_err(|error| Error::Failed(format!("the result cannot be written as JSON: {error}")))?;
+            rendered.push('\n');
+            if to_stdout {
+                print(&rendered)?;
+            } else {
+                write_whole(path, |out| out.write_all(rendered.as_bytes()))?;
+            }
+        }
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Error::Failed("stopped by the user: the result is the best so far".to_owned()));
+        }
+        Ok(())
+    }
+}
+
+/// To stdout; a closed pipe (`| head`) is the reader's choice, not an error.
+fn print(text: &str) -> Result<(), Error> {
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::Failed(format!("stdout: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
