@@ -12,6 +12,7 @@ pub mod error;
 pub mod fit;
 pub mod input;
 pub mod output;
+pub mod paper;
 pub mod plot;
 pub mod problem;
 pub mod recording;

@@ -214,7 +214,7 @@ fn pseudo_inverse(information: &Matrix) -> (Matrix, Vec<Vector>) {
         if *value > 1e-12 {
             inverse += direction * direction.transpose() / *value;
         } else {
-            null.push(direction);
+            null.push(direction.normalize());
         }
     }
     (inverse, null)

@@ -80,6 +80,20 @@ impl FitProblem<'_> {
         errors(self.data, candidate, self.method, &self.horizon, self.start_angle, self.cost)
     }
 
+    /// The cost where nothing has to be looked at twice: no vector of errors is kept.
+    fn running_sum(&self, candidate: &Candidate) -> f64 {
+        let Ok(simulation) = Simulation::new(self.data, candidate, self.method) else {
+            return f64::INFINITY;
+        };
+        let data = self.data;
+        let shift = reading_shift(data);
+        let mut sum = 0.0;
+        simulation.run(0..data.len(), data.counts[0], candidate.start_speed, |k, angle| {
+            sum += self.cost.sample(angle - data.counts[k] + shift);
+        });
+        if sum.is_nan() { f64::INFINITY } else { sum * self.weight }
+    }
+
     fn candidate(&self, x: &[f64]) -> Candidate {
         self.structure.candidate(&self.structure.values(x))
     }
@@ -163,6 +177,9 @@ impl Objective for FitProblem<'_> {
     }
 
     fn cost(&self, x: &[f64]) -> f64 {
+        if self.horizon == Horizon::Whole && self.start_angle == StartAngle::Known {
+            return self.running_sum(&self.candidate(x));
+        }
         match self.errors(&self.candidate(x)) {
             Ok(errors) => self.sum(&errors),
             Err(_) => f64::INFINITY,
@@ -172,9 +189,13 @@ impl Objective for FitProblem<'_> {
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
         let mut errors = self.errors(&self.candidate(x)).ok()?;
         let cost = self.sum(&errors);
-        let centre = self.data.centre(0) - self.data.counts[0];
+        // What least squares must make small is what the cost is zero at.
+        let zero = match self.cost {
+            Cost::Absolute { model_floored: false } => 0.0,
+            _ => self.data.centre(0) - self.data.counts[0],
+        };
         for error in &mut errors {
-            *error -= centre;
+            *error -= zero;
         }
         errors.iter().all(|e| e.is_finite()).then_some((errors, cost))
     }

@@ -30,13 +30,13 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
 
 fn parameter(p: &Parameter) -> String {
     let value = match (p.std, p.identifiable) {
-        (None, _) => format!("{:.4e}, not determined", p.value),
-        (Some(_), true) => with_error(p.value, p.std),
+        (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
+        (Some(_), true) => format!("{} {}", with_error(p.value, p.std), p.unit),
         (Some(std), false) => {
-            format!("{}, weak: below {:.3e}", with_error(p.value, p.std), p.value.abs() + 2.0 * std)
+            format!("below {} {} (twice its standard error)", short(p.value.abs() + 2.0 * std), p.unit)
         }
     };
-    format!("  {:26} {value} {}\n", p.name, p.unit)
+    format!("  {:26} {value}\n", p.name)
 }
 
 /// A fit.

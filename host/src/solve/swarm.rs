@@ -70,7 +70,10 @@ impl Solver for Fireflies {
     }
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
         let dim = evaluator.dim();
-        let flies = Firefly::<f64, MAX_POPULATION, MAX_UNKNOWNS>::new(dim, self.population, self.settings, seed);
+        // The random step cools over the whole of the budget.
+        let evaluations = u32::try_from(evaluator.left()).unwrap_or(u32::MAX);
+        let settings = FireflySettings { evaluations, ..self.settings };
+        let flies = Firefly::<f64, MAX_POPULATION, MAX_UNKNOWNS>::new(dim, self.population, settings, seed);
         drive(flies, evaluator);
     }
 }
