@@ -9,7 +9,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::motor_error::{MotorFault, MotorFileError};
 use super::place::Place;
-use super::suggest::{did_you_mean, shown};
+use super::shown::{quoted_list, shown};
+use super::suggest::did_you_mean;
 
 /// The text of a file and its name, to turn byte offsets into places.
 #[derive(Clone, Copy)]
@@ -118,7 +119,7 @@ impl<'t> Section<'t> {
             })),
             None => {
                 let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
-                let hint = format!("allowed: {}", super::suggest::quoted_list(&names));
+                let hint = format!("allowed: {}", quoted_list(&names));
                 let fault = MotorFault::UnknownWord {
                     key: key.into(),
                     text: shown(&text),
