@@ -1,6 +1,6 @@
 //! Recordings that must be refused, and the words that must tell the user where and what to do.
 
-use std::io::{BufReader, Read};
+use std::io::{BufReader, Cursor, Read};
 
 use host::input::{MAX_LINE_BYTES, MotorFile, read_recording, read_recording_from};
 
@@ -132,7 +132,7 @@ const BAD_ROWS: &[(&str, &str, &str)] = &[
     ),
     (
         "0,1,\x1b[31m\n",
-        "rec.csv:2:3: column `angle_counts`: \"\\\\u{1b}[31m\" is not a number",
+        "rec.csv:2:3: column `angle_counts`: \"\\u{1b}[31m\" is not a number",
         "number",
     ),
 ];
@@ -315,7 +315,7 @@ fn an_endless_line_is_refused_before_it_fills_memory() {
             "{message}"
         );
     }
-    let open_quote = format!("{HEADER}0,1,\"").into_bytes();
+    let open_quote = Cursor::new(format!("{HEADER}0,1,\""));
     let endless = open_quote.chain(std::io::repeat(b'\n'));
     let motor = MotorFile {
         counts_per_rev: Some(4.0),
@@ -327,17 +327,6 @@ fn an_endless_line_is_refused_before_it_fills_memory() {
         "{error}"
     );
     assert_eq!(MAX_LINE_BYTES, 1_048_576);
-}
-
-/// `"…".into_bytes().chain(…)` for a vector.
-trait Chain {
-    fn chain<R: Read>(self, rest: R) -> impl Read;
-}
-
-impl Chain for Vec<u8> {
-    fn chain<R: Read>(self, rest: R) -> impl Read {
-        Read::chain(std::io::Cursor::new(self), rest)
-    }
 }
 
 #[test]

@@ -92,7 +92,7 @@ pub enum MotorFault {
         text: String,
     },
     /// A word that is none of those allowed.
-    #[error("`{key}` is {text:?}; {hint}")]
+    #[error("`{key}` is \"{text}\"; {hint}")]
     UnknownWord {
         /// The key.
         key: String,

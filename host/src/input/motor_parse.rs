@@ -3,7 +3,7 @@
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::{Columns, Fact, Known, MotorFile};
 use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
-use super::section::{Found, Section, Text};
+use super::section::{Found, NumberOrTable, Section, Text};
 use crate::recording::Drive;
 
 pub(super) const DRIVES: &[(&str, Drive)] =
@@ -158,15 +158,17 @@ fn contradict(a: Fact, b: Fact) -> bool {
 
 /// `key = 1.2` or `key = { value = 1.2, tolerance = 0.05 }`.
 fn fact(section: &mut Section<'_>, key: &'static str) -> Result<Option<Fact>, MotorFileError> {
-    let (mut inner, span) = match section.positive_or_section(key)? {
-        None => return Ok(None),
-        Some(Ok(found)) => {
+    let Some(Found { value, span }) = section.positive_or_table(key)? else {
+        return Ok(None);
+    };
+    let mut inner = match value {
+        NumberOrTable::Number(value) => {
             return Ok(Some(Fact {
-                value: found.value,
+                value,
                 tolerance: None,
             }));
         }
-        Some(Err(found)) => (found.value, found.span),
+        NumberOrTable::Table(table) => table,
     };
     let value = inner.positive("value")?;
     let tolerance = inner.positive("tolerance")?;

@@ -107,7 +107,7 @@ pub enum ReadFault {
     #[error("the cell is empty; fill in the number or remove the row")]
     EmptyCell,
     /// Text where a number belongs.
-    #[error("{text:?} is not a number; {remedy}")]
+    #[error("\"{text}\" is not a number; {remedy}")]
     NotANumber {
         /// The cell.
         text: String,
@@ -116,21 +116,21 @@ pub enum ReadFault {
     },
     /// NaN.
     #[error(
-        "{text:?} is not a number (NaN); remove the row or find out why the logger had no value"
+        "\"{text}\" is not a number (NaN); remove the row or find out why the logger had no value"
     )]
     Nan {
         /// The cell.
         text: String,
     },
     /// Infinite, or beyond what a double holds.
-    #[error("{text:?} is infinite or too large; remove the row or correct the number")]
+    #[error("\"{text}\" is infinite or too large; remove the row or correct the number")]
     Infinite {
         /// The cell.
         text: String,
     },
     /// Neither 0 nor 1.
     #[error(
-        "{text:?} is neither 0 nor 1; write 1 while the bridge drives the motor and 0 while it is open"
+        "\"{text}\" is neither 0 nor 1; write 1 while the bridge drives the motor and 0 while it is open"
     )]
     NotASwitch {
         /// The cell.
