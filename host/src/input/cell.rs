@@ -1,7 +1,7 @@
 //! One cell to one finite number or switch.
 
 use super::read_error::ReadFault;
-use super::suggest::shown;
+use super::shown::shown;
 
 /// A finite number.
 pub(super) fn number(text: &str) -> Result<f64, ReadFault> {

@@ -50,7 +50,7 @@ pub enum MotorFault {
     UnknownKey {
         /// The key as written.
         key: String,
-        /// "at the top" or "in [units]".
+        /// Where it stands: at the top, or in which section.
         section: String,
         /// The nearest key, or the section it belongs to.
         hint: String,
@@ -64,7 +64,7 @@ pub enum MotorFault {
         remedy: &'static str,
     },
     /// A value of the wrong type.
-    #[error("`{key}` is a {seen} here; write {wanted}")]
+    #[error("`{key}` is {} {seen} here; write {wanted}", article(.seen))]
     WrongType {
         /// The key.
         key: String,
@@ -92,7 +92,7 @@ pub enum MotorFault {
         text: String,
     },
     /// A word that is none of those allowed.
-    #[error("`{key}` is {text:?}; {hint}")]
+    #[error("`{key}` is \"{text}\"; {hint}")]
     UnknownWord {
         /// The key.
         key: String,
@@ -136,4 +136,12 @@ pub enum MotorFault {
         /// Back-EMF constant, V·s/rad.
         kb: f64,
     },
+}
+
+fn article(noun: &str) -> &'static str {
+    if noun.starts_with(['a', 'e', 'i', 'o', 'u']) {
+        "an"
+    } else {
+        "a"
+    }
 }

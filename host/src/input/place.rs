@@ -72,7 +72,7 @@ impl fmt::Display for Place {
             write!(f, ":{column}")?;
         }
         if let Some(name) = &self.name {
-            write!(f, ": column `{}`", super::suggest::shown(name))?;
+            write!(f, ": column `{}`", super::shown::shown(name))?;
         }
         Ok(())
     }

@@ -2,8 +2,9 @@
 
 use std::io;
 
+use super::missing::{MissingColumn, missing_text};
 use super::place::Place;
-use super::suggest::quoted_list;
+use super::shown::plain;
 
 /// A recording that cannot be used: where, and why.
 #[derive(Debug, thiserror::Error)]
@@ -23,19 +24,6 @@ impl ReadError {
             fault,
         }
     }
-}
-
-/// A column that the recording must have and has not.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MissingColumn {
-    /// Key in `[columns]`.
-    pub key: &'static str,
-    /// The name looked for.
-    pub wanted: String,
-    /// Whether the user's `[columns]` asked for that name.
-    pub mapped: bool,
-    /// The header's name that comes nearest, and the unit its ending tells.
-    pub near: Option<(String, Option<&'static str>)>,
 }
 
 /// What was seen in a recording, and what to do.
@@ -119,7 +107,7 @@ pub enum ReadFault {
     #[error("the cell is empty; fill in the number or remove the row")]
     EmptyCell,
     /// Text where a number belongs.
-    #[error("{text:?} is not a number; {remedy}")]
+    #[error("\"{text}\" is not a number; {remedy}")]
     NotANumber {
         /// The cell.
         text: String,
@@ -128,21 +116,21 @@ pub enum ReadFault {
     },
     /// NaN.
     #[error(
-        "{text:?} is not a number (NaN); remove the row or find out why the logger had no value"
+        "\"{text}\" is not a number (NaN); remove the row or find out why the logger had no value"
     )]
     Nan {
         /// The cell.
         text: String,
     },
     /// Infinite, or beyond what a double holds.
-    #[error("{text:?} is infinite or too large; remove the row or correct the number")]
+    #[error("\"{text}\" is infinite or too large; remove the row or correct the number")]
     Infinite {
         /// The cell.
         text: String,
     },
     /// Neither 0 nor 1.
     #[error(
-        "{text:?} is neither 0 nor 1; write 1 while the bridge drives the motor and 0 while it is open"
+        "\"{text}\" is neither 0 nor 1; write 1 while the bridge drives the motor and 0 while it is open"
     )]
     NotASwitch {
         /// The cell.
@@ -150,8 +138,9 @@ pub enum ReadFault {
     },
     /// Time goes back.
     #[error(
-        "time goes back from {before} s to {now} s; it must increase from row to row: sort the rows, or cut the \
-         recording where the clock was reset"
+        "time goes back from {} s to {} s; it must increase from row to row: sort the rows, or cut the \
+         recording where the clock was reset",
+        plain(*.before), plain(*.now)
     )]
     TimeBack {
         /// Time of the row before, s.
@@ -161,7 +150,8 @@ pub enum ReadFault {
     },
     /// Time stands still.
     #[error(
-        "time repeats {now} s; it must increase from row to row: remove the repeated row, or log time with more digits"
+        "time repeats {} s; it must increase from row to row: remove the repeated row, or log time with more digits",
+        plain(*.now)
     )]
     TimeRepeats {
         /// Time of both rows, s.
@@ -169,8 +159,9 @@ pub enum ReadFault {
     },
     /// A reading no 32-bit counter can hold.
     #[error(
-        "{counts} counts are beyond a 32-bit counter (-2147483648 ... 2147483647); subtract the first reading from all \
-         (the angle may start anywhere)"
+        "{} counts are beyond a 32-bit counter (-2147483648 ... 2147483647); subtract the first reading from all \
+         (the angle may start anywhere)",
+        plain(*.counts)
     )]
     BeyondCounter {
         /// The reading, counts.
@@ -178,8 +169,9 @@ pub enum ReadFault {
     },
     /// A fraction of a count.
     #[error(
-        "{counts} is not a whole number of counts; if the column holds an angle, name its unit under [units] in \
-         {motor}: angle = \"rad\" (or deg, rev, m)"
+        "{} is not a whole number of counts; if the column holds an angle, name its unit under [units] in \
+         {motor}: angle = \"rad\" (or deg, rev, m)",
+        plain(*.counts)
     )]
     FractionalCounts {
         /// The reading.
@@ -218,7 +210,7 @@ pub enum ReadFault {
         motor: String,
     },
     /// A number of the motor file, or of a flag in its place, that has no meaning.
-    #[error("{key} is {value}; a finite number greater than zero is needed")]
+    #[error("{key} is {}; a finite number greater than zero is needed", plain(*.value))]
     NotPositive {
         /// The key.
         key: &'static str,
@@ -274,47 +266,4 @@ fn samples(count: usize) -> &'static str {
         1 => "one sample",
         _ => "too few samples",
     }
-}
-
-/// All missing columns in one message, and the lines that map what the header has.
-fn missing_text(missing: &[MissingColumn], header: &[String], motor: &str) -> String {
-    let wanted: Vec<&str> = missing
-        .iter()
-        .map(|column| column.wanted.as_str())
-        .collect();
-    let plural = if missing.len() == 1 {
-        "column"
-    } else {
-        "columns"
-    };
-    let mut text = format!(
-        "no {plural} {}; the header has {}",
-        quoted_list(&wanted),
-        quoted_list(header)
-    );
-    if missing.iter().any(|column| column.mapped) {
-        text += &format!(" ([columns] in {motor} asks for it)");
-    }
-    text += &format!(". Say in {motor} which is which:\n    [columns]");
-    for column in missing {
-        text += &match &column.near {
-            Some((near, _)) => format!("\n    {} = {near:?}", column.key),
-            None => format!("\n    {} = \"...\"", column.key),
-        };
-    }
-    let units: Vec<String> = missing
-        .iter()
-        .filter_map(|column| {
-            Some(format!(
-                "\n    {} = {:?}",
-                column.key,
-                column.near.as_ref()?.1?
-            ))
-        })
-        .collect();
-    if !units.is_empty() {
-        text += "\n    [units]";
-        text += &units.concat();
-    }
-    text
 }

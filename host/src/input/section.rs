@@ -9,7 +9,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::motor_error::{MotorFault, MotorFileError};
 use super::place::Place;
-use super::suggest::{did_you_mean, shown};
+use super::shown::{quoted_list, shown};
+use super::suggest::did_you_mean;
 
 /// The text of a file and its name, to turn byte offsets into places.
 #[derive(Clone, Copy)]
@@ -39,6 +40,12 @@ pub(super) struct Found<T> {
     pub(super) span: Range<usize>,
 }
 
+/// A value that may be written short or long.
+pub(super) enum NumberOrTable<'t> {
+    Number(f64),
+    Table(Section<'t>),
+}
+
 type Outcome<T> = Result<T, MotorFileError>;
 
 impl<'t> Section<'t> {
@@ -64,10 +71,7 @@ impl<'t> Section<'t> {
         let (text, name) = (self.text, key);
         let table = match self.take(key) {
             None => DeTable::new(),
-            Some((span, DeValue::Table(table))) => {
-                let _ = span;
-                table
-            }
+            Some((_, DeValue::Table(table))) => table,
             Some((span, other)) => {
                 return Err(self.wrong_type(key, &other, &span, "a table, as in [units]"));
             }
@@ -118,7 +122,7 @@ impl<'t> Section<'t> {
             })),
             None => {
                 let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
-                let hint = format!("allowed: {}", super::suggest::quoted_list(&names));
+                let hint = format!("allowed: {}", quoted_list(&names));
                 let fault = MotorFault::UnknownWord {
                     key: key.into(),
                     text: shown(&text),
@@ -144,33 +148,31 @@ impl<'t> Section<'t> {
     pub(super) fn positive(&mut self, key: &'static str) -> Outcome<Option<Found<f64>>> {
         match self.take(key) {
             None => Ok(None),
-            Some((span, value)) => self.positive_value(key, &value, span).map(Some),
+            Some((span, value)) => {
+                let value = self.positive_value(key, &value, &span)?;
+                Ok(Some(Found { value, span }))
+            }
         }
     }
 
     /// A positive number, or a table for the caller to read on.
-    pub(super) fn positive_or_section(
+    pub(super) fn positive_or_table(
         &mut self,
         key: &'static str,
-    ) -> Outcome<Option<Result<Found<f64>, Found<Section<'t>>>>> {
-        match self.take(key) {
-            None => Ok(None),
-            Some((span, DeValue::Table(table))) => {
-                let section = Section {
-                    text: self.text,
-                    name: key,
-                    table,
-                    asked: Vec::new(),
-                };
-                Ok(Some(Err(Found {
-                    value: section,
-                    span,
-                })))
-            }
-            Some((span, value)) => self
-                .positive_value(key, &value, span)
-                .map(|found| Some(Ok(found))),
-        }
+    ) -> Outcome<Option<Found<NumberOrTable<'t>>>> {
+        let Some((span, value)) = self.take(key) else {
+            return Ok(None);
+        };
+        let value = match value {
+            DeValue::Table(table) => NumberOrTable::Table(Section {
+                text: self.text,
+                name: key,
+                table,
+                asked: Vec::new(),
+            }),
+            value => NumberOrTable::Number(self.positive_value(key, &value, &span)?),
+        };
+        Ok(Some(Found { value, span }))
     }
 
     /// Refuses keys that were not asked for. `elsewhere` tells which other section knows a key.
@@ -209,41 +211,25 @@ impl<'t> Section<'t> {
         &self,
         key: &'static str,
         value: &DeValue<'_>,
-        span: Range<usize>,
-    ) -> Outcome<Found<f64>> {
-        let number = match value {
-            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse(),
-            DeValue::Float(float) => float.as_str().parse::<f64>(),
+        span: &Range<usize>,
+    ) -> Outcome<f64> {
+        let text = match value {
+            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str(),
+            DeValue::Float(float) => float.as_str(),
             other => {
-                return Err(self.wrong_type(key, other, &span, "a decimal number, without quotes"));
+                return Err(self.wrong_type(key, other, span, "a decimal number, without quotes"));
             }
         };
-        let number = match number {
-            Ok(number) if number.is_finite() => number,
-            _ => {
-                let text = shown(self.text.text.get(span.clone()).unwrap_or("?"));
-                return Err(self.text.error(
-                    &span,
-                    MotorFault::NotFinite {
-                        key: key.into(),
-                        text,
-                    },
-                ));
-            }
+        let key = key.into();
+        let fault = match text.parse::<f64>() {
+            Ok(value) if value.is_finite() && value > 0.0 => return Ok(value),
+            Ok(value) if value.is_finite() => MotorFault::NotPositive { key, value },
+            _ => MotorFault::NotFinite {
+                key,
+                text: shown(text),
+            },
         };
-        if number <= 0.0 {
-            return Err(self.text.error(
-                &span,
-                MotorFault::NotPositive {
-                    key: key.into(),
-                    value: number,
-                },
-            ));
-        }
-        Ok(Found {
-            value: number,
-            span,
-        })
+        Err(self.text.error(span, fault))
     }
 
     fn wrong_type(

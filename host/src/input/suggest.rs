@@ -1,5 +1,7 @@
 //! "Did you mean …?": the nearest known name to one that is unknown.
 
+use super::shown::quoted_list;
+
 /// Below this similarity a suggestion would be noise. Measured on the names of this project: slips of
 /// one or two letters lie above 0.85, unrelated names below 0.7.
 const LEAST_SIMILARITY: f64 = 0.75;
@@ -26,38 +28,6 @@ pub fn did_you_mean(name: &str, candidates: &[&str]) -> String {
         Some(near) => format!("did you mean `{near}`?"),
         None if candidates.is_empty() => "nothing is known by any name here".into(),
         None => format!("known: {}", quoted_list(candidates)),
-    }
-}
-
-/// `` `a`, `b`, `c` ``; a long list is cut at twelve names and says how many more there are.
-pub fn quoted_list<S: AsRef<str>>(names: &[S]) -> String {
-    const SHOWN: usize = 12;
-    let mut list: Vec<String> = names
-        .iter()
-        .take(SHOWN)
-        .map(|name| format!("`{}`", shown(name.as_ref())))
-        .collect();
-    if names.len() > SHOWN {
-        list.push(format!("and {} more", names.len() - SHOWN));
-    }
-    list.join(", ")
-}
-
-/// Foreign text made fit for one line of a message: control characters escaped, cut at 60 characters.
-pub fn shown(text: &str) -> String {
-    const SHOWN: usize = 60;
-    let mut out: String = text.chars().take(SHOWN).flat_map(printable).collect();
-    if text.chars().nth(SHOWN).is_some() {
-        out.push('…');
-    }
-    out
-}
-
-fn printable(c: char) -> Vec<char> {
-    if c.is_control() || c == '\u{fffd}' {
-        c.escape_default().collect()
-    } else {
-        vec![c]
     }
 }
 
@@ -99,11 +69,5 @@ mod tests {
         assert_eq!(nearest("", EFFECTS), None);
         assert_eq!(did_you_mean("xyz", &["a", "b"]), "known: `a`, `b`");
         assert_eq!(did_you_mean("colomb", &EFFECTS), "did you mean `coulomb`?");
-    }
-
-    #[test]
-    fn foreign_text_stays_on_one_short_line() {
-        assert_eq!(shown("a\nb\u{1b}[31m"), "a\\nb\\u{1b}[31m");
-        assert!(shown(&"x".repeat(1000)).chars().count() <= 61);
     }
 }

@@ -1,14 +1,13 @@
-//! The text of a `motor.toml` to [`MotorFile`] and back.
-
-use std::fmt::Write;
+//! The text of a `motor.toml` to a [`MotorFile`].
 
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::{Columns, Fact, Known, MotorFile};
 use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
-use super::section::{Found, Section, Text};
+use super::section::{Found, NumberOrTable, Section, Text};
 use crate::recording::Drive;
 
-const DRIVES: &[(&str, Drive)] = &[("voltage", Drive::Voltage), ("current", Drive::Current)];
+pub(super) const DRIVES: &[(&str, Drive)] =
+    &[("voltage", Drive::Voltage), ("current", Drive::Current)];
 
 const FACTS: [&str; 7] = [
     "resistance_ohm",
@@ -55,57 +54,6 @@ impl MotorFile {
         file.known = known(top.section("known")?)?;
         top.finish(|key| home_of(key, ""))?;
         Ok(file)
-    }
-
-    /// The text that [`parse`](Self::parse) reads back as this value.
-    pub fn to_toml(&self) -> String {
-        let mut out = String::new();
-        let mut line = |key: &str, value: Option<String>| {
-            if let Some(value) = value {
-                // Writing to a String cannot fail.
-                let _ = writeln!(out, "{key} = {value}");
-            }
-        };
-        line("name", self.name.as_deref().map(quoted));
-        line("counts_per_rev", self.counts_per_rev.map(number));
-        line("supply_v", self.supply_v.map(number));
-        line("metres_per_rev", self.metres_per_rev.map(number));
-        for (key, name) in [
-            ("columns.time", &self.columns.time),
-            ("columns.voltage", &self.columns.voltage),
-            ("columns.angle", &self.columns.angle),
-            ("columns.current", &self.columns.current),
-            ("columns.enabled", &self.columns.enabled),
-        ] {
-            line(key, name.as_deref().map(quoted));
-        }
-        line("units.time", word(TimeUnit::ALL, self.units.time));
-        line("units.voltage", word(CommandUnit::ALL, self.units.voltage));
-        line("units.angle", word(AngleUnit::ALL, self.units.angle));
-        line("units.current", word(CurrentUnit::ALL, self.units.current));
-        line("drive.kind", word(DRIVES, self.drive));
-        for (key, fact) in self.known.facts() {
-            line(&format!("known.{key}"), fact.map(fact_text));
-        }
-        line(
-            "known.kt_equals_kb",
-            self.known.kt_equals_kb.then(|| "true".into()),
-        );
-        out
-    }
-}
-
-impl Known {
-    /// Every fact with its key in `[known]`, in the order of the file.
-    pub fn facts(&self) -> [(&'static str, Option<Fact>); 6] {
-        [
-            ("resistance_ohm", self.resistance_ohm),
-            ("inductance_h", self.inductance_h),
-            ("kt_n_m_a", self.kt_n_m_a),
-            ("kb_v_s_rad", self.kb_v_s_rad),
-            ("inertia_kg_m2", self.inertia_kg_m2),
-            ("viscous_n_m_s", self.viscous_n_m_s),
-        ]
     }
 }
 
@@ -210,15 +158,17 @@ fn contradict(a: Fact, b: Fact) -> bool {
 
 /// `key = 1.2` or `key = { value = 1.2, tolerance = 0.05 }`.
 fn fact(section: &mut Section<'_>, key: &'static str) -> Result<Option<Fact>, MotorFileError> {
-    let (mut inner, span) = match section.positive_or_section(key)? {
-        None => return Ok(None),
-        Some(Ok(found)) => {
+    let Some(Found { value, span }) = section.positive_or_table(key)? else {
+        return Ok(None);
+    };
+    let mut inner = match value {
+        NumberOrTable::Number(value) => {
             return Ok(Some(Fact {
-                value: found.value,
+                value,
                 tolerance: None,
             }));
         }
-        Some(Err(found)) => (found.value, found.span),
+        NumberOrTable::Table(table) => table,
     };
     let value = inner.positive("value")?;
     let tolerance = inner.positive("tolerance")?;
@@ -252,29 +202,4 @@ fn home_of(key: &str, here: &str) -> Option<String> {
         "" => "it belongs above the first [section]".into(),
         home => format!("it belongs under [{home}]"),
     })
-}
-
-fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
-}
-
-fn number(value: f64) -> String {
-    toml::Value::from(value).to_string()
-}
-
-fn word<T: PartialEq>(all: &[(&str, T)], value: T) -> Option<String> {
-    all.iter()
-        .find(|(_, unit)| *unit == value)
-        .map(|(name, _)| quoted(name))
-}
-
-fn fact_text(fact: Fact) -> String {
-    match fact.tolerance {
-        None => number(fact.value),
-        Some(tolerance) => format!(
-            "{{ value = {}, tolerance = {} }}",
-            number(fact.value),
-            number(tolerance)
-        ),
-    }
 }

@@ -1,0 +1,122 @@
+//! A [`MotorFile`] to the text of a `motor.toml`.
+
+use toml::Value;
+
+use super::motor_file::{Fact, Known, MotorFile};
+use super::motor_parse::DRIVES;
+use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit};
+use crate::recording::Drive;
+
+/// A key and the text of its value, `None` where the default says it already.
+type Line = (&'static str, Option<String>);
+
+impl MotorFile {
+    /// The text that [`parse`](Self::parse) reads back as this value (but for [`source`](Self::source)).
+    /// Defaults are left out.
+    pub fn to_toml(&self) -> String {
+        let units = &self.units;
+        let top = section(
+            "",
+            &[
+                ("name", self.name.as_deref().map(quoted)),
+                ("counts_per_rev", self.counts_per_rev.map(number)),
+                ("supply_v", self.supply_v.map(number)),
+                ("metres_per_rev", self.metres_per_rev.map(number)),
+            ],
+        );
+        let columns = section(
+            "columns",
+            &[
+                ("time", self.columns.time.as_deref().map(quoted)),
+                ("voltage", self.columns.voltage.as_deref().map(quoted)),
+                ("angle", self.columns.angle.as_deref().map(quoted)),
+                ("current", self.columns.current.as_deref().map(quoted)),
+                ("enabled", self.columns.enabled.as_deref().map(quoted)),
+            ],
+        );
+        let units = section(
+            "units",
+            &[
+                ("time", word(TimeUnit::ALL, units.time, TimeUnit::default())),
+                (
+                    "voltage",
+                    word(CommandUnit::ALL, units.voltage, CommandUnit::default()),
+                ),
+                (
+                    "angle",
+                    word(AngleUnit::ALL, units.angle, AngleUnit::default()),
+                ),
+                (
+                    "current",
+                    word(CurrentUnit::ALL, units.current, CurrentUnit::default()),
+                ),
+            ],
+        );
+        let drive = section(
+            "drive",
+            &[("kind", word(DRIVES, self.drive, Drive::Voltage))],
+        );
+        [top, columns, units, drive, known(&self.known)].concat()
+    }
+}
+
+impl Known {
+    /// Every fact with its key in `[known]`, in the order of the file.
+    pub fn facts(&self) -> [(&'static str, Option<Fact>); 6] {
+        [
+            ("resistance_ohm", self.resistance_ohm),
+            ("inductance_h", self.inductance_h),
+            ("kt_n_m_a", self.kt_n_m_a),
+            ("kb_v_s_rad", self.kb_v_s_rad),
+            ("inertia_kg_m2", self.inertia_kg_m2),
+            ("viscous_n_m_s", self.viscous_n_m_s),
+        ]
+    }
+}
+
+fn known(known: &Known) -> String {
+    let mut lines: Vec<Line> = known
+        .facts()
+        .map(|(key, fact)| (key, fact.map(fact_text)))
+        .into();
+    lines.push(("kt_equals_kb", known.kt_equals_kb.then(|| "true".into())));
+    section("known", &lines)
+}
+
+fn section(name: &str, lines: &[Line]) -> String {
+    let written = |(key, value): &Line| value.as_ref().map(|value| format!("{key} = {value}\n"));
+    let body: String = lines.iter().filter_map(written).collect();
+    if name.is_empty() || body.is_empty() {
+        body
+    } else {
+        format!("[{name}]\n{body}")
+    }
+}
+
+fn quoted(text: &str) -> String {
+    Value::from(text).to_string()
+}
+
+fn number(value: f64) -> String {
+    Value::from(value).to_string()
+}
+
+fn word<T: PartialEq>(all: &[(&str, T)], value: T, default: T) -> Option<String> {
+    let named = all
+        .iter()
+        .find(|(_, unit)| *unit == value && value != default);
+    named.map(|(name, _)| quoted(name))
+}
+
+fn fact_text(fact: Fact) -> String {
+    match fact.tolerance {
+        None => number(fact.value),
+        Some(tolerance) => {
+            format!(
+                "{{ value = {}, tolerance = {} }}",
+                number(fact.value),
+                number(tolerance)
+            )
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! From the file's units to seconds, volts or amperes, and counts; checked once for a file.
+
+use super::counts::in_counter_range;
+use super::motor_file::MotorFile;
+use super::motor_units::{AngleUnit, CommandUnit};
+use super::read_error::ReadFault;
+
+/// The conversions of one file.
+pub(super) struct Scale<'m> {
+    motor: &'m MotorFile,
+    /// Encoder counts per revolution.
+    pub(super) counts_per_rev: f64,
+    volts_per_duty: f64,
+    angle_per_rev: f64,
+}
+
+impl<'m> Scale<'m> {
+    /// # Errors
+    /// A number that the conversion needs is not known, or has no meaning.
+    pub(super) fn new(motor: &'m MotorFile) -> Result<Self, ReadFault> {
+        let named = || motor.called().to_string();
+        let counts_per_rev = positive("counts_per_rev", motor.counts_per_rev)?
+            .ok_or_else(|| ReadFault::NoCountsPerRev { motor: named() })?;
+        let supply_v = positive("supply_v", motor.supply_v)?;
+        let volts_per_duty = match motor.units.voltage {
+            CommandUnit::Duty => supply_v.ok_or_else(|| ReadFault::NoSupply { motor: named() })?,
+            _ => 1.0,
+        };
+        let metres = positive("metres_per_rev", motor.metres_per_rev)?;
+        let metres = match motor.units.angle {
+            AngleUnit::Metres => {
+                metres.ok_or_else(|| ReadFault::NoMetresPerRev { motor: named() })?
+            }
+            _ => 1.0,
+        };
+        let angle_per_rev = motor.units.angle.per_revolution(counts_per_rev, metres);
+        Ok(Scale {
+            motor,
+            counts_per_rev,
+            volts_per_duty,
+            angle_per_rev,
+        })
+    }
+
+    /// Seconds.
+    pub(super) fn time(&self, time: f64) -> Result<f64, ReadFault> {
+        Ok(self.motor.units.time.seconds(time))
+    }
+
+    /// Volts, or amperes where the command is a current.
+    pub(super) fn command(&self, command: f64) -> Result<f64, ReadFault> {
+        Ok(match self.motor.units.voltage {
+            CommandUnit::Volts | CommandUnit::Amperes => command,
+            CommandUnit::Milliamperes => command / 1e3,
+            CommandUnit::Duty => command * self.volts_per_duty,
+        })
+    }
+
+    /// Counts, whole ones where the file says that it has counts.
+    pub(super) fn counts(&self, angle: f64) -> Result<f64, ReadFault> {
+        if self.motor.units.angle != AngleUnit::Counts {
+            return in_counter_range(angle / self.angle_per_rev * self.counts_per_rev);
+        }
+        if angle.fract() != 0.0 {
+            let motor = self.motor.called().into();
+            return Err(ReadFault::FractionalCounts {
+                counts: angle,
+                motor,
+            });
+        }
+        in_counter_range(angle)
+    }
+
+    /// Amperes.
+    pub(super) fn current(&self, current: f64) -> Result<f64, ReadFault> {
+        Ok(self.motor.units.current.amperes(current))
+    }
+}
+
+/// The motor file's own reader refuses such numbers, but a flag may have set one.
+fn positive(key: &'static str, value: Option<f64>) -> Result<Option<f64>, ReadFault> {
+    match value {
+        Some(value) if !(value.is_finite() && value > 0.0) => {
+            Err(ReadFault::NotPositive { key, value })
+        }
+        value => Ok(value),
+    }
+}

@@ -1,0 +1,371 @@
+//! Laws of the readers and writers: no input makes them panic, whatever they accept keeps the promises of its
+//! type, and what is written is read back the same. (proptest prints the seed of a failure.)
+
+use host::input::{AngleUnit, CommandUnit, CurrentUnit, Fact, Known, MotorFile, TimeUnit, Units};
+use host::input::{Columns, read_recording_from};
+use host::output::{write_csv, write_recording};
+use host::recording::{Drive, Recording};
+use proptest::prelude::*;
+
+fn check_promises(recording: &Recording) {
+    let n = recording.len();
+    assert!(n >= 2);
+    assert_eq!((recording.command.len(), recording.counts.len()), (n, n));
+    assert!(
+        recording
+            .current_a
+            .as_ref()
+            .is_none_or(|current| current.len() == n)
+    );
+    assert!(
+        recording
+            .enabled
+            .as_ref()
+            .is_none_or(|enabled| enabled.len() == n)
+    );
+    assert!(recording.time_s.windows(2).all(|pair| pair[0] < pair[1]));
+    let columns = [&recording.time_s, &recording.command, &recording.counts];
+    assert!(
+        columns
+            .into_iter()
+            .chain(&recording.current_a)
+            .flatten()
+            .all(|x| x.is_finite())
+    );
+    assert!(recording.counts.iter().all(|x| x.abs() <= 2f64.powi(31)));
+    assert!(!recording.quantised || recording.counts.iter().all(|x| x.fract() == 0.0));
+    assert!(recording.counts_per_rev.is_finite() && recording.counts_per_rev > 0.0);
+}
+
+/// Reads with every kind of unit and checks what is accepted.
+fn read_every_way(bytes: &[u8]) {
+    for (_, angle) in AngleUnit::ALL {
+        for (_, voltage) in CommandUnit::ALL {
+            let motor = MotorFile {
+                counts_per_rev: Some(2048.0),
+                supply_v: Some(24.0),
+                metres_per_rev: Some(0.0025),
+                units: Units {
+                    angle: *angle,
+                    voltage: *voltage,
+                    ..Units::default()
+                },
+                ..MotorFile::default()
+            };
+            match read_recording_from(bytes, "rec.csv", &motor) {
+                Ok(recording) => {
+                    check_promises(&recording);
+                    // Any verdict is fine; it must be one.
+                    drop(recording.check_excited());
+                }
+                Err(error) => assert!(error.to_string().starts_with("rec.csv:")),
+            }
+        }
+    }
+}
+
+/// Cells that a reader stumbles over, and sound ones.
+fn cell() -> impl Strategy<Value = String> {
+    prop_oneof![
+        6 => any::<i16>().prop_map(|x| x.to_string()),
+        3 => any::<f64>().prop_map(|x| x.to_string()),
+        1 => prop::sample::select(vec!["", " ", "nan", "-inf", "1e999", "x", "\"", "\"1\"", "0x10", "#", "\u{feff}1", "1_0", "ü"])
+            .prop_map(String::from),
+    ]
+}
+
+fn csv_like() -> impl Strategy<Value = String> {
+    let row = prop_oneof![
+        8 => (0..1000u32, cell(), cell(), cell(), 0..2u8).prop_map(|(t, v, a, i, e)| format!("{t},{v},{a},{i},{e}")),
+        1 => prop::collection::vec(cell(), 0..6).prop_map(|cells| cells.join(",")),
+        1 => Just("# comment".to_string()),
+    ];
+    let header = prop_oneof![
+        4 => Just("t_s,voltage_v,angle_counts,current_a,enabled".to_string()),
+        1 => Just("\u{feff}t_s, voltage_V ,\"angle_rad\",current_a,enabled".to_string()),
+        1 => prop::collection::vec("[a-z_]{0,8}", 0..6).prop_map(|names| names.join(",")),
+    ];
+    let end = prop::sample::select(vec!["\n", "\r\n", "\r", "\n\n"]);
+    (header, prop::collection::vec(row, 0..8), end)
+        .prop_map(|(header, rows, end)| format!("{header}{end}{}", rows.join(end)))
+}
+
+fn toml_like() -> impl Strategy<Value = String> {
+    let key = prop::sample::select(vec![
+        "name",
+        "counts_per_rev",
+        "supply_v",
+        "[columns]\nangle",
+        "[units]\nangle",
+        "[drive]\nkind",
+        "[known]\nkt_n_m_a",
+        "[known]\nkt_equals_kb",
+        "known.kb_v_s_rad",
+        "ü",
+        "[units",
+        "\"\"",
+    ]);
+    let value = prop_oneof![
+        any::<f64>().prop_map(|x| format!("{x:?}")),
+        any::<i64>().prop_map(|x| x.to_string()),
+        "\"[a-z]{0,5}\"",
+        "[a-z\"{}\\[\\]=.,#\n ]{0,12}",
+        Just("{ value = 1.2, tolerance = 0.05 }".to_string()),
+        Just("\"rad\"".to_string()),
+        Just("true".to_string()),
+    ];
+    prop::collection::vec((key, value), 0..6).prop_map(|lines| {
+        lines
+            .iter()
+            .map(|(key, value)| format!("{key} = {value}\n"))
+            .collect()
+    })
+}
+
+fn recording() -> impl Strategy<Value = Recording> {
+    let sample = (
+        1e-6f64..1.0,
+        any_finite(),
+        any::<i32>(),
+        any_finite(),
+        any::<bool>(),
+    );
+    (
+        prop::collection::vec(sample, 2..50),
+        any::<bool>(),
+        any::<bool>(),
+        -1e6f64..1e6,
+    )
+        .prop_map(|(samples, with_current, with_enabled, start)| {
+            let mut time = start;
+            let mut time_s = Vec::new();
+            for sample in &samples {
+                time += sample.0;
+                time_s.push(time);
+            }
+            Recording {
+                source: "rec.csv".into(),
+                time_s,
+                command: samples.iter().map(|sample| sample.1).collect(),
+                counts: samples.iter().map(|sample| f64::from(sample.2)).collect(),
+                current_a: with_current.then(|| samples.iter().map(|sample| sample.3).collect()),
+                enabled: with_enabled.then(|| samples.iter().map(|sample| sample.4).collect()),
+                counts_per_rev: 2048.0,
+                quantised: true,
+                supply_v: None,
+                drive: Drive::Voltage,
+            }
+        })
+}
+
+fn any_finite() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        prop::num::f64::NORMAL,
+        prop::num::f64::SUBNORMAL,
+        prop::num::f64::ZERO,
+        -100.0f64..100.0
+    ]
+}
+
+fn motor_file() -> impl Strategy<Value = MotorFile> {
+    let positive = || prop::option::of(prop::num::f64::POSITIVE | prop::num::f64::SUBNORMAL);
+    let name = || prop::option::of("[ -~äöü]{0,6}[a-z]");
+    let fact = || {
+        let tolerance = prop::option::of(1e-6f64..0.999);
+        let value = prop::num::f64::POSITIVE;
+        prop::option::of(
+            (value, tolerance).prop_map(|(value, tolerance)| Fact { value, tolerance }),
+        )
+    };
+    let columns = (name(), name(), name(), name(), name()).prop_map(
+        |(time, voltage, angle, current, enabled)| {
+            let trimmed = |name: Option<String>| name.map(|name| name.trim().to_string());
+            Columns {
+                time: trimmed(time),
+                voltage: trimmed(voltage),
+                angle: trimmed(angle),
+                current: trimmed(current),
+                enabled: trimmed(enabled),
+            }
+        },
+    );
+    let known =
+        (fact(), fact(), fact(), fact(), fact(), fact()).prop_map(|(r, l, kt, kb, j, f)| Known {
+            resistance_ohm: r,
+            inductance_h: l,
+            kt_n_m_a: kt,
+            kb_v_s_rad: kb,
+            inertia_kg_m2: j,
+            viscous_n_m_s: f,
+            kt_equals_kb: kt.is_none() || kb.is_none(),
+        });
+    let numbers = (
+        prop::option::of("\\PC*"),
+        positive(),
+        positive(),
+        positive(),
+    );
+    let units = (0..3usize, 0..4usize, 0..5usize, 0..2usize);
+    (numbers, columns, units, known).prop_map(
+        |((name, counts, supply, metres), columns, (t, v, a, i), known)| {
+            let voltage = CommandUnit::ALL[v].1;
+            let bridge = matches!(voltage, CommandUnit::Volts | CommandUnit::Duty);
+            MotorFile {
+                source: Some("motor.toml".into()),
+                name,
+                counts_per_rev: counts,
+                supply_v: supply,
+                metres_per_rev: metres,
+                columns,
+                units: Units {
+                    time: TimeUnit::ALL[t].1,
+                    voltage,
+                    angle: AngleUnit::ALL[a].1,
+                    current: CurrentUnit::ALL[i].1,
+                },
+                drive: if bridge {
+                    Drive::Voltage
+                } else {
+                    Drive::Current
+                },
+                known,
+            }
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        read_every_way(&bytes);
+        if let Ok(text) = std::str::from_utf8(&bytes) {
+            drop(MotorFile::parse(text, "motor.toml"));
+        }
+    }
+
+    #[test]
+    fn any_csv_is_read_or_refused(text in csv_like()) {
+        read_every_way(text.as_bytes());
+    }
+
+    #[test]
+    fn any_toml_is_read_or_refused(text in toml_like()) {
+        if let Err(error) = MotorFile::parse(&text, "motor.toml") {
+            prop_assert!(error.to_string().starts_with("motor.toml:"));
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_the_same(recording in recording(), comment in "\\PC*[\r\n]?\\PC*") {
+        let mut bytes = Vec::new();
+        write_csv(&mut bytes, &recording, &[comment]).unwrap();
+        let motor = MotorFile { counts_per_rev: Some(2048.0), ..MotorFile::default() };
+        let back = read_recording_from(&bytes[..], "rec.csv", &motor).unwrap();
+        prop_assert_eq!(back, recording);
+    }
+
+    #[test]
+    fn a_motor_file_is_read_back_the_same(motor in motor_file()) {
+        let text = motor.to_toml();
+        let back = MotorFile::parse(&text, "motor.toml");
+        prop_assert!(back.is_ok(), "{}\n{}", back.unwrap_err(), text);
+        prop_assert_eq!(back.unwrap(), motor, "{}", text);
+    }
+}
+
+/// The same motion in every unit gives the same counts.
+#[test]
+fn units_agree() {
+    let counts: Vec<i32> = (0..200).map(|k| k * k / 7 - 900).collect();
+    let revolution = [
+        ("counts", 2048.0),
+        ("deg", 360.0),
+        ("rad", std::f64::consts::TAU),
+        ("rev", 1.0),
+        ("m", 0.0025),
+    ];
+    for (unit, per_rev) in revolution {
+        for (time_unit, per_second) in [("s", 1.0), ("ms", 1e3), ("us", 1e6)] {
+            let toml = format!(
+                "counts_per_rev = 2048\nsupply_v = 12\nmetres_per_rev = 0.0025\n[columns]\ntime = \"t\"\nvoltage = \"u\"\n\
+                 angle = \"a\"\ncurrent = \"i\"\n[units]\ntime = \"{time_unit}\"\nangle = \"{unit}\"\nvoltage = \"duty\"\n\
+                 current = \"mA\"\n"
+            );
+            let motor = MotorFile::parse(&toml, "motor.toml").unwrap();
+            let mut text = String::from("t;u;a;i;ignored\r\n");
+            for (k, counts) in counts.iter().enumerate() {
+                let time = k as f64 / 1e3 * per_second;
+                let angle = f64::from(*counts) / 2048.0 * per_rev;
+                text += &format!("{time};0.5;{angle};250;text\r\n");
+            }
+            let recording = read_recording_from(text.as_bytes(), "rec.csv", &motor).unwrap();
+            assert!(recording.quantised, "{unit}");
+            assert_eq!(
+                recording.counts,
+                counts.iter().map(|x| f64::from(*x)).collect::<Vec<_>>(),
+                "{unit}"
+            );
+            assert_eq!(recording.time_s[3], 0.003);
+            assert!(recording.command.iter().all(|x| *x == 6.0));
+            assert!(recording.current_a.unwrap().iter().all(|x| *x == 0.25));
+        }
+    }
+}
+
+#[test]
+fn an_angle_that_is_no_counter_is_kept_and_written_in_revolutions() {
+    let toml = "counts_per_rev = 4096\n[units]\nangle = \"rev\"\n";
+    let motor = MotorFile::parse(toml, "motor.toml").unwrap();
+    let mut text = String::from("t_s,voltage_v,angle_rev\n");
+    for k in 0..100 {
+        text += &format!("{k},1,{:?}\n", f64::from(k * k) * 0.000_123_4);
+    }
+    let recording = read_recording_from(text.as_bytes(), "rec.csv", &motor).unwrap();
+    assert!(!recording.quantised);
+    let mut bytes = Vec::new();
+    write_csv(&mut bytes, &recording, &[]).unwrap();
+    let back = read_recording_from(&bytes[..], "rec.csv", &motor).unwrap();
+    for (x, y) in recording.counts.iter().zip(&back.counts) {
+        assert!((x - y).abs() <= 1e-12 * x.abs());
+    }
+}
+
+#[test]
+fn a_recording_can_be_split_to_hold_a_part_out() {
+    let text =
+        "t_s,voltage_v,angle_counts,enabled\n5,1,0,1\n6,2,10,1\n7,3,20,0\n8.5,4,30,1\n9,5,40,1\n";
+    let motor = MotorFile {
+        counts_per_rev: Some(4.0),
+        ..MotorFile::default()
+    };
+    let recording = read_recording_from(text.as_bytes(), "rec.csv", &motor).unwrap();
+    assert_eq!(recording.duration_s(), 4.0);
+    assert_eq!(recording.median_interval_s(), 1.0);
+    let (before, after) = recording.split_at(2.0).unwrap();
+    check_promises(&before);
+    check_promises(&after);
+    assert_eq!(before.time_s, [5.0, 6.0]);
+    assert_eq!(after.time_s, [7.0, 8.5, 9.0]);
+    assert_eq!(after.enabled, Some(vec![false, true, true]));
+    for seconds in [f64::NAN, -1.0, 0.0, 1.0, 3.6, 1e9] {
+        assert!(recording.split_at(seconds).is_none());
+    }
+}
+
+#[test]
+fn a_recording_is_written_to_a_file_with_its_provenance() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.csv");
+    let text = "t_s,voltage_v,angle_counts\n0,1,0\n1,1,5\n";
+    let motor = MotorFile {
+        counts_per_rev: Some(4.0),
+        ..MotorFile::default()
+    };
+    let recording = read_recording_from(text.as_bytes(), "rec.csv", &motor).unwrap();
+    write_recording(&path, &recording, &["seed 7".into(), "two\nlines".into()]).unwrap();
+    let written = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(
+        written,
+        "# seed 7\n# two\n# lines\nt_s,voltage_v,angle_counts\n0.0,1.0,0\n1.0,1.0,5\n"
+    );
+}
