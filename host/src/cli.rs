@@ -127,7 +127,7 @@ pub struct MotorArgs {
     #[arg(long, value_name = "N")]
     pub counts_per_rev: Option<f64>,
     /// Supply voltage, V
-    #[arg(long, value_name = "V")]
+    #[arg(long = "supply-v", value_name = "V")]
     pub supply: Option<f64>,
     /// Travel per revolution, m, for an angle logged in metres
     #[arg(long, value_name = "M")]

@@ -3,6 +3,8 @@
 use crate::compare::{Contest, Row, quantile};
 use crate::fit::Fit;
 use crate::fit::margins::{Loop, Margins};
+use crate::paper::{PRINTED, Printed};
+use crate::report::paper::{Round, Strong, evaluations_to, optimum};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -185,6 +187,127 @@ impl CompareRowJson {
                 .map(MarginsJson::from),
             parameters: names.zip(values.unwrap_or_default()).collect(),
             curve: row.curve(contest.budget, 0.5).into_iter().filter(|p| p.1.is_finite()).collect(),
+        }
+    }
+}
+
+/// `servoid.compare/1` with the paper's columns.
+#[derive(Debug, Serialize)]
+pub struct PaperJson {
+    schema: &'static str,
+    budget: usize,
+    seeds: Vec<u64>,
+    optimum_cost: Option<f64>,
+    truth_cost: Option<f64>,
+    rows: Vec<PaperRowJson>,
+    /// All treatments of the quantiser and both steps; the first is `rows` again.
+    variants: Vec<VariantJson>,
+    strong: Vec<StrongJson>,
+}
+
+#[derive(Debug, Serialize)]
+struct PaperRowJson {
+    algorithm: String,
+    #[serde(flatten)]
+    ours: Option<CompareRowJson>,
+    paper: PaperColumnJson,
+}
+
+#[derive(Debug, Serialize)]
+struct PaperColumnJson {
+    cost: Option<f64>,
+    parameters: BTreeMap<&'static str, f64>,
+    margins_printed: MarginsJson,
+    margins_computed: Option<MarginsJson>,
+}
+
+#[derive(Debug, Serialize)]
+struct VariantJson {
+    name: String,
+    truth_cost: Option<f64>,
+    rows: Vec<CompareRowJson>,
+}
+
+#[derive(Debug, Serialize)]
+struct StrongJson {
+    algorithm: String,
+    median_cost: Option<f64>,
+    worst_cost: Option<f64>,
+    median_evaluations_to_1pct: Option<f64>,
+    worst_evaluations_to_1pct: Option<f64>,
+}
+
+impl PaperJson {
+    /// From the rounds of the paper's contest.
+    pub fn new(rounds: &[Round<'_>], strong: &Strong) -> Self {
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        let optimum = optimum(rounds, strong);
+        let row = |round: &Round<'_>, name: &str, least: f64| {
+            let row = round.rows.iter().find(|row| row.algorithm == name)?;
+            Some(CompareRowJson::new(round.contest, row, least))
+        };
+        let rows = PRINTED
+            .iter()
+            .map(|column| PaperRowJson {
+                algorithm: column.algorithm.to_owned(),
+                ours: rounds.first().and_then(|round| row(round, column.algorithm, optimum)),
+                paper: PaperColumnJson::from(column),
+            })
+            .collect();
+        let variants = rounds
+            .iter()
+            .map(|round| {
+                let least = least_cost(&round.rows);
+                VariantJson {
+                    name: round.variant.name(),
+                    truth_cost: finite(round.truth_cost),
+                    rows: round.rows.iter().map(|r| CompareRowJson::new(round.contest, r, least)).collect(),
+                }
+            })
+            .collect();
+        PaperJson {
+            schema: "servoid.compare/1",
+            budget: rounds.first().map_or(0, |round| round.contest.budget),
+            seeds: rounds.first().map_or(Vec::new(), |round| round.contest.seeds.clone()),
+            optimum_cost: finite(optimum),
+            truth_cost: rounds.first().and_then(|round| finite(round.truth_cost)),
+            rows,
+            variants,
+            strong: strong.rows.iter().map(|row| StrongJson::new(row, optimum)).collect(),
+        }
+    }
+}
+
+impl From<&Printed> for PaperColumnJson {
+    fn from(column: &Printed) -> Self {
+        let p = &column.physical;
+        PaperColumnJson {
+            cost: column.cost,
+            parameters: BTreeMap::from([
+                ("inductance", p.inductance),
+                ("resistance", p.resistance),
+                ("kt", p.kt),
+                ("inertia", p.inertia),
+                ("viscous", p.viscous),
+                ("kb", p.kb),
+            ]),
+            margins_printed: column.margins.into(),
+            margins_computed: column.computed_margins().map(MarginsJson::from),
+        }
+    }
+}
+
+impl StrongJson {
+    fn new(row: &Row, optimum: f64) -> Self {
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        let costs = row.costs();
+        let evaluations = evaluations_to(row, 1.01 * optimum);
+        StrongJson {
+            algorithm: row.algorithm.clone(),
+            median_cost: finite(quantile(&costs, 0.5)),
+            worst_cost: finite(quantile(&costs, 1.0)),
+            median_evaluations_to_1pct: finite(quantile(&evaluations, 0.5)),
+            worst_evaluations_to_1pct: finite(quantile(&evaluations, 1.0)),
         }
     }
 }
