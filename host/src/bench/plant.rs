@@ -1,27 +1,30 @@
 //! The motor's differential equations, integrated finely, with every stop and release located.
 //!
 //! ```text
-//! L di/dt  = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
-//! J dω/dt  = Kt i − b ω + ΣT − Tshaft − F sgn ω     Machinery", ch. 2: separately excited machine)
+//! L di/dt   = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
+//! J dω/dt   = Kt i − b ω + ΣT − Tshaft − F sgn ω    Machinery": machine with a constant field)
 //! Jl dωl/dt = Tshaft                               load side, if there is one
 //! ```
 //!
-//! F is the budget of dry friction. The shaft is either sliding in a known direction or held; within a
-//! substep that state is fixed, so that the right-hand side is smooth. A substep in which the shaft
-//! stops, or the torque outgrows the budget, is cut where that happens (Filippov's solution, as in
-//! Karnopp's friction model but without his velocity band).
+//! F is the budget of dry friction. The shaft is either sliding in a known direction or held, and a load
+//! behind a gap is driven forward, backward or not at all; within a substep that is fixed, so that the
+//! right-hand side is smooth. A substep in which the shaft
+//! stops, the torque outgrows the budget, or a law bends sharply is cut where that happens (Filippov's
+//! solution, as in Karnopp's friction model but without his velocity band).
 
-use super::coupling::Shaft;
+use super::coupling::{Flank, Shaft};
 use super::effects::{At, Effect, Sliding, Winding};
-use super::{Coupling, Machine};
+use super::{BenchError, Coupling, Machine};
 
 /// Most effects with a memory that can act at once; a law checks it against the catalogue.
 const MEMORIES: usize = 4;
 /// Substeps in the shortest time constant at [`DEFAULT_SUBSTEP_HZ`].
-const STEPS_PER_TIME_CONSTANT: f64 = 6.0;
+const STEPS_PER_TIME_CONSTANT: f64 = 4.0;
 /// The substep rate unless the bench asks for another, Hz.
 pub(super) const DEFAULT_SUBSTEP_HZ: f64 = 40_000.0;
-/// A stop or release is located to this share of the substep.
+/// Shorter substeps than this would take minutes, and mean that some parameter is far off, s.
+const SHORTEST_STEP_S: f64 = 2e-7;
+/// A stop, a release or a bend is located to this share of the substep.
 const EVENT_TOLERANCE: f64 = 1e-9;
 
 /// What the bridge feeds to the armature.
@@ -75,7 +78,9 @@ enum Grip {
 /// Torques on the motor shaft but for dry friction, N·m.
 struct Torques {
     net: f64,
+    /// From the motor to its load, with its sign.
     transmitted: f64,
+    /// From the motor side to the load side of the coupling.
     shaft: f64,
 }
 
@@ -89,6 +94,8 @@ pub(super) struct Plant<'a> {
     motor_inertia_kg_m2: f64,
     substep_hz: f64,
     grip: Grip,
+    flank: Flank,
+    pieces: i64,
     pub(super) state: State,
 }
 
@@ -131,6 +138,8 @@ impl<'a> Plant<'a> {
             shaft,
             substep_hz,
             grip: Grip::None,
+            flank: Flank::None,
+            pieces: 0,
             state,
         };
         let stall = machine.stall_torque_n_m();
@@ -144,7 +153,10 @@ impl<'a> Plant<'a> {
     }
 
     /// Advances by `duration` s while the bridge feeds the armature with `feed`.
-    pub(super) fn advance(&mut self, feed: Feed, duration: f64) {
+    ///
+    /// # Errors
+    /// [`BenchError::TooStiff`].
+    pub(super) fn advance(&mut self, feed: Feed, duration: f64) -> Result<(), BenchError> {
         match feed {
             Feed::Volts(_) => {}
             Feed::Amps(current) => self.state.current = current,
@@ -153,32 +165,75 @@ impl<'a> Plant<'a> {
         if self.grip == Grip::Held {
             self.settle();
         }
+        self.look_around();
         let mut left = duration;
         while left > 0.0 {
-            let steps = (left / self.longest_step(feed)).ceil();
+            let longest = self.longest_step(feed);
+            if longest < SHORTEST_STEP_S {
+                return Err(BenchError::TooStiff { step_s: longest });
+            }
+            let steps = (left / longest).ceil();
             left -= self.step(feed, left / steps);
         }
+        Ok(())
     }
 
-    /// One substep of `dt` s, or less if the grip changes within; returns the time taken.
+    /// One substep of `dt` s, or less if the right-hand side bends within; returns the time taken.
     fn step(&mut self, feed: Feed, dt: f64) -> f64 {
         let whole = self.runge_kutta(feed, dt);
-        if !self.grip_changes(&whole) {
+        if !self.bends_before(&whole) {
             self.state = whole;
             return dt;
         }
         let (mut before, mut after) = (0.0, dt);
         while after - before > EVENT_TOLERANCE * dt {
             let middle = 0.5 * (before + after);
-            if self.grip_changes(&self.runge_kutta(feed, middle)) {
+            if self.bends_before(&self.runge_kutta(feed, middle)) {
                 after = middle;
             } else {
                 before = middle;
             }
         }
-        self.state = self.runge_kutta(feed, after);
-        self.settle();
+        let bend = self.runge_kutta(feed, after);
+        let settles = self.grip_changes(&bend);
+        self.state = bend;
+        if settles {
+            self.settle();
+        }
+        self.look_around();
         after
+    }
+
+    /// Notes which flank and which pieces of the effects' laws apply now.
+    fn look_around(&mut self) {
+        self.flank = self.flank_at(&self.state);
+        self.pieces = self.pieces_at(&self.state);
+    }
+
+    /// Whether the right-hand side has a bend or a jump between the present state and `next`.
+    fn bends_before(&self, next: &State) -> bool {
+        self.grip_changes(next)
+            || self.flank_at(next) != self.flank
+            || self.pieces_at(next) != self.pieces
+    }
+
+    /// The pieces of all effects' laws in one number, its digits in base 3.
+    fn pieces_at(&self, state: &State) -> i64 {
+        let transmitted = match self.grip {
+            Grip::None => 0.0,
+            _ => self.torques(state, &self.winding(state)).transmitted,
+        };
+        let effects = self.effects.iter().enumerate();
+        effects.fold(0, |digits, (index, effect)| {
+            3 * digits + i64::from(effect.piece(&self.at(index, state), transmitted))
+        })
+    }
+
+    fn flank_at(&self, state: &State) -> Flank {
+        let twist = state.angle - state.load_angle;
+        let rate = state.speed - state.load_speed;
+        self.shaft
+            .map_or(Flank::None, |shaft| shaft.flank(twist, rate))
     }
 
     /// Whether the shaft has stopped sliding, or the torque has outgrown what holds it.
@@ -270,14 +325,12 @@ impl<'a> Plant<'a> {
             external += effect.torque(&self.at(index, state));
         }
         let shaft = self.shaft.map_or(0.0, |shaft| {
-            shaft.torque(
-                state.angle - state.load_angle,
-                state.speed - state.load_speed,
-            )
+            let twist = state.angle - state.load_angle;
+            shaft.torque(self.flank, twist, state.speed - state.load_speed)
         });
         Torques {
             net: motor - self.machine.viscous_n_m_s * state.speed + external - shaft,
-            transmitted: (motor - external).abs(),
+            transmitted: motor - external,
             shaft,
         }
     }
@@ -299,7 +352,7 @@ impl<'a> Plant<'a> {
         let sliding = Sliding {
             direction,
             speed,
-            transmitted,
+            transmitted: transmitted.abs(),
         };
         self.effects
             .iter()
@@ -330,5 +383,25 @@ impl<'a> Plant<'a> {
         1.0 / self
             .substep_hz
             .max(STEPS_PER_TIME_CONSTANT * refinement * fastest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Hidden;
+    use super::super::effects::CATALOGUE;
+    use super::*;
+
+    #[test]
+    fn there_is_room_for_every_memory_of_the_catalogue() {
+        let machine = Machine::paper();
+        let build = |name| {
+            Hidden::typical(name, &machine)
+                .unwrap()
+                .build(&machine)
+                .unwrap()
+        };
+        let effects = CATALOGUE.iter().map(|kind| build(kind.name));
+        assert!(effects.filter(|effect| effect.memory().is_some()).count() <= MEMORIES);
     }
 }

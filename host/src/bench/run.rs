@@ -84,7 +84,7 @@ impl Bench {
     /// Plays the drive and records. Row k is read at its time before its command acts.
     ///
     /// # Errors
-    /// A setting, command or effect that makes no sense; [`BenchError::Diverged`].
+    /// A setting, command or effect that makes no sense; [`BenchError::TooStiff`]; [`BenchError::Diverged`].
     pub fn run(&self, drive: &[DriveSample]) -> Result<Run, BenchError> {
         self.check(drive)?;
         let effects = self.assemble()?;
@@ -112,7 +112,7 @@ impl Bench {
             if let Some(next) = times_s.get(row + 1) {
                 timeline.play(now, *next, |sample, dt| {
                     plant.advance(self.feed(sample), dt)
-                });
+                })?;
                 encoder.pass((plant.state.angle - state.angle) / (next - now), next - now);
             }
         }

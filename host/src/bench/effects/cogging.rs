@@ -4,7 +4,7 @@ use super::{At, Effect, Kind, Param};
 
 /// T = −A·(sin(nθ + φ) + a₂·sin(2nθ + 2φ)), the first terms of the Fourier series over one
 /// revolution, whose lowest order n is the least common multiple of slots and poles (Hanselman,
-/// "Brushless Permanent Magnet Motor Design", 2003, ch. 4). It acts with and without current.
+/// "Brushless Permanent Magnet Motor Design", 2003). It acts with and without current.
 struct Cogging {
     torque_n_m: f64,
     order: f64,
