@@ -3,7 +3,8 @@
 use super::chance::Chance;
 use super::effects::{CATALOGUE, Effect};
 use super::encoder::Encoder;
-use super::plant::{DEFAULT_SUBSTEP_HZ, Feed, Plant};
+use super::integrate::DEFAULT_SUBSTEP_HZ;
+use super::plant::{Feed, Plant};
 use super::timeline::Timeline;
 use super::{BenchError, DriveSample, Hidden, Machine};
 use std::f64::consts::TAU;

@@ -65,4 +65,13 @@ impl Effect for Cogging {
         let (sin, cos) = (self.order * at.angle + self.phase_rad).sin_cos();
         -self.torque_n_m * (sin + self.second * 2.0 * sin * cos)
     }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        // A quarter: one substep resolves a radian of a force that merely comes and goes.
+        if self.torque_n_m == 0.0 {
+            0.0
+        } else {
+            0.25 * self.order * at.speed.abs()
+        }
+    }
 }

@@ -7,6 +7,8 @@ use super::{At, Effect, Kind, Param, Winding};
 /// even form that stays positive.
 struct LSat {
     falloff_per_a2: f64,
+    /// R/L0 of the unsaturated winding, 1/s.
+    rate_per_s: f64,
 }
 
 pub(super) static KIND: Kind = Kind {
@@ -21,9 +23,10 @@ pub(super) static KIND: Kind = Kind {
         range: (0.0, f64::INFINITY),
         typical: |machine| 1.0 / machine.stall_current_a().powi(2),
     }],
-    build: |values, _| {
+    build: |values, machine| {
         Box::new(LSat {
             falloff_per_a2: values[0],
+            rate_per_s: machine.resistance_ohm / machine.inductance_h,
         })
     },
 };
@@ -31,5 +34,10 @@ pub(super) static KIND: Kind = Kind {
 impl Effect for LSat {
     fn winding(&self, winding: &mut Winding, at: &At) {
         winding.inductance_h /= 1.0 + self.falloff_per_a2 * at.current * at.current;
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        // The winding's own R/L counts already; this leaves room for a current that grows within the substep.
+        self.rate_per_s * self.falloff_per_a2 * at.current * at.current
     }
 }
