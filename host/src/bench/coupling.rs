@@ -26,6 +26,19 @@ impl Coupling {
     }
 }
 
+/// Which flanks of the coupling touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flank {
+    /// There is no gap: the coupling is a shaft that pushes and pulls.
+    None,
+    /// The load is free within the gap.
+    Free,
+    /// The motor drives the load forward.
+    Front,
+    /// The motor drives the load backward.
+    Back,
+}
+
 /// A coupling on a given machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shaft {
@@ -52,19 +65,31 @@ impl Shaft {
     }
 
     /// Torque that the motor side passes to the load side, N·m, at `twist` = motor − load, rad, and its
-    /// rate, rad/s. Flanks that touch push and never pull (Nordin and Gutman, "Controlling mechanical
-    /// systems with backlash – a survey", Automatica 38(10), 2002, dead-zone model with damping).
-    pub(super) fn torque(&self, twist: f64, twist_rate: f64) -> f64 {
+    /// rate, rad/s, on the given flank (Nordin and Gutman, "Controlling mechanical systems with
+    /// backlash – a survey", Automatica 38(10), 2002, dead-zone model with damping).
+    pub(super) fn torque(&self, flank: Flank, twist: f64, twist_rate: f64) -> f64 {
+        let bend = match flank {
+            Flank::Free => return 0.0,
+            Flank::None => twist,
+            Flank::Front => twist - self.half_gap_rad,
+            Flank::Back => twist + self.half_gap_rad,
+        };
+        self.stiffness_n_m_rad * bend + self.damping_n_m_s * twist_rate
+    }
+
+    /// Which flanks touch at a twist, rad, and its rate, rad/s: those that would push, and never pull.
+    pub(super) fn flank(&self, twist: f64, twist_rate: f64) -> Flank {
         if self.half_gap_rad == 0.0 {
-            return self.stiffness_n_m_rad * twist + self.damping_n_m_s * twist_rate;
+            return Flank::None;
         }
-        let depth = twist.abs() - self.half_gap_rad;
-        if depth <= 0.0 {
-            return 0.0;
+        let push = |flank| self.torque(flank, twist, twist_rate);
+        if twist > self.half_gap_rad && push(Flank::Front) > 0.0 {
+            Flank::Front
+        } else if twist < -self.half_gap_rad && push(Flank::Back) < 0.0 {
+            Flank::Back
+        } else {
+            Flank::Free
         }
-        let side = twist.signum();
-        let push = self.stiffness_n_m_rad * depth + self.damping_n_m_s * twist_rate * side;
-        push.max(0.0) * side
     }
 
     /// How fast the two inertias move against each other, 1/s.

@@ -106,6 +106,15 @@ pub enum BenchError {
         /// What was given.
         value: f64,
     },
+    /// Some part of the motor moves far faster than the substep.
+    #[error(
+        "the motor needs substeps of {step_s:.1e} s, too short to simulate; raise the inductance, or soften \
+         the effect that is so fast (a larger compliance, presliding or knee)"
+    )]
+    TooStiff {
+        /// The substep that it needs, s.
+        step_s: f64,
+    },
     /// The simulation left the numbers.
     #[error(
         "the simulation diverged before t = {time_s} s; lower the command or the effects' parameters"

@@ -16,7 +16,8 @@
 //! | `effects` | what an effect may touch, the catalogue, and one file per effect |
 //! | `hidden` | one effect as ordered: its parameters and its strength, typical or from text |
 //! | `timeline` | when which command reaches the bridge |
-//! | `plant` | the state, its differential equations, stops and releases |
+//! | `plant` | the state and its differential equations |
+//! | `integrate` | the state moved forward, with stops, releases and contacts located |
 //! | `coupling` | the spring and the gap between motor and load |
 //! | `encoder` | from the shaft's angle to a counter reading |
 //! | `run` | the bench itself: the order in which the above happen |
@@ -34,7 +35,7 @@
 //!    parameter; `impl Effect` with the one hook where it enters the equations.
 //! 2. Add `mod <name>;` and `&<name>::KIND` to `effects/mod.rs`, at its place between command and counter.
 //!
-//! The laws in `laws.rs` then hold it to: no strength, no change (bit for bit); less strength, less
+//! The laws in `laws/` then hold it to: no strength, no change (bit for bit); less strength, less
 //! change; same seed, same bits; and half the substep, the same recording.
 
 mod chance;
@@ -43,6 +44,7 @@ pub mod effects;
 mod encoder;
 mod error;
 mod hidden;
+mod integrate;
 #[cfg(test)]
 mod laws;
 mod machine;

@@ -1,29 +1,22 @@
-//! The motor's differential equations, integrated finely, with every stop and release located.
+//! The motor's state and its differential equations.
 //!
 //! ```text
-//! L di/dt  = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
-//! J dω/dt  = Kt i − b ω + ΣT − Tshaft − F sgn ω     Machinery", ch. 2: separately excited machine)
+//! L di/dt   = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
+//! J dω/dt   = Kt i − b ω + ΣT − Tshaft − F sgn ω    Machinery": machine with a constant field)
 //! Jl dωl/dt = Tshaft                               load side, if there is one
 //! ```
 //!
-//! F is the budget of dry friction. The shaft is either sliding in a known direction or held; within a
-//! substep that state is fixed, so that the right-hand side is smooth. A substep in which the shaft
-//! stops, or the torque outgrows the budget, is cut where that happens (Filippov's solution, as in
-//! Karnopp's friction model but without his velocity band).
+//! F is the budget of dry friction. The shaft is either sliding in a known direction or held, and a load
+//! behind a gap is driven forward, backward or not at all: [`Grip`] and [`Flank`] fix that while
+//! the equations are evaluated, so that their right-hand side is smooth. `integrate` moves the
+//! state forward and changes both when it is time.
 
-use super::coupling::Shaft;
+use super::coupling::{Flank, Shaft};
 use super::effects::{At, Effect, Sliding, Winding};
 use super::{Coupling, Machine};
 
 /// Most effects with a memory that can act at once; a law checks it against the catalogue.
 const MEMORIES: usize = 4;
-/// Substeps in the shortest time constant at [`DEFAULT_SUBSTEP_HZ`].
-const STEPS_PER_TIME_CONSTANT: f64 = 6.0;
-/// The substep rate unless the bench asks for another, Hz.
-pub(super) const DEFAULT_SUBSTEP_HZ: f64 = 40_000.0;
-/// A stop or release is located to this share of the substep.
-const EVENT_TOLERANCE: f64 = 1e-9;
-
 /// What the bridge feeds to the armature.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Feed {
@@ -47,7 +40,7 @@ pub(super) struct State {
 }
 
 impl State {
-    fn ahead(&self, rate: &State, dt: f64) -> State {
+    pub(super) fn ahead(&self, rate: &State, dt: f64) -> State {
         let mut next = *self;
         next.angle += dt * rate.angle;
         next.speed += dt * rate.speed;
@@ -63,7 +56,7 @@ impl State {
 
 /// How dry friction grips the shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Grip {
+pub(super) enum Grip {
     /// There is no dry friction.
     None,
     /// The shaft slides in direction +1 or −1.
@@ -73,22 +66,26 @@ enum Grip {
 }
 
 /// Torques on the motor shaft but for dry friction, N·m.
-struct Torques {
-    net: f64,
-    transmitted: f64,
+pub(super) struct Torques {
+    pub(super) net: f64,
+    /// From the motor to its load, with its sign.
+    pub(super) transmitted: f64,
+    /// From the motor side to the load side of the coupling.
     shaft: f64,
 }
 
 /// The machine with its effects, in motion.
 pub(super) struct Plant<'a> {
-    machine: Machine,
-    effects: &'a [Box<dyn Effect>],
+    pub(super) machine: Machine,
+    pub(super) effects: &'a [Box<dyn Effect>],
     /// Index into the state's memory, for each effect.
     memory_of: Vec<Option<usize>>,
-    shaft: Option<Shaft>,
-    motor_inertia_kg_m2: f64,
-    substep_hz: f64,
-    grip: Grip,
+    pub(super) shaft: Option<Shaft>,
+    pub(super) motor_inertia_kg_m2: f64,
+    pub(super) substep_hz: f64,
+    pub(super) grip: Grip,
+    pub(super) flank: Flank,
+    pub(super) pieces: i64,
     pub(super) state: State,
 }
 
@@ -131,6 +128,8 @@ impl<'a> Plant<'a> {
             shaft,
             substep_hz,
             grip: Grip::None,
+            flank: Flank::None,
+            pieces: 0,
             state,
         };
         let stall = machine.stall_torque_n_m();
@@ -143,86 +142,8 @@ impl<'a> Plant<'a> {
         plant
     }
 
-    /// Advances by `duration` s while the bridge feeds the armature with `feed`.
-    pub(super) fn advance(&mut self, feed: Feed, duration: f64) {
-        match feed {
-            Feed::Volts(_) => {}
-            Feed::Amps(current) => self.state.current = current,
-            Feed::Open => self.state.current = 0.0,
-        }
-        if self.grip == Grip::Held {
-            self.settle();
-        }
-        let mut left = duration;
-        while left > 0.0 {
-            let steps = (left / self.longest_step(feed)).ceil();
-            left -= self.step(feed, left / steps);
-        }
-    }
-
-    /// One substep of `dt` s, or less if the grip changes within; returns the time taken.
-    fn step(&mut self, feed: Feed, dt: f64) -> f64 {
-        let whole = self.runge_kutta(feed, dt);
-        if !self.grip_changes(&whole) {
-            self.state = whole;
-            return dt;
-        }
-        let (mut before, mut after) = (0.0, dt);
-        while after - before > EVENT_TOLERANCE * dt {
-            let middle = 0.5 * (before + after);
-            if self.grip_changes(&self.runge_kutta(feed, middle)) {
-                after = middle;
-            } else {
-                before = middle;
-            }
-        }
-        self.state = self.runge_kutta(feed, after);
-        self.settle();
-        after
-    }
-
-    /// Whether the shaft has stopped sliding, or the torque has outgrown what holds it.
-    fn grip_changes(&self, state: &State) -> bool {
-        match self.grip {
-            Grip::None => false,
-            Grip::Sliding(direction) => state.speed * direction < 0.0,
-            Grip::Held => !self.holds(state),
-        }
-    }
-
-    fn holds(&self, state: &State) -> bool {
-        let torques = self.torques(state, &self.winding(state));
-        torques.net.abs() <= self.budget(torques.net.signum(), 0.0, torques.transmitted)
-    }
-
-    /// Decides for a shaft at rest whether friction holds it, or which way it slides.
-    fn settle(&mut self) {
-        self.state.speed = 0.0;
-        self.grip = if self.holds(&self.state) {
-            Grip::Held
-        } else {
-            let torques = self.torques(&self.state, &self.winding(&self.state));
-            Grip::Sliding(torques.net.signum())
-        };
-    }
-
-    /// The classical fourth-order method (Hairer, Nørsett and Wanner, "Solving ODEs I", table II.1.2).
-    fn runge_kutta(&self, feed: Feed, dt: f64) -> State {
-        let state = &self.state;
-        let k1 = self.rate(feed, state);
-        let k2 = self.rate(feed, &state.ahead(&k1, 0.5 * dt));
-        let k3 = self.rate(feed, &state.ahead(&k2, 0.5 * dt));
-        let k4 = self.rate(feed, &state.ahead(&k3, dt));
-        let sixth = dt / 6.0;
-        state
-            .ahead(&k1, sixth)
-            .ahead(&k2, 2.0 * sixth)
-            .ahead(&k3, 2.0 * sixth)
-            .ahead(&k4, sixth)
-    }
-
     /// The right-hand side of the differential equations.
-    fn rate(&self, feed: Feed, state: &State) -> State {
+    pub(super) fn rate(&self, feed: Feed, state: &State) -> State {
         let winding = self.winding(state);
         let torques = self.torques(state, &winding);
         let accelerating = match self.grip {
@@ -263,26 +184,24 @@ impl<'a> Plant<'a> {
         (volts - winding.resistance_ohm * state.current - back_emf) / winding.inductance_h
     }
 
-    fn torques(&self, state: &State, winding: &Winding) -> Torques {
+    pub(super) fn torques(&self, state: &State, winding: &Winding) -> Torques {
         let motor = winding.kt_n_m_a * state.current;
         let mut external = 0.0;
         for (index, effect) in self.effects.iter().enumerate() {
             external += effect.torque(&self.at(index, state));
         }
         let shaft = self.shaft.map_or(0.0, |shaft| {
-            shaft.torque(
-                state.angle - state.load_angle,
-                state.speed - state.load_speed,
-            )
+            let twist = state.angle - state.load_angle;
+            shaft.torque(self.flank, twist, state.speed - state.load_speed)
         });
         Torques {
             net: motor - self.machine.viscous_n_m_s * state.speed + external - shaft,
-            transmitted: (motor - external).abs(),
+            transmitted: motor - external,
             shaft,
         }
     }
 
-    fn winding(&self, state: &State) -> Winding {
+    pub(super) fn winding(&self, state: &State) -> Winding {
         let mut winding = Winding {
             resistance_ohm: self.machine.resistance_ohm,
             inductance_h: self.machine.inductance_h,
@@ -295,11 +214,11 @@ impl<'a> Plant<'a> {
         winding
     }
 
-    fn budget(&self, direction: f64, speed: f64, transmitted: f64) -> f64 {
+    pub(super) fn budget(&self, direction: f64, speed: f64, transmitted: f64) -> f64 {
         let sliding = Sliding {
             direction,
             speed,
-            transmitted,
+            transmitted: transmitted.abs(),
         };
         self.effects
             .iter()
@@ -307,7 +226,26 @@ impl<'a> Plant<'a> {
             .sum()
     }
 
-    fn at(&self, index: usize, state: &State) -> At {
+    /// The pieces of all effects' laws in one number, its digits in base 3.
+    pub(super) fn pieces_at(&self, state: &State) -> i64 {
+        let transmitted = match self.grip {
+            Grip::None => 0.0,
+            _ => self.torques(state, &self.winding(state)).transmitted,
+        };
+        let effects = self.effects.iter().enumerate();
+        effects.fold(0, |digits, (index, effect)| {
+            3 * digits + i64::from(effect.piece(&self.at(index, state), transmitted))
+        })
+    }
+
+    pub(super) fn flank_at(&self, state: &State) -> Flank {
+        let twist = state.angle - state.load_angle;
+        let rate = state.speed - state.load_speed;
+        self.shaft
+            .map_or(Flank::None, |shaft| shaft.flank(twist, rate))
+    }
+
+    pub(super) fn at(&self, index: usize, state: &State) -> At {
         At {
             angle: state.angle,
             speed: state.speed,
@@ -315,20 +253,24 @@ impl<'a> Plant<'a> {
             memory: self.memory_of[index].map_or(0.0, |slot| state.memory[slot]),
         }
     }
+}
 
-    /// The longest substep that resolves the fastest dynamics at this instant, s.
-    fn longest_step(&self, feed: Feed) -> f64 {
-        let mut fastest = self.shaft.map_or(0.0, |shaft| shaft.stiffness_per_s());
-        if let Feed::Volts(_) = feed {
-            let winding = self.winding(&self.state);
-            fastest += winding.resistance_ohm / winding.inductance_h;
-        }
-        for (index, effect) in self.effects.iter().enumerate() {
-            fastest += effect.stiffness_per_s(&self.at(index, &self.state));
-        }
-        let refinement = self.substep_hz / DEFAULT_SUBSTEP_HZ;
-        1.0 / self
-            .substep_hz
-            .max(STEPS_PER_TIME_CONSTANT * refinement * fastest)
+#[cfg(test)]
+mod tests {
+    use super::super::Hidden;
+    use super::super::effects::CATALOGUE;
+    use super::*;
+
+    #[test]
+    fn there_is_room_for_every_memory_of_the_catalogue() {
+        let machine = Machine::paper();
+        let build = |name| {
+            Hidden::typical(name, &machine)
+                .unwrap()
+                .build(&machine)
+                .unwrap()
+        };
+        let effects = CATALOGUE.iter().map(|kind| build(kind.name));
+        assert!(effects.filter(|effect| effect.memory().is_some()).count() <= MEMORIES);
     }
 }

@@ -3,7 +3,8 @@
 use super::chance::Chance;
 use super::effects::{CATALOGUE, Effect};
 use super::encoder::Encoder;
-use super::plant::{DEFAULT_SUBSTEP_HZ, Feed, Plant};
+use super::integrate::DEFAULT_SUBSTEP_HZ;
+use super::plant::{Feed, Plant};
 use super::timeline::Timeline;
 use super::{BenchError, DriveSample, Hidden, Machine};
 use std::f64::consts::TAU;
@@ -84,7 +85,7 @@ impl Bench {
     /// Plays the drive and records. Row k is read at its time before its command acts.
     ///
     /// # Errors
-    /// A setting, command or effect that makes no sense; [`BenchError::Diverged`].
+    /// A setting, command or effect that makes no sense; [`BenchError::TooStiff`]; [`BenchError::Diverged`].
     pub fn run(&self, drive: &[DriveSample]) -> Result<Run, BenchError> {
         self.check(drive)?;
         let effects = self.assemble()?;
@@ -112,7 +113,7 @@ impl Bench {
             if let Some(next) = times_s.get(row + 1) {
                 timeline.play(now, *next, |sample, dt| {
                     plant.advance(self.feed(sample), dt)
-                });
+                })?;
                 encoder.pass((plant.state.angle - state.angle) / (next - now), next - now);
             }
         }

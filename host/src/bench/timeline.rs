@@ -29,17 +29,24 @@ impl<'a> Timeline<'a> {
     }
 
     /// Calls `hold(sample, duration_s)` for each stretch of `from_s … to_s` in which the command is
-    /// constant. Calls must follow each other in time. Before the first sample arrives the command is 0.
-    pub(super) fn play(&mut self, from_s: f64, to_s: f64, mut hold: impl FnMut(DriveSample, f64)) {
+    /// constant, until it fails. Calls must follow each other in time. Before the first sample arrives the
+    /// command is 0.
+    pub(super) fn play<E>(
+        &mut self,
+        from_s: f64,
+        to_s: f64,
+        mut hold: impl FnMut(DriveSample, f64) -> Result<(), E>,
+    ) -> Result<(), E> {
         let mut now = from_s;
         while now < to_s {
             while self.next_arrival() <= now {
                 self.arrived += 1;
             }
             let until = self.next_arrival().min(to_s);
-            hold(self.in_force(), until - now);
+            hold(self.in_force(), until - now)?;
             now = until;
         }
+        Ok(())
     }
 
     fn next_arrival(&self) -> f64 {
@@ -73,9 +80,12 @@ mod tests {
         let mut timeline = Timeline::new(&drive, &times[..3], 1.25);
         let mut played = Vec::new();
         for pair in times.windows(2) {
-            timeline.play(pair[0], pair[1], |sample, dt| {
-                played.push((sample.volts, dt))
-            });
+            timeline
+                .play(pair[0], pair[1], |sample, dt| {
+                    played.push((sample.volts, dt));
+                    Ok::<_, ()>(())
+                })
+                .unwrap();
         }
         assert_eq!(
             played,

@@ -4,7 +4,7 @@ use super::{At, Effect, Kind, Param};
 
 /// T = −A·(sin(nθ + φ) + a₂·sin(2nθ + 2φ)), the first terms of the Fourier series over one
 /// revolution, whose lowest order n is the least common multiple of slots and poles (Hanselman,
-/// "Brushless Permanent Magnet Motor Design", 2003, ch. 4). It acts with and without current.
+/// "Brushless Permanent Magnet Motor Design", 2003). It acts with and without current.
 struct Cogging {
     torque_n_m: f64,
     order: f64,
@@ -64,5 +64,14 @@ impl Effect for Cogging {
     fn torque(&self, at: &At) -> f64 {
         let (sin, cos) = (self.order * at.angle + self.phase_rad).sin_cos();
         -self.torque_n_m * (sin + self.second * 2.0 * sin * cos)
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        // A quarter: one substep resolves a radian of a force that merely comes and goes.
+        if self.torque_n_m == 0.0 {
+            0.0
+        } else {
+            0.25 * self.order * at.speed.abs()
+        }
     }
 }

@@ -4,13 +4,29 @@ use super::chance::Chance;
 use super::coupling::Coupling;
 use super::machine::Machine;
 
+mod asym_coulomb;
+mod asym_viscous;
+mod backlash;
+mod brush_drop;
 mod cogging;
+mod compliance;
 mod coulomb;
 mod dead_zone;
 mod delay;
+mod enc_ecc;
+mod heating;
+mod l_sat;
+mod load_friction;
 mod load_torque;
+mod lugre;
+mod missed_counts;
 mod offset_voltage;
 mod stribeck;
+mod supply_sag;
+mod torque_sat;
+mod unbalance;
+mod voltage_sat;
+mod windage;
 
 /// Every effect, in the order in which the signal meets them from the command to the counter. The
 /// bench applies them in this order, whatever the order in which they were asked for.
@@ -18,10 +34,26 @@ pub static CATALOGUE: &[&Kind] = &[
     &delay::KIND,
     &offset_voltage::KIND,
     &dead_zone::KIND,
+    &voltage_sat::KIND,
+    &supply_sag::KIND,
+    &brush_drop::KIND,
+    &l_sat::KIND,
+    &heating::KIND,
+    &torque_sat::KIND,
     &cogging::KIND,
+    &unbalance::KIND,
     &load_torque::KIND,
+    &windage::KIND,
+    &asym_viscous::KIND,
     &coulomb::KIND,
+    &asym_coulomb::KIND,
     &stribeck::KIND,
+    &lugre::KIND,
+    &load_friction::KIND,
+    &compliance::KIND,
+    &backlash::KIND,
+    &enc_ecc::KIND,
+    &missed_counts::KIND,
 ];
 
 /// One entry of the catalogue.
@@ -136,6 +168,13 @@ pub trait Effect: Send + Sync {
     /// Rate of change of the memory, per s.
     fn memory_rate(&self, _at: &At) -> f64 {
         0.0
+    }
+
+    /// Which smooth piece of the effect's law applies, −1, 0 or 1, also by the torque passed from the motor to its
+    /// load, N·m, with its sign. A substep is cut where this changes, so that the integration never
+    /// steps over a bend. Only an effect whose law has sharp bends needs it.
+    fn piece(&self, _at: &At, _transmitted: f64) -> i8 {
+        0
     }
 
     /// How fast the effect's own dynamics are, 1/s; the substep follows it.

@@ -1,0 +1,62 @@
+//! Voltage drop of the brushes.
+
+use super::{At, Effect, Kind, Param};
+
+/// v = u − Vb·sat(i/I0): linear up to the knee I0 and constant beyond, for both brushes together (Modelica
+/// Standard Library, `Machines.Losses.DCMachines.Brush`).
+struct BrushDrop {
+    drop_v: f64,
+    knee_a: f64,
+    inductance_h: f64,
+}
+
+pub(super) static KIND: Kind = Kind {
+    name: "brush_drop",
+    about: "a nearly constant voltage is lost against the current",
+    electrical: true,
+    params: &[
+        Param {
+            name: "drop",
+            unit: "V",
+            about: "voltage drop Vb above the knee",
+            scales: true,
+            range: (0.0, f64::INFINITY),
+            typical: |machine| 0.04 * machine.supply_v,
+        },
+        Param {
+            name: "knee",
+            unit: "A",
+            about: "current I0 at which the drop is reached",
+            scales: false,
+            range: (f64::MIN_POSITIVE, f64::INFINITY),
+            typical: |machine| 0.01 * machine.stall_current_a(),
+        },
+    ],
+    build: |values, machine| {
+        Box::new(BrushDrop {
+            drop_v: values[0],
+            knee_a: values[1],
+            inductance_h: machine.inductance_h,
+        })
+    },
+};
+
+impl Effect for BrushDrop {
+    fn volts(&self, volts: f64, at: &At) -> f64 {
+        volts - self.drop_v * (at.current / self.knee_a).clamp(-1.0, 1.0)
+    }
+
+    fn piece(&self, at: &At, _: f64) -> i8 {
+        if self.drop_v == 0.0 {
+            return 0;
+        }
+        i8::from(at.current > self.knee_a) - i8::from(at.current < -self.knee_a)
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        if at.current.abs() > 2.0 * self.knee_a {
+            return 0.0;
+        }
+        self.drop_v / (self.knee_a * self.inductance_h)
+    }
+}

@@ -1,0 +1,43 @@
+//! Saturation of the armature inductance.
+
+use super::{At, Effect, Kind, Param, Winding};
+
+/// L(i) = L0/(1 + k·i²): the incremental inductance dλ/di of an iron path that saturates, alike in both
+/// directions of the current, so that v = R·i + L(i)·di/dt + Kb·ω holds as it stands. It is the simplest
+/// even form that stays positive.
+struct LSat {
+    falloff_per_a2: f64,
+    /// R/L0 of the unsaturated winding, 1/s.
+    rate_per_s: f64,
+}
+
+pub(super) static KIND: Kind = Kind {
+    name: "l_sat",
+    about: "the inductance falls as the current grows",
+    electrical: true,
+    params: &[Param {
+        name: "falloff",
+        unit: "1/A^2",
+        about: "coefficient k; the inductance halves at 1/√k",
+        scales: true,
+        range: (0.0, f64::INFINITY),
+        typical: |machine| 1.0 / machine.stall_current_a().powi(2),
+    }],
+    build: |values, machine| {
+        Box::new(LSat {
+            falloff_per_a2: values[0],
+            rate_per_s: machine.resistance_ohm / machine.inductance_h,
+        })
+    },
+};
+
+impl Effect for LSat {
+    fn winding(&self, winding: &mut Winding, at: &At) {
+        winding.inductance_h /= 1.0 + self.falloff_per_a2 * at.current * at.current;
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        // The winding's own R/L counts already; this leaves room for a current that grows within the substep.
+        self.rate_per_s * self.falloff_per_a2 * at.current * at.current
+    }
+}

@@ -1,0 +1,35 @@
+//! Friction that grows with the torque passed through a gear.
+
+use super::{At, Effect, Kind, Param, Sliding};
+
+/// F = μ·|Kt·i − Tload|, a share of the torque that the motor and its load pass to each other (Duclusaud and
+/// Passault, "Extended friction models for the physics simulation of servo actuators", 2024: the
+/// load-dependent term).
+struct LoadFriction {
+    share: f64,
+}
+
+pub(super) static KIND: Kind = Kind {
+    name: "load_friction",
+    about: "dry friction that grows with the transmitted torque",
+    electrical: false,
+    params: &[Param {
+        name: "share",
+        unit: "1",
+        about: "friction per transmitted torque μ",
+        scales: true,
+        range: (0.0, 0.9),
+        typical: |_| 0.08,
+    }],
+    build: |values, _| Box::new(LoadFriction { share: values[0] }),
+};
+
+impl Effect for LoadFriction {
+    fn friction(&self, sliding: &Sliding) -> f64 {
+        self.share * sliding.transmitted
+    }
+
+    fn piece(&self, _: &At, transmitted: f64) -> i8 {
+        i8::from(self.share > 0.0 && transmitted > 0.0)
+    }
+}

@@ -1,0 +1,38 @@
+//! Magnetic saturation of the torque.
+
+use super::{At, Effect, Kind, Param, Winding};
+
+/// T = Kt·Is·tanh(i/Is) with Is = 1/√(3·k3), a bounded law whose series begins with the cubic one,
+/// Kt·(i − k3·i³): armature reaction bends the field, and large currents give less torque than their
+/// share. The back-EMF keeps Kb.
+struct TorqueSat {
+    scale_per_a: f64,
+}
+
+pub(super) static KIND: Kind = Kind {
+    name: "torque_sat",
+    about: "large currents give less torque than their share",
+    electrical: false,
+    params: &[Param {
+        name: "cubic",
+        unit: "1/A^2",
+        about: "cubic coefficient k3",
+        scales: true,
+        range: (0.0, f64::INFINITY),
+        typical: |machine| 0.08 / machine.stall_current_a().powi(2),
+    }],
+    build: |values, _| {
+        Box::new(TorqueSat {
+            scale_per_a: (3.0 * values[0]).sqrt(),
+        })
+    },
+};
+
+impl Effect for TorqueSat {
+    fn winding(&self, winding: &mut Winding, at: &At) {
+        let bend = at.current * self.scale_per_a;
+        if bend != 0.0 {
+            winding.kt_n_m_a *= bend.tanh() / bend;
+        }
+    }
+}

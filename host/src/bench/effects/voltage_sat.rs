@@ -1,0 +1,34 @@
+//! The power stage clips.
+
+use super::{At, Effect, Kind, Param};
+
+/// |v| ≤ Vs − ΔV: the stage does not reach the last ΔV below its supply, by its switches' drop or by a
+/// limit on the duty cycle. Smaller commands pass unchanged.
+struct VoltageSat {
+    limit_v: f64,
+}
+
+pub(super) static KIND: Kind = Kind {
+    name: "voltage_sat",
+    about: "large commands are clipped",
+    electrical: true,
+    params: &[Param {
+        name: "lost",
+        unit: "V",
+        about: "missing voltage ΔV below the supply",
+        scales: true,
+        range: (0.0, f64::INFINITY),
+        typical: |machine| 0.15 * machine.supply_v,
+    }],
+    build: |values, machine| {
+        Box::new(VoltageSat {
+            limit_v: (machine.supply_v - values[0]).max(0.0),
+        })
+    },
+};
+
+impl Effect for VoltageSat {
+    fn volts(&self, volts: f64, _: &At) -> f64 {
+        volts.clamp(-self.limit_v, self.limit_v)
+    }
+}
