@@ -1,5 +1,6 @@
 //! Fitting a model to a recording: start from regression, search, and say what was learnt.
 
+mod filter;
 pub mod margins;
 pub mod physical;
 pub mod regression;

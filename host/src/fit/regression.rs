@@ -6,10 +6,10 @@
 //! ∫v dt = D·θ + a1·D·θ' + a2·D·θ'' + Σ A_j·∫(effect j per unit of amplitude) dt + const
 //! ```
 //!
-//! All terms pass the same low-pass filter `1/(1 + T·s)³`, whose states are the derivatives (state
-//! variable filters; Young, *Recursive Estimation*, 1984), so that the encoder's steps are never
-//! differentiated. Several filter times are tried; the caller keeps the best.
+//! All terms pass the same low-pass [`filter`](super::filter). Several filter times are tried; the
+//! caller keeps the best.
 
+use super::filter::{Filtered, filtered};
 use crate::problem::{Base, Data, Structure};
 use nalgebra::{DMatrix, DVector};
 use shared::effects::{EffectSet, Lowered, Shaft};
@@ -26,70 +26,6 @@ pub struct Guess {
     pub machine: Machine<f64>,
     /// Parameters of the effects, in the order of the structure's unknowns.
     pub effects: Vec<f64>,
-}
-
-/// A filtered signal and its first two derivatives.
-#[derive(Clone, Copy, Default)]
-struct Filtered {
-    value: f64,
-    rate: f64,
-    acceleration: f64,
-}
-
-/// Three first-order lags in a row.
-struct Lags {
-    time: f64,
-    stages: [f64; 3],
-}
-
-impl Lags {
-    fn new(time: f64, start: f64) -> Self {
-        Lags { time, stages: [start; 3] }
-    }
-
-    fn output(&self) -> Filtered {
-        let [a, b, c] = self.stages;
-        Filtered {
-            value: c,
-            rate: (b - c) / self.time,
-            acceleration: (a - 2.0 * b + c) / (self.time * self.time),
-        }
-    }
-
-    /// Advances by `interval` while the input runs straight from `from` to `to`.
-    fn advance(&mut self, interval: f64, from: f64, to: f64) {
-        // Heun's rule in parts well below the filter time: a guess needs no more.
-        let parts = (4.0 * interval / self.time).ceil().clamp(1.0, 16.0);
-        let h = interval / parts;
-        let rates = |stages: &[f64; 3], input: f64, time: f64| {
-            [
-                (input - stages[0]) / time,
-                (stages[0] - stages[1]) / time,
-                (stages[1] - stages[2]) / time,
-            ]
-        };
-        for part in 0..parts as usize {
-            let at = |p: usize| from + (to - from) * p as f64 / parts;
-            let first = rates(&self.stages, at(part), self.time);
-            let ahead = std::array::from_fn(|i| self.stages[i] + h * first[i]);
-            let second = rates(&ahead, at(part + 1), self.time);
-            for i in 0..3 {
-                self.stages[i] += 0.5 * h * (first[i] + second[i]);
-            }
-        }
-    }
-}
-
-fn filtered(data: &Data, time: f64, signal: &[f64]) -> Vec<Filtered> {
-    let mut lags = Lags::new(time, signal[0]);
-    let mut out = Vec::with_capacity(signal.len());
-    for k in 0..signal.len() {
-        out.push(lags.output());
-        if k + 1 < signal.len() {
-            lags.advance(data.time_s[k + 1] - data.time_s[k], signal[k], signal[k + 1]);
-        }
-    }
-    out
 }
 
 /// Integral of a held signal.
@@ -111,9 +47,9 @@ fn integral(data: &Data, held: impl Fn(usize) -> f64) -> Vec<f64> {
 pub fn guess(data: &Data, structure: &Structure, time: f64) -> Option<Guess> {
     let radians = core::f64::consts::TAU / data.units.counts_per_rev;
     let angle: Vec<f64> = (0..data.len()).map(|k| (data.centre(k) - data.centre(0)) * radians).collect();
-    let motion = filtered(data, time, &angle);
+    let motion = filtered(data, time, &angle, false);
     let drive = integral(data, |k| if data.is_open(k) { 0.0 } else { data.command[k] * data.units.volts });
-    let target = filtered(data, time, &drive);
+    let target = filtered(data, time, &drive, false);
     let columns = effect_columns(data, structure, &motion, time);
 
     // Where the bridge is open the equation is another; skip those samples and the filter's tail.
@@ -214,7 +150,7 @@ fn effect_columns(data: &Data, structure: &Structure, motion: &[Filtered], time:
                 lost * data.units.volts / values[index]
             };
             let integrated = integral(data, lost);
-            columns.push(filtered(data, time, &integrated).iter().map(|f| f.value).collect());
+            columns.push(filtered(data, time, &integrated, false).iter().map(|f| f.value).collect());
         }
     }
     columns

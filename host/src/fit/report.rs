@@ -51,6 +51,9 @@ pub struct Fit {
     pub validate_rms_counts: Option<f64>,
     /// Scores of short free runs, for recordings on which the open loop drifts.
     pub windowed: Option<Windowed>,
+    /// Unexplained part of the drive along the measured motion, relative; see
+    /// [`scores::equation_error`].
+    pub equation_error: Option<f64>,
     /// Names of the effects.
     pub effects: Vec<&'static str>,
     /// Everything that was searched for, and the physical parameters that follow from it.
@@ -96,6 +99,7 @@ impl Fit {
         let mut notes = Vec::new();
         let reconciled = spread
             .as_ref()
+            .filter(|_| data.drive == Drive::Voltage)
             .map(|spread| reconcile(&evidence(problem, &candidate, spread), &options.known));
         let parameters = parameters(problem, &values, spread.as_ref(), reconciled.as_ref(), &mut notes);
         if let Some(reconciled) = &reconciled {
@@ -114,6 +118,7 @@ impl Fit {
                 .map(|data| validate(data, &candidate, options.method))
                 .transpose()?,
             windowed: scores::windowed(data, &candidate, options),
+            equation_error: scores::equation_error(data, &candidate),
             effects: problem.structure.effects.iter().map(|kind| kind.name()).collect(),
             parameters,
             response,
@@ -197,7 +202,13 @@ fn parameters(
         }
         parameters.push(parameter);
     }
-    if in_volts {
+    if problem.data.drive == Drive::Current {
+        notes.push(
+            "behind a current loop inertia, friction and torques are in units of the command: \
+             multiply by its torque (or force) per unit"
+                .to_owned(),
+        );
+    } else if in_volts {
         notes.push(
             "torques are given as the voltage T*R/Kt that they use up: state the resistance and \
              kt_equals_kb (or kt) under [known] to get N*m"
@@ -253,13 +264,6 @@ fn describe(problem: &FitProblem<'_>, reconciled: &Reconciled, known: &Known, no
         ));
     }
     if missing.is_empty() {
-        return;
-    }
-    if problem.data.drive == Drive::Current {
-        notes.push(format!(
-            "not separable behind a current loop: {}. Inertia and friction are given per unit of the command",
-            missing.join(", ")
-        ));
         return;
     }
     let mut remedy = Vec::new();

@@ -4,10 +4,15 @@ use super::physical::Estimate;
 use super::{Options, SPEED_HALF_WIDTH};
 use crate::error::Error;
 use crate::problem::cost::{Horizon, errors};
-use crate::problem::simulate::{Method, Simulation};
+use super::filter::filtered;
+use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, StartAngle};
 use crate::recording::Drive;
 use shared::cost::Cost;
+use shared::effects::{Lowered, Shaft};
+
+/// Filter time of the equation error, sample intervals.
+const EQUATION_FILTER_SAMPLES: f64 = 5.0;
 
 /// Length of the windows when the user chose none, s.
 const USUAL_WINDOW_S: f64 = 1.0;
@@ -21,9 +26,6 @@ pub struct Windowed {
     pub rms_counts: f64,
     /// RMS error as a part of the RMS of the motion within the windows.
     pub relative: f64,
-    /// RMS error of the speed over one window's free run, as a part of the RMS of the speed's
-    /// variation: the usual "fit per cent" of system identification is one minus this.
-    pub one_step_relative: f64,
 }
 
 /// Model minus reading over the whole recording, open loop, with the best start angle.
@@ -54,27 +56,48 @@ pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option
         window_s,
         rms_counts: (wrong / data.len() as f64).sqrt(),
         relative: (wrong / moved.max(f64::MIN_POSITIVE)).sqrt(),
-        one_step_relative: one_step(data, candidate, options.method)?,
     })
 }
 
-/// Travel of each next interval predicted from the measured state, against the measured travel:
-/// RMS error relative to the RMS variation of that travel.
-fn one_step(data: &Data, candidate: &Candidate, method: Method) -> Option<f64> {
-    let simulation = Simulation::new(data, candidate, method).ok()?;
-    let travel: Vec<f64> = data.counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let mean = travel.iter().sum::<f64>() / travel.len() as f64;
-    let (mut wrong, mut varied) = (0.0, 0.0);
-    // The speed's measured state is the travel of the sample before.
-    for k in 1..travel.len() {
-        let counts_s = travel[k - 1] / (data.time_s[k] - data.time_s[k - 1]);
-        let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
-        let mut reached = 0.0;
-        simulation.run(k..k + 2, 0.0, speed, |_, angle| reached = angle);
-        wrong += (reached - travel[k]).powi(2);
-        varied += (travel[k] - mean).powi(2);
+/// Equation error: how much of the drive the model's equation leaves unexplained along the measured
+/// motion, as a part of the drive's RMS. Nothing is simulated, so nothing can drift. `None` where
+/// the bridge was open too much of the time.
+pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
+    let time = EQUATION_FILTER_SAMPLES * data.units.interval;
+    let radians = core::f64::consts::TAU / data.units.counts_per_rev;
+    let angle: Vec<f64> = (0..data.len()).map(|k| (data.centre(k) - data.centre(0)) * radians).collect();
+    let motion = filtered(data, time, &angle, false);
+    let lowered = Lowered::<f64>::new(&candidate.effects, &data.units);
+    // What the effects leave of the drive, less what they take from it.
+    let net: Vec<f64> = (0..data.len())
+        .map(|k| {
+            let shaft = Shaft {
+                turns: (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0),
+                speed: motion[k].rate / data.units.speed,
+                current: 0.0,
+            };
+            let friction = lowered.friction(&shaft).moving * shaft.speed.signum();
+            let drive = lowered.drive(data.command[k], &shaft);
+            (drive - lowered.torque(&shaft) - friction) * data.units.volts
+        })
+        .collect();
+    let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
+    let (net, command) = (filtered(data, time, &net, true), filtered(data, time, &command, true));
+    let m = &candidate.machine;
+    let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
+    let third = m.electrical * m.inertia;
+    let (mut wrong, mut driven, mut closed_since) = (0.0, 0.0, 0.0);
+    for k in 0..data.len() {
+        if data.is_open(k) {
+            closed_since = data.time_s[k];
+        } else if data.time_s[k] - closed_since > 6.0 * time {
+            let f = &motion[k];
+            let needed = total * f.rate + second * f.acceleration + third * f.jerk;
+            wrong += (needed - net[k].value).powi(2);
+            driven += command[k].value.powi(2);
+        }
     }
-    (varied > 0.0).then(|| (wrong / varied).sqrt())
+    (driven > 0.0).then(|| (wrong / driven).sqrt())
 }
 
 /// Resistance from a measured current, Ω: the model's `R·i` regressed on the measured `i` with a

@@ -47,7 +47,6 @@ struct WindowedJson {
     window_s: f64,
     rms_counts: f64,
     relative: f64,
-    one_step_relative: f64,
 }
 
 /// `servoid.fit/1`.
@@ -63,6 +62,7 @@ pub struct FitJson {
     validate_rms_counts: Option<f64>,
     quantization_floor_counts: f64,
     windowed: Option<WindowedJson>,
+    equation_error_relative: Option<f64>,
     effects: Vec<&'static str>,
     parameters: Vec<ParameterJson>,
     identifiable: IdentifiableJson,
@@ -90,8 +90,8 @@ impl From<&Fit> for FitJson {
                 window_s: w.window_s,
                 rms_counts: w.rms_counts,
                 relative: w.relative,
-                one_step_relative: w.one_step_relative,
             }),
+            equation_error_relative: fit.equation_error,
             effects: fit.effects.clone(),
             parameters: fit
                 .parameters

@@ -64,9 +64,12 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     if let Some(w) = &fit.windowed {
         writeln!(
             out,
-            "free runs of {} s  {:.4} counts RMS, {:.2} % of the motion; one step {:.2} %",
-            w.window_s, w.rms_counts, 100.0 * w.relative, 100.0 * w.one_step_relative
+            "free runs of {} s  {:.4} counts RMS, {:.2} % of the motion",
+            w.window_s, w.rms_counts, 100.0 * w.relative
         )?;
+    }
+    if let Some(part) = fit.equation_error {
+        writeln!(out, "equation error    {:.2} % of the drive is unexplained along the measured motion", 100.0 * part)?;
     }
     writeln!(out, "cost ({})    {:.6}", fit.cost_kind, fit.cost)?;
     writeln!(out)?;
