@@ -15,22 +15,18 @@ pub struct PsoSettings {
     pub social: f64,
     /// Largest velocity, as a part of the cube's edge.
     pub fastest: f64,
-    /// Moves without a better point after which a particle (but never the best one) starts afresh
-    /// anywhere; 0 for never. It keeps a swarm of five from standing still.
-    pub patience: u16,
 }
 
 impl Default for PsoSettings {
     /// Near the constriction coefficients of Clerc and Kennedy (2002), with more weight on the
     /// swarm: of the settings tried at a population of five on a motor's step response, those with
-    /// the largest share of successful seeds.
+    /// the largest share of successful seeds (85 % against 74 %).
     fn default() -> Self {
         PsoSettings {
             inertia: 0.7,
             cognitive: 1.2,
             social: 1.8,
             fastest: 1.0,
-            patience: 80,
         }
     }
 }
@@ -40,8 +36,6 @@ struct Particle<R, const D: usize> {
     x: [R; D],
     velocity: [R; D],
     best: Candidate<R, D>,
-    /// Moves since it last found a better point.
-    idle: u16,
 }
 
 /// Particle swarm of up to `P` particles over up to `D` unknowns.
@@ -69,7 +63,6 @@ impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
                 x: [R::zero(); D],
                 velocity: [R::zero(); D],
                 best: Candidate::unknown(),
-                idle: 0,
             };
             for d in 0..dim {
                 particle.x[d] = rng::uniform(&mut rng);
@@ -96,19 +89,7 @@ impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
     fn fly(&mut self, i: usize) {
         let real = R::from_f64;
         let (zero, one, fastest) = (R::zero(), real(1.0), real(self.settings.fastest));
-        let leads = self.particles[i].best.cost <= self.best.cost;
         let particle = &mut self.particles[i];
-        if self.settings.patience > 0 && particle.idle >= self.settings.patience {
-            particle.idle = 0;
-            if !leads {
-                for d in 0..self.dim {
-                    particle.x[d] = rng::uniform(&mut self.rng);
-                    particle.velocity[d] = zero;
-                }
-                particle.best.cost = R::from_f64(f64::INFINITY);
-                return;
-            }
-        }
         for d in 0..self.dim {
             let x = particle.x[d];
             let own = real(self.settings.cognitive) * rng::uniform::<R>(&mut self.rng);
@@ -156,9 +137,7 @@ impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Pso<R, P, D> {
         self.told += 1;
         let cost = sanitised(cost);
         // The first visit counts even if it is impossible: a particle needs a best point.
-        particle.idle = particle.idle.saturating_add(1);
         if cost < particle.best.cost || particle.best.cost.to_f64().is_infinite() {
-            particle.idle = 0;
             particle.best = Candidate {
                 x: particle.x,
                 cost,
