@@ -65,6 +65,14 @@ impl<'a> Simulation<'a> {
     pub fn run(&self, range: Range<usize>, angle: f64, speed: f64, mut each: impl FnMut(usize, f64)) {
         // The current starts at zero: what it really was dies out within the electrical time constant.
         let mut state = State { current: 0.0, speed: speed / self.data.units.speed, angle };
+        if let ([model], None) = (&self.models[..], &self.data.open) {
+            // The usual case: even samples, the bridge always closed.
+            for k in range {
+                each(k, state.angle);
+                model.step(&mut state, self.data.command[k], false);
+            }
+            return;
+        }
         for k in range {
             each(k, state.angle);
             let model = &self.models[self.data.length_of[k] as usize];
