@@ -58,6 +58,7 @@ pub fn overlay(data: &Data, candidate: &Candidate, method: Method) -> Result<Str
             .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], COLOURS[1].stroke_width(1)));
         chart
             .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
             .border_style(BLACK.mix(0.4))
             .background_style(WHITE.mix(0.9))
             .label_font((FONT, 14))
@@ -99,6 +100,7 @@ fn draw_residual(
         .map_err(failed)?;
     chart
         .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
         .border_style(BLACK.mix(0.4))
         .background_style(WHITE.mix(0.9))
         .label_font((FONT, 13))
