@@ -244,7 +244,12 @@ pub struct PaperArgs {
     #[arg(long, default_value_t = 1e-3, value_name = "S")]
     pub sample: f64,
     /// Box of the six unknowns
-    #[arg(long, default_value = "1e-4:1.5", value_name = "LOW:HIGH", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        default_value = "1e-4:1.5",
+        value_name = "LOW:HIGH",
+        allow_hyphen_values = true
+    )]
     pub bounds: String,
 }
 

@@ -48,7 +48,8 @@ pub fn run(
                 .map(|&seed| {
                     let began = Instant::now();
                     let mut nobody = |_: usize, _: f64| {};
-                    let mut evaluator = Evaluator::new(contest.problem, contest.budget, stop, &mut nobody);
+                    let mut evaluator =
+                        Evaluator::new(contest.problem, contest.budget, stop, &mut nobody);
                     solver.search(&mut evaluator, seed);
                     done();
                     (evaluator.finish(), began.elapsed().as_secs_f64())
@@ -102,13 +103,15 @@ impl Row {
     pub fn curve(&self, budget: usize, q: f64) -> Vec<(usize, f64)> {
         let points = CURVE_POINTS.min(budget);
         let ratio = (budget as f64).powf(1.0 / points.max(1) as f64);
-        let mut counts: Vec<usize> =
-            (0..=points).map(|k| ratio.powi(k as i32).round() as usize).collect();
+        let mut counts: Vec<usize> = (0..=points)
+            .map(|k| ratio.powi(k as i32).round() as usize)
+            .collect();
         counts.dedup();
         counts
             .into_iter()
             .map(|count| {
-                let mut costs: Vec<f64> = self.runs.iter().map(|run| cost_after(run, count)).collect();
+                let mut costs: Vec<f64> =
+                    self.runs.iter().map(|run| cost_after(run, count)).collect();
                 costs.sort_by(f64::total_cmp);
                 (count, quantile(&costs, q))
             })
@@ -117,13 +120,19 @@ impl Row {
 }
 
 fn cost_after(run: &Found, evaluations: usize) -> f64 {
-    let last = run.curve.iter().take_while(|(count, _)| *count <= evaluations).last();
+    let last = run
+        .curve
+        .iter()
+        .take_while(|(count, _)| *count <= evaluations)
+        .last();
     last.map_or(f64::INFINITY, |(_, cost)| *cost)
 }
 
 /// Quantile of sorted values, linear between neighbours; NaN of none.
 pub fn quantile(sorted: &[f64], q: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let Some(last) = sorted.len().checked_sub(1) else {
+        return f64::NAN;
+    };
     let place = q * last as f64;
     let below = place.floor() as usize;
     let (a, b) = (sorted[below], sorted[(below + 1).min(last)]);

@@ -31,7 +31,12 @@ impl Session {
                 std::process::exit(130);
             }
         });
-        Ok(Session { json: common.json.clone(), seed: common.seed, quiet: common.quiet, stop })
+        Ok(Session {
+            json: common.json.clone(),
+            seed: common.seed,
+            quiet: common.quiet,
+            stop,
+        })
     }
 
     /// The flag that Ctrl-C sets.
@@ -44,10 +49,9 @@ impl Session {
         if self.quiet || !std::io::stderr().is_terminal() {
             return ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
         }
-        let style = ProgressStyle::with_template(
-            "{prefix} {bar:30} {pos}/{len}  {msg}  {eta} left",
-        )
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let style =
+            ProgressStyle::with_template("{prefix} {bar:30} {pos}/{len}  {msg}  {eta} left")
+                .unwrap_or_else(|_| ProgressStyle::default_bar());
         ProgressBar::new(length).with_style(style).with_prefix(what)
     }
 
@@ -61,13 +65,17 @@ impl Session {
     /// Delivers a result: the text to stdout and the JSON to its file, or with `--json -` the JSON
     /// alone to stdout. Fails after delivery if the user stopped the work.
     pub fn deliver(&self, text: &str, json: &impl Serialize) -> Result<(), Error> {
-        let to_stdout = self.json.as_ref().is_some_and(|path| path.as_os_str() == "-");
+        let to_stdout = self
+            .json
+            .as_ref()
+            .is_some_and(|path| path.as_os_str() == "-");
         if !to_stdout {
             print(text)?;
         }
         if let Some(path) = &self.json {
-            let mut rendered = serde_json::to_string_pretty(json)
-                .map_err(|error| Error::Failed(format!("the result cannot be written as JSON: {error}")))?;
+            let mut rendered = serde_json::to_string_pretty(json).map_err(|error| {
+                Error::Failed(format!("the result cannot be written as JSON: {error}"))
+            })?;
             rendered.push('\n');
             if to_stdout {
                 print(&rendered)?;
@@ -76,7 +84,9 @@ impl Session {
             }
         }
         if self.stop.load(Ordering::Relaxed) {
-            return Err(Error::Failed("stopped by the user: the result is the best so far".to_owned()));
+            return Err(Error::Failed(
+                "stopped by the user: the result is the best so far".to_owned(),
+            ));
         }
         Ok(())
     }

@@ -22,19 +22,27 @@ fn folder() -> Option<PathBuf> {
 }
 
 fn data(folder: &Path, file: &str, map: &str) -> Data {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/maps").join(map);
+    let map = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../tests/maps")
+        .join(map);
     let motor = MotorFile::read(&map).unwrap_or_else(|error| panic!("{error}"));
-    let recording = read_recording(&folder.join(file), &motor).unwrap_or_else(|error| panic!("{error}"));
+    let recording =
+        read_recording(&folder.join(file), &motor).unwrap_or_else(|error| panic!("{error}"));
     Data::new(&recording).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn fitted(data: &Data, effects: &[Kind], window_s: f64) -> Fit {
-    let options = Options { effects: effects.to_vec(), window_s: Some(window_s), ..Options::default() };
+    let options = Options {
+        effects: effects.to_vec(),
+        window_s: Some(window_s),
+        ..Options::default()
+    };
     let problem = fit::problem(data, &options).unwrap_or_else(|error| panic!("{error}"));
     let solver = solve::by_name("lm").expect("a known method");
     let stop = AtomicBool::new(false);
     let found = fit::search(&problem, solver.as_ref(), &options, &stop, &mut |_, _| {});
-    Fit::conclude(&problem, "lm", "squared", &found, &options, None).unwrap_or_else(|error| panic!("{error}"))
+    Fit::conclude(&problem, "lm", "squared", &found, &options, None)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Per cent of the motion, and of the drive.
@@ -42,8 +50,14 @@ fn check(name: &str, fit: &Fit, window: Range<f64>, equation: Range<f64>) {
     let windowed = 100.0 * fit.windowed.expect("long enough").relative;
     let unexplained = 100.0 * fit.equation_error.expect("driven").abs();
     println!("{name}: free runs {windowed:.2} %, equation {unexplained:.2} %");
-    assert!(window.contains(&windowed), "{name}: {windowed} % of the motion, expected {window:?}");
-    assert!(equation.contains(&unexplained), "{name}: {unexplained} % of the drive, expected {equation:?}");
+    assert!(
+        window.contains(&windowed),
+        "{name}: {windowed} % of the motion, expected {window:?}"
+    );
+    assert!(
+        equation.contains(&unexplained),
+        "{name}: {unexplained} % of the drive, expected {equation:?}"
+    );
 }
 
 /// Known of this log: 8.2 % in free runs of 1 s and 12.3 % of the drive for the linear model, 1.9
@@ -59,7 +73,10 @@ fn un_dcmotor_needs_an_offset_or_coulomb_friction_and_cannot_say_which() {
     check("with Coulomb friction", &coulomb, 1.5..2.5, 0.5..2.5);
     let rms = |fit: &Fit| fit.windowed.expect("long enough").rms_counts;
     let ratio = rms(&offset) / rms(&coulomb);
-    assert!((0.95..1.05).contains(&ratio), "the two differ by a factor of {ratio}");
+    assert!(
+        (0.95..1.05).contains(&ratio),
+        "the two differ by a factor of {ratio}"
+    );
 }
 
 /// Known of this log: 10.9 % in free runs of 0.5 s for the linear model, 6.1 % with Coulomb
@@ -70,7 +87,12 @@ fn emps_falls_as_coulomb_friction_and_an_offset_join() {
     let Some(folder) = folder() else { return };
     let data = data(&folder, "emps/emps_train.csv", "emps.toml");
     check("linear", &fitted(&data, &[], 0.5), 9.0..12.0, 15.0..24.0);
-    check("with Coulomb friction", &fitted(&data, &[Kind::Coulomb], 0.5), 5.0..7.0, 6.0..10.0);
+    check(
+        "with Coulomb friction",
+        &fitted(&data, &[Kind::Coulomb], 0.5),
+        5.0..7.0,
+        6.0..10.0,
+    );
     let full = fitted(&data, &[Kind::Coulomb, Kind::OffsetVoltage], 0.5);
     check("with an offset besides", &full, 1.8..2.6, 3.5..6.5);
 
@@ -78,7 +100,11 @@ fn emps_falls_as_coulomb_friction_and_an_offset_join() {
     let newtons_per_volt = 35.150_65;
     let metres_per_radian = 0.0025 / std::f64::consts::TAU;
     let mass = full.candidate.machine.inertia * newtons_per_volt / metres_per_radian;
-    let parameter = full.parameters.iter().find(|p| p.name == "coulomb.torque").expect("fitted");
+    let parameter = full
+        .parameters
+        .iter()
+        .find(|p| p.name == "coulomb.torque")
+        .expect("fitted");
     let friction = parameter.value * newtons_per_volt;
     println!("mass {mass:.2} kg (published 95.11), friction {friction:.2} N (published 20.39)");
     assert!((90.0..98.0).contains(&mass), "mass {mass} kg");

@@ -132,7 +132,6 @@ impl<R: Real> PerUnit<R> {
 
     /// Encoder counts that the shaft turns at base speed in one interval.
     pub fn counts_per_unit(&self) -> R {
-        self.speed * self.interval * self.counts_per_rev
-            / R::from_f64(core::f64::consts::TAU)
+        self.speed * self.interval * self.counts_per_rev / R::from_f64(core::f64::consts::TAU)
     }
 }

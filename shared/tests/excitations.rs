@@ -8,11 +8,25 @@ fn all() -> Vec<(&'static str, Vec<Experiment>)> {
         ("commissioning-coast", COMMISSIONING_COAST.to_vec()),
         (
             "multisine",
-            vec![Experiment { shape: Shape::Multisine { base_hz: 0.5, lines: 20 }, seconds: 4.0, amplitude: 0.7 }],
+            vec![Experiment {
+                shape: Shape::Multisine {
+                    base_hz: 0.5,
+                    lines: 20,
+                },
+                seconds: 4.0,
+                amplitude: 0.7,
+            }],
         ),
     ];
     for (name, shape) in Shape::ALL {
-        plans.push((name, vec![Experiment { shape, seconds: 5.0, amplitude: 0.6 }]));
+        plans.push((
+            name,
+            vec![Experiment {
+                shape,
+                seconds: 5.0,
+                amplitude: 0.6,
+            }],
+        ));
     }
     plans
 }
@@ -26,8 +40,14 @@ fn every_command_is_finite_and_within_the_amplitude() {
     for (name, plan) in all() {
         let top = plan.iter().map(|e| e.amplitude).fold(0.0, f64::max);
         for (k, command) in run(&plan, 3).iter().enumerate() {
-            assert!(command.drive.is_finite() && command.drive.abs() <= top + 1e-12, "{name}, sample {k}: {command:?}");
-            assert!(command.enabled || command.drive == 0.0, "{name}, sample {k}: drives an open bridge");
+            assert!(
+                command.drive.is_finite() && command.drive.abs() <= top + 1e-12,
+                "{name}, sample {k}: {command:?}"
+            );
+            assert!(
+                command.enabled || command.drive == 0.0,
+                "{name}, sample {k}: drives an open bridge"
+            );
         }
     }
 }
@@ -36,7 +56,11 @@ fn every_command_is_finite_and_within_the_amplitude() {
 fn the_length_is_what_was_asked_for() {
     for (name, plan) in all() {
         let seconds: f64 = plan.iter().map(|e| e.seconds).sum();
-        assert_eq!(run(&plan, 3).len(), (seconds / 1e-3).round() as usize, "{name}");
+        assert_eq!(
+            run(&plan, 3).len(),
+            (seconds / 1e-3).round() as usize,
+            "{name}"
+        );
     }
 }
 
@@ -44,7 +68,9 @@ fn the_length_is_what_was_asked_for() {
 fn the_same_seed_gives_the_same_bits_and_seeds_matter_to_telegraphs_only() {
     for (name, plan) in all() {
         assert_eq!(run(&plan, 7), run(&plan, 7), "{name}");
-        let random = plan.iter().any(|e| matches!(e.shape, Shape::Telegraph { .. }));
+        let random = plan
+            .iter()
+            .any(|e| matches!(e.shape, Shape::Telegraph { .. }));
         assert_eq!(run(&plan, 7) != run(&plan, 8), random, "{name}");
     }
 }
@@ -56,7 +82,10 @@ fn single_precision_commands_are_the_same_to_its_precision() {
         let double = run(&plan, 3);
         assert_eq!(single.len(), double.len(), "{name}");
         // At the edge between two levels rounding may decide for one sample; nowhere else.
-        let apart = single.iter().zip(&double).filter(|(a, b)| (f64::from(a.drive) - b.drive).abs() > 2e-3);
+        let apart = single
+            .iter()
+            .zip(&double)
+            .filter(|(a, b)| (f64::from(a.drive) - b.drive).abs() > 2e-3);
         assert!(apart.count() <= 20, "{name}");
     }
 }
@@ -68,8 +97,14 @@ fn all_but_the_one_sided_ones_drive_both_ways_and_twice_the_same_to_both_sides()
             continue;
         }
         let drive = run(&plan, 3);
-        let high = drive.iter().map(|c| c.drive).fold(f64::NEG_INFINITY, f64::max);
+        let high = drive
+            .iter()
+            .map(|c| c.drive)
+            .fold(f64::NEG_INFINITY, f64::max);
         let low = drive.iter().map(|c| c.drive).fold(f64::INFINITY, f64::min);
-        assert!((high + low).abs() < 0.25 * (high - low), "{name}: from {low} to {high}");
+        assert!(
+            (high + low).abs() < 0.25 * (high - low),
+            "{name}: from {low} to {high}"
+        );
     }
 }

@@ -23,7 +23,10 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     } else {
         args.algorithm.iter().map(String::as_str).collect()
     };
-    let solvers: Vec<_> = names.iter().filter_map(|name| solve::by_name(name)).collect();
+    let solvers: Vec<_> = names
+        .iter()
+        .filter_map(|name| solve::by_name(name))
+        .collect();
     let contest = Contest {
         problem: &problem,
         budget: options.budget,

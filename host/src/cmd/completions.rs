@@ -5,6 +5,11 @@ use crate::error::Error;
 use clap::CommandFactory;
 
 pub(super) fn run(shell: clap_complete::Shell) -> Result<(), Error> {
-    clap_complete::generate(shell, &mut Cli::command(), "servoid", &mut std::io::stdout());
+    clap_complete::generate(
+        shell,
+        &mut Cli::command(),
+        "servoid",
+        &mut std::io::stdout(),
+    );
     Ok(())
 }

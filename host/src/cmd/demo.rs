@@ -22,14 +22,27 @@ const COUNTS_PER_REV: u32 = 2000;
 pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
     let machine = Machine::gearmotor();
     let fitted = Data::new(&record(machine, session.seed, "demo recording")?)?;
-    let held_out = Data::new(&record(machine, session.seed.wrapping_add(1), "held-out recording")?)?;
-    let options = Options { seed: session.seed, ..Options::default() };
+    let held_out = Data::new(&record(
+        machine,
+        session.seed.wrapping_add(1),
+        "held-out recording",
+    )?)?;
+    let options = Options {
+        seed: session.seed,
+        ..Options::default()
+    };
     let problem = fit::problem(&fitted, &options)?;
     let solver = solve::by_name("lm").ok_or_else(|| Error::Failed("no method `lm`".to_owned()))?;
     let bar = session.progress(options.budget as u64, "fit");
-    let found = fit::search(&problem, solver.as_ref(), &options, session.stop(), &mut |count, _| {
-        bar.set_position(count as u64);
-    });
+    let found = fit::search(
+        &problem,
+        solver.as_ref(),
+        &options,
+        session.stop(),
+        &mut |count, _| {
+            bar.set_position(count as u64);
+        },
+    );
     bar.finish_and_clear();
     let fit = Fit::conclude(&problem, "lm", "squared", &found, &options, Some(&held_out))?;
     let mut text = report::text::fit(&fit, &fitted);
@@ -55,7 +68,10 @@ fn record(machine: Machine, seed: u64, name: &str) -> Result<Recording, Error> {
     bench.sample_s = INTERVAL_S;
     bench.seed = seed;
     let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, INTERVAL_S, seed)
-        .map(|c| DriveSample { volts: c.drive * machine.supply_v, enabled: c.enabled })
+        .map(|c| DriveSample {
+            volts: c.drive * machine.supply_v,
+            enabled: c.enabled,
+        })
         .collect();
     let run = bench.run(&drive)?;
     Ok(Recording {
@@ -74,7 +90,8 @@ fn record(machine: Machine, seed: u64, name: &str) -> Result<Recording, Error> {
 
 /// How far off the fit is, which only a bench can tell.
 fn against_truth(fit: &Fit, machine: &Machine) -> String {
-    let total = machine.kt_n_m_a * machine.kb_v_s_rad + machine.resistance_ohm * machine.viscous_n_m_s;
+    let total =
+        machine.kt_n_m_a * machine.kb_v_s_rad + machine.resistance_ohm * machine.viscous_n_m_s;
     let gain = machine.kt_n_m_a / total;
     let a1 = (machine.resistance_ohm * machine.inertia_kg_m2
         + machine.inductance_h * machine.viscous_n_m_s)

@@ -25,17 +25,33 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     model::apply_bounds(&mut problem, &args.model.bounds)?;
 
     let bar = session.progress(args.budget, "fit");
-    let found = fit::search(&problem, solver.as_ref(), &options, session.stop(), &mut |count, best| {
-        bar.set_position(count as u64);
-        bar.set_message(format!("cost {best:.6}"));
-    });
+    let found = fit::search(
+        &problem,
+        solver.as_ref(),
+        &options,
+        session.stop(),
+        &mut |count, best| {
+            bar.set_position(count as u64);
+            bar.set_message(format!("cost {best:.6}"));
+        },
+    );
     bar.finish_and_clear();
     let cost_kind = args.model.cost.name();
-    let fit = Fit::conclude(&problem, &args.algorithm, cost_kind, &found, &options, validation.as_ref())?;
+    let fit = Fit::conclude(
+        &problem,
+        &args.algorithm,
+        cost_kind,
+        &found,
+        &options,
+        validation.as_ref(),
+    )?;
     if let Some(path) = &args.plot {
         let drawing = plot::overlay(&data, &fit.candidate, options.method)?;
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
         session.remark(&format!("plot: {}", path.display()));
     }
-    session.deliver(&report::text::fit(&fit, &data), &report::json::FitJson::from(&fit))
+    session.deliver(
+        &report::text::fit(&fit, &data),
+        &report::json::FitJson::from(&fit),
+    )
 }

@@ -5,9 +5,9 @@ use crate::error::Error;
 use crate::fit::Options;
 use crate::input::Known;
 use crate::input::suggest::did_you_mean;
+use crate::problem::simulate::Method;
 use crate::problem::unknowns::Scale;
 use crate::problem::{FitProblem, Structure};
-use crate::problem::simulate::Method;
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
 use shared::effects::{Kind, MAX_EFFECTS};
@@ -21,9 +21,15 @@ impl CostName {
     pub(super) fn cost(self) -> Cost {
         match self {
             CostName::Squared => Cost::Squared,
-            CostName::Iae => Cost::Absolute { model_floored: false },
-            CostName::IaeFloored => Cost::Absolute { model_floored: true },
-            CostName::Interval => Cost::Interval { noise_counts: NOISE_COUNTS },
+            CostName::Iae => Cost::Absolute {
+                model_floored: false,
+            },
+            CostName::IaeFloored => Cost::Absolute {
+                model_floored: true,
+            },
+            CostName::Interval => Cost::Interval {
+                noise_counts: NOISE_COUNTS,
+            },
         }
     }
 
@@ -39,23 +45,33 @@ impl CostName {
 }
 
 /// Options of a fit from the flags.
-pub(super) fn options(args: &ModelArgs, known: Known, seed: u64, budget: u64) -> Result<Options, Error> {
+pub(super) fn options(
+    args: &ModelArgs,
+    known: Known,
+    seed: u64,
+    budget: u64,
+) -> Result<Options, Error> {
     let mut effects = Vec::new();
     for name in &args.with {
         // The flag's parser admits known names only.
-        let kind = Kind::by_name(name).ok_or_else(|| Error::Usage(format!("--with {name}: unknown effect")))?;
+        let kind = Kind::by_name(name)
+            .ok_or_else(|| Error::Usage(format!("--with {name}: unknown effect")))?;
         if effects.contains(&kind) {
             return Err(Error::Usage(format!("--with {name}: named twice")));
         }
         effects.push(kind);
     }
     if effects.len() > MAX_EFFECTS {
-        return Err(Error::Usage(format!("--with: at most {MAX_EFFECTS} effects fit into one model")));
+        return Err(Error::Usage(format!(
+            "--with: at most {MAX_EFFECTS} effects fit into one model"
+        )));
     }
     if let Some(window) = args.window
         && !(window.is_finite() && window > 0.0)
     {
-        return Err(Error::Usage(format!("--window {window}: must be a positive number of seconds")));
+        return Err(Error::Usage(format!(
+            "--window {window}: must be a positive number of seconds"
+        )));
     }
     Ok(Options {
         effects,
@@ -77,9 +93,15 @@ pub(super) fn options(args: &ModelArgs, known: Known, seed: u64, budget: u64) ->
 /// A range `LOW:HIGH` of a flag.
 pub(super) fn range(flag: &str, text: &str) -> Result<(f64, f64), Error> {
     let wrong = |why: &str| Error::Usage(format!("{flag} {text}: {why}"));
-    let (low, high) = text.split_once(':').ok_or_else(|| wrong("write it like 1e-4:1.5"))?;
+    let (low, high) = text
+        .split_once(':')
+        .ok_or_else(|| wrong("write it like 1e-4:1.5"))?;
     let number = |part: &str| {
-        part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| wrong(&format!("`{part}` is not a finite number")))
+        part.trim()
+            .parse::<f64>()
+            .ok()
+            .filter(|x| x.is_finite())
+            .ok_or_else(|| wrong(&format!("`{part}` is not a finite number")))
     };
     let (low, high) = (number(low)?, number(high)?);
     if low >= high {
@@ -107,7 +129,11 @@ pub(super) fn apply_bounds(problem: &mut FitProblem<'_>, bounds: &[String]) -> R
 
 fn set_range(structure: &mut Structure, name: &str, range: (f64, f64)) -> Result<(), Error> {
     let names: Vec<String> = structure.unknowns.iter().map(|u| u.name.clone()).collect();
-    let Some(unknown) = structure.unknowns.iter_mut().find(|unknown| unknown.name == name) else {
+    let Some(unknown) = structure
+        .unknowns
+        .iter_mut()
+        .find(|unknown| unknown.name == name)
+    else {
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         return Err(Error::Usage(format!(
             "--bounds {name}: not an unknown of this model; {}",
@@ -117,11 +143,14 @@ fn set_range(structure: &mut Structure, name: &str, range: (f64, f64)) -> Result
     let least = unknown.range.0;
     if range.0 < 0.0 && least >= 0.0 {
         return Err(Error::Usage(format!(
-            "--bounds {name}: the lower bound {} is negative, and {name} cannot be", range.0
+            "--bounds {name}: the lower bound {} is negative, and {name} cannot be",
+            range.0
         )));
     }
     if range.0 == 0.0 && unknown.scale == Scale::Log {
-        return Err(Error::Usage(format!("--bounds {name}: the lower bound must be above zero")));
+        return Err(Error::Usage(format!(
+            "--bounds {name}: the lower bound must be above zero"
+        )));
     }
     unknown.range = range;
     Ok(())

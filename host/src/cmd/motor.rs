@@ -73,9 +73,10 @@ fn flags_as_toml(args: &MotorArgs) -> Result<String, Error> {
     if let Some(drive) = &args.drive {
         text += &format!("drive.kind = {}\n", toml::Value::from(drive.as_str()));
     }
-    for (section, flag, pairs) in
-        [("columns", "--column", &args.column), ("units", "--unit", &args.unit)]
-    {
+    for (section, flag, pairs) in [
+        ("columns", "--column", &args.column),
+        ("units", "--unit", &args.unit),
+    ] {
         for pair in pairs {
             let (what, name) = split(flag, pair, "angle=name")?;
             text += &format!("{section}.{what} = {}\n", toml::Value::from(name));
@@ -95,6 +96,8 @@ fn flags_as_toml(args: &MotorArgs) -> Result<String, Error> {
 
 fn split<'a>(flag: &str, pair: &'a str, example: &str) -> Result<(&'a str, &'a str), Error> {
     pair.split_once('=')
-        .filter(|(key, _)| !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'))
+        .filter(|(key, _)| {
+            !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        })
         .ok_or_else(|| Error::Usage(format!("{flag} {pair}: write it like {flag} {example}")))
 }

@@ -31,18 +31,35 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     if let Some(folder) = &args.plots
         && !folder.is_dir()
     {
-        return Err(Error::Usage(format!("--plots {}: no such folder; make it first", folder.display())));
+        return Err(Error::Usage(format!(
+            "--plots {}: no such folder; make it first",
+            folder.display()
+        )));
     }
-    let data = Experiment { seconds: args.seconds, sample_s: args.sample }.record()?;
+    let data = Experiment {
+        seconds: args.seconds,
+        sample_s: args.sample,
+    }
+    .record()?;
     let population = usize::try_from(args.population).unwrap_or(usize::MAX);
     let budget = population.saturating_mul(usize::try_from(args.iterations).unwrap_or(usize::MAX));
     let seeds: Vec<u64> = (session.seed..).take(args.seeds as usize).collect();
 
-    let problems: Vec<(Variant, FitProblem<'_>)> =
-        Variant::all().map(|v| (v, paper::paper_problem(&data, v, bounds))).collect();
+    let problems: Vec<(Variant, FitProblem<'_>)> = Variant::all()
+        .map(|v| (v, paper::paper_problem(&data, v, bounds)))
+        .collect();
     let contests: Vec<(Variant, Contest<'_>)> = problems
         .iter()
-        .map(|(variant, problem)| (*variant, Contest { problem, budget, seeds: seeds.clone() }))
+        .map(|(variant, problem)| {
+            (
+                *variant,
+                Contest {
+                    problem,
+                    budget,
+                    seeds: seeds.clone(),
+                },
+            )
+        })
         .collect();
     let solvers = paper::solvers(population);
     let runs = (contests.len() * solvers.len() + STRONG.len()) as u64 * args.seeds;
@@ -69,49 +86,102 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
 /// Cost of the true motor.
 fn truth_cost(problem: &FitProblem<'_>) -> f64 {
     let truth = &PRINTED[0].physical;
-    let values = [truth.inductance, truth.resistance, truth.kt, truth.inertia, truth.viscous, truth.kb];
+    let values = [
+        truth.inductance,
+        truth.resistance,
+        truth.kt,
+        truth.inertia,
+        truth.viscous,
+        truth.kb,
+    ];
     let inside = problem
         .structure
         .unknowns
         .iter()
         .zip(values)
         .all(|(unknown, value)| (unknown.range.0..=unknown.range.1).contains(&value));
-    if inside { problem.cost(&problem.structure.coordinates(&values)) } else { f64::NAN }
+    if inside {
+        problem.cost(&problem.structure.coordinates(&values))
+    } else {
+        f64::NAN
+    }
 }
 
 /// The stronger methods on the same data in identifiable coordinates.
-fn strong(session: &Session, data: &Data, seeds: &[u64], done: &(dyn Fn() + Sync)) -> Result<Strong, Error> {
-    let variant = Variant::all().next().ok_or_else(|| Error::Failed("no variant".to_owned()))?;
+fn strong(
+    session: &Session,
+    data: &Data,
+    seeds: &[u64],
+    done: &(dyn Fn() + Sync),
+) -> Result<Strong, Error> {
+    let variant = Variant::all()
+        .next()
+        .ok_or_else(|| Error::Failed("no variant".to_owned()))?;
     let problem = paper::identifiable_problem(data, variant)
         .ok_or_else(|| Error::Failed("regression finds no start on the paper's step".to_owned()))?;
-    let solvers: Vec<_> = STRONG.iter().filter_map(|name| solve::by_name(name)).collect();
-    let contest = Contest { problem: &problem, budget: STRONG_BUDGET, seeds: seeds.to_vec() };
+    let solvers: Vec<_> = STRONG
+        .iter()
+        .filter_map(|name| solve::by_name(name))
+        .collect();
+    let contest = Contest {
+        problem: &problem,
+        budget: STRONG_BUDGET,
+        seeds: seeds.to_vec(),
+    };
     let rows = compare::run(&contest, &solvers, session.stop(), done);
-    Ok(Strong { budget: STRONG_BUDGET, rows })
+    Ok(Strong {
+        budget: STRONG_BUDGET,
+        rows,
+    })
 }
 
 /// The Bode plot (true motor, the paper's three, our three) and the cost curves.
-fn draw(folder: &Path, rounds: &[Round<'_>], budget: usize, session: &Session) -> Result<(), Error> {
+fn draw(
+    folder: &Path,
+    rounds: &[Round<'_>],
+    budget: usize,
+    session: &Session,
+) -> Result<(), Error> {
     let mut loops: Vec<(String, Loop)> = PRINTED
         .iter()
         .map(|column| {
-            let name = if column.cost.is_some() { "paper's " } else { "" };
-            (format!("{name}{}", column.algorithm), Loop::from(&column.machine()))
+            let name = if column.cost.is_some() {
+                "paper's "
+            } else {
+                ""
+            };
+            (
+                format!("{name}{}", column.algorithm),
+                Loop::from(&column.machine()),
+            )
         })
         .collect();
-    let Some(first) = rounds.first() else { return Ok(()) };
+    let Some(first) = rounds.first() else {
+        return Ok(());
+    };
     let structure = &first.contest.problem.structure;
     for row in &first.rows {
         if let Some(run) = row.typical() {
             let machine = structure.candidate(&structure.values(&run.x)).machine;
-            loops.push((format!("our {} (median run)", row.algorithm), Loop::from(&machine)));
+            loops.push((
+                format!("our {} (median run)", row.algorithm),
+                Loop::from(&machine),
+            ));
         }
     }
     write(folder, "bode.svg", &plot::bode(&loops, 0.1, 1e3)?, session)?;
     for round in rounds {
-        let name = format!("cost-curves-{}.svg", round.variant.name().to_lowercase().replace(' ', "-"));
+        let name = format!(
+            "cost-curves-{}.svg",
+            round.variant.name().to_lowercase().replace(' ', "-")
+        );
         let cost = format!("{}, deg s", round.variant.name());
-        write(folder, &name, &plot::cost_curves(&round.rows as &[Row], budget, &cost)?, session)?;
+        write(
+            folder,
+            &name,
+            &plot::cost_curves(&round.rows as &[Row], budget, &cost)?,
+            session,
+        )?;
     }
     Ok(())
 }

@@ -32,8 +32,12 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     if args.list {
         return session.deliver(&list(), &());
     }
-    let out = args.out.as_deref().ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
-    let machine = Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
+    let out = args
+        .out
+        .as_deref()
+        .ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
+    let machine =
+        Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
     let effects = args
         .hide
         .iter()
@@ -42,12 +46,20 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     let bench = bench(args, machine, effects, session.seed)?;
     let plan = plan(args)?;
     let drive: Vec<DriveSample> = commands::<f64>(&plan, args.sample, session.seed)
-        .map(|c| DriveSample { volts: c.drive * machine.supply_v, enabled: c.enabled })
+        .map(|c| DriveSample {
+            volts: c.drive * machine.supply_v,
+            enabled: c.enabled,
+        })
         .collect();
     let recording = record(&bench, &drive, out)?;
     let hidden: Vec<String> = bench.effects.iter().map(describe).collect();
     write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
-    let mut text = format!("{}: {} samples, {:.3} s", out.display(), recording.len(), recording.duration_s());
+    let mut text = format!(
+        "{}: {} samples, {:.3} s",
+        out.display(),
+        recording.len(),
+        recording.duration_s()
+    );
     if !args.no_motor {
         let path = out.with_file_name("motor.toml");
         let motor = MotorFile {
@@ -60,18 +72,26 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         text += &format!("; what is known of the motor: {}", path.display());
     }
     text.push('\n');
-    session.deliver(&text, &Simulated {
-        schema: "servoid.simulate/1",
-        recording: out.display().to_string(),
-        machine: &args.machine,
-        hidden,
-        excitation: &args.excite,
-        samples: recording.len(),
-        seed: session.seed,
-    })
+    session.deliver(
+        &text,
+        &Simulated {
+            schema: "servoid.simulate/1",
+            recording: out.display().to_string(),
+            machine: &args.machine,
+            hidden,
+            excitation: &args.excite,
+            samples: recording.len(),
+            seed: session.seed,
+        },
+    )
 }
 
-fn bench(args: &SimulateArgs, machine: Machine, effects: Vec<Hidden>, seed: u64) -> Result<Bench, Error> {
+fn bench(
+    args: &SimulateArgs,
+    machine: Machine,
+    effects: Vec<Hidden>,
+    seed: u64,
+) -> Result<Bench, Error> {
     let mut bench = Bench::new(machine);
     bench.effects = effects;
     bench.counts_per_rev = args.counts_per_rev;
@@ -107,10 +127,16 @@ fn record(bench: &Bench, drive: &[DriveSample], out: &Path) -> Result<Recording,
 /// The experiments of the named excitation, stretched to the wanted length.
 fn plan(args: &SimulateArgs) -> Result<Vec<Experiment>, Error> {
     if !(args.sample.is_finite() && args.sample > 0.0) {
-        return Err(Error::Usage(format!("--sample {}: must be a positive number of seconds", args.sample)));
+        return Err(Error::Usage(format!(
+            "--sample {}: must be a positive number of seconds",
+            args.sample
+        )));
     }
     if !(args.amplitude > 0.0 && args.amplitude <= 1.0) {
-        return Err(Error::Usage(format!("--amplitude {}: must be above 0 and at most 1", args.amplitude)));
+        return Err(Error::Usage(format!(
+            "--amplitude {}: must be above 0 and at most 1",
+            args.amplitude
+        )));
     }
     let single;
     let base: &[Experiment] = match args.excite.as_str() {
@@ -118,18 +144,32 @@ fn plan(args: &SimulateArgs) -> Result<Vec<Experiment>, Error> {
         "commissioning-coast" => &COMMISSIONING_COAST,
         name => {
             let names: Vec<&str> = excitations().collect();
-            let (_, shape) = Shape::ALL.iter().find(|(known, _)| *known == name).ok_or_else(|| {
-                Error::Usage(format!("--excite {name}: unknown; {}", did_you_mean(name, &names)))
-            })?;
-            single = [Experiment { shape: *shape, seconds: USUAL_SECONDS, amplitude: 1.0 }];
+            let (_, shape) = Shape::ALL
+                .iter()
+                .find(|(known, _)| *known == name)
+                .ok_or_else(|| {
+                    Error::Usage(format!(
+                        "--excite {name}: unknown; {}",
+                        did_you_mean(name, &names)
+                    ))
+                })?;
+            single = [Experiment {
+                shape: *shape,
+                seconds: USUAL_SECONDS,
+                amplitude: 1.0,
+            }];
             &single
         }
     };
     let usual: f64 = base.iter().map(|e| e.seconds).sum();
     let seconds = args.seconds.unwrap_or(usual);
-    if !(seconds.is_finite() && seconds >= 2.0 * args.sample && seconds / args.sample <= MOST_SAMPLES) {
+    if !(seconds.is_finite()
+        && seconds >= 2.0 * args.sample
+        && seconds / args.sample <= MOST_SAMPLES)
+    {
         return Err(Error::Usage(format!(
-            "--seconds {seconds}: must give between 2 and {MOST_SAMPLES:e} samples of {} s", args.sample
+            "--seconds {seconds}: must give between 2 and {MOST_SAMPLES:e} samples of {} s",
+            args.sample
         )));
     }
     let stretch = |e: &Experiment| Experiment {
@@ -141,19 +181,25 @@ fn plan(args: &SimulateArgs) -> Result<Vec<Experiment>, Error> {
 }
 
 fn excitations() -> impl Iterator<Item = &'static str> {
-    ["commissioning", "commissioning-coast"].into_iter().chain(Shape::ALL.iter().map(|(name, _)| *name))
+    ["commissioning", "commissioning-coast"]
+        .into_iter()
+        .chain(Shape::ALL.iter().map(|(name, _)| *name))
 }
 
 fn describe(hidden: &Hidden) -> String {
-    let parameters: Vec<String> =
-        hidden.parameters().map(|(name, value, unit)| format!("{name} = {value:.6} {unit}")).collect();
+    let parameters: Vec<String> = hidden
+        .parameters()
+        .map(|(name, value, unit)| format!("{name} = {value:.6} {unit}"))
+        .collect();
     format!("{}: {}", hidden.name(), parameters.join(", "))
 }
 
 fn provenance(args: &SimulateArgs, hidden: &[String], seed: u64) -> Vec<String> {
     let mut lines = vec![format!(
         "made by servoid {} simulate: machine {}, excitation {}, seed {seed}",
-        env!("CARGO_PKG_VERSION"), args.machine, args.excite
+        env!("CARGO_PKG_VERSION"),
+        args.machine,
+        args.excite
     )];
     lines.extend(hidden.iter().map(|text| format!("hidden: {text}")));
     lines
@@ -161,8 +207,15 @@ fn provenance(args: &SimulateArgs, hidden: &[String], seed: u64) -> Vec<String> 
 
 fn list() -> String {
     let mut text = String::from("motors:\n");
-    for (name, machine) in PRESETS.iter().filter_map(|name| Some((name, Machine::preset(name).ok()?))) {
-        text += &format!("  {name:14} {} V, no-load {:.0} rad/s\n", machine.supply_v, machine.top_speed_rad_s());
+    for (name, machine) in PRESETS
+        .iter()
+        .filter_map(|name| Some((name, Machine::preset(name).ok()?)))
+    {
+        text += &format!(
+            "  {name:14} {} V, no-load {:.0} rad/s\n",
+            machine.supply_v,
+            machine.top_speed_rad_s()
+        );
     }
     text += "effects to hide:\n";
     for kind in crate::bench::effects::CATALOGUE {

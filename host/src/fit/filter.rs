@@ -54,7 +54,10 @@ impl Lags {
 
 /// Filters a signal that is sampled (straight between samples) or `held` (constant between them).
 pub(super) fn filtered(data: &Data, time: f64, signal: &[f64], held: bool) -> Vec<Filtered> {
-    let mut lags = Lags { time, stages: [signal.first().copied().unwrap_or(0.0); 4] };
+    let mut lags = Lags {
+        time,
+        stages: [signal.first().copied().unwrap_or(0.0); 4],
+    };
     let mut out = Vec::with_capacity(signal.len());
     for k in 0..signal.len() {
         out.push(lags.output());

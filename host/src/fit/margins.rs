@@ -57,7 +57,10 @@ impl Loop {
             f64::INFINITY
         };
         let (_, phase) = self.response(self.crossover()?);
-        Some(Margins { gain_db, phase_deg: 180.0 + phase })
+        Some(Margins {
+            gain_db,
+            phase_deg: 180.0 + phase,
+        })
     }
 
     /// Where the magnitude passes one for the last time: bisection in the logarithm, downwards from a
@@ -84,7 +87,11 @@ impl Loop {
         }
         for _ in 0..200 {
             let middle = (low * high).sqrt();
-            if above(middle) { low = middle } else { high = middle }
+            if above(middle) {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         Some((low * high).sqrt())
     }

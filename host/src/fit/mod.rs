@@ -49,7 +49,10 @@ impl Default for Options {
             seed: 1,
             budget: 20_000,
             window_s: None,
-            method: Method { substeps: 2, ..Method::default() },
+            method: Method {
+                substeps: 2,
+                ..Method::default()
+            },
             known: Known::default(),
         }
     }
@@ -67,7 +70,12 @@ const STARTS_MOVING: f64 = 0.01;
 pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
     let base = base_for(data, &options.effects);
     let start_speed = starts_moving(data) && options.window_s.is_none();
-    let unit = Machine { kb: 1.0, damping: 0.0, inertia: 1.0, electrical: 0.0 };
+    let unit = Machine {
+        kb: 1.0,
+        damping: 0.0,
+        inertia: 1.0,
+        electrical: 0.0,
+    };
     let sketch = Structure::around(data, base, &options.effects, &unit, start_speed);
     let guesses = regression::guesses(data, &sketch);
     let speed_now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
@@ -87,8 +95,10 @@ pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, 
     };
     let mut best: Option<(f64, Vec<f64>, Structure)> = None;
     for guess in guesses {
-        let structure = Structure::around(data, base, &options.effects, &guess.machine, start_speed);
-        let x = structure.coordinates(&structure.values_of(&guess.machine, &guess.effects, speed_now));
+        let structure =
+            Structure::around(data, base, &options.effects, &guess.machine, start_speed);
+        let x =
+            structure.coordinates(&structure.values_of(&guess.machine, &guess.effects, speed_now));
         problem.structure = structure;
         let cost = problem.cost(&x);
         if cost.is_finite() && best.as_ref().is_none_or(|(least, ..)| cost < *least) {
@@ -112,11 +122,16 @@ pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, 
 /// coasting with the bridge open, or a torque that passes only the one of them.
 fn base_for(data: &Data, effects: &[Kind]) -> Base {
     let mechanical = |kind: &Kind| {
-        matches!(kind.description().place, Place::Friction | Place::Torque | Place::Load)
+        matches!(
+            kind.description().place,
+            Place::Friction | Place::Torque | Place::Load
+        )
     };
     match data.drive {
         Drive::Current => Base::CurrentDriven,
-        Drive::Voltage => Base::Response { damping: data.coasts() || effects.iter().any(mechanical) },
+        Drive::Voltage => Base::Response {
+            damping: data.coasts() || effects.iter().any(mechanical),
+        },
     }
 }
 
@@ -144,11 +159,18 @@ pub fn search(
 pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
     let mut candidate = *candidate;
     candidate.start_speed = if starts_moving(data) {
-        data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev * core::f64::consts::TAU
+        data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
+            * core::f64::consts::TAU
     } else {
         0.0
     };
-    let errors =
-        errors(data, &candidate, method, &Horizon::Whole, StartAngle::Free, Cost::Squared)?;
+    let errors = errors(
+        data,
+        &candidate,
+        method,
+        &Horizon::Whole,
+        StartAngle::Free,
+        Cost::Squared,
+    )?;
     Ok(rms_counts(data, &errors))
 }

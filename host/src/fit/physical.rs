@@ -72,12 +72,21 @@ struct Statement {
 
 fn physical(u: &Vector) -> [f64; N] {
     let (r, kt, total, m, lag, part) = (u[0].exp(), u[1].exp(), u[2], u[3], u[4], u[5]);
-    [r, r * lag, kt, total * (1.0 - part), m * kt / r, part * total * kt / r]
+    [
+        r,
+        r * lag,
+        kt,
+        total * (1.0 - part),
+        m * kt / r,
+        part * total * kt / r,
+    ]
 }
 
 /// Typical size of each coordinate, so that information is relative.
 fn sizes(start: &Vector) -> Vector {
-    let lag = start[4].abs().max(1e-3 * start[3].abs() / start[2].abs().max(f64::MIN_POSITIVE));
+    let lag = start[4]
+        .abs()
+        .max(1e-3 * start[3].abs() / start[2].abs().max(f64::MIN_POSITIVE));
     Vector::from([1.0, 1.0, start[2].abs(), start[3].abs(), lag, 1.0])
         .map(|x| x.max(f64::MIN_POSITIVE))
 }
@@ -128,8 +137,15 @@ fn facts(known: &Known, resistance: Option<Estimate>) -> Vec<Statement> {
 pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     let machine = &evidence.machine;
     let total = machine.kb + machine.damping;
-    let part = if total > 0.0 { machine.damping / total } else { 0.0 };
-    let resistance = known.resistance_ohm.map(|f| f.value).or(evidence.resistance.map(|r| r.value));
+    let part = if total > 0.0 {
+        machine.damping / total
+    } else {
+        0.0
+    };
+    let resistance = known
+        .resistance_ohm
+        .map(|f| f.value)
+        .or(evidence.resistance.map(|r| r.value));
     let kt = known.kt_n_m_a.map_or(total, |f| f.value);
     let start = Vector::from([
         resistance.unwrap_or(1.0).max(1e-12).ln(),
@@ -165,11 +181,16 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     }
     let estimate = |model: &dyn Fn(&Vector) -> f64| {
         let slope = gradient(model, &u, &sizes);
-        let leans = null.iter().any(|v: &Vector| slope.dot(v).abs() > 1e-6 * slope.norm());
+        let leans = null
+            .iter()
+            .any(|v: &Vector| slope.dot(v).abs() > 1e-6 * slope.norm());
         let variance = slope.dot(&(inverse * slope));
         let value = model(&u);
         let determined = !leans && value.is_finite() && variance.is_finite();
-        determined.then(|| Estimate { value, std: variance.max(0.0).sqrt() })
+        determined.then(|| Estimate {
+            value,
+            std: variance.max(0.0).sqrt(),
+        })
     };
     let pulled = (measured - u).component_div(&sizes);
     Reconciled {
@@ -209,7 +230,11 @@ fn pseudo_inverse(information: &Matrix) -> (Matrix, Vec<Vector>) {
     let eigen = balanced.symmetric_eigen();
     let mut inverse = Matrix::zeros();
     let mut null = Vec::new();
-    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
         let direction = vector.component_mul(&balance);
         if *value > 1e-12 {
             inverse += direction * direction.transpose() / *value;

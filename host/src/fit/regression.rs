@@ -6,7 +6,7 @@
 //! ∫v dt = D·θ + a1·D·θ' + a2·D·θ'' + Σ A_j·∫(effect j per unit of amplitude) dt + const
 //! ```
 //!
-//! All terms pass the same low-pass [`filter`](super::filter). Several filter times are tried; the
+//! All terms pass the same low-pass filter (`filter.rs`). Several filter times are tried; the
 //! caller keeps the best.
 
 use super::filter::{Filtered, filtered};
@@ -46,9 +46,17 @@ fn integral(data: &Data, held: impl Fn(usize) -> f64) -> Vec<f64> {
 /// data do not excite the machine.
 pub fn guess(data: &Data, structure: &Structure, time: f64) -> Option<Guess> {
     let radians = core::f64::consts::TAU / data.units.counts_per_rev;
-    let angle: Vec<f64> = (0..data.len()).map(|k| (data.centre(k) - data.centre(0)) * radians).collect();
+    let angle: Vec<f64> = (0..data.len())
+        .map(|k| (data.centre(k) - data.centre(0)) * radians)
+        .collect();
     let motion = filtered(data, time, &angle, false);
-    let drive = integral(data, |k| if data.is_open(k) { 0.0 } else { data.command[k] * data.units.volts });
+    let drive = integral(data, |k| {
+        if data.is_open(k) {
+            0.0
+        } else {
+            data.command[k] * data.units.volts
+        }
+    });
     let target = filtered(data, time, &drive, false);
     let columns = effect_columns(data, structure, &motion, time);
 
@@ -80,16 +88,32 @@ pub fn guess(data: &Data, structure: &Structure, time: f64) -> Option<Guess> {
     let solution = least_squares(&usable, width, &row, &|k| target[k].value)?;
     let (total, inertial) = (solution[0], solution[1]);
     let machine = if current_driven {
-        Machine { kb: 0.0, damping: total.max(0.0), inertia: inertial, electrical: 0.0 }
+        Machine {
+            kb: 0.0,
+            damping: total.max(0.0),
+            inertia: inertial,
+            electrical: 0.0,
+        }
     } else {
         let lag = solution[3] / inertial;
-        Machine { kb: total, damping: 0.0, inertia: inertial, electrical: lag.max(0.0) }
+        Machine {
+            kb: total,
+            damping: 0.0,
+            inertia: inertial,
+            electrical: lag.max(0.0),
+        }
     };
-    if !(machine.inertia > 0.0 && machine.inertia.is_finite() && (current_driven || machine.kb > 0.0)) {
+    if !(machine.inertia > 0.0
+        && machine.inertia.is_finite()
+        && (current_driven || machine.kb > 0.0))
+    {
         return None;
     }
     let amplitudes = &solution.as_slice()[3 + usize::from(second_order)..];
-    Some(Guess { machine, effects: effect_values(data, structure, amplitudes) })
+    Some(Guess {
+        machine,
+        effects: effect_values(data, structure, amplitudes),
+    })
 }
 
 /// Column-scaled least squares by SVD, so that a column that is nearly zero does no harm.
@@ -120,7 +144,12 @@ fn least_squares(
 
 /// For each effect: the integral of what it takes from the drive per unit of its first amplitude,
 /// evaluated along the measured motion, filtered.
-fn effect_columns(data: &Data, structure: &Structure, motion: &[Filtered], time: f64) -> Vec<Vec<f64>> {
+fn effect_columns(
+    data: &Data,
+    structure: &Structure,
+    motion: &[Filtered],
+    time: f64,
+) -> Vec<Vec<f64>> {
     let mut columns = Vec::new();
     for (slot, &kind) in structure.effects.iter().enumerate() {
         for (index, parameter) in kind.description().parameters.iter().enumerate() {
@@ -150,7 +179,12 @@ fn effect_columns(data: &Data, structure: &Structure, motion: &[Filtered], time:
                 lost * data.units.volts / values[index]
             };
             let integrated = integral(data, lost);
-            columns.push(filtered(data, time, &integrated, false).iter().map(|f| f.value).collect());
+            columns.push(
+                filtered(data, time, &integrated, false)
+                    .iter()
+                    .map(|f| f.value)
+                    .collect(),
+            );
         }
     }
     columns
@@ -159,7 +193,10 @@ fn effect_columns(data: &Data, structure: &Structure, motion: &[Filtered], time:
 /// Typical values of the effect in `slot`, SI.
 fn typical(data: &Data, structure: &Structure, slot: usize) -> Vec<f64> {
     let parameters = structure.effects[slot].description().parameters;
-    parameters.iter().map(|p| p.scaled(p.typical, data.supply, data.units.speed)).collect()
+    parameters
+        .iter()
+        .map(|p| p.scaled(p.typical, data.supply, data.units.speed))
+        .collect()
 }
 
 /// The effects' parameters: amplitudes as found (kept inside their ranges), the rest typical.

@@ -101,7 +101,13 @@ impl Fit {
             .as_ref()
             .filter(|_| data.drive == Drive::Voltage)
             .map(|spread| reconcile(&evidence(problem, &candidate, spread), &options.known));
-        let parameters = parameters(problem, &values, spread.as_ref(), reconciled.as_ref(), &mut notes);
+        let parameters = parameters(
+            problem,
+            &values,
+            spread.as_ref(),
+            reconciled.as_ref(),
+            &mut notes,
+        );
         if let Some(reconciled) = &reconciled {
             describe(problem, reconciled, &options.known, &mut notes);
         }
@@ -119,7 +125,12 @@ impl Fit {
                 .transpose()?,
             windowed: scores::windowed(data, &candidate, options),
             equation_error: scores::equation_error(data, &candidate),
-            effects: problem.structure.effects.iter().map(|kind| kind.name()).collect(),
+            effects: problem
+                .structure
+                .effects
+                .iter()
+                .map(|kind| kind.name())
+                .collect(),
             parameters,
             response,
             margins: Loop::from(&candidate.machine).margins(),
@@ -140,7 +151,12 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     let wanted = |candidate: &Candidate| {
         let m = &candidate.machine;
         let total = m.kb + m.damping;
-        [total, m.inertia, m.electrical, m.damping / total.max(f64::MIN_POSITIVE)]
+        [
+            total,
+            m.inertia,
+            m.electrical,
+            m.damping / total.max(f64::MIN_POSITIVE),
+        ]
     };
     let rows = if with_part { 4 } else { 3 };
     let mut full = values.clone();
@@ -183,7 +199,9 @@ fn parameters(
     let torque_scale = reconciled.and_then(|r| r.volts_per_torque);
     let mut in_volts = false;
     for (k, unknown) in problem.structure.unknowns.iter().enumerate() {
-        let std = spread.and_then(|s| s.std(k)).filter(|std| *std < values[k].abs().max(1e-300) * 1e3);
+        let std = spread
+            .and_then(|s| s.std(k))
+            .filter(|std| *std < values[k].abs().max(1e-300) * 1e3);
         let mut parameter = Parameter {
             name: unknown.name.clone(),
             value: values[k],
@@ -198,7 +216,10 @@ fn parameters(
             }
         }
         if parameter.std.is_none() {
-            notes.push(format!("{}: this recording does not determine it", parameter.name));
+            notes.push(format!(
+                "{}: this recording does not determine it",
+                parameter.name
+            ));
         }
         parameters.push(parameter);
     }
@@ -249,7 +270,12 @@ fn to_newton_metres(parameter: &mut Parameter, volts_per_torque: Estimate) {
 }
 
 /// Says in words what stays open and what would settle it.
-fn describe(problem: &FitProblem<'_>, reconciled: &Reconciled, known: &Known, notes: &mut Vec<String>) {
+fn describe(
+    problem: &FitProblem<'_>,
+    reconciled: &Reconciled,
+    known: &Known,
+    notes: &mut Vec<String>,
+) {
     let missing: Vec<&str> = NAMES
         .iter()
         .zip(&reconciled.physical)
@@ -273,7 +299,9 @@ fn describe(problem: &FitProblem<'_>, reconciled: &Reconciled, known: &Known, no
     if !known.kt_equals_kb && known.kt_n_m_a.is_none() {
         remedy.push("kt_equals_kb = true (in SI units, without iron losses)");
     }
-    if !matches!(problem.structure.base, Base::Response { damping: true }) && known.viscous_n_m_s.is_none() {
+    if !matches!(problem.structure.base, Base::Response { damping: true })
+        && known.viscous_n_m_s.is_none()
+    {
         remedy.push("a stretch of coasting with the bridge open (or viscous_n_m_s), since viscous friction and back-EMF act alike");
     }
     if remedy.is_empty() {

@@ -1,10 +1,10 @@
 //! Errors of a fitted model, in the several ways that people measure them.
 
+use super::filter::filtered;
 use super::physical::Estimate;
 use super::{Options, SPEED_HALF_WIDTH};
 use crate::error::Error;
 use crate::problem::cost::{Horizon, errors};
-use super::filter::filtered;
 use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, StartAngle};
 use crate::recording::Drive;
@@ -30,19 +30,35 @@ pub struct Windowed {
 
 /// Model minus reading over the whole recording, open loop, with the best start angle.
 pub fn whole(data: &Data, candidate: &Candidate, method: Method) -> Result<Vec<f64>, Error> {
-    Ok(errors(data, candidate, method, &Horizon::Whole, StartAngle::Free, Cost::Squared)?)
+    Ok(errors(
+        data,
+        candidate,
+        method,
+        &Horizon::Whole,
+        StartAngle::Free,
+        Cost::Squared,
+    )?)
 }
 
 /// Scores of short free runs. `None` where a window holds too few samples.
 pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option<Windowed> {
     let window_s = options.window_s.unwrap_or(USUAL_WINDOW_S);
     let windows = Horizon::windows(data, window_s, SPEED_HALF_WIDTH);
-    let Horizon::Windows(list) = &windows else { return None };
+    let Horizon::Windows(list) = &windows else {
+        return None;
+    };
     if list.len() < 2 || data.len() / list.len() < 4 {
         return None;
     }
-    let error =
-        errors(data, candidate, options.method, &windows, StartAngle::Free, Cost::Squared).ok()?;
+    let error = errors(
+        data,
+        candidate,
+        options.method,
+        &windows,
+        StartAngle::Free,
+        Cost::Squared,
+    )
+    .ok()?;
     let centre = data.centre(0) - data.counts[0];
     let (mut wrong, mut moved) = (0.0, 0.0);
     for window in list {
@@ -65,7 +81,9 @@ pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option
 pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     let time = EQUATION_FILTER_SAMPLES * data.units.interval;
     let radians = core::f64::consts::TAU / data.units.counts_per_rev;
-    let angle: Vec<f64> = (0..data.len()).map(|k| (data.centre(k) - data.centre(0)) * radians).collect();
+    let angle: Vec<f64> = (0..data.len())
+        .map(|k| (data.centre(k) - data.centre(0)) * radians)
+        .collect();
     let motion = filtered(data, time, &angle, false);
     let lowered = Lowered::<f64>::new(&candidate.effects, &data.units);
     // What the effects leave of the drive, less what they take from it.
@@ -82,7 +100,10 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
         })
         .collect();
     let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
-    let (net, command) = (filtered(data, time, &net, true), filtered(data, time, &command, true));
+    let (net, command) = (
+        filtered(data, time, &net, true),
+        filtered(data, time, &command, true),
+    );
     let m = &candidate.machine;
     let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
     let third = m.electrical * m.inertia;
@@ -103,7 +124,10 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
 /// Resistance from a measured current, Ω: the model's `R·i` regressed on the measured `i` with a
 /// free zero.
 pub fn resistance(data: &Data, candidate: &Candidate) -> Option<Estimate> {
-    let current = data.current_a.as_ref().filter(|_| data.drive == Drive::Voltage)?;
+    let current = data
+        .current_a
+        .as_ref()
+        .filter(|_| data.drive == Drive::Voltage)?;
     let machine = &candidate.machine;
     if machine.electrical > 20.0 * data.units.interval || data.len() < 50 {
         return None;
@@ -113,12 +137,14 @@ pub fn resistance(data: &Data, candidate: &Candidate) -> Option<Estimate> {
     let settle = (5.0 * machine.electrical / data.units.interval).ceil() as usize + 1;
     let mut rows = Vec::new();
     let mut held = 0;
-    for k in 1..data.len() {
-        held = if data.command[k] == data.command[k - 1] && !data.is_open(k) { held + 1 } else { 0 };
+    for (k, &amperes) in current.iter().enumerate().skip(1) {
+        let steady = data.command[k] == data.command[k - 1] && !data.is_open(k);
+        held = if steady { held + 1 } else { 0 };
         if held >= settle {
             let speed = data.speed_counts_s(k, SPEED_HALF_WIDTH) / data.units.counts_per_rev
                 * core::f64::consts::TAU;
-            rows.push((current[k], data.command[k] * data.units.volts - machine.kb * speed));
+            let volts = data.command[k] * data.units.volts;
+            rows.push((amperes, volts - machine.kb * speed));
         }
     }
     let n = rows.len() as f64;
@@ -130,9 +156,13 @@ pub fn resistance(data: &Data, candidate: &Candidate) -> Option<Estimate> {
     let sii: f64 = rows.iter().map(|r| (r.0 - mi).powi(2)).sum();
     let siv: f64 = rows.iter().map(|r| (r.0 - mi) * (r.1 - mv)).sum();
     let slope = siv / sii;
-    let left: f64 = rows.iter().map(|r| (r.1 - mv - slope * (r.0 - mi)).powi(2)).sum();
+    let left: f64 = rows
+        .iter()
+        .map(|r| (r.1 - mv - slope * (r.0 - mi)).powi(2))
+        .sum();
     // Neighbouring samples share their speed estimate.
     let independent = n / (2 * SPEED_HALF_WIDTH + 1) as f64;
     let std = (left / n / sii * n / independent.max(1.0)).sqrt();
-    (slope > 0.0 && slope.is_finite() && std < 0.3 * slope).then_some(Estimate { value: slope, std })
+    (slope > 0.0 && slope.is_finite() && std < 0.3 * slope)
+        .then_some(Estimate { value: slope, std })
 }

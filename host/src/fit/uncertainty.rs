@@ -73,7 +73,11 @@ struct Moved {
 fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Moved {
     let mut values = values.to_vec();
     let target = values[k] + step;
-    values[k] = if step > 0.0 { target.min(limit.max(values[k])) } else { target.max(limit.min(values[k])) };
+    values[k] = if step > 0.0 {
+        target.min(limit.max(values[k]))
+    } else {
+        target.max(limit.min(values[k]))
+    };
     Moved { values }
 }
 
@@ -83,18 +87,30 @@ fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The sandwich covariance at `values`, where the residuals are `residuals`.
-pub fn uncertainty(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) -> Option<Uncertainty> {
+pub fn uncertainty(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    residuals: &[f64],
+) -> Option<Uncertainty> {
     let jacobian = jacobian(problem, values)?;
     let (rows, columns) = jacobian.shape();
     let scales: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
     let scaled = DMatrix::from_fn(rows, columns, |i, k| {
-        if scales[k] > 0.0 { jacobian[(i, k)] / scales[k] } else { 0.0 }
+        if scales[k] > 0.0 {
+            jacobian[(i, k)] / scales[k]
+        } else {
+            0.0
+        }
     });
     let hessian = scaled.tr_mul(&scaled);
     let eigen = hessian.symmetric_eigen();
     let mut inverse = DMatrix::zeros(columns, columns);
     let mut flat: Vec<bool> = scales.iter().map(|&s| s == 0.0).collect();
-    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
         if *value > FLAT * FLAT * columns as f64 {
             inverse += vector * vector.transpose() / *value;
         } else {
@@ -108,8 +124,8 @@ pub fn uncertainty(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) 
     for from in (0..rows).step_by(per_segment) {
         let to = (from + per_segment).min(rows);
         let mut gradient = DVector::zeros(columns);
-        for i in from..to {
-            gradient += scaled.row(i).transpose() * residuals[i];
+        for (row, residual) in scaled.row_iter().zip(residuals).take(to).skip(from) {
+            gradient += row.transpose() * *residual;
         }
         middle += &gradient * gradient.transpose();
     }
@@ -118,9 +134,17 @@ pub fn uncertainty(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) 
     let scaled_covariance = &inverse * middle * &inverse * correction;
     let covariance = DMatrix::from_fn(columns, columns, |i, k| {
         let scale = scales[i] * scales[k];
-        if scale > 0.0 { scaled_covariance[(i, k)] / scale } else { f64::INFINITY }
+        if scale > 0.0 {
+            scaled_covariance[(i, k)] / scale
+        } else {
+            f64::INFINITY
+        }
     });
-    Some(Uncertainty { covariance, flat, effective_samples: effective_samples(problem.data, residuals) })
+    Some(Uncertainty {
+        covariance,
+        flat,
+        effective_samples: effective_samples(problem.data, residuals),
+    })
 }
 
 /// Samples divided by the sum of the residuals' autocorrelation (as far as it is positive: Geyer,
@@ -129,7 +153,11 @@ pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     let n = residuals.len();
     let mean = residuals.iter().sum::<f64>() / n.max(1) as f64;
     let product = |lag: usize| -> f64 {
-        residuals[..n - lag].iter().zip(&residuals[lag..]).map(|(a, b)| (a - mean) * (b - mean)).sum()
+        residuals[..n - lag]
+            .iter()
+            .zip(&residuals[lag..])
+            .map(|(a, b)| (a - mean) * (b - mean))
+            .sum()
     };
     let variance = product(0);
     if n < 2 || variance <= 0.0 {
@@ -144,5 +172,9 @@ pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
         sum += correlation;
     }
     let independent = n as f64 / (1.0 + 2.0 * sum);
-    if data.quantised { independent.min(data.transitions().max(1) as f64) } else { independent }
+    if data.quantised {
+        independent.min(data.transitions().max(1) as f64)
+    } else {
+        independent
+    }
 }

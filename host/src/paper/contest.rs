@@ -59,8 +59,10 @@ impl Variant {
     /// All four; the first is the one that the paper's figures are compared with.
     pub fn all() -> impl Iterator<Item = Variant> {
         Quantiser::ALL.into_iter().flat_map(|quantiser| {
-            [Discretisation::Exact, Discretisation::Euler]
-                .map(|discretisation| Variant { quantiser, discretisation })
+            [Discretisation::Exact, Discretisation::Euler].map(|discretisation| Variant {
+                quantiser,
+                discretisation,
+            })
         })
     }
 
@@ -103,7 +105,10 @@ impl Experiment {
         bench.counts_per_rev = COUNTS_PER_REV;
         bench.sample_s = self.sample_s;
         bench.start_angle_rad = Some(0.0);
-        let step = DriveSample { volts: STEP_V, enabled: true };
+        let step = DriveSample {
+            volts: STEP_V,
+            enabled: true,
+        };
         let run = bench.run(&vec![step; samples as usize])?;
         let recording = Recording {
             source: "the paper's step".to_owned(),
@@ -125,7 +130,12 @@ impl Experiment {
 pub fn paper_problem<'a>(data: &'a Data, variant: Variant, bounds: (f64, f64)) -> FitProblem<'a> {
     let centre = PRINTED[0].machine();
     let base = Base::Physical { range: bounds };
-    problem(data, variant, Structure::around(data, base, &[], &centre, false), None)
+    problem(
+        data,
+        variant,
+        Structure::around(data, base, &[], &centre, false),
+        None,
+    )
 }
 
 /// The same data in the three combinations that they determine, started from regression.
@@ -157,11 +167,16 @@ fn problem<'a>(
     FitProblem {
         data,
         structure,
-        cost: Cost::Absolute { model_floored: variant.quantiser == Quantiser::Both },
+        cost: Cost::Absolute {
+            model_floored: variant.quantiser == Quantiser::Both,
+        },
         weight: data.units.interval,
         horizon: Horizon::Whole,
         start_angle: StartAngle::Known,
-        method: Method { discretisation: variant.discretisation, substeps: 1 },
+        method: Method {
+            discretisation: variant.discretisation,
+            substeps: 1,
+        },
         start,
     }
 }
@@ -169,7 +184,13 @@ fn problem<'a>(
 /// The paper's three methods with a population of their own size.
 pub fn solvers(population: usize) -> Vec<Box<dyn Solver>> {
     vec![
-        Box::new(ParticleSwarm { population, ..ParticleSwarm::default() }),
-        Box::new(Fireflies { population, ..Fireflies::default() }),
+        Box::new(ParticleSwarm {
+            population,
+            ..ParticleSwarm::default()
+        }),
+        Box::new(Fireflies {
+            population,
+            ..Fireflies::default()
+        }),
     ]
 }

@@ -26,17 +26,48 @@ const fn printed(
     Printed {
         algorithm,
         cost,
-        physical: Physical { resistance, inductance, kt, kb, inertia, viscous },
+        physical: Physical {
+            resistance,
+            inductance,
+            kt,
+            kb,
+            inertia,
+            viscous,
+        },
         margins: Margins { gain_db, phase_deg },
     }
 }
 
 /// The columns of Table 1.
 pub const PRINTED: [Printed; 4] = [
-    printed("actual", None, [0.02, 1.2, 0.06, 6.2e-4, 1e-4, 0.06], 11.4, 23.7),
-    printed("pso", Some(4.7092), [0.0001, 0.0001, 0.0111, 0.0221, 1.3621, 0.0498], 11.8, 24.0),
-    printed("ga", Some(42.8792), [0.0011, 0.2554, 1.5, 0.0727, 0.1949, 0.0289], 23.3, 29.2),
-    printed("firefly", Some(4.7148), [0.871_16, 1.4494, 1.182, 0.000_269_79, 0.016_418, 0.041_856], 11.8, 24.0),
+    printed(
+        "actual",
+        None,
+        [0.02, 1.2, 0.06, 6.2e-4, 1e-4, 0.06],
+        11.4,
+        23.7,
+    ),
+    printed(
+        "pso",
+        Some(4.7092),
+        [0.0001, 0.0001, 0.0111, 0.0221, 1.3621, 0.0498],
+        11.8,
+        24.0,
+    ),
+    printed(
+        "ga",
+        Some(42.8792),
+        [0.0011, 0.2554, 1.5, 0.0727, 0.1949, 0.0289],
+        23.3,
+        29.2,
+    ),
+    printed(
+        "firefly",
+        Some(4.7148),
+        [0.871_16, 1.4494, 1.182, 0.000_269_79, 0.016_418, 0.041_856],
+        11.8,
+        24.0,
+    ),
 ];
 
 impl Printed {
@@ -64,7 +95,11 @@ mod tests {
                 ("phase margin", computed.phase_deg, column.margins.phase_deg),
             ] {
                 let rounded = (ours * 10.0).round() / 10.0;
-                assert!((rounded - theirs).abs() < 1e-9, "{} {what}: {ours}, printed {theirs}", column.algorithm);
+                assert!(
+                    (rounded - theirs).abs() < 1e-9,
+                    "{} {what}: {ours}, printed {theirs}",
+                    column.algorithm
+                );
             }
         }
     }

@@ -13,8 +13,9 @@ const POINTS: usize = 400;
 /// # Errors
 /// [`Error::Failed`] where nothing can be drawn.
 pub fn bode(loops: &[(String, Loop)], from: f64, to: f64) -> Result<String, Error> {
-    let frequencies: Vec<f64> =
-        (0..=POINTS).map(|k| from * (to / from).powf(k as f64 / POINTS as f64)).collect();
+    let frequencies: Vec<f64> = (0..=POINTS)
+        .map(|k| from * (to / from).powf(k as f64 / POINTS as f64))
+        .collect();
     let line = |l: &Loop, f: &dyn Fn((f64, f64)) -> f64| -> Vec<(f64, f64)> {
         frequencies.iter().map(|&w| (w, f(l.response(w)))).collect()
     };
@@ -24,14 +25,21 @@ pub fn bode(loops: &[(String, Loop)], from: f64, to: f64) -> Result<String, Erro
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         let (upper, lower) = root.split_vertically(340);
-        let all: Vec<f64> = loops.iter().flat_map(|(_, l)| line(l, &decibels)).map(|p| p.1).collect();
+        let all: Vec<f64> = loops
+            .iter()
+            .flat_map(|(_, l)| line(l, &decibels))
+            .map(|p| p.1)
+            .collect();
         let low = all.iter().copied().fold(f64::INFINITY, f64::min);
         let high = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let panes: [(_, _, std::ops::Range<f64>, &dyn Fn((f64, f64)) -> f64, f64); 2] = [
-            (&upper, "magnitude, dB(rad/V)", low - 5.0..high + 5.0, &decibels, 0.0),
-            (&lower, "phase, degrees", -280.0..-80.0, &|(_, phase)| phase, -180.0),
-        ];
-        for (pane, (area, name, span, value, mark)) in panes.into_iter().enumerate() {
+        let phase = |(_, phase): (f64, f64)| phase;
+        let values: [&dyn Fn((f64, f64)) -> f64; 2] = [&decibels, &phase];
+        let spans = [low - 5.0..high + 5.0, -280.0..-80.0];
+        let names = ["magnitude, dB(rad/V)", "phase, degrees"];
+        for (pane, (area, span)) in [&upper, &lower].into_iter().zip(spans).enumerate() {
+            let (name, value) = (names[pane], values[pane]);
+            // Margins are read where these are crossed.
+            let mark = [0.0, -180.0][pane];
             let mut chart = ChartBuilder::on(area)
                 .margin(10)
                 .x_label_area_size(38)
@@ -56,7 +64,9 @@ pub fn bode(loops: &[(String, Loop)], from: f64, to: f64) -> Result<String, Erro
                     .draw_series(LineSeries::new(line(l, value), colour.stroke_width(width)))
                     .map_err(failed)?
                     .label(label.clone())
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(3)));
+                    .legend(move |(x, y)| {
+                        PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(3))
+                    });
             }
             if pane == 0 {
                 chart

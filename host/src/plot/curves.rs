@@ -19,8 +19,10 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
             .map(|(n, c)| (n as f64, c))
             .collect()
     };
-    let curves: Vec<[Vec<(f64, f64)>; 3]> =
-        rows.iter().map(|row| [0.25, 0.5, 0.75].map(|q| finite(row.curve(budget, q)))).collect();
+    let curves: Vec<[Vec<(f64, f64)>; 3]> = rows
+        .iter()
+        .map(|row| [0.25, 0.5, 0.75].map(|q| finite(row.curve(budget, q))))
+        .collect();
     let all = || curves.iter().flatten().flatten();
     let low = all().fold(f64::INFINITY, |m, p| m.min(p.1));
     let high = all().fold(0.0f64, |m, p| m.max(p.1));
@@ -32,7 +34,10 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         let mut chart = ChartBuilder::on(&root)
-            .caption("best cost so far: median over the seeds, band of the middle half", (FONT, 18))
+            .caption(
+                "best cost so far: median over the seeds, band of the middle half",
+                (FONT, 18),
+            )
             .margin(12)
             .x_label_area_size(42)
             .y_label_area_size(76)
@@ -52,7 +57,11 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
         for (k, (row, [lower, median, upper])) in rows.iter().zip(curves).enumerate() {
             let colour = COLOURS[k % COLOURS.len()];
             // Where a quarter of the runs has no finite cost yet, the band has no upper edge.
-            let band = lower.iter().chain(upper.iter().rev()).copied().collect::<Vec<_>>();
+            let band = lower
+                .iter()
+                .chain(upper.iter().rev())
+                .copied()
+                .collect::<Vec<_>>();
             chart
                 .draw_series([Polygon::new(band, colour.mix(0.15))])
                 .map_err(failed)?;
@@ -60,7 +69,9 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
                 .draw_series(LineSeries::new(median, colour.stroke_width(2)))
                 .map_err(failed)?
                 .label(row.algorithm.clone())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+                .legend(move |(x, y)| {
+                    PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2))
+                });
         }
         chart
             .configure_series_labels()

@@ -35,5 +35,7 @@ pub(crate) fn failed(error: impl std::fmt::Display) -> Error {
 /// At most about `most` of `count` indices, the last included.
 pub(crate) fn thinned(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let step = count.div_ceil(most.max(1)).max(1);
-    (0..count).step_by(step).chain(count.checked_sub(1).filter(|last| last % step != 0))
+    (0..count)
+        .step_by(step)
+        .chain(count.checked_sub(1).filter(|last| last % step != 0))
 }

@@ -20,12 +20,18 @@ pub fn overlay(data: &Data, candidate: &Candidate, method: Method) -> Result<Str
     let centre = data.centre(0) - data.counts[0];
     let turns = |counts: f64| counts / data.units.counts_per_rev;
     let index: Vec<usize> = thinned(data.len(), POINTS).collect();
-    let measured: Vec<(f64, f64)> =
-        index.iter().map(|&k| (data.time_s[k], turns(data.counts[k]))).collect();
-    let model: Vec<(f64, f64)> =
-        index.iter().map(|&k| (data.time_s[k], turns(data.counts[k] + errors[k]))).collect();
-    let residual: Vec<(f64, f64)> =
-        index.iter().map(|&k| (data.time_s[k], errors[k] - centre)).collect();
+    let measured: Vec<(f64, f64)> = index
+        .iter()
+        .map(|&k| (data.time_s[k], turns(data.counts[k])))
+        .collect();
+    let model: Vec<(f64, f64)> = index
+        .iter()
+        .map(|&k| (data.time_s[k], turns(data.counts[k] + errors[k])))
+        .collect();
+    let residual: Vec<(f64, f64)> = index
+        .iter()
+        .map(|&k| (data.time_s[k], errors[k] - centre))
+        .collect();
     let end = data.time_s.last().copied().unwrap_or(1.0);
 
     let mut svg = String::new();
@@ -91,10 +97,15 @@ fn draw_residual(
         .draw()
         .map_err(failed)?;
     chart
-        .draw_series([Rectangle::new([(0.0, -0.5), (end, 0.5)], COLOURS[2].mix(0.2).filled())])
+        .draw_series([Rectangle::new(
+            [(0.0, -0.5), (end, 0.5)],
+            COLOURS[2].mix(0.2).filled(),
+        )])
         .map_err(failed)?
         .label("half a count: the encoder's own")
-        .legend(|(x, y)| Rectangle::new([(x, y - 5), (x + 18, y + 5)], COLOURS[2].mix(0.3).filled()));
+        .legend(|(x, y)| {
+            Rectangle::new([(x, y - 5), (x + 18, y + 5)], COLOURS[2].mix(0.3).filled())
+        });
     chart
         .draw_series(LineSeries::new(residual, COLOURS[1].stroke_width(1)))
         .map_err(failed)?;

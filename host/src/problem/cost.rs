@@ -37,7 +37,10 @@ impl Horizon {
             let to = to.max(from + 2).min(data.len());
             let counts_s = data.speed_counts_s(from, half);
             let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
-            windows.push(Window { range: from..to, speed });
+            windows.push(Window {
+                range: from..to,
+                speed,
+            });
             from = to;
         }
         Horizon::Windows(windows)
@@ -77,7 +80,14 @@ impl FitProblem<'_> {
     /// Model minus measured angle in counts at every sample. Measured is the reading itself: a model
     /// that is right lies half a count above a floored one.
     pub fn errors(&self, candidate: &Candidate) -> Result<Vec<f64>, ModelError> {
-        errors(self.data, candidate, self.method, &self.horizon, self.start_angle, self.cost)
+        errors(
+            self.data,
+            candidate,
+            self.method,
+            &self.horizon,
+            self.start_angle,
+            self.cost,
+        )
     }
 
     /// The cost where nothing has to be looked at twice: no vector of errors is kept.
@@ -88,10 +98,19 @@ impl FitProblem<'_> {
         let data = self.data;
         let shift = reading_shift(data);
         let mut sum = 0.0;
-        simulation.run(0..data.len(), data.counts[0], candidate.start_speed, |k, angle| {
-            sum += self.cost.sample(angle - data.counts[k] + shift);
-        });
-        if sum.is_nan() { f64::INFINITY } else { sum * self.weight }
+        simulation.run(
+            0..data.len(),
+            data.counts[0],
+            candidate.start_speed,
+            |k, angle| {
+                sum += self.cost.sample(angle - data.counts[k] + shift);
+            },
+        );
+        if sum.is_nan() {
+            f64::INFINITY
+        } else {
+            sum * self.weight
+        }
     }
 
     fn candidate(&self, x: &[f64]) -> Candidate {
@@ -101,13 +120,21 @@ impl FitProblem<'_> {
     fn sum(&self, errors: &[f64]) -> f64 {
         let shift = reading_shift(self.data);
         let sum: f64 = errors.iter().map(|&e| self.cost.sample(e + shift)).sum();
-        if sum.is_nan() { f64::INFINITY } else { sum * self.weight }
+        if sum.is_nan() {
+            f64::INFINITY
+        } else {
+            sum * self.weight
+        }
     }
 }
 
 /// Costs take the distance above a floored reading; other readings are the angle itself.
 fn reading_shift(data: &Data) -> f64 {
-    if data.quantised { 0.0 } else { shared::encoder::FLOOR_OFFSET_COUNTS }
+    if data.quantised {
+        0.0
+    } else {
+        shared::encoder::FLOOR_OFFSET_COUNTS
+    }
 }
 
 /// Runs a candidate over a horizon; see [`FitProblem::errors`].
@@ -166,7 +193,11 @@ fn median(values: &[f64]) -> f64 {
 /// Root mean square of model minus measurement, in counts, where the measurement is the centre of
 /// the cell that was read.
 pub fn rms_counts(data: &Data, errors: &[f64]) -> f64 {
-    let centre = if data.quantised { shared::encoder::FLOOR_OFFSET_COUNTS } else { 0.0 };
+    let centre = if data.quantised {
+        shared::encoder::FLOOR_OFFSET_COUNTS
+    } else {
+        0.0
+    };
     let sum: f64 = errors.iter().map(|e| (e - centre) * (e - centre)).sum();
     Cost::rms(sum, errors.len())
 }
@@ -191,13 +222,18 @@ impl Objective for FitProblem<'_> {
         let cost = self.sum(&errors);
         // What least squares must make small is what the cost is zero at.
         let zero = match self.cost {
-            Cost::Absolute { model_floored: false } => 0.0,
+            Cost::Absolute {
+                model_floored: false,
+            } => 0.0,
             _ => self.data.centre(0) - self.data.counts[0],
         };
         for error in &mut errors {
             *error -= zero;
         }
-        errors.iter().all(|e| e.is_finite()).then_some((errors, cost))
+        errors
+            .iter()
+            .all(|e| e.is_finite())
+            .then_some((errors, cost))
     }
 
     fn start(&self) -> Option<Vec<f64>> {

@@ -46,7 +46,10 @@ impl Data {
     /// Bases that are not positive: no command, no motion, no samples.
     pub fn new(recording: &Recording) -> Result<Self, ModelError> {
         let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let supply = recording.supply_v.filter(|_| recording.drive == Drive::Voltage).unwrap_or(largest);
+        let supply = recording
+            .supply_v
+            .filter(|_| recording.drive == Drive::Voltage)
+            .unwrap_or(largest);
         let first = recording.time_s.first().copied().unwrap_or(0.0);
         let time_s: Vec<f64> = recording.time_s.iter().map(|t| t - first).collect();
         let interval = median_interval(&time_s);
@@ -66,7 +69,10 @@ impl Data {
             source: recording.source.clone(),
             command: recording.command.iter().map(|v| v / units.volts).collect(),
             counts: recording.counts.clone(),
-            open: recording.enabled.as_ref().map(|on| on.iter().map(|on| !on).collect()),
+            open: recording
+                .enabled
+                .as_ref()
+                .map(|on| on.iter().map(|on| !on).collect()),
             current_a: recording.current_a.clone(),
             quantised: recording.quantised,
             drive: recording.drive,
@@ -90,7 +96,12 @@ impl Data {
 
     /// Best estimate of the angle in counts from the reading of sample `k`: the centre of its cell.
     pub fn centre(&self, k: usize) -> f64 {
-        self.counts[k] + if self.quantised { shared::encoder::FLOOR_OFFSET_COUNTS } else { 0.0 }
+        self.counts[k]
+            + if self.quantised {
+                shared::encoder::FLOOR_OFFSET_COUNTS
+            } else {
+                0.0
+            }
     }
 
     /// Whether the bridge is open after sample `k`.
@@ -100,7 +111,9 @@ impl Data {
 
     /// Whether it is ever open.
     pub fn coasts(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| open.iter().any(|&open| open))
+        self.open
+            .as_ref()
+            .is_some_and(|open| open.iter().any(|&open| open))
     }
 
     /// Least and greatest reading, as a distance in counts.
@@ -108,14 +121,19 @@ impl Data {
         let (low, high) = self
             .counts
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &c| (l.min(c), h.max(c)));
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &c| {
+                (l.min(c), h.max(c))
+            });
         high - low
     }
 
     /// How many times the reading changes: the number of independent facts about the angle that a
     /// quantised recording holds, far fewer than samples when the motor is slow.
     pub fn transitions(&self) -> usize {
-        self.counts.windows(2).filter(|pair| pair[0] != pair[1]).count()
+        self.counts
+            .windows(2)
+            .filter(|pair| pair[0] != pair[1])
+            .count()
     }
 
     /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
@@ -136,12 +154,18 @@ impl Data {
 pub fn local_parabola(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
     let count = points.clone().count();
     let terms = count.clamp(1, 3);
-    let scale = points.clone().fold(0.0f64, |m, (t, _)| m.max(t.abs())).max(f64::MIN_POSITIVE);
+    let scale = points
+        .clone()
+        .fold(0.0f64, |m, (t, _)| m.max(t.abs()))
+        .max(f64::MIN_POSITIVE);
     let rows: Vec<(f64, f64)> = points.map(|(t, y)| (t / scale, y)).collect();
     let matrix = nalgebra::DMatrix::from_fn(count, terms, |i, j| rows[i].0.powi(j as i32));
     let right = nalgebra::DVector::from_iterator(count, rows.iter().map(|r| r.1));
     match matrix.svd(true, true).solve(&right, 1e-12) {
-        Ok(solution) => (solution[0], if terms > 1 { solution[1] / scale } else { 0.0 }),
+        Ok(solution) => (
+            solution[0],
+            if terms > 1 { solution[1] / scale } else { 0.0 },
+        ),
         Err(_) => (0.0, 0.0),
     }
 }

@@ -30,7 +30,10 @@ pub struct Method {
 
 impl Default for Method {
     fn default() -> Self {
-        Method { discretisation: Discretisation::Exact, substeps: 1 }
+        Method {
+            discretisation: Discretisation::Exact,
+            substeps: 1,
+        }
     }
 }
 
@@ -62,9 +65,19 @@ impl<'a> Simulation<'a> {
 
     /// Runs over the samples of `range` from an angle in counts and a speed in rad/s; calls `each`
     /// with the sample and the model's angle (counts) there.
-    pub fn run(&self, range: Range<usize>, angle: f64, speed: f64, mut each: impl FnMut(usize, f64)) {
+    pub fn run(
+        &self,
+        range: Range<usize>,
+        angle: f64,
+        speed: f64,
+        mut each: impl FnMut(usize, f64),
+    ) {
         // The current starts at zero: what it really was dies out within the electrical time constant.
-        let mut state = State { current: 0.0, speed: speed / self.data.units.speed, angle };
+        let mut state = State {
+            current: 0.0,
+            speed: speed / self.data.units.speed,
+            angle,
+        };
         if let ([model], None) = (&self.models[..], &self.data.open) {
             // The usual case: even samples, the bridge always closed.
             for k in range {

@@ -32,7 +32,12 @@ pub struct Unknown {
 
 impl Unknown {
     fn new(name: &str, unit: &'static str, range: (f64, f64), scale: Scale) -> Self {
-        Unknown { name: name.to_owned(), unit, range, scale }
+        Unknown {
+            name: name.to_owned(),
+            unit,
+            range,
+            scale,
+        }
     }
 
     /// Value at the coordinate `x` in `[0, 1]`.
@@ -51,7 +56,11 @@ impl Unknown {
             Scale::Linear => (value - low) / (high - low),
             Scale::Log => (value.max(low) / low).ln() / (high / low).ln(),
         };
-        if x.is_finite() { x.clamp(0.0, 1.0) } else { 0.5 }
+        if x.is_finite() {
+            x.clamp(0.0, 1.0)
+        } else {
+            0.5
+        }
     }
 }
 
@@ -107,14 +116,28 @@ impl Structure {
                     &format!("{}.{}", kind.name(), parameter.name),
                     parameter.quantity.unit(),
                     (scaled(parameter.range.0), scaled(parameter.range.1)),
-                    if parameter.amplitude { Scale::Linear } else { Scale::Log },
+                    if parameter.amplitude {
+                        Scale::Linear
+                    } else {
+                        Scale::Log
+                    },
                 ));
             }
         }
         if start_speed {
-            unknowns.push(Unknown::new(START_SPEED, "rad/s", (-1.5 * no_load, 1.5 * no_load), Scale::Linear));
+            unknowns.push(Unknown::new(
+                START_SPEED,
+                "rad/s",
+                (-1.5 * no_load, 1.5 * no_load),
+                Scale::Linear,
+            ));
         }
-        Structure { base, effects: effects.to_vec(), start_speed, unknowns }
+        Structure {
+            base,
+            effects: effects.to_vec(),
+            start_speed,
+            unknowns,
+        }
     }
 
     /// Number of unknowns.
@@ -124,12 +147,20 @@ impl Structure {
 
     /// Values at a point of the unit cube.
     pub fn values(&self, x: &[f64]) -> Vec<f64> {
-        self.unknowns.iter().zip(x).map(|(unknown, &x)| unknown.value(x)).collect()
+        self.unknowns
+            .iter()
+            .zip(x)
+            .map(|(unknown, &x)| unknown.value(x))
+            .collect()
     }
 
     /// Point of the unit cube with these values.
     pub fn coordinates(&self, values: &[f64]) -> Vec<f64> {
-        self.unknowns.iter().zip(values).map(|(unknown, &v)| unknown.coordinate(v)).collect()
+        self.unknowns
+            .iter()
+            .zip(values)
+            .map(|(unknown, &v)| unknown.coordinate(v))
+            .collect()
     }
 
     /// The model with these values of the unknowns.
@@ -150,7 +181,12 @@ impl Structure {
                 kb: base[5],
             }
             .machine(),
-            Base::CurrentDriven => Machine { kb: 0.0, damping: base[1], inertia: base[0], electrical: 0.0 },
+            Base::CurrentDriven => Machine {
+                kb: 0.0,
+                damping: base[1],
+                inertia: base[0],
+                electrical: 0.0,
+            },
         };
         let mut effects = EffectSet::default();
         for &kind in &self.effects {
@@ -159,8 +195,16 @@ impl Structure {
             let _ = effects.push(kind, own);
             rest = further;
         }
-        let start_speed = if self.start_speed { rest.first().copied().unwrap_or(0.0) } else { 0.0 };
-        Candidate { machine, effects, start_speed }
+        let start_speed = if self.start_speed {
+            rest.first().copied().unwrap_or(0.0)
+        } else {
+            0.0
+        };
+        Candidate {
+            machine,
+            effects,
+            start_speed,
+        }
     }
 
     /// Values of the unknowns that describe `machine`; effects and nuisances as given.
@@ -177,7 +221,14 @@ impl Structure {
             // One of many with this response: a resistance of one ohm and equal constants.
             Base::Physical { .. } => {
                 let k = machine.kb;
-                vec![machine.electrical, 1.0, k, machine.inertia * k, machine.damping * k, k]
+                vec![
+                    machine.electrical,
+                    1.0,
+                    k,
+                    machine.inertia * k,
+                    machine.damping * k,
+                    k,
+                ]
             }
             Base::CurrentDriven => vec![machine.inertia, machine.damping],
         };
@@ -223,10 +274,20 @@ fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown>
             let mut unknowns = vec![
                 Unknown::new("gain", "rad/(s*V)", around(gain), Scale::Log),
                 Unknown::new("a1", "s", around(a1), Scale::Log),
-                Unknown::new("electrical_time_constant", "s", (0.0, slowest), Scale::Linear),
+                Unknown::new(
+                    "electrical_time_constant",
+                    "s",
+                    (0.0, slowest),
+                    Scale::Linear,
+                ),
             ];
             if damping {
-                unknowns.push(Unknown::new("viscous_part", "1", (0.0, 0.98), Scale::Linear));
+                unknowns.push(Unknown::new(
+                    "viscous_part",
+                    "1",
+                    (0.0, 0.98),
+                    Scale::Linear,
+                ));
             }
             unknowns
         }
@@ -244,7 +305,12 @@ fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown>
             let fastest = data.supply / data.units.speed;
             vec![
                 Unknown::new("inertia", "V*s^2/rad", around(centre.inertia), Scale::Log),
-                Unknown::new("damping", "V*s/rad", (0.0, (4.0 * centre.damping).max(fastest)), Scale::Linear),
+                Unknown::new(
+                    "damping",
+                    "V*s/rad",
+                    (0.0, (4.0 * centre.damping).max(fastest)),
+                    Scale::Linear,
+                ),
             ]
         }
     }

@@ -153,14 +153,19 @@ impl CompareJson {
             schema: "servoid.compare/1",
             budget: contest.budget,
             seeds: contest.seeds.clone(),
-            rows: rows.iter().map(|row| CompareRowJson::new(contest, row, least)).collect(),
+            rows: rows
+                .iter()
+                .map(|row| CompareRowJson::new(contest, row, least))
+                .collect(),
         }
     }
 }
 
 /// Least cost of all runs of all methods.
 pub fn least_cost(rows: &[Row]) -> f64 {
-    rows.iter().flat_map(|row| &row.runs).fold(f64::INFINITY, |m, run| m.min(run.cost))
+    rows.iter()
+        .flat_map(|row| &row.runs)
+        .fold(f64::INFINITY, |m, run| m.min(run.cost))
 }
 
 impl CompareRowJson {
@@ -170,7 +175,10 @@ impl CompareRowJson {
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let structure = &contest.problem.structure;
         let values = row.best().map(|best| structure.values(&best.x));
-        let names = structure.unknowns.iter().map(|unknown| unknown.name.clone());
+        let names = structure
+            .unknowns
+            .iter()
+            .map(|unknown| unknown.name.clone());
         let quartiles = [quantile(&costs, 0.25), quantile(&costs, 0.75)];
         CompareRowJson {
             algorithm: row.algorithm.clone(),
@@ -186,7 +194,11 @@ impl CompareRowJson {
                 .and_then(|v| Loop::from(&structure.candidate(v).machine).margins())
                 .map(MarginsJson::from),
             parameters: names.zip(values.unwrap_or_default()).collect(),
-            curve: row.curve(contest.budget, 0.5).into_iter().filter(|p| p.1.is_finite()).collect(),
+            curve: row
+                .curve(contest.budget, 0.5)
+                .into_iter()
+                .filter(|p| p.1.is_finite())
+                .collect(),
         }
     }
 }
@@ -250,7 +262,9 @@ impl PaperJson {
             .iter()
             .map(|column| PaperRowJson {
                 algorithm: column.algorithm.to_owned(),
-                ours: rounds.first().and_then(|round| row(round, column.algorithm, optimum)),
+                ours: rounds
+                    .first()
+                    .and_then(|round| row(round, column.algorithm, optimum)),
                 paper: PaperColumnJson::from(column),
             })
             .collect();
@@ -261,19 +275,29 @@ impl PaperJson {
                 VariantJson {
                     name: round.variant.name(),
                     truth_cost: finite(round.truth_cost),
-                    rows: round.rows.iter().map(|r| CompareRowJson::new(round.contest, r, least)).collect(),
+                    rows: round
+                        .rows
+                        .iter()
+                        .map(|r| CompareRowJson::new(round.contest, r, least))
+                        .collect(),
                 }
             })
             .collect();
         PaperJson {
             schema: "servoid.compare/1",
             budget: rounds.first().map_or(0, |round| round.contest.budget),
-            seeds: rounds.first().map_or(Vec::new(), |round| round.contest.seeds.clone()),
+            seeds: rounds
+                .first()
+                .map_or(Vec::new(), |round| round.contest.seeds.clone()),
             optimum_cost: finite(optimum),
             truth_cost: rounds.first().and_then(|round| finite(round.truth_cost)),
             rows,
             variants,
-            strong: strong.rows.iter().map(|row| StrongJson::new(row, optimum)).collect(),
+            strong: strong
+                .rows
+                .iter()
+                .map(|row| StrongJson::new(row, optimum))
+                .collect(),
         }
     }
 }

@@ -28,9 +28,11 @@ pub struct Strong {
 }
 
 fn margins(machine: &Machine<f64>) -> String {
-    Loop::from(machine).margins().map_or("-".to_owned(), |Margins { gain_db, phase_deg }| {
-        format!("{gain_db:5.1} dB {phase_deg:5.1} deg")
-    })
+    Loop::from(machine)
+        .margins()
+        .map_or("-".to_owned(), |Margins { gain_db, phase_deg }| {
+            format!("{gain_db:5.1} dB {phase_deg:5.1} deg")
+        })
 }
 
 /// The whole report.
@@ -76,7 +78,9 @@ fn round_text(round: &Round<'_>) -> String {
     for row in &round.rows {
         let costs = row.costs();
         let structure = &contest.problem.structure;
-        let typical = row.typical().map(|run| structure.candidate(&structure.values(&run.x)).machine);
+        let typical = row
+            .typical()
+            .map(|run| structure.candidate(&structure.values(&run.x)).machine);
         out += &format!(
             "{:10} {:>11} {:>11} {:>11} {:>11} {:>8}   {}\n",
             row.algorithm,
@@ -96,9 +100,13 @@ fn meaning(variant: Variant) -> &'static str {
     use shared::discretise::Discretisation;
     match (variant.quantiser, variant.discretisation) {
         (Quantiser::Reading, Discretisation::Exact) => "reading floored, model not; exact step",
-        (Quantiser::Reading, Discretisation::Euler) => "reading floored, model not; the paper's Euler step",
+        (Quantiser::Reading, Discretisation::Euler) => {
+            "reading floored, model not; the paper's Euler step"
+        }
         (Quantiser::Both, Discretisation::Exact) => "reading and model floored; exact step",
-        (Quantiser::Both, Discretisation::Euler) => "reading and model floored; the paper's Euler step",
+        (Quantiser::Both, Discretisation::Euler) => {
+            "reading and model floored; the paper's Euler step"
+        }
     }
 }
 
@@ -127,7 +135,9 @@ fn strong_text(strong: &Strong, rounds: &[Round<'_>]) -> String {
 
 /// Least cost that anything found on the first variant's data.
 pub fn optimum(rounds: &[Round<'_>], strong: &Strong) -> f64 {
-    let first = rounds.first().map_or(f64::INFINITY, |round| least_cost(&round.rows));
+    let first = rounds
+        .first()
+        .map_or(f64::INFINITY, |round| least_cost(&round.rows));
     first.min(least_cost(&strong.rows))
 }
 
@@ -146,7 +156,11 @@ pub fn evaluations_to(row: &Row, target: f64) -> Vec<f64> {
 }
 
 fn short_count(count: f64) -> String {
-    if count.is_finite() { format!("{count:.0}") } else { "never".to_owned() }
+    if count.is_finite() {
+        format!("{count:.0}")
+    } else {
+        "never".to_owned()
+    }
 }
 
 const REMARKS: &str = "

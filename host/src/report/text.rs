@@ -11,16 +11,27 @@ use std::fmt::Write;
 /// A value with as many digits as its standard error deserves: `58.35908(3)`.
 pub fn with_error(value: f64, std: Option<f64>) -> String {
     let Some(std) = std.filter(|std| *std > 0.0 && std.is_finite()) else {
-        return format!("{value:.5}").trim_end_matches('0').trim_end_matches('.').to_owned();
+        return format!("{value:.5}")
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned();
     };
     let size = value.abs().max(std).max(f64::MIN_POSITIVE);
     let exponent = size.log10().floor() as i32;
     // Plain notation for what reads well plainly, else a power of ten.
-    let shift = if (-3..6).contains(&exponent) { 0 } else { exponent };
+    let shift = if (-3..6).contains(&exponent) {
+        0
+    } else {
+        exponent
+    };
     let (value, std) = (value / 10f64.powi(shift), std / 10f64.powi(shift));
     let digits = (1 - std.log10().floor() as i32).clamp(0, 12) as usize;
     let uncertain = (std * 10f64.powi(digits as i32)).round();
-    let tail = if shift == 0 { String::new() } else { format!("e{shift}") };
+    let tail = if shift == 0 {
+        String::new()
+    } else {
+        format!("e{shift}")
+    };
     if digits == 0 {
         format!("{value:.0}({std:.0}){tail}")
     } else {
@@ -33,7 +44,11 @@ fn parameter(p: &Parameter) -> String {
         (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
         (Some(_), true) => format!("{} {}", with_error(p.value, p.std), p.unit),
         (Some(std), false) => {
-            format!("below {} {} (twice its standard error)", short(p.value.abs() + 2.0 * std), p.unit)
+            format!(
+                "below {} {} (twice its standard error)",
+                short(p.value.abs() + 2.0 * std),
+                p.unit
+            )
         }
     };
     format!("  {:26} {value}\n", p.name)
@@ -54,35 +69,69 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         format!("linear motor + {}", fit.effects.join(" + "))
     };
     let end = data.time_s.last().copied().unwrap_or(0.0);
-    writeln!(out, "{}: {} samples, {end:.3} s, worth {:.0} independent ones", data.source, data.len(), fit.effective_samples)?;
-    writeln!(out, "{effects}, by {} in {} model evaluations (seed {})", fit.algorithm, fit.evaluations, fit.seed)?;
+    writeln!(
+        out,
+        "{}: {} samples, {end:.3} s, worth {:.0} independent ones",
+        data.source,
+        data.len(),
+        fit.effective_samples
+    )?;
+    writeln!(
+        out,
+        "{effects}, by {} in {} model evaluations (seed {})",
+        fit.algorithm, fit.evaluations, fit.seed
+    )?;
     writeln!(out)?;
-    writeln!(out, "open-loop error   {:.4} counts RMS (encoder floor {FLOOR_RMS_COUNTS:.4})", fit.rms_counts)?;
+    writeln!(
+        out,
+        "open-loop error   {:.4} counts RMS (encoder floor {FLOOR_RMS_COUNTS:.4})",
+        fit.rms_counts
+    )?;
     if let Some(rms) = fit.validate_rms_counts {
-        writeln!(out, "held-out error    {rms:.4} counts RMS on the other recording, never fitted")?;
+        writeln!(
+            out,
+            "held-out error    {rms:.4} counts RMS on the other recording, never fitted"
+        )?;
     }
     if let Some(w) = &fit.windowed {
         writeln!(
             out,
             "free runs of {} s  {:.4} counts RMS, {:.2} % of the motion",
-            w.window_s, w.rms_counts, 100.0 * w.relative
+            w.window_s,
+            w.rms_counts,
+            100.0 * w.relative
         )?;
     }
     if let Some(part) = fit.equation_error {
-        writeln!(out, "equation error    {:.2} % of the drive is unexplained along the measured motion", 100.0 * part)?;
+        writeln!(
+            out,
+            "equation error    {:.2} % of the drive is unexplained along the measured motion",
+            100.0 * part
+        )?;
     }
     writeln!(out, "cost ({})    {:.6}", fit.cost_kind, fit.cost)?;
     writeln!(out)?;
     if data.drive == Drive::Voltage {
         let r = &fit.response;
         writeln!(out, "theta/V = gain / (s (a2 s^2 + a1 s + 1)):")?;
-        writeln!(out, "  gain {:.6} rad/(s V), a1 {:.6e} s, a2 {:.6e} s^2", r.gain, r.a1, r.a2)?;
+        writeln!(
+            out,
+            "  gain {:.6} rad/(s V), a1 {:.6e} s, a2 {:.6e} s^2",
+            r.gain, r.a1, r.a2
+        )?;
         if let Some(m) = &fit.margins {
-            writeln!(out, "  position loop in radians: gain margin {:.2} dB, phase margin {:.2} deg", m.gain_db, m.phase_deg)?;
+            writeln!(
+                out,
+                "  position loop in radians: gain margin {:.2} dB, phase margin {:.2} deg",
+                m.gain_db, m.phase_deg
+            )?;
         }
         writeln!(out)?;
     }
-    writeln!(out, "parameters, with the standard error of the last digits in brackets:")?;
+    writeln!(
+        out,
+        "parameters, with the standard error of the last digits in brackets:"
+    )?;
     for p in &fit.parameters {
         out.push_str(&parameter(p));
     }
@@ -118,11 +167,15 @@ pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
          {:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n",
         "method", "median", "quartile 1", "quartile 3", "worst", "evals to", "CPU s"
     );
-    out += &format!("{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n", "", "cost", "", "", "", "1 %", "");
+    out += &format!(
+        "{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n",
+        "", "cost", "", "", "", "1 %", ""
+    );
     for row in rows {
         let costs = row.costs();
-        let evaluations =
-            row.median_evaluations_to(1.01 * least).map_or("-".to_owned(), |n| format!("{n:.0}"));
+        let evaluations = row
+            .median_evaluations_to(1.01 * least)
+            .map_or("-".to_owned(), |n| format!("{n:.0}"));
         out += &format!(
             "{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8.3}\n",
             row.algorithm,

@@ -72,7 +72,11 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluations left.
     pub fn left(&self) -> usize {
-        if self.stop.load(Ordering::Relaxed) { 0 } else { self.budget - self.evaluations }
+        if self.stop.load(Ordering::Relaxed) {
+            0
+        } else {
+            self.budget - self.evaluations
+        }
     }
 
     /// Cost at `x`, whose coordinates are first clamped to the cube.

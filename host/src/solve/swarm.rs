@@ -34,7 +34,10 @@ pub struct ParticleSwarm {
 
 impl Default for ParticleSwarm {
     fn default() -> Self {
-        ParticleSwarm { population: POPULATION, settings: PsoSettings::default() }
+        ParticleSwarm {
+            population: POPULATION,
+            settings: PsoSettings::default(),
+        }
     }
 }
 
@@ -44,7 +47,12 @@ impl Solver for ParticleSwarm {
     }
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
         let dim = evaluator.dim();
-        let swarm = Pso::<f64, MAX_POPULATION, MAX_UNKNOWNS>::new(dim, self.population, self.settings, seed);
+        let swarm = Pso::<f64, MAX_POPULATION, MAX_UNKNOWNS>::new(
+            dim,
+            self.population,
+            self.settings,
+            seed,
+        );
         drive(swarm, evaluator);
     }
 }
@@ -60,7 +68,10 @@ pub struct Fireflies {
 
 impl Default for Fireflies {
     fn default() -> Self {
-        Fireflies { population: POPULATION, settings: FireflySettings::default() }
+        Fireflies {
+            population: POPULATION,
+            settings: FireflySettings::default(),
+        }
     }
 }
 
@@ -72,8 +83,12 @@ impl Solver for Fireflies {
         let dim = evaluator.dim();
         // The random step cools over the whole of the budget.
         let evaluations = u32::try_from(evaluator.left()).unwrap_or(u32::MAX);
-        let settings = FireflySettings { evaluations, ..self.settings };
-        let flies = Firefly::<f64, MAX_POPULATION, MAX_UNKNOWNS>::new(dim, self.population, settings, seed);
+        let settings = FireflySettings {
+            evaluations,
+            ..self.settings
+        };
+        let flies =
+            Firefly::<f64, MAX_POPULATION, MAX_UNKNOWNS>::new(dim, self.population, settings, seed);
         drive(flies, evaluator);
     }
 }
@@ -87,6 +102,9 @@ impl Solver for Random {
         "random"
     }
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
-        drive(RandomSearch::<f64, MAX_UNKNOWNS>::new(evaluator.dim(), seed), evaluator);
+        drive(
+            RandomSearch::<f64, MAX_UNKNOWNS>::new(evaluator.dim(), seed),
+            evaluator,
+        );
     }
 }

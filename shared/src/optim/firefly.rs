@@ -148,12 +148,18 @@ impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Firefly<R, P, 
         let cost = sanitised(cost);
         let first = self.placed < self.population;
         if first || cost < self.flies[self.mover].cost {
-            self.flies[self.mover] = Candidate { x: self.trial, cost };
+            self.flies[self.mover] = Candidate {
+                x: self.trial,
+                cost,
+            };
         }
         self.placed = (self.placed + 1).min(self.population);
         self.mover = (self.mover + 1) % self.population;
         if cost < self.best.cost {
-            self.best = Candidate { x: self.trial, cost };
+            self.best = Candidate {
+                x: self.trial,
+                cost,
+            };
         }
         self.step = (self.step * self.cooling).max(R::from_f64(self.settings.narrowest));
     }

@@ -100,7 +100,7 @@ impl Scalar for Fixed {
         // Only the bits of the float are read: no soft-float arithmetic on a small core.
         let bits = x.to_bits();
         let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
-        if exponent < 30 - MAX_SHIFT || exponent > 30 {
+        if !(30 - MAX_SHIFT..=30).contains(&exponent) {
             return FixedCoefficient {
                 mantissa: 0,
                 shift: 0,
