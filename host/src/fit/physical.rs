@@ -7,7 +7,7 @@
 //! on it is reported as undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
 
 use crate::input::Known;
-use nalgebra::{DMatrix, SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use shared::motor::Machine;
 
 /// Number of coordinates.
@@ -16,10 +16,12 @@ type Vector = SVector<f64, N>;
 type Matrix = SMatrix<f64, N, N>;
 
 /// A constant is a prior with this relative standard error.
-const CONSTANT: f64 = 1e-9;
-/// Information (in relative units) below which a direction is not determined: a standard error of
-/// a thousand per cent.
-const FLAT: f64 = 1e-2;
+const CONSTANT: f64 = 1e-6;
+/// Singular values below this part of the largest are directions that nothing determines.
+const FLAT: f64 = 1e-11;
+
+/// Facts that pull the data's own values by more standard errors than this contradict them.
+pub const CONTRADICTION: f64 = 5.0;
 
 /// The six, in the order of `[known]`.
 pub const NAMES: [(&str, &str); N] = [
@@ -58,8 +60,8 @@ pub struct Reconciled {
     pub physical: [Option<Estimate>; N],
     /// Volts at the winding per newton metre on the shaft, `R/Kt`, where it is determined.
     pub volts_per_torque: Option<Estimate>,
-    /// How far the facts pull the data's own values, in standard errors: above about five they
-    /// contradict each other.
+    /// How far the facts pull the data's own values, in standard errors; beyond [`CONTRADICTION`]
+    /// nothing physical is reported.
     pub strain: f64,
 }
 
@@ -102,14 +104,25 @@ fn gradient(model: &dyn Fn(&Vector) -> f64, u: &Vector, sizes: &Vector) -> Vecto
 }
 
 /// Statements of the facts.
-fn facts(known: &Known, resistance: Option<Estimate>) -> Vec<Statement> {
+fn facts(known: &Known, resistance: Option<Estimate>, start: &Vector) -> Vec<Statement> {
+    // A fact may be zero (no inductance, no viscous friction): then the size of what it is compared
+    // with counts.
+    let size = |value: f64, k: usize| {
+        let (r, kt, total, lag) = (start[0].exp(), start[1].exp(), start[2].abs(), start[4]);
+        let usual = [r, r * lag, kt, total, value, total * kt / r][k].abs();
+        if value == 0.0 {
+            usual.max(f64::MIN_POSITIVE)
+        } else {
+            value.abs()
+        }
+    };
     let mut statements = Vec::new();
     for (k, (_, fact)) in known.facts().into_iter().enumerate() {
         if let Some(fact) = fact {
             statements.push(Statement {
                 model: Box::new(move |u| physical(u)[k]),
                 value: fact.value,
-                std: (fact.value.abs() * fact.tolerance.unwrap_or(0.0).max(CONSTANT)).max(1e-15),
+                std: fact.tolerance.unwrap_or(0.0).max(CONSTANT) * size(fact.value, k),
             });
         }
     }
@@ -157,28 +170,30 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     ]);
     let sizes = sizes(&start);
     let measured = start;
-    let weight = data_information(&evidence.covariance, &sizes);
-    let statements = facts(known, evidence.resistance);
+    let weight = data_weight(&evidence.covariance, &sizes);
+    let statements = facts(known, evidence.resistance, &start);
 
     let mut u = start;
-    let mut inverse = Matrix::zeros();
-    let mut null = Vec::new();
+    let mut solved = Solved::default();
     for _ in 0..30 {
-        let mut information = weight;
-        let mut pull = weight * (measured - u).component_div(&sizes);
-        for statement in &statements {
-            let slope = gradient(&*statement.model, &u, &sizes) / statement.std;
-            information += slope * slope.transpose();
-            pull += slope * ((statement.value - (statement.model)(&u)) / statement.std);
-        }
-        (inverse, null) = pseudo_inverse(&information);
+        let mut rows: Vec<(Vector, f64)> = statements
+            .iter()
+            .map(|s| {
+                let slope = gradient(&*s.model, &u, &sizes) / s.std;
+                (slope, (s.value - (s.model)(&u)) / s.std)
+            })
+            .collect();
+        let distance = (measured - u).component_div(&sizes);
+        rows.extend(weight.iter().map(|row| (*row, row.dot(&distance))));
+        solved = Solved::new(&rows);
         // Logarithms may be far off at the start: one unit a step at most.
-        let step = (inverse * pull).map(|x| x.clamp(-1.0, 1.0));
+        let step = solved.step.map(|x| x.clamp(-1.0, 1.0));
         u += step.component_mul(&sizes);
         if step.norm() < 1e-13 {
             break;
         }
     }
+    let Solved { inverse, null, .. } = solved;
     let estimate = |model: &dyn Fn(&Vector) -> f64| {
         let slope = gradient(model, &u, &sizes);
         let leans = null
@@ -193,54 +208,94 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         })
     };
     let pulled = (measured - u).component_div(&sizes);
+    let strain = weight
+        .iter()
+        .map(|row| row.dot(&pulled).powi(2))
+        .sum::<f64>()
+        .sqrt();
+    if strain > CONTRADICTION {
+        // A compromise between contradicting facts would be numbers without meaning.
+        return Reconciled {
+            physical: [None; N],
+            volts_per_torque: None,
+            strain,
+        };
+    }
+    let facts = known.facts();
     Reconciled {
-        physical: std::array::from_fn(|k| estimate(&move |u| physical(u)[k])),
+        physical: std::array::from_fn(|k| match facts[k].1 {
+            Some(fact) if fact.tolerance.is_none() => Some(Estimate {
+                value: fact.value,
+                std: 0.0,
+            }),
+            _ => estimate(&move |u| physical(u)[k]),
+        }),
         volts_per_torque: estimate(&|u| (u[0] - u[1]).exp()),
-        strain: pulled.dot(&(weight * pulled)).max(0.0).sqrt(),
+        strain,
     }
 }
 
-/// Information of the data about the coordinates, relative to their sizes.
-fn data_information(covariance: &DMatrix<f64>, sizes: &Vector) -> Matrix {
+/// What the data say about the coordinates as rows of weighted equations, relative to their sizes.
+fn data_weight(covariance: &DMatrix<f64>, sizes: &Vector) -> Vec<Vector> {
     let rows = covariance.nrows().min(4);
     let relative = DMatrix::from_fn(rows, rows, |i, k| {
         let floor = if i == k { CONSTANT * CONSTANT } else { 0.0 };
         covariance[(i, k)] / (sizes[i + 2] * sizes[k + 2]) + floor
     });
-    let mut information = Matrix::zeros();
-    if let Some(inverse) = relative.try_inverse() {
-        for i in 0..rows {
-            for k in 0..rows {
-                information[(i + 2, k + 2)] = inverse[(i, k)];
-            }
+    // With covariance L·Lᵀ, the rows of L⁻¹ are equations of unit variance.
+    let Some(inverse) = relative.cholesky().and_then(|c| c.l().try_inverse()) else {
+        return Vec::new();
+    };
+    let first = |row: usize, k: usize| {
+        if (2..2 + rows).contains(&k) {
+            inverse[(row, k - 2)]
+        } else {
+            0.0
         }
-    }
-    information
+    };
+    (0..rows)
+        .map(|row| Vector::from_fn(|k, _| first(row, k)))
+        .collect()
 }
 
-/// Inverse on the determined directions, and the directions that are not.
-fn pseudo_inverse(information: &Matrix) -> (Matrix, Vec<Vector>) {
-    // Constants carry 1e18 times the information of a weak measurement: balance the rows first, or
-    // the eigenvectors of the weak directions drown in rounding.
-    let balance = Vector::from_fn(|k, _| {
-        let d = information[(k, k)];
-        if d > FLAT { 1.0 / d.sqrt() } else { 1.0 }
-    });
-    let balanced = Matrix::from_fn(|i, k| information[(i, k)] * balance[i] * balance[k]);
-    let eigen = balanced.symmetric_eigen();
-    let mut inverse = Matrix::zeros();
-    let mut null = Vec::new();
-    for (value, vector) in eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter())
-    {
-        let direction = vector.component_mul(&balance);
-        if *value > 1e-12 {
-            inverse += direction * direction.transpose() / *value;
-        } else {
-            null.push(direction.normalize());
+/// Weighted least squares over rows, and what the rows leave open.
+#[derive(Default)]
+struct Solved {
+    step: Vector,
+    /// Covariance on the determined directions.
+    inverse: Matrix,
+    /// Directions of unit length that no row determines.
+    null: Vec<Vector>,
+}
+
+impl Solved {
+    fn new(rows: &[(Vector, f64)]) -> Self {
+        // Columns are balanced first: constants weigh a million times what a weak prior does.
+        let balance = Vector::from_fn(|k, _| {
+            let norm = rows
+                .iter()
+                .map(|(row, _)| row[k] * row[k])
+                .sum::<f64>()
+                .sqrt();
+            if norm > 0.0 { 1.0 / norm } else { 1.0 }
+        });
+        let count = rows.len().max(N);
+        let entry = |i: usize, k: usize| rows.get(i).map_or(0.0, |(row, _)| row[k] * balance[k]);
+        let right = DVector::from_fn(count, |i, _| rows.get(i).map_or(0.0, |(_, value)| *value));
+        let svd = DMatrix::from_fn(count, N, entry).svd(true, true);
+        let (Some(left), Some(directions)) = (&svd.u, &svd.v_t) else {
+            return Solved::default();
+        };
+        let mut solved = Solved::default();
+        for (k, &size) in svd.singular_values.iter().enumerate() {
+            let direction = Vector::from_fn(|j, _| directions[(k, j)] * balance[j]);
+            if size > FLAT * svd.singular_values.max() {
+                solved.inverse += direction * direction.transpose() / (size * size);
+                solved.step += direction * (left.column(k).dot(&right) / size);
+            } else {
+                solved.null.push(direction.normalize());
+            }
         }
+        solved
     }
-    (inverse, null)
 }

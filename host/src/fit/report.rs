@@ -1,7 +1,7 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
 use super::margins::{Loop, Margins};
-use super::physical::{Estimate, Evidence, NAMES, Reconciled, reconcile};
+use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile};
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
 use super::{Options, validate};
@@ -183,7 +183,7 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     Evidence {
         machine: candidate.machine,
         covariance: &slope * own * slope.transpose(),
-        resistance: scores::resistance(problem.data, candidate),
+        resistance: scores::resistance(problem.data, candidate, problem.method),
     }
 }
 
@@ -243,7 +243,7 @@ fn parameters(
                 value,
                 unit,
                 std: Some(std),
-                identifiable: std < 0.5 * value.abs(),
+                identifiable: std == 0.0 || std < 0.5 * value.abs(),
             });
         }
     }
@@ -282,12 +282,13 @@ fn describe(
         .filter(|(_, estimate)| estimate.is_none())
         .map(|((name, _), _)| *name)
         .collect();
-    if reconciled.strain > 5.0 {
-        notes.push(format!(
-            "the facts under [known] contradict the recording by {:.0} standard errors: check them, \
-             counts_per_rev and the voltage scale",
-            reconciled.strain
-        ));
+    if reconciled.strain > CONTRADICTION {
+        notes.push(
+            "the facts under [known] contradict the recording (by more than five standard errors), so \
+             no physical parameter is given: check them, counts_per_rev and the voltage scale"
+                .to_owned(),
+        );
+        return;
     }
     if missing.is_empty() {
         return;

@@ -2,10 +2,11 @@
 
 use super::filter::filtered;
 use super::physical::Estimate;
+use super::uncertainty::SEGMENTS;
 use super::{Options, SPEED_HALF_WIDTH};
 use crate::error::Error;
 use crate::problem::cost::{Horizon, errors};
-use crate::problem::simulate::Method;
+use crate::problem::simulate::{Method, Simulation};
 use crate::problem::{Candidate, Data, StartAngle};
 use crate::recording::Drive;
 use shared::cost::Cost;
@@ -121,48 +122,42 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     (driven > 0.0).then(|| (wrong / driven).sqrt())
 }
 
-/// Resistance from a measured current, Ω: the model's `R·i` regressed on the measured `i` with a
-/// free zero.
-pub fn resistance(data: &Data, candidate: &Candidate) -> Option<Estimate> {
-    let current = data
+/// Resistance from a measured current, Ω. The model's `R·i` has no noise, the sensor's `i` has: so
+/// `i` is regressed on `R·i`, with a free zero, and the slope is `1/R`. `None` without a current, or
+/// where it says little.
+pub fn resistance(data: &Data, candidate: &Candidate, method: Method) -> Option<Estimate> {
+    let measured = data
         .current_a
         .as_ref()
         .filter(|_| data.drive == Drive::Voltage)?;
-    let machine = &candidate.machine;
-    if machine.electrical > 20.0 * data.units.interval || data.len() < 50 {
-        return None;
-    }
-    // R·i = m·dω/dt + b·ω + torques; with the electrics settled, R·i = v − Kb·ω, which needs only
-    // the speed. Take it in the middle of intervals whose voltage was held long enough.
-    let settle = (5.0 * machine.electrical / data.units.interval).ceil() as usize + 1;
-    let mut rows = Vec::new();
-    let mut held = 0;
-    for (k, &amperes) in current.iter().enumerate().skip(1) {
-        let steady = data.command[k] == data.command[k - 1] && !data.is_open(k);
-        held = if steady { held + 1 } else { 0 };
-        if held >= settle {
-            let speed = data.speed_counts_s(k, SPEED_HALF_WIDTH) / data.units.counts_per_rev
-                * core::f64::consts::TAU;
-            let volts = data.command[k] * data.units.volts;
-            rows.push((amperes, volts - machine.kb * speed));
-        }
-    }
-    let n = rows.len() as f64;
-    if rows.len() < 20 {
-        return None;
-    }
-    let mean = |f: &dyn Fn(&(f64, f64)) -> f64| rows.iter().map(f).sum::<f64>() / n;
-    let (mi, mv) = (mean(&|r| r.0), mean(&|r| r.1));
-    let sii: f64 = rows.iter().map(|r| (r.0 - mi).powi(2)).sum();
-    let siv: f64 = rows.iter().map(|r| (r.0 - mi) * (r.1 - mv)).sum();
-    let slope = siv / sii;
-    let left: f64 = rows
-        .iter()
-        .map(|r| (r.1 - mv - slope * (r.0 - mi)).powi(2))
+    let simulation = Simulation::new(data, candidate, method).ok()?;
+    let volts = simulation.currents(data.centre(0));
+    let n = volts.len() as f64;
+    let (mean_v, mean_i) = (
+        volts.iter().sum::<f64>() / n,
+        measured.iter().sum::<f64>() / n,
+    );
+    let pairs = || {
+        volts
+            .iter()
+            .zip(measured)
+            .map(|(v, i)| (v - mean_v, i - mean_i))
+    };
+    let squares: f64 = pairs().map(|(v, _)| v * v).sum();
+    let slope = pairs().map(|(v, i)| v * i).sum::<f64>() / squares;
+    let left: Vec<f64> = pairs().map(|(v, i)| i - slope * v).collect();
+    // Errors that hang together over time count once a segment, as for the other parameters.
+    let per_segment = volts.len().div_ceil(SEGMENTS).max(1);
+    let middle: f64 = pairs()
+        .zip(&left)
+        .map(|((v, _), e)| v * e)
+        .collect::<Vec<_>>()
+        .chunks(per_segment)
+        .map(|chunk| chunk.iter().sum::<f64>().powi(2))
         .sum();
-    // Neighbouring samples share their speed estimate.
-    let independent = n / (2 * SPEED_HALF_WIDTH + 1) as f64;
-    let std = (left / n / sii * n / independent.max(1.0)).sqrt();
-    (slope > 0.0 && slope.is_finite() && std < 0.3 * slope)
-        .then_some(Estimate { value: slope, std })
+    let std = middle.sqrt() / squares;
+    (slope > 0.0 && slope.is_finite() && std < 0.3 * slope).then(|| Estimate {
+        value: 1.0 / slope,
+        std: std / (slope * slope),
+    })
 }

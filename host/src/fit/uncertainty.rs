@@ -11,7 +11,7 @@ use crate::problem::{Data, FitProblem};
 use nalgebra::{DMatrix, DVector};
 
 /// Time segments that count as independent.
-const SEGMENTS: usize = 24;
+pub(super) const SEGMENTS: usize = 24;
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far
 /// below any bend.
 const PROBE_COUNTS: f64 = 0.02;

@@ -48,6 +48,9 @@ pub(super) enum NumberOrTable<'t> {
 
 type Outcome<T> = Result<T, MotorFileError>;
 
+/// Facts that a user may know to be nothing at all.
+const MAY_BE_ZERO: [&str; 2] = ["inductance_h", "viscous_n_m_s"];
+
 impl<'t> Section<'t> {
     /// Parses the whole file.
     pub(super) fn top(text: Text<'t>) -> Outcome<Self> {
@@ -220,12 +223,17 @@ impl<'t> Section<'t> {
                 return Err(self.wrong_type(key, other, span, "a decimal number, without quotes"));
             }
         };
-        let key = key.into();
         let fault = match text.parse::<f64>() {
             Ok(value) if value.is_finite() && value > 0.0 => return Ok(value),
-            Ok(value) if value.is_finite() => MotorFault::NotPositive { key, value },
+            Ok(0.0) if MAY_BE_ZERO.contains(&self.name) || MAY_BE_ZERO.contains(&key) => {
+                return Ok(0.0);
+            }
+            Ok(value) if value.is_finite() => MotorFault::NotPositive {
+                key: key.into(),
+                value,
+            },
             _ => MotorFault::NotFinite {
-                key,
+                key: key.into(),
                 text: shown(text),
             },
         };

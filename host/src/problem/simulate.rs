@@ -92,4 +92,20 @@ impl<'a> Simulation<'a> {
             model.step(&mut state, self.data.command[k], self.data.is_open(k));
         }
     }
+
+    /// Current at each sample as the voltage across the resistance, V, from rest at `angle` counts.
+    pub fn currents(&self, angle: f64) -> Vec<f64> {
+        let mut state = State {
+            angle,
+            ..State::default()
+        };
+        (0..self.data.len())
+            .map(|k| {
+                let volts = state.current * self.data.units.volts;
+                let model = &self.models[self.data.length_of[k] as usize];
+                model.step(&mut state, self.data.command[k], self.data.is_open(k));
+                volts
+            })
+            .collect()
+    }
 }

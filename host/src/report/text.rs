@@ -11,10 +11,11 @@ use std::fmt::Write;
 /// A value with as many digits as its standard error deserves: `58.35908(3)`.
 pub fn with_error(value: f64, std: Option<f64>) -> String {
     let Some(std) = std.filter(|std| *std > 0.0 && std.is_finite()) else {
-        return format!("{value:.5}")
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned();
+        return if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+            format!("{value}")
+        } else {
+            format!("{value:e}")
+        };
     };
     let size = value.abs().max(std).max(f64::MIN_POSITIVE);
     let exponent = size.log10().floor() as i32;
