@@ -1,13 +1,25 @@
 //! Search methods behind one door: each minimises a cost over the unit cube, and every single model
 //! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
 
-pub mod lm_quick;
+pub mod cma_es;
+mod cube;
+pub mod differential_evolution;
+pub mod ga;
+pub mod levenberg_marquardt;
+pub mod nelder_mead;
+mod restart;
 pub mod swarm;
+
+#[cfg(test)]
+mod test_problems;
+#[cfg(test)]
+mod tests;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The search is over: the budget is spent or the user asked to stop. Solvers return at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the search was stopped, or its budget is spent")]
 pub struct Stop;
 
 /// A cost over the unit cube `[0, 1]^dim`. Lower is better; never NaN (infinity for "impossible").
@@ -75,19 +87,35 @@ impl<'a> Evaluator<'a> {
         if self.stop.load(Ordering::Relaxed) {
             0
         } else {
-            self.budget - self.evaluations
+            self.budget.saturating_sub(self.evaluations)
         }
     }
 
-    /// Cost at `x`, whose coordinates are first clamped to the cube.
+    /// Cost at `x`, whose coordinates are first clamped to the cube. NaN counts as infinite.
     pub fn evaluate(&mut self, x: &[f64]) -> Result<f64, Stop> {
         if self.left() == 0 {
             return Err(Stop);
         }
-        let x: Vec<f64> = x.iter().map(|v| v.clamp(0.0, 1.0)).collect();
-        let cost = self.objective.cost(&x);
+        let x = clamped(x);
+        let cost = finite_or_infinite(self.objective.cost(&x));
         self.record(&x, cost);
         Ok(cost)
+    }
+
+    /// Residuals at `x`, whose coordinates are first clamped to the cube, for one evaluation that is
+    /// booked with its cost. `None` (and the cost by itself) where there are none.
+    pub fn evaluate_residuals(&mut self, x: &[f64]) -> Result<Option<Vec<f64>>, Stop> {
+        if self.left() == 0 {
+            return Err(Stop);
+        }
+        let x = clamped(x);
+        match self.objective.residuals_and_cost(&x) {
+            Some((residuals, cost)) => {
+                self.record(&x, finite_or_infinite(cost));
+                Ok(Some(residuals))
+            }
+            None => self.evaluate(&x).map(|_| None),
+        }
     }
 
     /// Books one evaluation that was made elsewhere (a residual vector, a lane of a batch).
@@ -111,6 +139,14 @@ impl<'a> Evaluator<'a> {
             interrupted: self.stop.load(Ordering::Relaxed),
         }
     }
+}
+
+fn clamped(x: &[f64]) -> Vec<f64> {
+    x.iter().map(|v| v.clamp(0.0, 1.0)).collect()
+}
+
+fn finite_or_infinite(cost: f64) -> f64 {
+    if cost.is_nan() { f64::INFINITY } else { cost }
 }
 
 /// Result of a search.
@@ -139,7 +175,11 @@ pub trait Solver: Sync {
 /// Every method, with its usual settings.
 pub fn all() -> Vec<Box<dyn Solver>> {
     vec![
-        Box::new(lm_quick::LmQuick),
+        Box::new(levenberg_marquardt::LevenbergMarquardt::default()),
+        Box::new(nelder_mead::NelderMead::default()),
+        Box::new(cma_es::CmaEs::default()),
+        Box::new(differential_evolution::DifferentialEvolution::default()),
+        Box::new(ga::GeneticAlgorithm::default()),
         Box::new(swarm::ParticleSwarm::default()),
         Box::new(swarm::Fireflies::default()),
         Box::new(swarm::Random),

@@ -1,0 +1,149 @@
+//! Genetic algorithm with real numbers for genes: the paper's third contender.
+//!
+//! Selection and crossover are the field's usual ones. What decides the precision that a small
+//! population reaches is the mutation: a step of fixed size can only ever find the optimum to that
+//! size. The breeder's mutation draws steps of all sizes, `0.5 · 2^(-precision_bits · u)` with `u`
+//! uniform, so that the same setting explores and polishes. On the paper's problem (five
+//! individuals, 5000 evaluations) it takes the median cost from about 15 to about 3, with roulette
+//! to 2.6. Roulette serves five individuals better, tournament fifty (2.8 against 107).
+//!
+//! Sources: D. E. Goldberg, *Genetic Algorithms in Search, Optimization, and Machine Learning*,
+//! 1989 (roulette, windowing); L. J. Eshelman and J. D. Schaffer, 1993,
+//! doi:10.1016/B978-0-08-094832-4.50018-0 (BLX); K. Deb and R. B. Agrawal, *Complex Systems* 9,
+//! 115, 1995 (SBX); H. Mühlenbein and D. Schlierkamp-Voosen, 1993,
+//! doi:10.1162/evco.1993.1.1.25 (the breeder's mutation).
+
+mod crossover;
+mod selection;
+
+pub use crossover::Crossover;
+pub use selection::Selection;
+
+use super::{Evaluator, Solver, Stop};
+use shared::rng::{self, Generator};
+
+/// The genetic algorithm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeneticAlgorithm {
+    /// Individuals, at least 2.
+    pub population: usize,
+    /// Best individuals that live on unchanged, below `population`. They are not evaluated again.
+    pub elites: usize,
+    /// How parents are chosen.
+    pub selection: Selection,
+    /// How children are made.
+    pub crossover: Crossover,
+    /// Probability of a crossover; otherwise the child starts as a copy of its first parent.
+    pub crossover_rate: f64,
+    /// Probability that a gene mutates; `None` for one gene a child on average.
+    pub mutation_rate: Option<f64>,
+    /// The smallest mutation is 2^-(1 + this) of a gene's range.
+    pub precision_bits: f64,
+}
+
+impl Default for GeneticAlgorithm {
+    fn default() -> Self {
+        GeneticAlgorithm {
+            population: 20,
+            elites: 1,
+            selection: Selection::Tournament { size: 3 },
+            crossover: Crossover::Blend { alpha: 0.5 },
+            crossover_rate: 0.9,
+            mutation_rate: None,
+            precision_bits: 18.0,
+        }
+    }
+}
+
+/// A point and its cost.
+#[derive(Clone, Debug)]
+struct Individual {
+    genes: Vec<f64>,
+    cost: f64,
+}
+
+impl Solver for GeneticAlgorithm {
+    fn name(&self) -> &'static str {
+        "ga"
+    }
+
+    fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
+        let mut rng = rng::seeded(seed);
+        // The only way out is the end of the budget.
+        let Err(Stop) = self.evolve(evaluator, &mut rng);
+    }
+}
+
+impl GeneticAlgorithm {
+    fn evolve(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        rng: &mut Generator,
+    ) -> Result<std::convert::Infallible, Stop> {
+        let size = self.population.max(2);
+        let elites = self.elites.min(size - 1);
+        let mut population = Vec::with_capacity(size);
+        for _ in 0..size {
+            let genes = (0..evaluator.dim()).map(|_| rng::uniform(rng)).collect();
+            population.push(Individual::evaluated(genes, evaluator)?);
+        }
+        loop {
+            population.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            let mut children = Vec::with_capacity(size);
+            for _ in elites..size {
+                let genes = self.child(&population, rng);
+                children.push(Individual::evaluated(genes, evaluator)?);
+            }
+            population.truncate(elites);
+            population.append(&mut children);
+        }
+    }
+
+    fn child(&self, sorted: &[Individual], rng: &mut Generator) -> Vec<f64> {
+        let first = self.selection.pick(sorted, rng);
+        let second = self.selection.pick(sorted, rng);
+        let mut genes = if rng::uniform::<f64>(rng) < self.crossover_rate {
+            self.crossover
+                .cross(&sorted[first].genes, &sorted[second].genes, rng)
+        } else {
+            sorted[first].genes.clone()
+        };
+        let rate = self.mutation_rate.unwrap_or(1.0 / genes.len() as f64);
+        for gene in &mut genes {
+            if rng::uniform::<f64>(rng) < rate {
+                *gene += mutation(self.precision_bits, rng);
+            }
+            *gene = reflected(*gene);
+        }
+        genes
+    }
+}
+
+impl Individual {
+    fn evaluated(genes: Vec<f64>, evaluator: &mut Evaluator<'_>) -> Result<Self, Stop> {
+        let cost = evaluator.evaluate(&genes)?;
+        Ok(Individual { genes, cost })
+    }
+}
+
+/// A step whose size is log-uniform between 2^-(1 + bits) and one half.
+fn mutation(bits: f64, rng: &mut Generator) -> f64 {
+    let step = 0.5 * (-bits * rng::uniform::<f64>(rng)).exp2();
+    if rng::uniform::<f64>(rng) < 0.5 {
+        step
+    } else {
+        -step
+    }
+}
+
+/// Mirrored at the walls of `[0, 1]`; what lies farther off than one width ends on a wall.
+fn reflected(gene: f64) -> f64 {
+    let inside = if gene < 0.0 {
+        -gene
+    } else if gene > 1.0 {
+        2.0 - gene
+    } else {
+        gene
+    };
+    inside.clamp(0.0, 1.0)
+}

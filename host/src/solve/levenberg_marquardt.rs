@@ -1,0 +1,99 @@
+//! Levenberg and Marquardt's method over the residuals, by the crate `levenberg-marquardt` (a
+//! translation of MINPACK), with the Jacobian by finite differences.
+//!
+//! The crate knows no bounds. Steps that leave the cube are projected onto it, a coordinate that
+//! stands at a wall with the cost falling outwards is held there (its column of the Jacobian is
+//! zero), and a run that met a wall is repeated from where it ended as long as that helps: a
+//! coordinate once held must be able to come back.
+//!
+//! Sources: D. W. Marquardt, *J. SIAM* 11, 431, 1963, doi:10.1137/0111030; J. J. Moré, *Numerical
+//! Analysis*, Lecture Notes in Mathematics 630, 105, 1978, doi:10.1007/BFb0067700.
+
+mod residuals;
+
+use super::{Evaluator, Solver, restart};
+use levenberg_marquardt::LevenbergMarquardt as Minpack;
+use nalgebra::DVector;
+use residuals::Residuals;
+use shared::rng;
+
+/// Where the differences of the Jacobian are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Differences {
+    /// To one side, inwards at a wall: one evaluation a coordinate.
+    Forward,
+    /// To both sides where there is room: two evaluations a coordinate.
+    Central,
+}
+
+/// Levenberg–Marquardt from the objective's start, else from the cube's centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevenbergMarquardt {
+    /// Finite differences.
+    pub differences: Differences,
+    /// Their step, as a share of the cube's side; above 0.
+    pub step: f64,
+    /// Relative change of the sum of squares, and of the point, at which it has converged.
+    pub tolerance: f64,
+    /// Number of starts; those after the first are random, and so is what replaces an impossible one.
+    pub starts: usize,
+}
+
+impl Default for LevenbergMarquardt {
+    fn default() -> Self {
+        LevenbergMarquardt {
+            differences: Differences::Forward,
+            step: 1e-6,
+            tolerance: 1e-9,
+            starts: 1,
+        }
+    }
+}
+
+/// Starts where the model is impossible that are replaced by random ones.
+const IMPOSSIBLE_STARTS: usize = 100;
+/// A run from the wall is repeated if it lowered the sum of squares by more than this part.
+const WORTHWHILE: f64 = 1e-6;
+/// Evaluations allowed to one run, per coordinate; the budget ends it long before.
+const PATIENCE: usize = 1_000_000;
+
+impl Solver for LevenbergMarquardt {
+    fn name(&self) -> &'static str {
+        "lm"
+    }
+
+    fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
+        let dim = evaluator.dim();
+        let mut rng = rng::seeded(seed);
+        let mut start = restart::first(evaluator);
+        let (mut begun, mut tried) = (0, 0);
+        while begun < self.starts && tried < self.starts + IMPOSSIBLE_STARTS {
+            begun += usize::from(self.descend(evaluator, start));
+            tried += 1;
+            start = (0..dim).map(|_| rng::uniform(&mut rng)).collect();
+        }
+    }
+}
+
+impl LevenbergMarquardt {
+    /// Whether there was anything to descend from.
+    fn descend(&self, evaluator: &mut Evaluator<'_>, start: Vec<f64>) -> bool {
+        let minpack = Minpack::new()
+            .with_tol(self.tolerance)
+            .with_patience(PATIENCE);
+        let mut x = DVector::from_vec(start);
+        let mut last = f64::INFINITY;
+        while evaluator.left() > 0 {
+            let (end, report) = minpack.minimize(Residuals::new(self, evaluator, x));
+            let squares = report.objective_function;
+            let again = end.met_wall() && squares < last * (1.0 - WORTHWHILE);
+            let begun = end.evaluated();
+            x = end.inside();
+            if !again {
+                return begun;
+            }
+            last = squares;
+        }
+        true
+    }
+}

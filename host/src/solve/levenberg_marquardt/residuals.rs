@@ -1,0 +1,146 @@
+//! The evaluator as the problem that the crate `levenberg-marquardt` solves.
+
+use super::super::{Evaluator, Stop};
+use super::{Differences, LevenbergMarquardt};
+use levenberg_marquardt::LeastSquaresProblem;
+use nalgebra::{DMatrix, DVector, Dyn, Owned};
+use std::cell::{Cell, RefCell};
+
+/// Residual where the model is impossible: so large that the step is refused.
+const IMPOSSIBLE: f64 = 1e100;
+
+/// The evaluator as a least-squares problem over the whole space.
+pub(super) struct Residuals<'s, 'a> {
+    settings: &'s LevenbergMarquardt,
+    evaluator: RefCell<&'s mut Evaluator<'a>>,
+    x: DVector<f64>,
+    /// Residuals at `x`, kept for the Jacobian, which is only asked for where a step has ended.
+    here: RefCell<DVector<f64>>,
+    met_wall: Cell<bool>,
+}
+
+impl<'s, 'a> Residuals<'s, 'a> {
+    pub(super) fn new(
+        settings: &'s LevenbergMarquardt,
+        evaluator: &'s mut Evaluator<'a>,
+        x: DVector<f64>,
+    ) -> Self {
+        Residuals {
+            settings,
+            evaluator: RefCell::new(evaluator),
+            x,
+            here: RefCell::new(DVector::zeros(0)),
+            met_wall: Cell::new(false),
+        }
+    }
+
+    /// The point, projected onto the cube.
+    pub(super) fn inside(&self) -> DVector<f64> {
+        self.x.map(|x| x.clamp(0.0, 1.0))
+    }
+
+    /// Whether a step or a coordinate was held back by the cube.
+    pub(super) fn met_wall(&self) -> bool {
+        self.met_wall.get()
+    }
+
+    /// Whether there were residuals anywhere.
+    pub(super) fn evaluated(&self) -> bool {
+        !self.here.borrow().is_empty()
+    }
+
+    fn at(&self, x: &DVector<f64>) -> Result<Option<DVector<f64>>, Stop> {
+        let residuals = self
+            .evaluator
+            .borrow_mut()
+            .evaluate_residuals(x.as_slice())?;
+        Ok(residuals.map(DVector::from_vec))
+    }
+
+    /// Residuals with coordinate `axis` moved by `step`; `None` outside the cube or where the model
+    /// is impossible.
+    fn moved(
+        &self,
+        x: &DVector<f64>,
+        axis: usize,
+        step: f64,
+    ) -> Result<Option<DVector<f64>>, Stop> {
+        let mut moved = x.clone();
+        moved[axis] += step;
+        if (0.0..=1.0).contains(&moved[axis]) {
+            self.at(&moved)
+        } else {
+            Ok(None)
+        }
+    }
+
+    /// Derivative of the residuals by coordinate `axis`; zero where it cannot be had.
+    fn column(&self, x: &DVector<f64>, axis: usize) -> Result<DVector<f64>, Stop> {
+        let here = self.here.borrow();
+        let step = self.settings.step;
+        let above = self.moved(x, axis, step)?;
+        let below = match (&above, self.settings.differences) {
+            (Some(_), Differences::Forward) => None,
+            _ => self.moved(x, axis, -step)?,
+        };
+        Ok(match (above, below) {
+            (Some(above), Some(below)) => (above - below) / (2.0 * step),
+            (Some(above), None) => (above - &*here) / step,
+            (None, Some(below)) => (&*here - below) / step,
+            (None, None) => DVector::zeros(here.len()),
+        })
+    }
+
+    /// Whether coordinate `axis` stands at a wall, or beyond, and the cost falls outwards.
+    fn held(&self, axis: usize, column: &DVector<f64>) -> bool {
+        let gradient = column.dot(&self.here.borrow());
+        (self.x[axis] <= 0.0 && gradient > 0.0) || (self.x[axis] >= 1.0 && gradient < 0.0)
+    }
+
+    fn finite_differences(&self) -> Result<DMatrix<f64>, Stop> {
+        let x = self.inside();
+        let mut jacobian = DMatrix::zeros(self.here.borrow().len(), x.len());
+        for axis in 0..x.len() {
+            let column = self.column(&x, axis)?;
+            if self.held(axis, &column) {
+                self.met_wall.set(true);
+            } else {
+                jacobian.set_column(axis, &column);
+            }
+        }
+        Ok(jacobian)
+    }
+}
+
+impl LeastSquaresProblem<f64, Dyn, Dyn> for Residuals<'_, '_> {
+    type ParameterStorage = Owned<f64, Dyn>;
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, Dyn>;
+
+    fn set_params(&mut self, x: &DVector<f64>) {
+        self.x.copy_from(x);
+    }
+
+    fn params(&self) -> DVector<f64> {
+        self.x.clone()
+    }
+
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let inside = self.inside();
+        if inside != self.x {
+            self.met_wall.set(true);
+        }
+        let mut here = self.here.borrow_mut();
+        match self.at(&inside).ok()? {
+            Some(residuals) => *here = residuals,
+            // At the start there is nothing to step back to.
+            None if here.is_empty() => return None,
+            None => here.fill(IMPOSSIBLE),
+        }
+        Some(here.clone())
+    }
+
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
+        self.finite_differences().ok()
+    }
+}
