@@ -1,7 +1,11 @@
 //! Search methods behind one door: each minimises a cost over the unit cube, and every single model
 //! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
 
-pub mod lm_quick;
+pub mod cma_es;
+pub mod differential_evolution;
+pub mod ga;
+pub mod levenberg_marquardt;
+pub mod nelder_mead;
 pub mod swarm;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -70,6 +74,21 @@ impl<'a> Evaluator<'a> {
         self.objective.dim()
     }
 
+    /// Least cost so far; infinite before the first evaluation.
+    pub fn best_cost(&self) -> f64 {
+        self.best_cost
+    }
+
+    /// The best point so far; before the first evaluation the problem's own start, or the middle.
+    pub fn best_or_start(&self) -> Vec<f64> {
+        if self.best_cost.is_finite() {
+            return self.best.clone();
+        }
+        self.objective
+            .start()
+            .unwrap_or_else(|| vec![0.5; self.dim()])
+    }
+
     /// Evaluations left.
     pub fn left(&self) -> usize {
         if self.stop.load(Ordering::Relaxed) {
@@ -77,6 +96,11 @@ impl<'a> Evaluator<'a> {
         } else {
             self.budget - self.evaluations
         }
+    }
+
+    /// Lowers what is left of the budget to at most `evaluations`.
+    pub fn limit(&mut self, evaluations: usize) {
+        self.budget = self.budget.min(self.evaluations + evaluations);
     }
 
     /// Cost at `x`, whose coordinates are first clamped to the cube.
@@ -139,9 +163,13 @@ pub trait Solver: Sync {
 /// Every method, with its usual settings.
 pub fn all() -> Vec<Box<dyn Solver>> {
     vec![
-        Box::new(lm_quick::LmQuick),
+        Box::new(levenberg_marquardt::LevenbergMarquardt::default()),
+        Box::new(ga::Ga::default()),
         Box::new(swarm::ParticleSwarm::default()),
         Box::new(swarm::Fireflies::default()),
+        Box::new(cma_es::CmaEs::default()),
+        Box::new(differential_evolution::DifferentialEvolution::default()),
+        Box::new(nelder_mead::NelderMead::default()),
         Box::new(swarm::Random),
     ]
 }
