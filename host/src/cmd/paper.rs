@@ -10,7 +10,7 @@ use crate::paper::{self, Experiment, PRINTED, Variant};
 use crate::plot;
 use crate::problem::{Data, FitProblem};
 use crate::report;
-use crate::report::json::PaperJson;
+use crate::report::json::{PaperJson, least_cost};
 use crate::report::paper::{Round, Strong};
 use crate::session::Session;
 use crate::solve::{self, Objective};
@@ -43,7 +43,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     .record()?;
     let population = usize::try_from(args.population).unwrap_or(usize::MAX);
     let budget = population.saturating_mul(usize::try_from(args.iterations).unwrap_or(usize::MAX));
-    let seeds: Vec<u64> = (session.seed..).take(args.seeds as usize).collect();
+    let seeds = session.seeds(args.seeds);
 
     let problems: Vec<(Variant, FitProblem<'_>)> = Variant::all()
         .map(|v| (v, paper::paper_problem(&data, v, bounds)))
@@ -161,7 +161,7 @@ fn draw(
     };
     let structure = &first.contest.problem.structure;
     for row in &first.rows {
-        if let Some(run) = row.typical() {
+        if let Some(run) = row.typical().filter(|run| run.cost.is_finite()) {
             let machine = structure.candidate(&structure.values(&run.x)).machine;
             loops.push((
                 format!("our {} (median run)", row.algorithm),
@@ -170,7 +170,11 @@ fn draw(
         }
     }
     write(folder, "bode.svg", &plot::bode(&loops, 0.1, 1e3)?, session)?;
-    for round in rounds {
+    // A round that the user stopped before its first run has no curves.
+    for round in rounds
+        .iter()
+        .filter(|round| least_cost(&round.rows).is_finite())
+    {
         let name = format!(
             "cost-curves-{}.svg",
             round.variant.name().to_lowercase().replace(' ', "-")

@@ -80,6 +80,7 @@ fn round_text(round: &Round<'_>) -> String {
         let structure = &contest.problem.structure;
         let typical = row
             .typical()
+            .filter(|run| run.cost.is_finite())
             .map(|run| structure.candidate(&structure.values(&run.x)).machine);
         out += &format!(
             "{:10} {:>11} {:>11} {:>11} {:>11} {:>8}   {}\n",
