@@ -61,7 +61,7 @@ impl Solver for NelderMead {
                 corner[k] += if corner[k] < 0.5 { edge } else { -edge };
                 corners.push(corner);
             }
-            let tolerance = self.tolerance * reached.min(1.0).max(f64::MIN_POSITIVE);
+            let tolerance = self.tolerance * reached.clamp(f64::MIN_POSITIVE, 1.0);
             let Ok(simplex) = Simplex::new(corners).with_sd_tolerance(tolerance) else {
                 return;
             };
