@@ -2,7 +2,7 @@
 
 use crate::solve;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Arg, Args, Parser, Subcommand, ValueEnum};
 use shared::effects::Kind;
 use std::path::PathBuf;
 
@@ -10,6 +10,8 @@ use std::path::PathBuf;
 /// paper it grew from.
 #[derive(Debug, Parser)]
 #[command(name = "servoid", version, propagate_version = true, after_help = EXAMPLES)]
+#[command(mut_args(with_negative_values))]
+#[command(mut_subcommands(|verb| verb.mut_args(with_negative_values)))]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -273,6 +275,13 @@ pub enum Integrator {
     Exact,
     /// The paper's explicit Euler step
     Euler,
+}
+
+/// Takes `-3` behind a flag for its value, so that it is refused for what it means and under the flag's
+/// name, not as an unknown flag `-3`.
+fn with_negative_values(arg: Arg) -> Arg {
+    let takes_value = !arg.is_positional() && arg.get_action().takes_values();
+    arg.allow_negative_numbers(takes_value)
 }
 
 fn algorithm_names() -> PossibleValuesParser {

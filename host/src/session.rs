@@ -39,6 +39,11 @@ impl Session {
         })
     }
 
+    /// Seeds of `count` runs, from this session's on; after the largest comes zero.
+    pub fn seeds(&self, count: u64) -> Vec<u64> {
+        (0..count).map(|k| self.seed.wrapping_add(k)).collect()
+    }
+
     /// The flag that Ctrl-C sets.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
@@ -70,7 +75,7 @@ impl Session {
             .as_ref()
             .is_some_and(|path| path.as_os_str() == "-");
         if !to_stdout {
-            print(text)?;
+            print(text.as_bytes())?;
         }
         if let Some(path) = &self.json {
             let mut rendered = serde_json::to_string_pretty(json).map_err(|error| {
@@ -78,7 +83,7 @@ impl Session {
             })?;
             rendered.push('\n');
             if to_stdout {
-                print(&rendered)?;
+                print(rendered.as_bytes())?;
             } else {
                 write_whole(path, |out| out.write_all(rendered.as_bytes()))?;
             }
@@ -93,8 +98,8 @@ impl Session {
 }
 
 /// To stdout; a closed pipe (`| head`) is the reader's choice, not an error.
-fn print(text: &str) -> Result<(), Error> {
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
+pub(crate) fn print(text: &[u8]) -> Result<(), Error> {
+    match std::io::stdout().lock().write_all(text) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(Error::Failed(format!("stdout: {error}")))
         }

@@ -30,7 +30,7 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let contest = Contest {
         problem: &problem,
         budget: options.budget,
-        seeds: (session.seed..).take(args.seeds as usize).collect(),
+        seeds: session.seeds(args.seeds),
     };
     let bar = session.progress(args.seeds * solvers.len() as u64, "compare");
     let rows = compare::run(&contest, &solvers, session.stop(), &|| bar.inc(1));

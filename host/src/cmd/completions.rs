@@ -2,14 +2,12 @@
 
 use crate::cli::Cli;
 use crate::error::Error;
+use crate::session::print;
 use clap::CommandFactory;
 
 pub(super) fn run(shell: clap_complete::Shell) -> Result<(), Error> {
-    clap_complete::generate(
-        shell,
-        &mut Cli::command(),
-        "servoid",
-        &mut std::io::stdout(),
-    );
-    Ok(())
+    // Into memory first: the generator panics where its writer fails, as stdout may.
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "servoid", &mut script);
+    print(&script)
 }

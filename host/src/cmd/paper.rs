@@ -8,12 +8,13 @@ use crate::fit::margins::Loop;
 use crate::output::write_whole;
 use crate::paper::{self, Experiment, PRINTED, Variant};
 use crate::plot;
-use crate::problem::{Data, FitProblem};
+use crate::problem::{Candidate, Data, FitProblem};
 use crate::report;
-use crate::report::json::PaperJson;
-use crate::report::paper::{Round, Strong};
+use crate::report::json::{PaperJson, least_cost};
+use crate::report::paper::{PrintedCosts, Round, Strong};
 use crate::session::Session;
 use crate::solve::{self, Objective};
+use shared::effects::EffectSet;
 use std::path::Path;
 
 /// The stronger methods and the budget that each gets: their point is to need few evaluations.
@@ -43,7 +44,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     .record()?;
     let population = usize::try_from(args.population).unwrap_or(usize::MAX);
     let budget = population.saturating_mul(usize::try_from(args.iterations).unwrap_or(usize::MAX));
-    let seeds: Vec<u64> = (session.seed..).take(args.seeds as usize).collect();
+    let seeds = session.seeds(args.seeds);
 
     let problems: Vec<(Variant, FitProblem<'_>)> = Variant::all()
         .map(|v| (v, paper::paper_problem(&data, v, bounds)))
@@ -79,7 +80,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     if let Some(folder) = &args.plots {
         draw(folder, &rounds, budget, session)?;
     }
-    let text = report::paper::text(&rounds, &strong);
+    let text = report::paper::text(&rounds, &strong, &printed_costs(&data));
     session.deliver(&text, &PaperJson::new(&rounds, &strong))
 }
 
@@ -105,6 +106,28 @@ fn truth_cost(problem: &FitProblem<'_>) -> f64 {
     } else {
         f64::NAN
     }
+}
+
+/// What the paper's printed digits cost on our recording.
+fn printed_costs(data: &Data) -> Vec<PrintedCosts> {
+    PRINTED
+        .iter()
+        .map(|column| {
+            let candidate = Candidate {
+                machine: column.machine(),
+                effects: EffectSet::default(),
+                start_speed: 0.0,
+            };
+            let ours = Variant::all()
+                .map(|variant| paper::paper_problem(data, variant, paper::BOX).cost_of(&candidate))
+                .collect();
+            PrintedCosts {
+                algorithm: column.algorithm,
+                printed: column.cost,
+                ours,
+            }
+        })
+        .collect()
 }
 
 /// The stronger methods on the same data in identifiable coordinates.
@@ -161,7 +184,7 @@ fn draw(
     };
     let structure = &first.contest.problem.structure;
     for row in &first.rows {
-        if let Some(run) = row.typical() {
+        if let Some(run) = row.typical().filter(|run| run.cost.is_finite()) {
             let machine = structure.candidate(&structure.values(&run.x)).machine;
             loops.push((
                 format!("our {} (median run)", row.algorithm),
@@ -170,7 +193,11 @@ fn draw(
         }
     }
     write(folder, "bode.svg", &plot::bode(&loops, 0.1, 1e3)?, session)?;
-    for round in rounds {
+    // A round that the user stopped before its first run has no curves.
+    for round in rounds
+        .iter()
+        .filter(|round| least_cost(&round.rows).is_finite())
+    {
         let name = format!(
             "cost-curves-{}.svg",
             round.variant.name().to_lowercase().replace(' ', "-")

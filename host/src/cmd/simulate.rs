@@ -51,7 +51,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             enabled: c.enabled,
         })
         .collect();
-    let recording = record(&bench, &drive, out)?;
+    let recording = record(&bench, &drive, args.current, out)?;
     let hidden: Vec<String> = bench.effects.iter().map(describe).collect();
     write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
     let mut text = format!(
@@ -106,10 +106,15 @@ fn bench(
 }
 
 /// Runs the bench and keeps what an owner of the motor would have logged.
-fn record(bench: &Bench, drive: &[DriveSample], out: &Path) -> Result<Recording, Error> {
+fn record(
+    bench: &Bench,
+    drive: &[DriveSample],
+    with_current: bool,
+    out: &Path,
+) -> Result<Recording, Error> {
     let run = bench.run(drive)?;
     let coasts = run.enabled.iter().any(|on| !on);
-    let current = bench.current_noise_a > 0.0 || bench.current_zero_a != 0.0;
+    let current = with_current || bench.current_noise_a > 0.0;
     Ok(Recording {
         source: out.display().to_string(),
         time_s: run.time_s,

@@ -14,6 +14,7 @@ use crate::problem::cost::{Horizon, errors, rms_counts};
 use crate::problem::simulate::Method;
 use crate::problem::{Base, Candidate, Data, FitProblem, StartAngle, Structure};
 use crate::recording::Drive;
+use crate::solve::nelder_mead::NelderMead;
 use crate::solve::{Evaluator, Found, Objective, Solver};
 use shared::cost::Cost;
 use shared::effects::{Kind, Place};
@@ -141,7 +142,11 @@ fn starts_moving(data: &Data) -> bool {
     per_interval > STARTS_MOVING * fastest && per_interval * SPEED_HALF_WIDTH as f64 > 2.0
 }
 
-/// Searches with one method.
+/// Part of the budget, at most, for the polish after least squares.
+const POLISH: usize = 600;
+
+/// Searches with one method. Least squares minimises squares, whatever the cost is: where the cost
+/// is another, a simplex search polishes its result.
 pub fn search(
     problem: &FitProblem<'_>,
     solver: &dyn Solver,
@@ -151,6 +156,14 @@ pub fn search(
 ) -> Found {
     let mut evaluator = Evaluator::new(problem, options.budget, stop, observer);
     solver.search(&mut evaluator, options.seed);
+    if solver.name() == "lm" && problem.cost != Cost::Squared {
+        evaluator.limit(POLISH);
+        let polish = NelderMead {
+            edge: 1e-3,
+            ..NelderMead::default()
+        };
+        polish.search(&mut evaluator, options.seed);
+    }
     evaluator.finish()
 }
 

@@ -12,6 +12,7 @@ use crate::problem::simulate::Method;
 use crate::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use crate::recording::{Drive, Recording};
 use crate::solve::Solver;
+use crate::solve::ga::Ga;
 use crate::solve::swarm::{Fireflies, ParticleSwarm};
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
@@ -184,6 +185,10 @@ fn problem<'a>(
 /// The paper's three methods with a population of their own size.
 pub fn solvers(population: usize) -> Vec<Box<dyn Solver>> {
     vec![
+        Box::new(Ga {
+            population,
+            ..Ga::default()
+        }),
         Box::new(ParticleSwarm {
             population,
             ..ParticleSwarm::default()

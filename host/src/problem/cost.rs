@@ -90,6 +90,17 @@ impl FitProblem<'_> {
         )
     }
 
+    /// The cost of a model; infinite where it cannot run.
+    pub fn cost_of(&self, candidate: &Candidate) -> f64 {
+        if self.horizon == Horizon::Whole && self.start_angle == StartAngle::Known {
+            return self.running_sum(candidate);
+        }
+        match self.errors(candidate) {
+            Ok(errors) => self.sum(&errors),
+            Err(_) => f64::INFINITY,
+        }
+    }
+
     /// The cost where nothing has to be looked at twice: no vector of errors is kept.
     fn running_sum(&self, candidate: &Candidate) -> f64 {
         let Ok(simulation) = Simulation::new(self.data, candidate, self.method) else {
@@ -208,13 +219,7 @@ impl Objective for FitProblem<'_> {
     }
 
     fn cost(&self, x: &[f64]) -> f64 {
-        if self.horizon == Horizon::Whole && self.start_angle == StartAngle::Known {
-            return self.running_sum(&self.candidate(x));
-        }
-        match self.errors(&self.candidate(x)) {
-            Ok(errors) => self.sum(&errors),
-            Err(_) => f64::INFINITY,
-        }
+        self.cost_of(&self.candidate(x))
     }
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {

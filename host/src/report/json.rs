@@ -174,7 +174,9 @@ impl CompareRowJson {
         let costs = row.costs();
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let structure = &contest.problem.structure;
-        let values = row.best().map(|best| structure.values(&best.x));
+        // A method that found nothing has no parameters, whatever point it began from.
+        let best = row.best().filter(|best| best.cost.is_finite());
+        let values = best.map(|best| structure.values(&best.x));
         let names = structure
             .unknowns
             .iter()

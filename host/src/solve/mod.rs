@@ -82,6 +82,21 @@ impl<'a> Evaluator<'a> {
         self.objective.dim()
     }
 
+    /// Least cost so far; infinite before the first evaluation.
+    pub fn best_cost(&self) -> f64 {
+        self.best_cost
+    }
+
+    /// The best point so far; before the first evaluation the problem's own start, or the middle.
+    pub fn best_or_start(&self) -> Vec<f64> {
+        if self.best_cost.is_finite() {
+            return self.best.clone();
+        }
+        self.objective
+            .start()
+            .unwrap_or_else(|| vec![0.5; self.dim()])
+    }
+
     /// Evaluations left.
     pub fn left(&self) -> usize {
         if self.stop.load(Ordering::Relaxed) {
@@ -182,6 +197,9 @@ pub fn all() -> Vec<Box<dyn Solver>> {
         Box::new(ga::GeneticAlgorithm::default()),
         Box::new(swarm::ParticleSwarm::default()),
         Box::new(swarm::Fireflies::default()),
+        Box::new(cma_es::CmaEs::default()),
+        Box::new(differential_evolution::DifferentialEvolution::default()),
+        Box::new(nelder_mead::NelderMead::default()),
         Box::new(swarm::Random),
     ]
 }

@@ -1,0 +1,159 @@
+//! The shape of the JSON that scripts rely on: every key of the contract, each with its type.
+
+use serde_json::Value;
+
+/// What stands behind a key.
+#[derive(Clone, Copy, Debug)]
+pub enum Is {
+    Text,
+    /// A finite number.
+    Number,
+    NumberOrNull,
+    Flag,
+    Object,
+    List,
+}
+
+/// The object `value` has every one of `keys`, each with its type.
+pub fn has(value: &Value, keys: &[(&str, Is)]) {
+    for &(key, is) in keys {
+        let found = value
+            .get(key)
+            .unwrap_or_else(|| panic!("no key `{key}` in {value:#}"));
+        let number = found.as_f64().is_some_and(f64::is_finite);
+        let fits = match is {
+            Is::Text => found.as_str().is_some_and(|text| !text.is_empty()),
+            Is::Number => number,
+            Is::NumberOrNull => number || found.is_null(),
+            Is::Flag => found.is_boolean(),
+            Is::Object => found.is_object(),
+            Is::List => found.is_array(),
+        };
+        assert!(fits, "`{key}` is {found}, not {is:?}");
+    }
+}
+
+/// The number at a path like `identifiable.a1_s`.
+pub fn number(value: &Value, path: &str) -> f64 {
+    let found = path.split('.').fold(value, |value, key| &value[key]);
+    found
+        .as_f64()
+        .unwrap_or_else(|| panic!("`{path}` is no number in {value:#}"))
+}
+
+/// The list behind a key.
+pub fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
+    value[key]
+        .as_array()
+        .unwrap_or_else(|| panic!("`{key}` is no list in {value:#}"))
+}
+
+/// The parameter of a fit with this name.
+pub fn parameter<'a>(fit: &'a Value, name: &str) -> &'a Value {
+    list(fit, "parameters")
+        .iter()
+        .find(|parameter| parameter["name"] == name)
+        .unwrap_or_else(|| panic!("no parameter `{name}` in {fit:#}"))
+}
+
+/// `servoid.fit/1` of a motor driven by a voltage.
+pub fn is_fit(fit: &Value) {
+    assert_eq!(fit["schema"], "servoid.fit/1");
+    has(
+        fit,
+        &[
+            ("algorithm", Is::Text),
+            ("seed", Is::Number),
+            ("evaluations", Is::Number),
+            ("cost", Is::Number),
+            ("cost_kind", Is::Text),
+            ("rms_counts", Is::Number),
+            ("validate_rms_counts", Is::NumberOrNull),
+            ("effects", Is::List),
+            ("parameters", Is::List),
+            ("identifiable", Is::Object),
+        ],
+    );
+    for parameter in list(fit, "parameters") {
+        has(
+            parameter,
+            &[
+                ("name", Is::Text),
+                ("value", Is::Number),
+                ("unit", Is::Text),
+                ("std", Is::NumberOrNull),
+                ("identifiable", Is::Flag),
+            ],
+        );
+        // What is undetermined cannot be called determined.
+        assert!(
+            !(parameter["std"].is_null() && parameter["identifiable"] == true),
+            "{parameter}"
+        );
+    }
+    let response = [
+        ("gain_rad_s_v", Is::Number),
+        ("a1_s", Is::Number),
+        ("a2_s2", Is::Number),
+    ];
+    has(&fit["identifiable"], &response);
+    are_margins(&fit["margins"]);
+}
+
+/// `servoid.compare/1`.
+pub fn is_comparison(comparison: &Value) {
+    assert_eq!(comparison["schema"], "servoid.compare/1");
+    has(
+        comparison,
+        &[
+            ("budget", Is::Number),
+            ("seeds", Is::List),
+            ("rows", Is::List),
+        ],
+    );
+}
+
+/// A row of `compare` whose runs all found a finite cost within `budget`.
+pub fn is_row(row: &Value, budget: f64) {
+    has(
+        row,
+        &[
+            ("algorithm", Is::Text),
+            ("median_cost", Is::Number),
+            ("best_cost", Is::Number),
+            ("iqr_cost", Is::Number),
+            ("median_evaluations_to_1pct", Is::NumberOrNull),
+            ("wall_s", Is::Number),
+            ("parameters", Is::Object),
+            ("curve", Is::List),
+        ],
+    );
+    are_margins(&row["margins"]);
+    let parameters = row["parameters"].as_object().expect("an object");
+    assert!(
+        parameters.values().all(Value::is_number) && !parameters.is_empty(),
+        "{row:#}"
+    );
+
+    let (best, median) = (number(row, "best_cost"), number(row, "median_cost"));
+    assert!(
+        0.0 <= best && best <= median && number(row, "iqr_cost") >= 0.0,
+        "{row:#}"
+    );
+    let curve: Vec<[f64; 2]> = serde_json::from_value(row["curve"].clone()).expect("pairs");
+    let falls = |pair: &[[f64; 2]]| pair[0][0] < pair[1][0] && pair[0][1] >= pair[1][1];
+    assert!(
+        curve.windows(2).all(falls),
+        "the median of the best cost rises\n{row:#}"
+    );
+    let [evaluations, cost] = *curve.last().expect("a point");
+    assert!(evaluations <= budget && cost == median, "{row:#}");
+}
+
+/// Gain margin in dB (null where infinite) and phase margin in degrees.
+pub fn are_margins(margins: &Value) {
+    has(
+        margins,
+        &[("gain_db", Is::NumberOrNull), ("phase_deg", Is::Number)],
+    );
+}

@@ -1,0 +1,150 @@
+//! A desk: a folder of its own, in which `servoid` is run as at a shell.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// The folder; gone with its owner.
+pub struct Desk {
+    folder: TempDir,
+}
+
+/// What a user sees of one run.
+pub struct Outcome {
+    pub line: String,
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Desk {
+    pub fn new() -> Self {
+        Desk {
+            folder: tempfile::tempdir().expect("a temporary folder"),
+        }
+    }
+
+    /// A desk with the recording `rec.csv` of a gearmotor and its `motor.toml`, two seconds long.
+    pub fn with_recording() -> Self {
+        let desk = Desk::new();
+        desk.done("simulate --seconds 2 --out rec.csv");
+        desk
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a new folder");
+        fs::write(path, content).expect("a new file");
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// Every file and folder with its length: what must not change when the program refuses.
+    pub fn listing(&self) -> BTreeMap<PathBuf, u64> {
+        let mut found = BTreeMap::new();
+        list(self.folder.path(), &mut found);
+        found
+    }
+
+    /// The program about to be run here, with the arguments in `line`, which are divided at spaces.
+    pub fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_servoid"));
+        command
+            .args(line.split_whitespace())
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Runs `servoid` with the arguments in `line`.
+    pub fn run(&self, line: &str) -> Outcome {
+        let output = self.command(line).output().expect("servoid starts");
+        Outcome::new(line, output)
+    }
+
+    /// Runs what must succeed.
+    pub fn done(&self, line: &str) -> Outcome {
+        let outcome = self.run(line);
+        assert_eq!(outcome.code, Some(0), "{outcome}");
+        outcome
+    }
+
+    /// Runs what must succeed and returns its JSON, which must be all that is on stdout.
+    pub fn json(&self, line: &str) -> Value {
+        let outcome = self.done(&format!("{line} --json -"));
+        serde_json::from_str(&outcome.stdout)
+            .unwrap_or_else(|error| panic!("not JSON alone: {error}\n{outcome}"))
+    }
+
+    /// Runs what must be refused: with this exit code, one message that says all of `says`, nothing on
+    /// stdout, and no file written or changed.
+    pub fn refused(&self, line: &str, code: i32, says: &[&str]) {
+        let before = self.listing();
+        let outcome = self.run(line);
+        outcome.is_refusal(code, says);
+        assert_eq!(outcome.stdout, "", "{outcome}");
+        assert_eq!(self.listing(), before, "files were left behind\n{outcome}");
+    }
+}
+
+impl Outcome {
+    pub fn new(line: &str, output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Outcome {
+            line: line.to_owned(),
+            code: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+
+    /// Asserts a failure with this exit code and one message that says all of `says`.
+    pub fn is_refusal(&self, code: i32, says: &[&str]) {
+        assert_eq!(self.code, Some(code), "{self}");
+        assert!(!self.stderr.contains("panicked"), "{self}");
+        let starts = |line: &&str| line.starts_with("servoid: ") || line.starts_with("error: ");
+        assert_eq!(
+            self.stderr.lines().filter(starts).count(),
+            1,
+            "one message\n{self}"
+        );
+        for word in says {
+            assert!(
+                self.stderr.contains(word),
+                "the message lacks {word:?}\n{self}"
+            );
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "$ servoid {}\nexit code {:?}\n-- stderr\n{}-- stdout\n{}",
+            self.line, self.code, self.stderr, self.stdout
+        )
+    }
+}
+
+fn list(folder: &Path, found: &mut BTreeMap<PathBuf, u64>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let entry = entry.expect("an entry");
+        let about = entry.metadata().expect("metadata");
+        if about.is_dir() {
+            list(&entry.path(), found);
+        }
+        found.insert(entry.path(), about.len());
+    }
+}

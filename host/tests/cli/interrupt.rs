@@ -1,0 +1,108 @@
+//! Ctrl-C: the work ends soon, with what it has.
+#![cfg(unix)]
+
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::contract::{Is, has, is_fit, list};
+use crate::desk::{Desk, Outcome};
+
+/// Time to get to work before the signal. Too short only means that there is less to report.
+const AT_WORK: Duration = Duration::from_millis(1500);
+/// Time to end after it: generous, against work of hours.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// Runs `line`, which would take hours, and interrupts it.
+fn interrupted(desk: &Desk, line: &str) -> Outcome {
+    let mut command = desk.command(line);
+    let mut child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("servoid");
+    sleep(AT_WORK);
+    assert!(
+        child.try_wait().expect("a child").is_none(),
+        "{line}: over before the signal"
+    );
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(killed.expect("kill").success());
+    wait(&mut child, line);
+    let outcome = Outcome::new(line, child.wait_with_output().expect("servoid ends"));
+    outcome.is_refusal(1, &["stopped by the user", "best so far"]);
+    outcome
+}
+
+fn wait(child: &mut Child, line: &str) {
+    let asked = Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        if asked.elapsed() > PATIENCE {
+            child.kill().expect("it can be killed");
+            panic!("{line}: does not stop");
+        }
+        sleep(Duration::from_millis(20));
+    }
+}
+
+fn written(desk: &Desk, name: &str) -> Value {
+    serde_json::from_str(&desk.read(name)).expect("whole JSON")
+}
+
+#[test]
+fn a_stopped_fit_keeps_its_best() {
+    let desk = Desk::with_recording();
+    let outcome = interrupted(
+        &desk,
+        "fit rec.csv --algorithm random --budget 1000000000 --json fit.json",
+    );
+    assert!(outcome.stdout.contains("counts RMS"), "{outcome}");
+    let fit = written(&desk, "fit.json");
+    is_fit(&fit);
+    assert_eq!(fit["interrupted"], true);
+}
+
+#[test]
+fn a_stopped_comparison_keeps_what_it_has_and_makes_nothing_up() {
+    let desk = Desk::with_recording();
+    let line = "compare rec.csv --algorithm random,pso --seeds 1000 --budget 1000000 --json c.json";
+    let outcome = interrupted(&desk, line);
+    assert!(outcome.stdout.contains("random"), "{outcome}");
+    let comparison = written(&desk, "c.json");
+    let rows = list(&comparison, "rows");
+    has(
+        &rows[0],
+        &[("best_cost", Is::Number), ("parameters", Is::Object)],
+    );
+    assert_eq!(rows[1]["algorithm"], "pso");
+    assert!(
+        rows[1]["best_cost"].is_null(),
+        "it never began: {comparison:#}"
+    );
+    assert_eq!(
+        rows[1]["parameters"],
+        serde_json::json!({}),
+        "{comparison:#}"
+    );
+}
+
+#[test]
+fn a_stopped_paper_keeps_what_it_has() {
+    let desk = Desk::new();
+    let line = "paper --seeds 10000 --iterations 100000 --json p.json";
+    let outcome = interrupted(&desk, line);
+    assert!(outcome.stdout.contains("Table 1"), "{outcome}");
+    let paper = written(&desk, "p.json");
+    let row = list(&paper, "rows")
+        .iter()
+        .find(|row| row["algorithm"] == "pso")
+        .expect("a row");
+    has(
+        row,
+        &[("best_cost", Is::Number), ("parameters", Is::Object)],
+    );
+}

@@ -1,0 +1,19 @@
+//! Journeys of users through the compiled `servoid`: what they type, and all that they can see of it,
+//! which is the exit code, both output streams, and the files in their folder.
+#![forbid(unsafe_code)]
+
+mod accuracy;
+mod bad_flags;
+mod bad_outputs;
+mod bad_recordings;
+mod contract;
+mod desk;
+mod foreign_logs;
+mod interrupt;
+mod known_facts;
+mod main_job;
+mod paper;
+mod pipes;
+mod repeatable;
+mod searches;
+mod simulate;

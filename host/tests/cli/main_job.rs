@@ -1,0 +1,98 @@
+//! The main job, from a recording to a model that explains it.
+
+use crate::contract::{is_fit, number, parameter};
+use crate::desk::Desk;
+
+#[test]
+fn the_demo_writes_one_page_that_fetches_nothing() {
+    let desk = Desk::new();
+    let outcome = desk.done("demo --out page.html");
+    assert!(
+        outcome.stdout.contains("counts RMS") && outcome.stdout.contains("page.html"),
+        "{outcome}"
+    );
+    let page = desk.read("page.html");
+    assert!(page.contains("<svg") && page.trim_end().ends_with("</html>"));
+    let namespaces = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    for outside in ["http:", "https:", "src=", "href=", "@import", "url("] {
+        assert!(!namespaces.contains(outside), "the page mentions {outside}");
+    }
+    assert_eq!(desk.listing().len(), 1, "the page is all that is written");
+}
+
+#[test]
+fn the_demo_has_a_usual_name_for_its_page() {
+    let desk = Desk::new();
+    is_fit(&desk.json("demo"));
+    assert!(
+        desk.read("servoid-demo.html")
+            .starts_with("<!doctype html>")
+    );
+}
+
+/// Friction is hidden; the linear motor fails on it, and the model with friction does not.
+#[test]
+fn a_hidden_friction_spoils_the_linear_fit_and_the_named_effect_repairs_it() {
+    let desk = Desk::new();
+    desk.done("simulate --hide coulomb:torque=0.002 --out rec.csv");
+    desk.done("simulate --hide coulomb:torque=0.002 --seed 2 --out other.csv");
+
+    let linear = desk.json("fit rec.csv --validate other.csv");
+    is_fit(&linear);
+    assert!(number(&linear, "rms_counts") > 100.0, "{linear:#}");
+    assert!(number(&linear, "validate_rms_counts") > 100.0, "{linear:#}");
+
+    let facts = "--known resistance_ohm=2.3 --known kt_n_m_a=0.017";
+    let repaired = desk.json(&format!(
+        "fit rec.csv --with coulomb --validate other.csv {facts}"
+    ));
+    is_fit(&repaired);
+    assert_eq!(repaired["effects"], serde_json::json!(["coulomb"]));
+    for error in ["rms_counts", "validate_rms_counts"] {
+        assert!(
+            (0.26..=0.30).contains(&number(&repaired, error)),
+            "{error} of {repaired:#}"
+        );
+    }
+    let torque = parameter(&repaired, "coulomb.torque");
+    assert_eq!(torque["unit"], "N*m");
+    assert!(
+        (number(torque, "value") / 0.002 - 1.0).abs() < 1e-3,
+        "{torque}"
+    );
+}
+
+#[test]
+fn a_fit_prints_a_table_and_writes_its_json_and_its_picture() {
+    let desk = Desk::with_recording();
+    let outcome = desk.done("fit rec.csv --validate rec.csv --json fit.json --plot fit.svg");
+    for word in [
+        "counts RMS",
+        "held-out error",
+        "gain",
+        "a1",
+        "not separable",
+    ] {
+        assert!(outcome.stdout.contains(word), "no {word}\n{outcome}");
+    }
+    assert!(desk.read("fit.svg").contains("</svg>"));
+    let written: serde_json::Value = serde_json::from_str(&desk.read("fit.json")).expect("JSON");
+    is_fit(&written);
+    assert_eq!(
+        written,
+        desk.json("fit rec.csv --validate rec.csv --plot fit.svg")
+    );
+}
+
+#[test]
+fn quiet_leaves_the_result_only() {
+    let desk = Desk::with_recording();
+    for line in [
+        "fit rec.csv --plot a.svg",
+        "compare rec.csv --seeds 2 --budget 20 --plot b.svg",
+    ] {
+        let outcome = desk.done(&format!("{line} --quiet"));
+        assert_eq!(outcome.stderr, "", "{outcome}");
+        assert!(!outcome.stdout.is_empty(), "{outcome}");
+    }
+}
