@@ -49,7 +49,7 @@ impl Solver for CmaEs {
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
         let dim = evaluator.dim();
         let mut rng = rng::seeded(seed);
-        let mut mean = restart::first(evaluator);
+        let mut mean = evaluator.best_or_start();
         let usual = BoundedCmaEs::<Vec<f64>, DenseMatrix<f64>>::default_lambda(dim);
         let mut population = self.population.unwrap_or(usual).max(4);
         restart::until_spent(evaluator, seed, |evaluator, seed| {

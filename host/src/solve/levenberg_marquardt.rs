@@ -11,7 +11,7 @@
 
 mod residuals;
 
-use super::{Evaluator, Solver, restart};
+use super::{Evaluator, Solver};
 use levenberg_marquardt::LevenbergMarquardt as Minpack;
 use nalgebra::DVector;
 use residuals::Residuals;
@@ -65,12 +65,16 @@ impl Solver for LevenbergMarquardt {
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
         let dim = evaluator.dim();
         let mut rng = rng::seeded(seed);
-        let mut start = restart::first(evaluator);
+        let mut start = evaluator.best_or_start();
         let (mut begun, mut tried) = (0, 0);
         while begun < self.starts && tried < self.starts + IMPOSSIBLE_STARTS {
             begun += usize::from(self.descend(evaluator, start));
             tried += 1;
             start = (0..dim).map(|_| rng::uniform(&mut rng)).collect();
+        }
+        if begun == 0 {
+            // Nothing to report otherwise; where there are no residuals there may yet be a cost.
+            let _ = evaluator.evaluate(&evaluator.best_or_start());
         }
     }
 }

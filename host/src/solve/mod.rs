@@ -92,9 +92,8 @@ impl<'a> Evaluator<'a> {
         if self.best_cost.is_finite() {
             return self.best.clone();
         }
-        self.objective
-            .start()
-            .unwrap_or_else(|| vec![0.5; self.dim()])
+        let middle = || vec![0.5; self.dim()];
+        clamped(&self.objective.start().unwrap_or_else(middle))
     }
 
     /// Evaluations left.
@@ -104,6 +103,13 @@ impl<'a> Evaluator<'a> {
         } else {
             self.budget.saturating_sub(self.evaluations)
         }
+    }
+
+    /// Lowers what is left of the budget to at most `evaluations`.
+    pub fn limit(&mut self, evaluations: usize) {
+        self.budget = self
+            .budget
+            .min(self.evaluations.saturating_add(evaluations));
     }
 
     /// Cost at `x`, whose coordinates are first clamped to the cube. NaN counts as infinite.
@@ -118,19 +124,18 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Residuals at `x`, whose coordinates are first clamped to the cube, for one evaluation that is
-    /// booked with its cost. `None` (and the cost by itself) where there are none.
+    /// booked with its cost. `None`, booked as infinite, where there are none.
     pub fn evaluate_residuals(&mut self, x: &[f64]) -> Result<Option<Vec<f64>>, Stop> {
         if self.left() == 0 {
             return Err(Stop);
         }
         let x = clamped(x);
-        match self.objective.residuals_and_cost(&x) {
-            Some((residuals, cost)) => {
-                self.record(&x, finite_or_infinite(cost));
-                Ok(Some(residuals))
-            }
-            None => self.evaluate(&x).map(|_| None),
-        }
+        let (residuals, cost) = match self.objective.residuals_and_cost(&x) {
+            Some((residuals, cost)) => (Some(residuals), finite_or_infinite(cost)),
+            None => (None, f64::INFINITY),
+        };
+        self.record(&x, cost);
+        Ok(residuals)
     }
 
     /// Books one evaluation that was made elsewhere (a residual vector, a lane of a batch).
@@ -194,12 +199,9 @@ pub fn all() -> Vec<Box<dyn Solver>> {
         Box::new(nelder_mead::NelderMead::default()),
         Box::new(cma_es::CmaEs::default()),
         Box::new(differential_evolution::DifferentialEvolution::default()),
-        Box::new(ga::GeneticAlgorithm::default()),
+        Box::new(ga::Ga::default()),
         Box::new(swarm::ParticleSwarm::default()),
         Box::new(swarm::Fireflies::default()),
-        Box::new(cma_es::CmaEs::default()),
-        Box::new(differential_evolution::DifferentialEvolution::default()),
-        Box::new(nelder_mead::NelderMead::default()),
         Box::new(swarm::Random),
     ]
 }

@@ -22,8 +22,8 @@ use std::cell::RefCell;
 /// Nelder–Mead with restarts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NelderMead {
-    /// Side of a fresh simplex, as a share of the cube's side; above 0.
-    pub side: f64,
+    /// Edge of a fresh simplex, as a share of the cube's; above 0.
+    pub edge: f64,
     /// A simplex smaller than this in every coordinate is done.
     pub tolerance: f64,
     /// A restart about the best vertex must lower the cost by this part of it to be repeated.
@@ -33,7 +33,7 @@ pub struct NelderMead {
 impl Default for NelderMead {
     fn default() -> Self {
         NelderMead {
-            side: 0.2,
+            edge: 0.2,
             tolerance: 1e-6,
             worthwhile: 1e-4,
         }
@@ -47,7 +47,7 @@ impl Solver for NelderMead {
 
     fn search(&self, evaluator: &mut Evaluator<'_>, seed: u64) {
         let mut rng = rng::seeded(seed);
-        let mut corner = restart::first(evaluator);
+        let mut corner = evaluator.best_or_start();
         let mut last = f64::INFINITY;
         while let Some((best, cost)) = self.converge(evaluator, self.simplex(&corner, &mut rng)) {
             if cost < last - self.worthwhile * cost.abs() {
@@ -67,9 +67,9 @@ impl NelderMead {
         for axis in 0..corner.len() {
             let mut vertex = corner.to_vec();
             vertex[axis] += if rng::uniform::<f64>(rng) < 0.5 {
-                self.side
+                self.edge
             } else {
-                -self.side
+                -self.edge
             };
             vertices.push(vertex);
         }

@@ -2,14 +2,6 @@
 
 use super::Evaluator;
 
-/// Where to begin: the objective's own start, else the centre of the cube.
-pub(super) fn first(evaluator: &Evaluator<'_>) -> Vec<f64> {
-    let centre = || vec![0.5; evaluator.dim()];
-    let mut start = evaluator.objective().start().unwrap_or_else(centre);
-    start.iter_mut().for_each(|x| *x = x.clamp(0.0, 1.0));
-    start
-}
-
 /// Calls `run` with a seed of its own each time, until the budget is spent.
 pub(super) fn until_spent<'a>(
     evaluator: &mut Evaluator<'a>,

@@ -151,8 +151,8 @@ impl Objective for Witness {
     }
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let residuals = (self.problem.residuals)(x)?;
         self.note(x);
+        let residuals = (self.problem.residuals)(x)?;
         Some((residuals, self.problem.squares(x)))
     }
 }

@@ -1,6 +1,6 @@
 //! Laws that every solver obeys on every problem, and how much better than chance they are.
 
-use super::ga::{Crossover, GeneticAlgorithm, Selection};
+use super::ga::{Crossover, Ga, Selection};
 use super::levenberg_marquardt::{Differences, LevenbergMarquardt};
 use super::test_problems::{PROBLEMS, Problem, Witness};
 use super::{Evaluator, Found, Objective, Solver, all, by_name};
@@ -27,7 +27,7 @@ fn solvers() -> Vec<(String, Box<dyn Solver>)> {
             Crossover::SimulatedBinary { eta: 2.0 },
         ] {
             for (population, elites) in [(2, 1), (5, 4), (50, 0)] {
-                let ga = GeneticAlgorithm {
+                let ga = Ga {
                     population,
                     elites,
                     selection,
@@ -196,7 +196,7 @@ fn the_strong_methods_find_the_optimum() {
 #[test]
 fn elites_are_not_evaluated_again() {
     for (population, elites) in [(5, 4), (5, 1), (50, 10)] {
-        let restless = GeneticAlgorithm {
+        let restless = Ga {
             population,
             elites,
             mutation_rate: Some(1.0),
