@@ -84,9 +84,8 @@ impl Row {
         runs.get(runs.len().saturating_sub(1) / 2).copied()
     }
 
-    /// Median over the runs of the evaluations that they took to `target`; `None` if more than half
-    /// of them never got there.
-    pub fn median_evaluations_to(&self, target: f64) -> Option<f64> {
+    /// Evaluations that each run took to `target`, ascending; infinite for those that never got there.
+    pub fn evaluations_to(&self, target: f64) -> Vec<f64> {
         let mut counts: Vec<f64> = self
             .runs
             .iter()
@@ -96,7 +95,12 @@ impl Row {
             })
             .collect();
         counts.sort_by(f64::total_cmp);
-        Some(quantile(&counts, 0.5)).filter(|median| median.is_finite())
+        counts
+    }
+
+    /// Their median; `None` if more than half of the runs never got there.
+    pub fn median_evaluations_to(&self, target: f64) -> Option<f64> {
+        Some(quantile(&self.evaluations_to(target), 0.5)).filter(|median| median.is_finite())
     }
 
     /// Quantile `q` over the runs of the best cost after each of a list of evaluation counts.

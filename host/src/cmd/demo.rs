@@ -9,7 +9,7 @@ use crate::fit::{self, Fit, Options};
 use crate::output::write_whole;
 use crate::plot;
 use crate::problem::Data;
-use crate::recording::{Drive, Recording};
+use crate::recording::Recording;
 use crate::report;
 use crate::report::html::{Page, Section};
 use crate::session::Session;
@@ -73,19 +73,7 @@ fn record(machine: Machine, seed: u64, name: &str) -> Result<Recording, Error> {
             enabled: c.enabled,
         })
         .collect();
-    let run = bench.run(&drive)?;
-    Ok(Recording {
-        source: name.to_owned(),
-        time_s: run.time_s,
-        command: run.voltage_v,
-        counts: run.counts.iter().map(|&count| count as f64).collect(),
-        current_a: None,
-        enabled: None,
-        counts_per_rev: f64::from(COUNTS_PER_REV),
-        quantised: true,
-        supply_v: Some(machine.supply_v),
-        drive: Drive::Voltage,
-    })
+    Ok(bench.record(&drive, name, false)?)
 }
 
 /// How far off the fit is, which only a bench can tell.

@@ -47,17 +47,17 @@ pub fn jacobian(problem: &FitProblem<'_>, values: &[f64]) -> Option<DMatrix<f64>
         let mut step = 1e-4 * values[k].abs().max(1e-4 * (high - low));
         let mut ahead = moved(values, k, step, high);
         // One correction of the step brings the change near the wanted size.
-        let change = rms_difference(&run(&ahead.values)?, &here);
+        let change = rms_difference(&run(&ahead)?, &here);
         if change > 0.0 {
             step = (step * (PROBE_COUNTS / change).clamp(1e-4, 1e3)).min(0.02 * (high - low));
             ahead = moved(values, k, step, high);
         }
         let behind = moved(values, k, -step, low);
-        let width = ahead.values[k] - behind.values[k];
+        let width = ahead[k] - behind[k];
         if width == 0.0 {
             continue;
         }
-        let (up, down) = (run(&ahead.values)?, run(&behind.values)?);
+        let (up, down) = (run(&ahead)?, run(&behind)?);
         for i in 0..here.len() {
             jacobian[(i, k)] = (up[i] - down[i]) / width;
         }
@@ -65,12 +65,8 @@ pub fn jacobian(problem: &FitProblem<'_>, values: &[f64]) -> Option<DMatrix<f64>
     jacobian.iter().all(|x| x.is_finite()).then_some(jacobian)
 }
 
-struct Moved {
-    values: Vec<f64>,
-}
-
 /// `values` with unknown `k` moved by `step`, not beyond `limit`.
-fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Moved {
+fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Vec<f64> {
     let mut values = values.to_vec();
     let target = values[k] + step;
     values[k] = if step > 0.0 {
@@ -78,7 +74,7 @@ fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Moved {
     } else {
         target.max(limit.min(values[k]))
     };
-    Moved { values }
+    values
 }
 
 fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
