@@ -97,12 +97,9 @@ fn a_stopped_paper_keeps_what_it_has() {
     let outcome = interrupted(&desk, line);
     assert!(outcome.stdout.contains("Table 1"), "{outcome}");
     let paper = written(&desk, "p.json");
-    let row = list(&paper, "rows")
-        .iter()
-        .find(|row| row["algorithm"] == "pso")
-        .expect("a row");
-    has(
-        row,
-        &[("best_cost", Is::Number), ("parameters", Is::Object)],
-    );
+    // Which method comes first is not the point: the work that was done is there.
+    let done = |row: &&Value| row["best_cost"].is_number();
+    let row = list(&paper, "rows").iter().find(done).expect("a best cost");
+    has(row, &[("parameters", Is::Object)]);
+    assert_ne!(row["parameters"], serde_json::json!({}), "{row:#}");
 }
