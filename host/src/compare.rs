@@ -32,7 +32,8 @@ pub struct Row {
 /// Points of a cost curve.
 const CURVE_POINTS: usize = 60;
 
-/// Runs every method for every seed, on all cores; the result does not depend on their number.
+/// Runs every method for every seed, on all cores; the result does not depend on their number. Runs
+/// that had not begun when the user stopped the work are left out.
 pub fn run(
     contest: &Contest<'_>,
     solvers: &[Box<dyn Solver>],
@@ -58,7 +59,11 @@ pub fn run(
             Row {
                 algorithm: solver.name().to_owned(),
                 wall_s: timed.iter().map(|(_, seconds)| seconds).sum(),
-                runs: timed.into_iter().map(|(found, _)| found).collect(),
+                runs: timed
+                    .into_iter()
+                    .map(|(found, _)| found)
+                    .filter(|found| found.evaluations > 0)
+                    .collect(),
             }
         })
         .collect()
@@ -72,21 +77,22 @@ impl Row {
         costs
     }
 
-    /// The best of all runs.
+    /// The best of all runs; none if no run found a finite cost.
     pub fn best(&self) -> Option<&Found> {
-        self.runs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost))
+        let best = self.runs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+        best.filter(|run| run.cost.is_finite())
     }
 
-    /// The run whose cost is the median: what to expect.
+    /// The run whose cost is the median: what to expect; none if that cost is not finite.
     pub fn typical(&self) -> Option<&Found> {
         let mut runs: Vec<&Found> = self.runs.iter().collect();
         runs.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        runs.get(runs.len().saturating_sub(1) / 2).copied()
+        let median = runs.get(runs.len().saturating_sub(1) / 2).copied();
+        median.filter(|run| run.cost.is_finite())
     }
 
-    /// Median over the runs of the evaluations that they took to `target`; `None` if more than half
-    /// of them never got there.
-    pub fn median_evaluations_to(&self, target: f64) -> Option<f64> {
+    /// Evaluations that each run took to `target`, ascending; infinite for those that never got there.
+    pub fn evaluations_to(&self, target: f64) -> Vec<f64> {
         let mut counts: Vec<f64> = self
             .runs
             .iter()
@@ -96,7 +102,12 @@ impl Row {
             })
             .collect();
         counts.sort_by(f64::total_cmp);
-        Some(quantile(&counts, 0.5)).filter(|median| median.is_finite())
+        counts
+    }
+
+    /// Their median; `None` if more than half of the runs never got there.
+    pub fn median_evaluations_to(&self, target: f64) -> Option<f64> {
+        Some(quantile(&self.evaluations_to(target), 0.5)).filter(|median| median.is_finite())
     }
 
     /// Quantile `q` over the runs of the best cost after each of a list of evaluation counts.

@@ -3,7 +3,6 @@
 use host::compare::{Contest, quantile, run};
 use host::paper::{BOX, Experiment, Variant, identifiable_problem, paper_problem, solvers};
 use host::report::json::least_cost;
-use host::report::paper::evaluations_to;
 use host::solve;
 use std::sync::atomic::AtomicBool;
 
@@ -64,7 +63,7 @@ fn stronger_methods_need_few_evaluations() {
     let rows = run(&contest, &solvers, &stop, &|| {});
     let least = least_cost(&rows);
     for row in &rows {
-        let counts = evaluations_to(row, 1.01 * least);
+        let counts = row.evaluations_to(1.01 * least);
         let (median, worst) = (quantile(&counts, 0.5), quantile(&counts, 1.0));
         println!(
             "{}: {median} evaluations to 1.01 x {least:.4} in the median of seeds 1 to 31, {worst} at worst",

@@ -49,6 +49,7 @@ mod integrate;
 mod laws;
 mod machine;
 mod plant;
+mod record;
 mod run;
 mod timeline;
 

@@ -1,19 +1,21 @@
 //! `servoid demo`: the main job on built-in data.
 //!
-//! The virtual bench records a motor twice; the model is fitted to the one and judged on the other.
+//! The virtual bench records a motor with Coulomb friction twice. The linear model is fitted to the
+//! one and fails; with the friction added the error falls to the encoder's own, on both.
 
-use crate::bench::{Bench, DriveSample, Machine};
+use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::output::write_whole;
 use crate::plot;
 use crate::problem::Data;
-use crate::recording::{Drive, Recording};
+use crate::recording::Recording;
 use crate::report;
 use crate::report::html::{Page, Section};
 use crate::session::Session;
 use crate::solve;
+use shared::effects::Kind;
 use shared::excite::{COMMISSIONING, commands};
 
 const INTERVAL_S: f64 = 1e-3;
@@ -27,11 +29,61 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         session.seed.wrapping_add(1),
         "held-out recording",
     )?)?;
+    let linear = fitted_with(session, &fitted, &held_out, &[])?;
+    let full = fitted_with(session, &fitted, &held_out, &[Kind::Coulomb])?;
+    let first = report::text::fit(&linear, &fitted);
+    let second = report::text::fit(&full, &fitted) + &against_truth(&full, &machine);
+    let ladder = format!(
+        "error on the held-out recording: linear motor {:.1} counts, with Coulomb friction {:.4}, encoder floor {:.4}\n",
+        linear.validate_rms_counts.unwrap_or(f64::NAN),
+        full.validate_rms_counts.unwrap_or(f64::NAN),
+        shared::encoder::FLOOR_RMS_COUNTS,
+    );
+    let method = Options::default().method;
+    let section = |heading: &str, text: &str, fit: &Fit| {
+        Ok::<_, Error>(Section {
+            heading: heading.to_owned(),
+            text: text.to_owned(),
+            drawing: Some(plot::overlay(&fitted, &fit.candidate, method)?),
+        })
+    };
+    let page = Page {
+        title: "servoid demo".to_owned(),
+        sections: vec![
+            section(
+                "A motor on the virtual bench, and the linear model: it fails",
+                &first,
+                &linear,
+            )?,
+            section(
+                "With Coulomb friction the error falls",
+                &format!("{ladder}\n{second}"),
+                &full,
+            )?,
+        ],
+    };
+    write_whole(&args.out, |out| out.write_all(page.render().as_bytes()))?;
+    let text = format!(
+        "== the linear model\n{first}\n== with Coulomb friction (--with coulomb)\n{second}\n{ladder}\
+         page with the drawings: {}\n",
+        args.out.display()
+    );
+    session.deliver(&text, &report::json::FitJson::from(&full))
+}
+
+/// Fits the demo's recording and judges the fit on the other one.
+fn fitted_with(
+    session: &Session,
+    data: &Data,
+    held_out: &Data,
+    effects: &[Kind],
+) -> Result<Fit, Error> {
     let options = Options {
         seed: session.seed,
+        effects: effects.to_vec(),
         ..Options::default()
     };
-    let problem = fit::problem(&fitted, &options)?;
+    let problem = fit::problem(data, &options)?;
     let solver = solve::by_name("lm").ok_or_else(|| Error::Failed("no method `lm`".to_owned()))?;
     let bar = session.progress(options.budget as u64, "fit");
     let found = fit::search(
@@ -39,27 +91,13 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         solver.as_ref(),
         &options,
         session.stop(),
-        &mut |count, _| {
+        &mut |count, best| {
             bar.set_position(count as u64);
+            bar.set_message(format!("cost {best:.6}"));
         },
     );
     bar.finish_and_clear();
-    let fit = Fit::conclude(&problem, "lm", "squared", &found, &options, Some(&held_out))?;
-    let mut text = report::text::fit(&fit, &fitted);
-    text += &against_truth(&fit, &machine);
-
-    let drawing = plot::overlay(&fitted, &fit.candidate, options.method)?;
-    let page = Page {
-        title: "servoid demo".to_owned(),
-        sections: vec![Section {
-            heading: "A motor on the virtual bench, and the model that was fitted to it".to_owned(),
-            text: text.clone(),
-            drawing: Some(drawing),
-        }],
-    };
-    write_whole(&args.out, |out| out.write_all(page.render().as_bytes()))?;
-    text += &format!("\npage with the drawing: {}\n", args.out.display());
-    session.deliver(&text, &report::json::FitJson::from(&fit))
+    Fit::conclude(&problem, "lm", "squared", &found, &options, Some(held_out))
 }
 
 fn record(machine: Machine, seed: u64, name: &str) -> Result<Recording, Error> {
@@ -67,25 +105,14 @@ fn record(machine: Machine, seed: u64, name: &str) -> Result<Recording, Error> {
     bench.counts_per_rev = COUNTS_PER_REV;
     bench.sample_s = INTERVAL_S;
     bench.seed = seed;
+    bench.effects = vec![Hidden::typical("coulomb", &machine)?];
     let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, INTERVAL_S, seed)
         .map(|c| DriveSample {
             volts: c.drive * machine.supply_v,
             enabled: c.enabled,
         })
         .collect();
-    let run = bench.run(&drive)?;
-    Ok(Recording {
-        source: name.to_owned(),
-        time_s: run.time_s,
-        command: run.voltage_v,
-        counts: run.counts.iter().map(|&count| count as f64).collect(),
-        current_a: None,
-        enabled: None,
-        counts_per_rev: f64::from(COUNTS_PER_REV),
-        quantised: true,
-        supply_v: Some(machine.supply_v),
-        drive: Drive::Voltage,
-    })
+    Ok(bench.record(&drive, name, false)?)
 }
 
 /// How far off the fit is, which only a bench can tell.

@@ -6,11 +6,9 @@ use crate::error::Error;
 use crate::input::MotorFile;
 use crate::input::suggest::did_you_mean;
 use crate::output::{write_recording, write_whole};
-use crate::recording::{Drive, Recording};
 use crate::session::Session;
 use serde::Serialize;
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
-use std::path::Path;
 
 /// Usual length of a single shape, s.
 const USUAL_SECONDS: f64 = 10.0;
@@ -51,7 +49,8 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             enabled: c.enabled,
         })
         .collect();
-    let recording = record(&bench, &drive, args.current, out)?;
+    let with_current = args.current || bench.current_noise_a > 0.0;
+    let recording = bench.record(&drive, &out.display().to_string(), with_current)?;
     let hidden: Vec<String> = bench.effects.iter().map(describe).collect();
     write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
     let mut text = format!(
@@ -103,30 +102,6 @@ fn bench(
         bench.substep_hz = hz;
     }
     Ok(bench)
-}
-
-/// Runs the bench and keeps what an owner of the motor would have logged.
-fn record(
-    bench: &Bench,
-    drive: &[DriveSample],
-    with_current: bool,
-    out: &Path,
-) -> Result<Recording, Error> {
-    let run = bench.run(drive)?;
-    let coasts = run.enabled.iter().any(|on| !on);
-    let current = with_current || bench.current_noise_a > 0.0;
-    Ok(Recording {
-        source: out.display().to_string(),
-        time_s: run.time_s,
-        command: run.voltage_v,
-        counts: run.counts.iter().map(|&count| count as f64).collect(),
-        current_a: current.then_some(run.current_a),
-        enabled: coasts.then_some(run.enabled),
-        counts_per_rev: f64::from(bench.counts_per_rev),
-        quantised: true,
-        supply_v: Some(bench.machine.supply_v),
-        drive: Drive::Voltage,
-    })
 }
 
 /// The experiments of the named excitation, stretched to the wanted length.

@@ -4,6 +4,7 @@ mod filter;
 pub mod margins;
 pub mod physical;
 pub mod regression;
+mod remarks;
 pub mod report;
 pub mod scores;
 pub mod uncertainty;
@@ -17,6 +18,7 @@ use crate::recording::Drive;
 use crate::solve::nelder_mead::NelderMead;
 use crate::solve::{Evaluator, Found, Objective, Solver};
 use shared::cost::Cost;
+use shared::discretise::Discretisation;
 use shared::effects::{Kind, Place};
 use shared::motor::Machine;
 use std::sync::atomic::AtomicBool;
@@ -61,16 +63,84 @@ impl Default for Options {
 
 /// Samples to each side from which the speed at a window's start is taken.
 pub const SPEED_HALF_WIDTH: usize = 4;
-/// A motor that turns more than this part of its fastest speed at the first sample started in motion.
-const STARTS_MOVING: f64 = 0.01;
 
 /// The problem that `options` state, with its start from regression.
 ///
 /// # Errors
 /// [`Error::Failed`] where no regression gives a machine: the recording does not excite the motor.
 pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
+    check(data, options)?;
+    let still = candidate_problem(data, options, false);
+    let moving = if may_start_moving(data) && options.window_s.is_none() {
+        candidate_problem(data, options, true)
+    } else {
+        None
+    };
+    let started = |p: &FitProblem<'_>| p.start.as_ref().map_or(f64::INFINITY, |x| p.cost(x));
+    match (still, moving) {
+        // A start in motion must earn its unknown.
+        (Some(still), Some(moving)) => Ok(if started(&moving) < EARNED * started(&still) {
+            moving
+        } else {
+            still
+        }),
+        (Some(only), None) | (None, Some(only)) => Ok(only),
+        (None, None) => Err(no_motor(data, options)),
+    }
+}
+
+/// A speed at the first sample is searched for if it lowers the cost of the start at least to this part.
+const EARNED: f64 = 0.8;
+/// Fewest samples that say anything about a motor.
+const FEWEST_SAMPLES: usize = 10;
+/// Fewest samples in a window.
+const FEWEST_IN_WINDOW: f64 = 8.0;
+
+/// Refuses what cannot end well, with the reason.
+fn check(data: &Data, options: &Options) -> Result<(), Error> {
+    if data.len() < FEWEST_SAMPLES {
+        return Err(Error::Failed(format!(
+            "{}: {} samples are too few for a motor; record at least {FEWEST_SAMPLES}, better some thousand",
+            data.source,
+            data.len()
+        )));
+    }
+    let least = FEWEST_IN_WINDOW * data.units.interval;
+    match options.window_s {
+        Some(seconds) if seconds < least => Err(Error::Usage(format!(
+            "--window {seconds}: shorter than {FEWEST_IN_WINDOW} samples of {:.6} s; take at least {least:.6}",
+            data.units.interval
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Why no regression gave a machine.
+fn no_motor(data: &Data, options: &Options) -> Error {
+    let mut reversed = data.clone();
+    for count in &mut reversed.counts {
+        *count = -*count;
+    }
+    let reason = if candidate_problem(&reversed, options, false).is_some() {
+        "the angle falls where the voltage should raise it: the sign of the angle (or of the voltage) is \
+         reversed; swap the encoder's channels or negate the column"
+    } else if options.method.discretisation == Discretisation::Euler {
+        "no motor fits it even roughly with the Euler step, which is unstable where the sample interval is \
+         longer than about twice the shortest time constant; use --integrator exact"
+    } else {
+        "no motor fits this recording even roughly: the speed does not follow the command. Check the columns \
+         and units, the sign of the angle (positive voltage must raise it), and that the motor was driven"
+    };
+    Error::Failed(format!("{}: {reason}", data.source))
+}
+
+/// The problem with its best start from regression; `None` where no regression gives a machine.
+fn candidate_problem<'a>(
+    data: &'a Data,
+    options: &Options,
+    start_speed: bool,
+) -> Option<FitProblem<'a>> {
     let base = base_for(data, &options.effects);
-    let start_speed = starts_moving(data) && options.window_s.is_none();
     let unit = Machine {
         kb: 1.0,
         damping: 0.0,
@@ -106,17 +176,10 @@ pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, 
             best = Some((cost, x, problem.structure.clone()));
         }
     }
-    let (_, start, structure) = best.ok_or_else(|| {
-        Error::Failed(format!(
-            "{}: no motor fits this recording even roughly: the speed does not follow the command. \
-             Check the columns and units, the sign of the angle (positive voltage must raise it), \
-             and that the motor was driven",
-            data.source
-        ))
-    })?;
+    let (_, start, structure) = best?;
     problem.structure = structure;
     problem.start = Some(start);
-    Ok(problem)
+    Some(problem)
 }
 
 /// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
@@ -136,10 +199,10 @@ fn base_for(data: &Data, effects: &[Kind]) -> Base {
     }
 }
 
-fn starts_moving(data: &Data) -> bool {
+/// Whether the first samples show any motion at all.
+fn may_start_moving(data: &Data) -> bool {
     let per_interval = data.speed_counts_s(0, SPEED_HALF_WIDTH).abs() * data.units.interval;
-    let fastest = data.units.counts_per_unit();
-    per_interval > STARTS_MOVING * fastest && per_interval * SPEED_HALF_WIDTH as f64 > 2.0
+    per_interval * SPEED_HALF_WIDTH as f64 > 1.0
 }
 
 /// Part of the budget, at most, for the polish after least squares.
@@ -170,20 +233,29 @@ pub fn search(
 /// Error of a fitted model on another recording, whose start angle and speed are its own: RMS in
 /// counts over the whole of it.
 pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
-    let mut candidate = *candidate;
-    candidate.start_speed = if starts_moving(data) {
-        data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
-            * core::f64::consts::TAU
+    // At rest or in motion, whichever the recording agrees with better.
+    let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
+        * core::f64::consts::TAU;
+    let starts: &[f64] = if may_start_moving(data) {
+        &[0.0, now]
     } else {
-        0.0
+        &[0.0]
     };
-    let errors = errors(
-        data,
-        &candidate,
-        method,
-        &Horizon::Whole,
-        StartAngle::Free,
-        Cost::Squared,
-    )?;
-    Ok(rms_counts(data, &errors))
+    let mut best = f64::INFINITY;
+    for &start_speed in starts {
+        let candidate = Candidate {
+            start_speed,
+            ..*candidate
+        };
+        let errors = errors(
+            data,
+            &candidate,
+            method,
+            &Horizon::Whole,
+            StartAngle::Free,
+            Cost::Squared,
+        )?;
+        best = best.min(rms_counts(data, &errors));
+    }
+    Ok(best)
 }

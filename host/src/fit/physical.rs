@@ -2,7 +2,8 @@
 //!
 //! The machine in coordinates that the data and the facts can each speak about:
 //! `ln R`, `ln Kt`, `D = Kb + b`, `m`, `τe`, and the viscous part `p = b/D`. The data say something
-//! about `D`, `m`, `τe` (and sometimes `p`), each fact about one combination; what neither speaks
+//! about `D`, `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact about one
+//! combination; what neither speaks
 //! about stays in the null space of the normal equations, and every physical parameter that leans
 //! on it is reported as undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
 
@@ -47,7 +48,7 @@ pub struct Estimate {
 pub struct Evidence {
     /// The machine that was fitted.
     pub machine: Machine<f64>,
-    /// Covariance of `(D, m, τe)`, or of `(D, m, τe, p)` where the viscous part was fitted too.
+    /// Covariance of `(D, a1·D, a2·D)`, or of these and `p` where the viscous part was fitted too.
     pub covariance: DMatrix<f64>,
     /// Resistance from measured current, Ω.
     pub resistance: Option<Estimate>,
@@ -60,8 +61,8 @@ pub struct Reconciled {
     pub physical: [Option<Estimate>; N],
     /// Volts at the winding per newton metre on the shaft, `R/Kt`, where it is determined.
     pub volts_per_torque: Option<Estimate>,
-    /// How far the facts pull the data's own values, in standard errors; beyond [`CONTRADICTION`]
-    /// nothing physical is reported.
+    /// How far data and facts stay apart, in standard errors; beyond [`CONTRADICTION`] nothing physical
+    /// is reported.
     pub strain: f64,
 }
 
@@ -82,6 +83,24 @@ fn physical(u: &Vector) -> [f64; N] {
         m * kt / r,
         part * total * kt / r,
     ]
+}
+
+/// What the data speak about, as a function of the coordinates.
+fn seen(u: &Vector, k: usize) -> f64 {
+    let (total, m, lag, part) = (u[2], u[3], u[4], u[5]);
+    [total, m + lag * part * total, lag * m, part][k]
+}
+
+/// The same of a machine.
+pub fn seen_of(machine: &Machine<f64>) -> [f64; 4] {
+    let total = machine.kb + machine.damping;
+    let part = if total > 0.0 {
+        machine.damping / total
+    } else {
+        0.0
+    };
+    let u = Vector::from([0.0, 0.0, total, machine.inertia, machine.electrical, part]);
+    std::array::from_fn(|k| seen(&u, k))
 }
 
 /// Typical size of each coordinate, so that information is relative.
@@ -169,23 +188,33 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         part,
     ]);
     let sizes = sizes(&start);
-    let measured = start;
-    let weight = data_weight(&evidence.covariance, &sizes);
+    let measured = seen_of(machine);
+    let whitening = whitening(&evidence.covariance, &measured);
     let statements = facts(known, evidence.resistance, &start);
+    // All that is stated, as rows of unit variance: slope, and what is still missing.
+    let rows_at = |u: &Vector| {
+        let mut rows: Vec<(Vector, f64)> = statements
+            .iter()
+            .map(|s| {
+                let slope = gradient(&*s.model, u, &sizes) / s.std;
+                (slope, (s.value - (s.model)(u)) / s.std)
+            })
+            .collect();
+        for weights in &whitening {
+            let mut row = (Vector::zeros(), 0.0);
+            for (k, weight) in weights.iter().enumerate() {
+                row.0 += gradient(&|u| seen(u, k), u, &sizes) * *weight;
+                row.1 += (measured[k] - seen(u, k)) * weight;
+            }
+            rows.push(row);
+        }
+        rows
+    };
 
     let mut u = start;
     let mut solved = Solved::default();
     for _ in 0..30 {
-        let mut rows: Vec<(Vector, f64)> = statements
-            .iter()
-            .map(|s| {
-                let slope = gradient(&*s.model, &u, &sizes) / s.std;
-                (slope, (s.value - (s.model)(&u)) / s.std)
-            })
-            .collect();
-        let distance = (measured - u).component_div(&sizes);
-        rows.extend(weight.iter().map(|row| (*row, row.dot(&distance))));
-        solved = Solved::new(&rows);
+        solved = Solved::new(&rows_at(&u));
         // Logarithms may be far off at the start: one unit a step at most.
         let step = solved.step.map(|x| x.clamp(-1.0, 1.0));
         u += step.component_mul(&sizes);
@@ -194,6 +223,11 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         }
     }
     let Solved { inverse, null, .. } = solved;
+    let strain = rows_at(&u)
+        .iter()
+        .map(|(_, rest)| rest * rest)
+        .sum::<f64>()
+        .sqrt();
     let estimate = |model: &dyn Fn(&Vector) -> f64| {
         let slope = gradient(model, &u, &sizes);
         let leans = null
@@ -207,12 +241,6 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
             std: variance.max(0.0).sqrt(),
         })
     };
-    let pulled = (measured - u).component_div(&sizes);
-    let strain = weight
-        .iter()
-        .map(|row| row.dot(&pulled).powi(2))
-        .sum::<f64>()
-        .sqrt();
     if strain > CONTRADICTION {
         // A compromise between contradicting facts would be numbers without meaning.
         return Reconciled {
@@ -235,26 +263,26 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     }
 }
 
-/// What the data say about the coordinates as rows of weighted equations, relative to their sizes.
-fn data_weight(covariance: &DMatrix<f64>, sizes: &Vector) -> Vec<Vector> {
+/// Rows that turn what the data say into independent statements of unit variance.
+fn whitening(covariance: &DMatrix<f64>, measured: &[f64; 4]) -> Vec<Vec<f64>> {
     let rows = covariance.nrows().min(4);
+    let size = |k: usize| {
+        if k == 3 {
+            1.0
+        } else {
+            measured[k].abs().max(f64::MIN_POSITIVE)
+        }
+    };
     let relative = DMatrix::from_fn(rows, rows, |i, k| {
         let floor = if i == k { CONSTANT * CONSTANT } else { 0.0 };
-        covariance[(i, k)] / (sizes[i + 2] * sizes[k + 2]) + floor
+        covariance[(i, k)] / (size(i) * size(k)) + floor
     });
-    // With covariance L·Lᵀ, the rows of L⁻¹ are equations of unit variance.
+    // With covariance L·Lᵀ, the rows of L⁻¹ are statements of unit variance.
     let Some(inverse) = relative.cholesky().and_then(|c| c.l().try_inverse()) else {
         return Vec::new();
     };
-    let first = |row: usize, k: usize| {
-        if (2..2 + rows).contains(&k) {
-            inverse[(row, k - 2)]
-        } else {
-            0.0
-        }
-    };
     (0..rows)
-        .map(|row| Vector::from_fn(|k, _| first(row, k)))
+        .map(|i| (0..rows).map(|k| inverse[(i, k)] / size(k)).collect())
         .collect()
 }
 

@@ -67,7 +67,8 @@ pub fn guess(data: &Data, structure: &Structure, time: f64) -> Option<Guess> {
         if data.is_open(k) {
             closed_since = data.time_s[k];
         }
-        let settled = data.time_s[k] - closed_since > 4.0 * time || closed_since == 0.0;
+        // Four lags leave 43 % of a step after 4 filter times, 0.05 % after 14.
+        let settled = data.time_s[k] - closed_since > 14.0 * time || closed_since == 0.0;
         if !data.is_open(k) && settled {
             usable.push(k);
         }

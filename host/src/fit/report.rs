@@ -1,10 +1,10 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
 use super::margins::{Loop, Margins};
-use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile};
+use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile, seen_of};
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
-use super::{Options, validate};
+use super::{Options, remarks, validate};
 use crate::error::Error;
 use crate::input::Known;
 use crate::problem::cost::rms_counts;
@@ -51,6 +51,8 @@ pub struct Fit {
     pub validate_rms_counts: Option<f64>,
     /// Scores of short free runs, for recordings on which the open loop drifts.
     pub windowed: Option<Windowed>,
+    /// Whether the user asked for windows.
+    pub window_asked: bool,
     /// Unexplained part of the drive along the measured motion, relative; see
     /// [`scores::equation_error`].
     pub equation_error: Option<f64>,
@@ -62,6 +64,8 @@ pub struct Fit {
     pub response: Response<f64>,
     /// Margins of the position loop in radians, closed with unity feedback.
     pub margins: Option<Margins>,
+    /// Whether the search ended near enough to a minimum for standard errors to mean anything.
+    pub converged: bool,
     /// Samples that the recording is worth.
     pub effective_samples: f64,
     /// What a user should know about the result, in words.
@@ -99,7 +103,7 @@ impl Fit {
         let mut notes = Vec::new();
         let reconciled = spread
             .as_ref()
-            .filter(|_| data.drive == Drive::Voltage)
+            .filter(|spread| data.drive == Drive::Voltage && spread.converged)
             .map(|spread| reconcile(&evidence(problem, &candidate, spread), &options.known));
         let parameters = parameters(
             problem,
@@ -111,6 +115,16 @@ impl Fit {
         if let Some(reconciled) = &reconciled {
             describe(problem, reconciled, &options.known, &mut notes);
         }
+        let rms_counts = rms_counts(data, &whole);
+        let windowed = scores::windowed(data, &candidate, options);
+        remarks::remarks(
+            problem,
+            found,
+            options,
+            spread.as_ref(),
+            rms_counts,
+            &mut notes,
+        );
         let response = candidate.machine.response();
         Ok(Fit {
             algorithm: algorithm.to_owned(),
@@ -119,11 +133,12 @@ impl Fit {
             cost: found.cost,
             cost_kind,
             candidate,
-            rms_counts: rms_counts(data, &whole),
+            rms_counts,
             validate_rms_counts: validation
                 .map(|data| validate(data, &candidate, options.method))
                 .transpose()?,
-            windowed: scores::windowed(data, &candidate, options),
+            windowed,
+            window_asked: options.window_s.is_some(),
             equation_error: scores::equation_error(data, &candidate),
             effects: problem
                 .structure
@@ -134,6 +149,7 @@ impl Fit {
             parameters,
             response,
             margins: Loop::from(&candidate.machine).margins(),
+            converged: spread.as_ref().is_some_and(|s| s.converged),
             effective_samples: spread.map_or(data.len() as f64, |s| s.effective_samples),
             notes,
             curve: found.curve.clone(),
@@ -142,22 +158,13 @@ impl Fit {
     }
 }
 
-/// What the data say about `(D, m, τe[, p])`, by the delta method from the unknowns.
+/// What the data say about the machine, by the delta method from the unknowns.
 fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertainty) -> Evidence {
     let values = problem.structure.values_of(&candidate.machine, &[], 0.0);
     let count = values.len().min(spread.covariance.nrows());
     let with_part = matches!(problem.structure.base, Base::Response { damping: true })
         && !spread.flat[..count].iter().any(|&flat| flat);
-    let wanted = |candidate: &Candidate| {
-        let m = &candidate.machine;
-        let total = m.kb + m.damping;
-        [
-            total,
-            m.inertia,
-            m.electrical,
-            m.damping / total.max(f64::MIN_POSITIVE),
-        ]
-    };
+    let wanted = |candidate: &Candidate| seen_of(&candidate.machine);
     let rows = if with_part { 4 } else { 3 };
     let mut full = values.clone();
     full.resize(problem.structure.dim(), 0.0);
@@ -215,7 +222,7 @@ fn parameters(
                 None => in_volts = true,
             }
         }
-        if parameter.std.is_none() {
+        if parameter.std.is_none() && spread.is_some_and(|s| s.converged) {
             notes.push(format!(
                 "{}: this recording does not determine it",
                 parameter.name

@@ -15,6 +15,9 @@ use shared::effects::{Lowered, Shaft};
 /// Filter time of the equation error, sample intervals.
 const EQUATION_FILTER_SAMPLES: f64 = 5.0;
 
+/// Speed below which friction may hold the shaft, as a part of the fastest.
+const AT_REST: f64 = 0.02;
+
 /// Length of the windows when the user chose none, s.
 const USUAL_WINDOW_S: f64 = 1.0;
 
@@ -114,6 +117,10 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
             closed_since = data.time_s[k];
         } else if data.time_s[k] - closed_since > 6.0 * time {
             let f = &motion[k];
+            // Near rest friction is whatever holds the shaft: the equation says nothing there.
+            if lowered.friction && f.rate.abs() < AT_REST * data.units.speed {
+                continue;
+            }
             let needed = total * f.rate + second * f.acceleration + third * f.jerk;
             wrong += (needed - net[k].value).powi(2);
             driven += command[k].value.powi(2);

@@ -18,6 +18,11 @@ const PROBE_COUNTS: f64 = 0.02;
 /// Singular values of the column-scaled Jacobian below this are directions that the data do not hold.
 const FLAT: f64 = 1e-6;
 
+/// Coordinates nearer than this to a wall of the cube lie on it.
+const WALL: f64 = 1e-9;
+/// Part of the squared error that one more step would remove, above which the search has not converged.
+const UNCONVERGED: f64 = 0.2;
+
 /// Covariance of the unknowns, and how many samples are worth counting.
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
@@ -25,6 +30,8 @@ pub struct Uncertainty {
     pub covariance: DMatrix<f64>,
     /// Unknowns that the data do not determine at all (part of a flat direction).
     pub flat: Vec<bool>,
+    /// Whether the search ended near enough to a minimum for errors to mean anything.
+    pub converged: bool,
     /// Samples that the recording is worth, given how its residuals hang together.
     pub effective_samples: f64,
 }
@@ -33,7 +40,8 @@ impl Uncertainty {
     /// Standard error of unknown `k`; `None` where the data do not determine it.
     pub fn std(&self, k: usize) -> Option<f64> {
         let variance = self.covariance[(k, k)];
-        (!self.flat[k] && variance.is_finite() && variance >= 0.0).then(|| variance.sqrt())
+        (self.converged && !self.flat[k] && variance.is_finite() && variance >= 0.0)
+            .then(|| variance.sqrt())
     }
 }
 
@@ -47,17 +55,17 @@ pub fn jacobian(problem: &FitProblem<'_>, values: &[f64]) -> Option<DMatrix<f64>
         let mut step = 1e-4 * values[k].abs().max(1e-4 * (high - low));
         let mut ahead = moved(values, k, step, high);
         // One correction of the step brings the change near the wanted size.
-        let change = rms_difference(&run(&ahead.values)?, &here);
+        let change = rms_difference(&run(&ahead)?, &here);
         if change > 0.0 {
             step = (step * (PROBE_COUNTS / change).clamp(1e-4, 1e3)).min(0.02 * (high - low));
             ahead = moved(values, k, step, high);
         }
         let behind = moved(values, k, -step, low);
-        let width = ahead.values[k] - behind.values[k];
+        let width = ahead[k] - behind[k];
         if width == 0.0 {
             continue;
         }
-        let (up, down) = (run(&ahead.values)?, run(&behind.values)?);
+        let (up, down) = (run(&ahead)?, run(&behind)?);
         for i in 0..here.len() {
             jacobian[(i, k)] = (up[i] - down[i]) / width;
         }
@@ -65,12 +73,8 @@ pub fn jacobian(problem: &FitProblem<'_>, values: &[f64]) -> Option<DMatrix<f64>
     jacobian.iter().all(|x| x.is_finite()).then_some(jacobian)
 }
 
-struct Moved {
-    values: Vec<f64>,
-}
-
 /// `values` with unknown `k` moved by `step`, not beyond `limit`.
-fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Moved {
+fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Vec<f64> {
     let mut values = values.to_vec();
     let target = values[k] + step;
     values[k] = if step > 0.0 {
@@ -78,7 +82,7 @@ fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Moved {
     } else {
         target.max(limit.min(values[k]))
     };
-    Moved { values }
+    values
 }
 
 fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
@@ -119,6 +123,20 @@ pub fn uncertainty(
             }
         }
     }
+    // How far the minimum still is, by one Gauss-Newton step. Away from it a standard error would
+    // describe a place where nobody is: the distance counts as error too, and where most of the
+    // error could still be removed there is nothing to state. Unknowns on a wall stay there.
+    let residual_vector = DVector::from_column_slice(residuals);
+    let mut gradient = scaled.tr_mul(&residual_vector);
+    for (k, x) in problem.structure.coordinates(values).iter().enumerate() {
+        if !(WALL..=1.0 - WALL).contains(x) {
+            gradient[k] = 0.0;
+        }
+    }
+    let away = -(&inverse * &gradient);
+    let removable = gradient.dot(&(&inverse * &gradient))
+        / residual_vector.norm_squared().max(f64::MIN_POSITIVE);
+
     let mut middle = DMatrix::zeros(columns, columns);
     let per_segment = rows.div_ceil(SEGMENTS).max(1);
     for from in (0..rows).step_by(per_segment) {
@@ -131,7 +149,7 @@ pub fn uncertainty(
     }
     let segments = rows.div_ceil(per_segment) as f64;
     let correction = segments / (segments - (columns as f64).min(segments - 1.0));
-    let scaled_covariance = &inverse * middle * &inverse * correction;
+    let scaled_covariance = &inverse * middle * &inverse * correction + &away * away.transpose();
     let covariance = DMatrix::from_fn(columns, columns, |i, k| {
         let scale = scales[i] * scales[k];
         if scale > 0.0 {
@@ -143,6 +161,7 @@ pub fn uncertainty(
     Some(Uncertainty {
         covariance,
         flat,
+        converged: removable < UNCONVERGED,
         effective_samples: effective_samples(problem.data, residuals),
     })
 }

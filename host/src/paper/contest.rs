@@ -10,7 +10,6 @@ use crate::error::Error;
 use crate::fit::regression;
 use crate::problem::simulate::Method;
 use crate::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
-use crate::recording::{Drive, Recording};
 use crate::solve::Solver;
 use crate::solve::ga::Ga;
 use crate::solve::swarm::{Fireflies, ParticleSwarm};
@@ -110,19 +109,7 @@ impl Experiment {
             volts: STEP_V,
             enabled: true,
         };
-        let run = bench.run(&vec![step; samples as usize])?;
-        let recording = Recording {
-            source: "the paper's step".to_owned(),
-            time_s: run.time_s,
-            command: run.voltage_v,
-            counts: run.counts.iter().map(|&count| count as f64).collect(),
-            current_a: None,
-            enabled: None,
-            counts_per_rev: f64::from(COUNTS_PER_REV),
-            quantised: true,
-            supply_v: None,
-            drive: Drive::Voltage,
-        };
+        let recording = bench.record(&vec![step; samples as usize], "the paper's step", false)?;
         Ok(Data::new(&recording)?)
     }
 }

@@ -1,6 +1,6 @@
 //! Bode plot of several position loops, with the lines at which margins are read.
 
-use super::{COLOURS, FONT, failed};
+use super::{COLOURS, failed, legend};
 use crate::error::Error;
 use crate::fit::margins::Loop;
 use plotters::prelude::*;
@@ -69,14 +69,7 @@ pub fn bode(loops: &[(String, Loop)], from: f64, to: f64) -> Result<String, Erro
                     });
             }
             if pane == 0 {
-                chart
-                    .configure_series_labels()
-                    .position(SeriesLabelPosition::UpperRight)
-                    .border_style(BLACK.mix(0.4))
-                    .background_style(WHITE.mix(0.9))
-                    .label_font((FONT, 14))
-                    .draw()
-                    .map_err(failed)?;
+                legend!(chart);
             }
         }
         root.present().map_err(failed)?;

@@ -1,6 +1,6 @@
 //! Best cost against model evaluations: median over the seeds and the middle half as a band.
 
-use super::{COLOURS, FONT, failed};
+use super::{COLOURS, FONT, failed, legend};
 use crate::compare::Row;
 use crate::error::Error;
 use plotters::prelude::*;
@@ -73,13 +73,7 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
                     PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2))
                 });
         }
-        chart
-            .configure_series_labels()
-            .border_style(BLACK.mix(0.4))
-            .background_style(WHITE.mix(0.9))
-            .label_font((FONT, 14))
-            .draw()
-            .map_err(failed)?;
+        legend!(chart);
         root.present().map_err(failed)?;
     }
     Ok(svg)

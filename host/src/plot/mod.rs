@@ -39,3 +39,18 @@ pub(crate) fn thinned(count: usize, most: usize) -> impl Iterator<Item = usize> 
         .step_by(step)
         .chain(count.checked_sub(1).filter(|last| last % step != 0))
 }
+
+/// The legend of a chart, in its upper right corner.
+macro_rules! legend {
+    ($chart:expr) => {
+        $chart
+            .configure_series_labels()
+            .position(plotters::prelude::SeriesLabelPosition::UpperRight)
+            .border_style(plotters::prelude::BLACK.mix(0.4))
+            .background_style(plotters::prelude::WHITE.mix(0.9))
+            .label_font(($crate::plot::FONT, 14))
+            .draw()
+            .map_err($crate::plot::failed)?
+    };
+}
+pub(crate) use legend;

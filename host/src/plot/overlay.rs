@@ -1,6 +1,6 @@
 //! Measured against model, with the residual beneath and the quantiser's band in it.
 
-use super::{COLOURS, FONT, failed, thinned};
+use super::{COLOURS, FONT, failed, legend, thinned};
 use crate::error::Error;
 use crate::fit::scores;
 use crate::problem::simulate::Method;
@@ -62,14 +62,7 @@ pub fn overlay(data: &Data, candidate: &Candidate, method: Method) -> Result<Str
             .map_err(failed)?
             .label("model")
             .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], COLOURS[1].stroke_width(1)));
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .border_style(BLACK.mix(0.4))
-            .background_style(WHITE.mix(0.9))
-            .label_font((FONT, 14))
-            .draw()
-            .map_err(failed)?;
+        legend!(chart);
         draw_residual(&lower, residual, end)?;
         root.present().map_err(failed)?;
     }
@@ -109,14 +102,7 @@ fn draw_residual(
     chart
         .draw_series(LineSeries::new(residual, COLOURS[1].stroke_width(1)))
         .map_err(failed)?;
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .border_style(BLACK.mix(0.4))
-        .background_style(WHITE.mix(0.9))
-        .label_font((FONT, 13))
-        .draw()
-        .map_err(failed)?;
+    legend!(chart);
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use crate::compare::{Contest, Row, quantile};
 use crate::fit::Fit;
 use crate::fit::margins::{Loop, Margins};
 use crate::paper::{PRINTED, Printed};
-use crate::report::paper::{Round, Strong, evaluations_to, optimum};
+use crate::report::paper::{Round, Strong, optimum};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -67,6 +67,7 @@ pub struct FitJson {
     parameters: Vec<ParameterJson>,
     identifiable: IdentifiableJson,
     margins: Option<MarginsJson>,
+    converged: bool,
     effective_samples: f64,
     notes: Vec<String>,
     interrupted: bool,
@@ -110,6 +111,7 @@ impl From<&Fit> for FitJson {
                 a2_s2: finite(fit.response.a2),
             },
             margins: fit.margins.map(MarginsJson::from),
+            converged: fit.converged,
             effective_samples: fit.effective_samples,
             notes: fit.notes.clone(),
             interrupted: fit.interrupted,
@@ -327,7 +329,7 @@ impl StrongJson {
     fn new(row: &Row, optimum: f64) -> Self {
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let costs = row.costs();
-        let evaluations = evaluations_to(row, 1.01 * optimum);
+        let evaluations = row.evaluations_to(1.01 * optimum);
         StrongJson {
             algorithm: row.algorithm.clone(),
             median_cost: finite(quantile(&costs, 0.5)),

@@ -152,7 +152,7 @@ fn strong_text(strong: &Strong, rounds: &[Round<'_>]) -> String {
     );
     for row in &strong.rows {
         let costs = row.costs();
-        let evaluations = evaluations_to(row, 1.01 * optimum);
+        let evaluations = row.evaluations_to(1.01 * optimum);
         out += &format!(
             "{:12} {:>9} {:>9} {:>21} {:>7}\n",
             row.algorithm,
@@ -171,20 +171,6 @@ pub fn optimum(rounds: &[Round<'_>], strong: &Strong) -> f64 {
         .first()
         .map_or(f64::INFINITY, |round| least_cost(&round.rows));
     first.min(least_cost(&strong.rows))
-}
-
-/// Evaluations that each run took to `target`, ascending; infinite for those that never got there.
-pub fn evaluations_to(row: &Row, target: f64) -> Vec<f64> {
-    let mut counts: Vec<f64> = row
-        .runs
-        .iter()
-        .map(|run| {
-            let reached = run.curve.iter().find(|(_, cost)| *cost <= target);
-            reached.map_or(f64::INFINITY, |(count, _)| *count as f64)
-        })
-        .collect();
-    counts.sort_by(f64::total_cmp);
-    counts
 }
 
 fn short_count(count: f64) -> String {

@@ -40,8 +40,16 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
     }
 }
 
-fn parameter(p: &Parameter) -> String {
+fn parameter(p: &Parameter, converged: bool) -> String {
     let value = match (p.std, p.identifiable) {
+        (None, _) if !converged => {
+            return format!(
+                "  {:26} {} {}, error unknown\n",
+                p.name,
+                short(p.value),
+                p.unit
+            );
+        }
         (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
         (Some(_), true) => format!("{} {}", with_error(p.value, p.std), p.unit),
         (Some(std), false) => {
@@ -54,6 +62,9 @@ fn parameter(p: &Parameter) -> String {
     };
     format!("  {:26} {value}\n", p.name)
 }
+
+/// Open-loop error above which windows are shown unasked, counts.
+const WINDOWS_ABOVE_COUNTS: f64 = 5.0;
 
 /// A fit.
 pub fn fit(fit: &Fit, data: &Data) -> String {
@@ -94,7 +105,9 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
             "held-out error    {rms:.4} counts RMS on the other recording, never fitted"
         )?;
     }
-    if let Some(w) = &fit.windowed {
+    // Beside a good open-loop error, windows would only show how roughly their starts are known.
+    let worth_showing = fit.window_asked || fit.rms_counts > WINDOWS_ABOVE_COUNTS;
+    if let Some(w) = fit.windowed.as_ref().filter(|_| worth_showing) {
         writeln!(
             out,
             "free runs of {} s  {:.4} counts RMS, {:.2} % of the motion",
@@ -134,7 +147,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         "parameters, with the standard error of the last digits in brackets:"
     )?;
     for p in &fit.parameters {
-        out.push_str(&parameter(p));
+        out.push_str(&parameter(p, fit.converged));
     }
     for note in &fit.notes {
         write!(out, "{}", wrapped(note))?;
@@ -163,35 +176,41 @@ fn wrapped(note: &str) -> String {
 /// A comparison of search methods.
 pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
     let least = least_cost(rows);
+    let most = rows.iter().map(|row| row.runs.len()).max().unwrap_or(0);
     let mut out = format!(
-        "{seeds} runs each, at most {budget} model evaluations a run; least cost known {least:.6}\n\n\
-         {:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n",
-        "method", "median", "quartile 1", "quartile 3", "worst", "evals to", "CPU s"
-    );
-    out += &format!(
-        "{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8}\n",
-        "", "cost", "", "", "", "1 %", ""
+        "{most} of {seeds} runs each, at most {budget} model evaluations a run; least cost {}\n\n\
+         {:12}{:>10}{:>11}{:>11}{:>10}{:>10}{:>8}{:>8}\n\
+         {:12}{:>10}{:>42}{:>8}\n",
+        short(least),
+        "method",
+        "median",
+        "quartile 1",
+        "quartile 3",
+        "best",
+        "worst",
+        "evals",
+        "CPU s",
+        "",
+        "cost",
+        "",
+        "to 1 %",
     );
     for row in rows {
         let costs = row.costs();
+        let [median, q1, q3, best, worst] =
+            [0.5, 0.25, 0.75, 0.0, 1.0].map(|q| short(quantile(&costs, q)));
         let evaluations = row
             .median_evaluations_to(1.01 * least)
             .map_or("-".to_owned(), |n| format!("{n:.0}"));
         out += &format!(
-            "{:13} {:>11} {:>11} {:>11} {:>11} {:>10} {:>8.3}\n",
-            row.algorithm,
-            short(quantile(&costs, 0.5)),
-            short(quantile(&costs, 0.25)),
-            short(quantile(&costs, 0.75)),
-            short(quantile(&costs, 1.0)),
-            evaluations,
-            row.wall_s,
+            "{:12}{median:>10}{q1:>11}{q3:>11}{best:>10}{worst:>10}{evaluations:>8}{:>8.2}\n",
+            row.algorithm, row.wall_s,
         );
     }
     out
 }
 
-/// Five significant digits in at most eleven columns.
+/// Four significant digits or more in at most ten columns.
 pub fn short(x: f64) -> String {
     if !x.is_finite() {
         "-".to_owned()
@@ -199,6 +218,6 @@ pub fn short(x: f64) -> String {
         let digits = (4 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 7) as usize;
         format!("{x:.digits$}")
     } else {
-        format!("{x:.4e}")
+        format!("{x:.3e}")
     }
 }

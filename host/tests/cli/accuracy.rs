@@ -20,6 +20,7 @@ const RECORDINGS: &[(&str, &str)] = &[
     ("--seed 3", "--seed 4"),
     ("--seed 1 --jitter 1e-4", "--seed 2 --jitter 1e-4"),
     ("--seed 1", "--seed 2 --sample 2e-3"),
+    ("--seed 1 --excite commissioning-coast", "--seed 2"),
 ];
 
 /// Gain K/D and mechanical time constant (R·J + L·f)/D of a machine, with D = Kt·Kb + R·f.

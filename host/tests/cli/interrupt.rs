@@ -69,14 +69,14 @@ fn a_stopped_fit_keeps_its_best() {
 #[test]
 fn a_stopped_comparison_keeps_what_it_has_and_makes_nothing_up() {
     let desk = Desk::with_recording();
-    let line = "compare rec.csv --algorithm random,pso --seeds 1000 --budget 1000000 --json c.json";
+    let line = "compare rec.csv --algorithm random,pso --seeds 1000 --budget 1000000 --json c.json --plot c.svg";
     let outcome = interrupted(&desk, line);
     assert!(outcome.stdout.contains("random"), "{outcome}");
     let comparison = written(&desk, "c.json");
     let rows = list(&comparison, "rows");
     has(
         &rows[0],
-        &[("best_cost", Is::Number), ("parameters", Is::Object)],
+        &[("best_cost", Is::Number), ("median_cost", Is::Number)],
     );
     assert_eq!(rows[1]["algorithm"], "pso");
     assert!(
@@ -93,16 +93,14 @@ fn a_stopped_comparison_keeps_what_it_has_and_makes_nothing_up() {
 #[test]
 fn a_stopped_paper_keeps_what_it_has() {
     let desk = Desk::new();
-    let line = "paper --seeds 10000 --iterations 100000 --json p.json";
+    let line = "paper --seeds 10000 --iterations 100000 --json p.json --plots .";
     let outcome = interrupted(&desk, line);
     assert!(outcome.stdout.contains("Table 1"), "{outcome}");
+    assert!(desk.read("bode.svg").contains("</svg>"));
     let paper = written(&desk, "p.json");
-    let row = list(&paper, "rows")
-        .iter()
-        .find(|row| row["algorithm"] == "pso")
-        .expect("a row");
-    has(
-        row,
-        &[("best_cost", Is::Number), ("parameters", Is::Object)],
-    );
+    // Which method comes first is not the point: the work that was done is there.
+    let done = |row: &&Value| row["best_cost"].is_number();
+    let row = list(&paper, "rows").iter().find(done).expect("a best cost");
+    has(row, &[("parameters", Is::Object)]);
+    assert_ne!(row["parameters"], serde_json::json!({}), "{row:#}");
 }

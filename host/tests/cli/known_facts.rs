@@ -1,6 +1,6 @@
 //! Facts that the encoder cannot tell: from a meter, a datasheet, a current sensor, or coasting.
 
-use host::bench::Machine;
+use host::bench::{Machine, PRESETS};
 use serde_json::Value;
 
 use crate::contract::{number, parameter};
@@ -8,9 +8,6 @@ use crate::desk::Desk;
 
 /// Largest relative error of the physical parameters.
 const RELATIVE: f64 = 2e-3;
-
-/// Machines of the bench that are recorded coasting.
-const COASTING: &[&str] = &["paper", "gearmotor"];
 
 /// The six parameters, their names in the fit, and their true values.
 fn six(machine: &Machine) -> [(&'static str, f64); 6] {
@@ -48,7 +45,7 @@ fn assert_absent(fit: &Value, names: &[&str], case: &str) {
 
 #[test]
 fn with_coasting_a_resistance_and_equal_constants_all_six_follow() {
-    for name in COASTING {
+    for name in PRESETS {
         let machine = Machine::preset(name).expect("a preset");
         let desk = Desk::new();
         desk.done(&format!(
@@ -74,7 +71,7 @@ fn with_coasting_a_resistance_and_equal_constants_all_six_follow() {
 
 #[test]
 fn coasting_parts_viscous_friction_from_back_emf() {
-    for name in COASTING {
+    for name in PRESETS {
         let machine = Machine::preset(name).expect("a preset");
         let desk = Desk::new();
         desk.done(&format!(
@@ -96,7 +93,7 @@ fn coasting_parts_viscous_friction_from_back_emf() {
 
 #[test]
 fn a_current_column_gives_the_resistance() {
-    for name in COASTING {
+    for name in PRESETS {
         let machine = Machine::preset(name).expect("a preset");
         for sensor in ["--current", "--current-noise 0.01"] {
             let case = format!("{name} {sensor}");

@@ -46,8 +46,7 @@ fn every_listed_effect_is_recorded_and_felt() {
 #[test]
 fn every_listed_motor_under_every_listed_excitation_is_fitted_to_the_quantiser() {
     for machine in listed("motors") {
-        // Rest shows nothing; coasting has journeys of its own among the known facts.
-        let excites = |name: &&String| *name != "rest" && !name.contains("coast");
+        let excites = |name: &&String| *name != "rest";
         for excitation in listed("excitations").iter().filter(excites) {
             let desk = Desk::new();
             desk.done(&format!(
