@@ -25,9 +25,83 @@ pub enum WriteFault {
     /// The folder is not there.
     #[error("cannot be written: the folder {} does not exist; make it first", .0.display())]
     NoFolder(PathBuf),
+    /// The path is also something else of this run.
+    #[error("is also {0} of this run; name another file")]
+    Also(&'static str),
     /// The system refused.
     #[error("cannot be written: {0}; nothing was changed: check permissions and free space")]
     Io(io::Error),
+}
+
+/// Checks before long work that `path` can be written afterwards; nothing there is changed.
+///
+/// # Errors
+/// As [`write_whole`] would fail: a folder, a missing folder, or one in which no file can be made.
+pub fn check_writable(path: &Path) -> Result<(), WriteError> {
+    try_check(path).map_err(|fault| WriteError {
+        path: path.into(),
+        fault,
+    })
+}
+
+fn try_check(path: &Path) -> Result<(), WriteFault> {
+    match destination(path)? {
+        // Not opened: that would wait for a pipe's reader.
+        Destination::Device => Ok(()),
+        Destination::File { folder, .. } => tempfile::Builder::new()
+            .prefix(".servoid-")
+            .tempfile_in(folder)
+            .map(drop)
+            .map_err(WriteFault::Io),
+    }
+}
+
+/// Whether writing to `a` would change `b`, neither of which need exist. A device can be both.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (destination(a), destination(b)) {
+        (Ok(Destination::File { target: a, .. }), Ok(Destination::File { target: b, .. })) => {
+            a == b
+        }
+        _ => false,
+    }
+}
+
+/// What stands at a path, or will.
+enum Destination {
+    /// A file that is replaced whole.
+    File {
+        /// Its true path, without links.
+        target: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+    },
+    /// A device or pipe, which cannot be replaced.
+    Device,
+}
+
+/// Where a path leads when every link is followed.
+fn destination(path: &Path) -> Result<Destination, WriteFault> {
+    let asked = match fs::metadata(path) {
+        Ok(there) if there.is_dir() => return Err(WriteFault::Folder),
+        Ok(there) if !there.is_file() => return Ok(Destination::Device),
+        Ok(_) => fs::canonicalize(path).map_err(WriteFault::Io)?,
+        Err(_) => path.to_path_buf(),
+    };
+    let folder = match asked.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(WriteFault::NoFolder(folder.into()));
+    }
+    let Some(name) = asked.file_name() else {
+        return Err(WriteFault::Folder);
+    };
+    let folder = fs::canonicalize(folder).map_err(WriteFault::Io)?;
+    Ok(Destination::File {
+        target: folder.join(name),
+        folder,
+    })
 }
 
 /// Writes a file through `write`: first to a temporary file in the same folder, then renamed over `path`, so
@@ -50,20 +124,11 @@ fn try_write(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteFault> {
-    let target = match fs::metadata(path) {
-        Ok(there) if there.is_dir() => return Err(WriteFault::Folder),
-        Ok(there) if !there.is_file() => return write_direct(path, write).map_err(WriteFault::Io),
-        Ok(_) => fs::canonicalize(path).map_err(WriteFault::Io)?,
-        Err(_) => path.to_path_buf(),
-    };
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    if !folder.is_dir() {
-        return Err(WriteFault::NoFolder(folder.into()));
+    match destination(path)? {
+        Destination::Device => write_direct(path, write),
+        Destination::File { target, folder } => replace(&target, &folder, write),
     }
-    replace(&target, folder, write).map_err(WriteFault::Io)
+    .map_err(WriteFault::Io)
 }
 
 fn replace(

@@ -2,11 +2,11 @@
 
 use crate::cli::Common;
 use crate::error::Error;
-use crate::output::write_whole;
+use crate::output::{WriteError, WriteFault, check_writable, is_same_file, write_whole};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -47,6 +47,36 @@ impl Session {
     /// The flag that Ctrl-C sets.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
+    }
+
+    /// Checks before the work that its results can go where they are asked to go: the `outputs`, each with
+    /// its flag, and the JSON. None may be one of the `inputs`, each with what it is, nor another output.
+    ///
+    /// # Errors
+    /// Wrong use, with the flag, the path and the reason.
+    pub fn check_outputs(
+        &self,
+        outputs: &[(&'static str, &Path)],
+        inputs: &[(&'static str, &Path)],
+    ) -> Result<(), Error> {
+        let json = self.json.as_deref().filter(|path| path.as_os_str() != "-");
+        let outputs: Vec<_> = outputs
+            .iter()
+            .copied()
+            .chain(json.map(|path| ("--json", path)))
+            .collect();
+        for (index, (flag, path)) in outputs.iter().enumerate() {
+            let wrong = |error: WriteError| Error::Usage(format!("{flag} {error}"));
+            check_writable(path).map_err(wrong)?;
+            let mut others = inputs.iter().chain(&outputs[..index]);
+            if let Some((what, _)) = others.find(|(_, other)| is_same_file(path, other)) {
+                return Err(wrong(WriteError {
+                    path: path.to_path_buf(),
+                    fault: WriteFault::Also(what),
+                }));
+            }
+        }
+        Ok(())
     }
 
     /// A progress bar over `length` steps of `what`; invisible unless stderr is a terminal.

@@ -22,6 +22,7 @@ const INTERVAL_S: f64 = 1e-3;
 const COUNTS_PER_REV: u32 = 2000;
 
 pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
+    session.check_outputs(&[("--out", &args.out)], &[])?;
     let machine = Machine::gearmotor();
     let fitted = Data::new(&record(machine, session.seed, "demo recording")?)?;
     let held_out = Data::new(&record(

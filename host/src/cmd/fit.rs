@@ -12,6 +12,7 @@ use crate::session::Session;
 use crate::solve;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
+    check_outputs(session, args)?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
     let validation = match &args.validate {
@@ -54,4 +55,18 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         &report::text::fit(&fit, &data),
         &report::json::FitJson::from(&fit),
     )
+}
+
+/// The results must not replace what the fit reads.
+fn check_outputs(session: &Session, args: &FitArgs) -> Result<(), Error> {
+    let plot = args.plot.as_deref().map(|path| ("--plot", path));
+    let motor = motor::motor_path(&args.motor, &args.recording);
+    let mut inputs = vec![("the recording", args.recording.as_path())];
+    inputs.extend(
+        args.validate
+            .as_deref()
+            .map(|path| ("the --validate recording", path)),
+    );
+    inputs.push(("the motor file", &motor));
+    session.check_outputs(plot.as_slice(), &inputs)
 }

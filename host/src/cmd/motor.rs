@@ -4,7 +4,7 @@ use crate::cli::MotorArgs;
 use crate::error::Error;
 use crate::input::{MotorFile, read_recording};
 use crate::recording::Recording;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What is known of the motor that made `recording`.
 pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile, Error> {
@@ -48,6 +48,13 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
     known.viscous_n_m_s = new.viscous_n_m_s.or(known.viscous_n_m_s);
     known.kt_equals_kb |= args.kt_equals_kb;
     Ok(motor)
+}
+
+/// The motor file of a recording, whether or not there is one.
+pub(super) fn motor_path(args: &MotorArgs, recording: &Path) -> PathBuf {
+    args.motor
+        .clone()
+        .unwrap_or_else(|| recording.with_file_name("motor.toml"))
 }
 
 /// Reads a recording and checks that there is something to fit in it.

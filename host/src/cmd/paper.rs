@@ -37,6 +37,9 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
             folder.display()
         )));
     }
+    let drawing = args.plots.as_ref().map(|folder| folder.join("bode.svg"));
+    let drawing = drawing.as_deref().map(|path| ("--plots", path));
+    session.check_outputs(drawing.as_slice(), &[])?;
     let data = Experiment {
         seconds: args.seconds,
         sample_s: args.sample,

@@ -9,6 +9,7 @@ use crate::output::{write_recording, write_whole};
 use crate::session::Session;
 use serde::Serialize;
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
+use std::path::Path;
 
 /// Usual length of a single shape, s.
 const USUAL_SECONDS: f64 = 10.0;
@@ -28,12 +29,15 @@ struct Simulated<'a> {
 
 pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     if args.list {
+        session.check_outputs(&[], &[])?;
         return session.deliver(&list(), &());
     }
     let out = args
         .out
         .as_deref()
         .ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
+    let motor_path = out.with_file_name("motor.toml");
+    session.check_outputs(&[("--out", out)], &[("the motor file", &motor_path)])?;
     let machine =
         Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
     let effects = args
@@ -60,15 +64,13 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         recording.duration_s()
     );
     if !args.no_motor {
-        let path = out.with_file_name("motor.toml");
         let motor = MotorFile {
             name: Some(args.machine.clone()),
             counts_per_rev: Some(f64::from(args.counts_per_rev)),
             supply_v: Some(machine.supply_v),
             ..MotorFile::default()
         };
-        write_whole(&path, |out| out.write_all(motor.to_toml().as_bytes()))?;
-        text += &format!("; what is known of the motor: {}", path.display());
+        text += &write_motor(session, &motor_path, &motor)?;
     }
     text.push('\n');
     session.deliver(
@@ -83,6 +85,67 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             seed: session.seed,
         },
     )
+}
+
+/// Writes what is known of the motor, unless a file is there already: it may hold what its owner knows, and
+/// other recordings beside it depend on it. Returns what to say of it.
+fn write_motor(session: &Session, path: &Path, motor: &MotorFile) -> Result<String, Error> {
+    if !path.exists() {
+        write_whole(path, |out| out.write_all(motor.to_toml().as_bytes()))?;
+        return Ok(format!("; what is known of the motor: {}", path.display()));
+    }
+    let disagrees = match MotorFile::read(path) {
+        Err(error) => vec![format!("it cannot be used: {error}")],
+        Ok(there) => disagreements(&there, motor),
+    };
+    if !disagrees.is_empty() {
+        session.remark(&format!(
+            "{} was there already and is kept, but it disagrees with this recording: {}; put the recording into \
+             another folder, or give these facts to `servoid fit` as flags",
+            path.display(),
+            disagrees.join("; ")
+        ));
+    }
+    Ok(format!(
+        "; {} was there already and is kept",
+        path.display()
+    ))
+}
+
+/// Where a motor file would make a recording of `motor` be misread, or tells of another motor.
+fn disagreements(there: &MotorFile, motor: &MotorFile) -> Vec<String> {
+    let shown = |value: Option<f64>| value.map_or_else(|| "nothing".to_owned(), |x| x.to_string());
+    let mut found = Vec::new();
+    for (key, theirs, ours) in [
+        ("counts_per_rev", there.counts_per_rev, motor.counts_per_rev),
+        ("supply_v", there.supply_v, motor.supply_v),
+    ] {
+        if theirs != ours {
+            found.push(format!(
+                "it says {key} = {}, here it is {}",
+                shown(theirs),
+                shown(ours)
+            ));
+        }
+    }
+    if there.name != motor.name {
+        let name = |file: &MotorFile| file.name.clone().unwrap_or_else(|| "no name".to_owned());
+        found.push(format!(
+            "it is of `{}`, not of `{}`",
+            name(there),
+            name(motor)
+        ));
+    }
+    for (section, differs) in [
+        ("columns", there.columns != motor.columns),
+        ("units", there.units != motor.units),
+        ("drive", there.drive != motor.drive),
+    ] {
+        if differs {
+            found.push(format!("its [{section}] is of another log"));
+        }
+    }
+    found
 }
 
 fn bench(

@@ -16,28 +16,59 @@ fn a_missing_folder_is_named_and_nothing_is_left() {
     ] {
         desk.refused(
             &format!("{line} missing/out"),
-            1,
+            2,
             &["missing/out", "make it first"],
         );
-        desk.refused(&format!("{line} folder"), 1, &["folder", "is a folder"]);
+        desk.refused(&format!("{line} folder"), 2, &["folder", "is a folder"]);
     }
 }
 
 #[test]
-fn json_that_cannot_be_written_fails_the_run() {
+fn json_that_cannot_be_written_is_refused_before_the_work() {
     let desk = Desk::with_recording();
     desk.write("folder/inside.txt", "");
-    let before = desk.listing();
     for line in [
         "fit rec.csv",
         "compare rec.csv --seeds 1 --budget 5",
         "simulate --list",
+        "simulate --out new.csv",
+        "demo",
+        "paper",
     ] {
-        let missing = desk.run(&format!("{line} --json missing/out.json"));
-        missing.is_refusal(1, &["missing/out.json", "make it first"]);
-        desk.run(&format!("{line} --json folder"))
-            .is_refusal(1, &["folder", "is a folder"]);
-        assert_eq!(desk.listing(), before, "{missing}");
+        desk.refused(
+            &format!("{line} --json missing/out.json"),
+            2,
+            &["--json missing/out.json", "make it first"],
+        );
+        desk.refused(
+            &format!("{line} --json folder"),
+            2,
+            &["--json folder", "is a folder"],
+        );
+    }
+}
+
+#[test]
+fn no_result_replaces_what_the_run_reads() {
+    let desk = Desk::with_recording();
+    desk.write("sub/other.csv", desk.read("rec.csv"));
+    for (line, says) in [
+        ("fit rec.csv --json rec.csv", "the recording"),
+        ("fit rec.csv --plot sub/../rec.csv", "the recording"),
+        ("fit rec.csv --plot motor.toml", "the motor file"),
+        (
+            "fit rec.csv --validate sub/other.csv --json ./sub/other.csv",
+            "--validate",
+        ),
+        ("fit rec.csv --json out --plot out", "is also --plot"),
+        ("compare rec.csv --json rec.csv", "the recording"),
+        ("compare rec.csv --plot rec.csv", "the recording"),
+        ("simulate --out motor.toml", "the motor file"),
+        ("simulate --out new.csv --json motor.toml", "the motor file"),
+        ("simulate --out new.csv --json new.csv", "is also --out"),
+        ("demo --out new --json new", "is also --out"),
+    ] {
+        desk.refused(line, 2, &[says, "name another file"]);
     }
 }
 

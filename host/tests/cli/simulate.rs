@@ -95,3 +95,28 @@ fn motor_toml_is_written_beside_unless_unwanted() {
         &["counts_per_rev", "--counts-per-rev"],
     );
 }
+
+#[test]
+fn a_motor_file_that_is_there_is_kept() {
+    let own = "counts_per_rev = 512.0\n[known]\nresistance_ohm = 1.2\n";
+    let desk = Desk::new();
+    desk.write("motor.toml", own);
+    let made = desk.done("simulate --seconds 1 --out rec.csv");
+    assert_eq!(desk.read("motor.toml"), own, "{made}");
+    for word in [
+        "motor.toml",
+        "kept",
+        "counts_per_rev = 512",
+        "2000",
+        "supply_v",
+    ] {
+        assert!(made.stderr.contains(word), "{word}: {made}");
+    }
+    // The bench's own file agrees with the next recording of the same motor.
+    let desk = Desk::new();
+    desk.done("simulate --seconds 1 --out first.csv");
+    let written = desk.read("motor.toml");
+    let again = desk.done("simulate --seconds 1 --seed 2 --out second.csv");
+    assert_eq!(again.stderr, "", "{again}");
+    assert_eq!(desk.read("motor.toml"), written);
+}
