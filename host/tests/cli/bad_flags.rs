@@ -129,18 +129,22 @@ fn bad_flags_are_wrong_use() {
 #[test]
 fn settings_that_no_bench_has_are_refused() {
     let desk = Desk::new();
-    for (flag, says) in [
-        ("--jitter nan", "jitter"),
-        ("--jitter -1", "jitter"),
+    for (flags, says) in [
+        ("--jitter nan", "--jitter NaN"),
+        ("--jitter -1", "--jitter -1"),
         ("--jitter 1e-3", "half the sample interval"),
-        ("--counts-per-rev 0", "counts_per_rev"),
-        ("--current-noise -1", "current_noise"),
-        ("--substep-hz 10", "substep_hz"),
+        ("--counts-per-rev 0", "--counts-per-rev 0: needs at least 1"),
+        ("--counts-per-rev 4000000000", "32-bit counter"),
+        ("--current-noise -1", "--current-noise -1"),
+        ("--substep-hz 10", "--substep-hz 10"),
+        ("--sample 10", "--sample 10: leaves"),
         ("--hide coulomb --hide coulomb", "twice"),
+        ("--hide coulomb:strength=1e300 --hide coulomb", "--hide"),
+        ("--hide coulomb:", "nothing follows the colon"),
+        ("--hide coulomb:,", "nothing follows the colon"),
     ] {
-        let outcome = desk.run(&format!("simulate --out new.csv {flag}"));
-        assert!(matches!(outcome.code, Some(1 | 2)), "{outcome}");
-        desk.refused(&outcome.line, outcome.code.expect("a code"), &[says]);
+        let flag = flags.split(' ').next().expect("a flag");
+        desk.refused(&format!("simulate --out new.csv {flags}"), 2, &[flag, says]);
     }
 }
 
