@@ -29,24 +29,60 @@ const FIT: &[(&str, &[&str])] = &[
     ("--bounds gian=1:10", &["--bounds", "`gain`"]),
     (
         "--counts-per-rev 0",
-        &["counts_per_rev", "greater than zero"],
+        &["servoid: --counts-per-rev ", "greater than zero"],
     ),
     (
         "--counts-per-rev -5",
-        &["counts_per_rev", "greater than zero"],
+        &["servoid: --counts-per-rev ", "greater than zero"],
     ),
+    (
+        "--counts-per-rev nan",
+        &["servoid: --counts-per-rev NaN: ", "finite"],
+    ),
+    ("--supply-v inf", &["servoid: --supply-v inf: ", "finite"]),
+    (
+        "--known resistance_ohm=abc",
+        &["servoid: --known resistance_ohm=abc: ", "not a number"],
+    ),
+    (
+        "--known resistance_ohm=nan",
+        &["servoid: --known resistance_ohm=nan: "],
+    ),
+    (
+        "--known resistance_ohm=1 --known resistance_ohm=2",
+        &["--known resistance_ohm=2", "before"],
+    ),
+    ("--unit voltage=A", &["servoid: --unit voltage=A: "]),
     ("--counts-per-rev many", &["--counts-per-rev", "many"]),
-    ("--supply-v -12", &["supply_v", "greater than zero"]),
+    (
+        "--supply-v -12",
+        &["servoid: --supply-v -12: ", "greater than zero"],
+    ),
     ("--column angle", &["--column", "angle=name"]),
-    ("--column angel=x", &["angel", "`angle`"]),
-    ("--unit angle=grad", &["grad", "`deg`"]),
-    ("--drive torque", &["torque", "`current`"]),
-    ("--known resistance=1", &["`resistance_ohm`"]),
+    (
+        "--column angel=x",
+        &["servoid: --column angel=x: ", "`angle`"],
+    ),
+    (
+        "--unit angle=grad",
+        &["servoid: --unit angle=grad: ", "`deg`"],
+    ),
+    (
+        "--drive torque",
+        &["servoid: --drive torque: ", "`current`"],
+    ),
+    (
+        "--known resistance=1",
+        &["servoid: --known resistance=1: ", "`resistance_ohm`"],
+    ),
     (
         "--known resistance_ohm=-1",
-        &["resistance_ohm", "greater than zero"],
+        &["servoid: --known resistance_ohm=-1: ", "greater than zero"],
     ),
-    ("--known resistance_ohm=1~2", &["tolerance", "0.05"]),
+    (
+        "--known resistance_ohm=1~2",
+        &["servoid: --known resistance_ohm=1~2: ", "0.05"],
+    ),
     ("--no-such-flag", &["--no-such-flag"]),
     ("second.csv", &["second.csv"]),
 ];
