@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(name = "servoid", version, propagate_version = true, after_help = EXAMPLES)]
 #[command(mut_args(with_negative_values))]
-#[command(mut_subcommands(|verb| verb.mut_args(with_negative_values)))]
+#[command(mut_subcommands(|verb| verb.mut_args(with_negative_values).display_name("servoid")))]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]

@@ -3,7 +3,7 @@
 use crate::cli::MotorArgs;
 use crate::error::Error;
 use crate::input::{MotorFile, read_recording};
-use crate::recording::Recording;
+use crate::recording::{Drive, Recording};
 use std::path::{Path, PathBuf};
 
 /// What is known of the motor that made `recording`.
@@ -12,8 +12,7 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         Some(path) => MotorFile::read(path)?,
         None => MotorFile::find_beside(recording)?.unwrap_or_default(),
     };
-    let flags = MotorFile::parse(&flags_as_toml(args)?, "the command line")
-        .map_err(|error| Error::Usage(error.to_string()))?;
+    let flags = from_flags(args, motor.drive)?;
     motor.counts_per_rev = flags.counts_per_rev.or(motor.counts_per_rev);
     motor.supply_v = flags.supply_v.or(motor.supply_v);
     motor.metres_per_rev = flags.metres_per_rev.or(motor.metres_per_rev);
@@ -65,20 +64,52 @@ pub(super) fn recording(args: &MotorArgs, path: &Path) -> Result<(Recording, Mot
     Ok((recording, motor))
 }
 
-/// The flags as the text of a motor file: its reader has all the checks and suggestions.
-fn flags_as_toml(args: &MotorArgs) -> Result<String, Error> {
-    let mut text = String::new();
-    for (key, value) in [
-        ("counts_per_rev", args.counts_per_rev),
-        ("supply_v", args.supply),
-        ("metres_per_rev", args.metres_per_rev),
-    ] {
-        if let Some(value) = value {
-            text += &format!("{key} = {value:?}\n");
+/// What the flags say, read as lines of a motor file: its reader has all the checks and suggestions. Each
+/// flag is read alone first, so that a refusal names it. `drive` is the motor file's, for the units.
+fn from_flags(args: &MotorArgs, drive: Drive) -> Result<MotorFile, Error> {
+    let drive = args.drive.as_deref().unwrap_or(match drive {
+        Drive::Voltage => "voltage",
+        Drive::Current => "current",
+    });
+    let drive_line = format!("drive.kind = {}\n", toml::Value::from(drive));
+    parse(&format!("--drive {drive}"), &drive_line)?;
+    let mut text = drive_line.clone();
+    let mut keys: Vec<String> = Vec::new();
+    for Line { flag, key, value } in lines(args)? {
+        let line = format!("{key} = {value}\n");
+        parse(&flag, &format!("{drive_line}{line}"))?;
+        if keys.contains(&key) {
+            return Err(Error::Usage(format!("{flag}: was given before")));
         }
+        keys.push(key);
+        text += &line;
     }
-    if let Some(drive) = &args.drive {
-        text += &format!("drive.kind = {}\n", toml::Value::from(drive.as_str()));
+    parse("the flags together", &text)
+}
+
+fn parse(flag: &str, text: &str) -> Result<MotorFile, Error> {
+    MotorFile::parse(text, "").map_err(|error| Error::Usage(format!("{flag}: {}", error.fault)))
+}
+
+/// A flag as it was given, and what it would be in a motor file.
+struct Line {
+    flag: String,
+    key: String,
+    value: toml::Value,
+}
+
+fn lines(args: &MotorArgs) -> Result<Vec<Line>, Error> {
+    let mut lines = Vec::new();
+    for (flag, key, value) in [
+        ("--counts-per-rev", "counts_per_rev", args.counts_per_rev),
+        ("--supply-v", "supply_v", args.supply),
+        ("--metres-per-rev", "metres_per_rev", args.metres_per_rev),
+    ] {
+        lines.extend(value.map(|value| Line {
+            flag: format!("{flag} {value}"),
+            key: key.to_owned(),
+            value: value.into(),
+        }));
     }
     for (section, flag, pairs) in [
         ("columns", "--column", &args.column),
@@ -86,19 +117,44 @@ fn flags_as_toml(args: &MotorArgs) -> Result<String, Error> {
     ] {
         for pair in pairs {
             let (what, name) = split(flag, pair, "angle=name")?;
-            text += &format!("{section}.{what} = {}\n", toml::Value::from(name));
+            lines.push(Line {
+                flag: format!("{flag} {pair}"),
+                key: format!("{section}.{what}"),
+                value: name.into(),
+            });
         }
     }
     for pair in &args.known {
         let (fact, value) = split("--known", pair, "resistance_ohm=1.2~0.05")?;
-        text += &match value.split_once('~') {
-            Some((value, tolerance)) => {
-                format!("known.{fact} = {{ value = {value}, tolerance = {tolerance} }}\n")
-            }
-            None => format!("known.{fact} = {value}\n"),
-        };
+        let flag = format!("--known {pair}");
+        lines.push(Line {
+            value: fact_value(&flag, value)?,
+            key: format!("known.{fact}"),
+            flag,
+        });
     }
-    Ok(text)
+    Ok(lines)
+}
+
+/// `1.2`, `1.2~0.05` or `true`.
+fn fact_value(flag: &str, text: &str) -> Result<toml::Value, Error> {
+    if let Ok(truth) = text.parse::<bool>() {
+        return Ok(truth.into());
+    }
+    let number = |text: &str| {
+        text.trim().parse::<f64>().map_err(|_| {
+            Error::Usage(format!(
+                "{flag}: `{text}` is not a number; write it like --known resistance_ohm=1.2~0.05"
+            ))
+        })
+    };
+    let Some((value, tolerance)) = text.split_once('~') else {
+        return Ok(number(text)?.into());
+    };
+    let mut table = toml::Table::new();
+    table.insert("value".to_owned(), number(value)?.into());
+    table.insert("tolerance".to_owned(), number(tolerance)?.into());
+    Ok(table.into())
 }
 
 fn split<'a>(flag: &str, pair: &'a str, example: &str) -> Result<(&'a str, &'a str), Error> {

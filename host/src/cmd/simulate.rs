@@ -1,11 +1,12 @@
 //! `servoid simulate`: the virtual bench makes a recording.
 
-use crate::bench::{Bench, DriveSample, Hidden, Machine, PRESETS};
+use crate::bench::{Bench, BenchError, DriveSample, Hidden, Machine, PRESETS};
 use crate::cli::SimulateArgs;
 use crate::error::Error;
 use crate::input::MotorFile;
 use crate::input::suggest::did_you_mean;
 use crate::output::{write_recording, write_whole};
+use crate::recording::Recording;
 use crate::session::Session;
 use serde::Serialize;
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
@@ -27,10 +28,91 @@ struct Simulated<'a> {
     seed: u64,
 }
 
+/// Everything that can be ordered: `--list`.
+#[derive(Serialize)]
+struct Offer {
+    schema: &'static str,
+    machines: Vec<OfferedMachine>,
+    effects: Vec<&'static str>,
+    excitations: Vec<OfferedExcitation>,
+}
+
+#[derive(Serialize)]
+struct OfferedMachine {
+    name: &'static str,
+    supply_v: f64,
+    no_load_rad_s: f64,
+}
+
+#[derive(Serialize)]
+struct OfferedExcitation {
+    name: &'static str,
+    about: String,
+}
+
+impl Offer {
+    fn new() -> Self {
+        let machines = PRESETS.iter().filter_map(|name| {
+            let machine = Machine::preset(name).ok()?;
+            Some(OfferedMachine {
+                name,
+                supply_v: machine.supply_v,
+                no_load_rad_s: machine.top_speed_rad_s(),
+            })
+        });
+        let programs = [
+            ("commissioning", "all that tells effects apart, 20 s"),
+            (
+                "commissioning-coast",
+                "the same, with the bridge open in the pauses",
+            ),
+        ]
+        .map(|(name, about)| (name, about.to_owned()));
+        let shapes = Shape::ALL
+            .iter()
+            .map(|(name, shape)| (*name, format!("shows {}", shape.reveals())));
+        Offer {
+            schema: "servoid.simulate-list/1",
+            machines: machines.collect(),
+            effects: crate::bench::effects::CATALOGUE
+                .iter()
+                .map(|kind| kind.name)
+                .collect(),
+            excitations: programs
+                .into_iter()
+                .chain(shapes)
+                .map(|(name, about)| OfferedExcitation { name, about })
+                .collect(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = String::from("motors:\n");
+        for OfferedMachine {
+            name,
+            supply_v,
+            no_load_rad_s,
+        } in &self.machines
+        {
+            text += &format!("  {name:14} {supply_v} V, no-load {no_load_rad_s:.0} rad/s\n");
+        }
+        text += "effects to hide:\n";
+        for name in &self.effects {
+            text += &format!("  {name}\n");
+        }
+        text += "excitations:\n";
+        for OfferedExcitation { name, about } in &self.excitations {
+            text += &format!("  {name:14} {about}\n");
+        }
+        text
+    }
+}
+
 pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     if args.list {
         session.check_outputs(&[], &[])?;
-        return session.deliver(&list(), &());
+        let offer = Offer::new();
+        return session.deliver(&offer.text(), &offer);
     }
     let out = args
         .out
@@ -43,7 +125,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     let effects = args
         .hide
         .iter()
-        .map(|text| Hidden::parse(text, &machine).map_err(|e| Error::Usage(format!("--hide: {e}"))))
+        .map(|text| hidden(text, &machine))
         .collect::<Result<Vec<_>, _>>()?;
     let bench = bench(args, machine, effects, session.seed)?;
     let plan = plan(args)?;
@@ -54,7 +136,22 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         })
         .collect();
     let with_current = args.current || bench.current_noise_a > 0.0;
-    let recording = bench.record(&drive, &out.display().to_string(), with_current)?;
+    if drive.len() < 2 {
+        return Err(Error::Usage(format!(
+            "--sample {}: leaves {} of the excitation, and a fit needs at least two samples; take a shorter interval \
+             or more --seconds",
+            args.sample,
+            if drive.is_empty() {
+                "nothing"
+            } else {
+                "one sample"
+            }
+        )));
+    }
+    let recording = bench
+        .record(&drive, &out.display().to_string(), with_current)
+        .map_err(wrong_flag)?;
+    check_counts(&recording, args)?;
     let hidden: Vec<String> = bench.effects.iter().map(describe).collect();
     write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
     let mut text = format!(
@@ -146,6 +243,59 @@ fn disagreements(there: &MotorFile, motor: &MotorFile) -> Vec<String> {
         }
     }
     found
+}
+
+/// One `--hide`.
+fn hidden(text: &str, machine: &Machine) -> Result<Hidden, Error> {
+    let settings = text.split_once(':').map(|(_, settings)| settings);
+    if settings.is_some_and(|settings| settings.trim_matches([',', ' ']).is_empty()) {
+        return Err(Error::Usage(format!(
+            "--hide {text}: nothing follows the colon; leave it out, or write it like --hide coulomb:strength=2"
+        )));
+    }
+    Hidden::parse(text, machine).map_err(|error| Error::Usage(format!("--hide: {error}")))
+}
+
+/// What the bench refuses because of a flag, under the flag's name.
+fn wrong_flag(error: BenchError) -> Error {
+    match &error {
+        BenchError::BadSetting {
+            setting,
+            value,
+            need,
+        } => {
+            let flag = match *setting {
+                "counts_per_rev" => "--counts-per-rev",
+                "sample_s" => "--sample",
+                "jitter_s" => "--jitter",
+                "substep_hz" => "--substep-hz",
+                "current_noise_a" => "--current-noise",
+                _ => return error.into(),
+            };
+            Error::Usage(format!("{flag} {value}: needs {need}"))
+        }
+        BenchError::Twice(_) | BenchError::OutOfRange { .. } | BenchError::TooStiff { .. } => {
+            Error::Usage(format!("--hide: {error}"))
+        }
+        _ => error.into(),
+    }
+}
+
+/// A recording whose counts no 32-bit counter holds could be written but not read back.
+fn check_counts(recording: &Recording, args: &SimulateArgs) -> Result<(), Error> {
+    let counter = f64::from(i32::MIN)..=f64::from(i32::MAX);
+    match recording
+        .counts
+        .iter()
+        .find(|counts| !counter.contains(counts))
+    {
+        None => Ok(()),
+        Some(counts) => Err(Error::Usage(format!(
+            "--counts-per-rev {}: the encoder reads {counts} counts, more than a 32-bit counter holds; take fewer counts \
+             or less --seconds",
+            args.counts_per_rev
+        ))),
+    }
 }
 
 fn bench(
@@ -246,27 +396,4 @@ fn provenance(args: &SimulateArgs, hidden: &[String], seed: u64) -> Vec<String> 
     )];
     lines.extend(hidden.iter().map(|text| format!("hidden: {text}")));
     lines
-}
-
-fn list() -> String {
-    let mut text = String::from("motors:\n");
-    for (name, machine) in PRESETS
-        .iter()
-        .filter_map(|name| Some((name, Machine::preset(name).ok()?)))
-    {
-        text += &format!(
-            "  {name:14} {} V, no-load {:.0} rad/s\n",
-            machine.supply_v,
-            machine.top_speed_rad_s()
-        );
-    }
-    text += "effects to hide:\n";
-    for kind in crate::bench::effects::CATALOGUE {
-        text += &format!("  {}\n", kind.name);
-    }
-    text += "excitations:\n  commissioning  all that tells effects apart, 20 s\n  commissioning-coast  the same, with the bridge open in the pauses\n";
-    for (name, shape) in Shape::ALL {
-        text += &format!("  {name:14} shows {}\n", shape.reveals());
-    }
-    text
 }

@@ -13,7 +13,8 @@ impl Recording {
     ///
     /// # Errors
     /// [`ReadFault::NoCommand`], [`ReadFault::NeverMoved`], [`ReadFault::TooLittleTravel`] (less than
-    /// [`MIN_TRAVEL_COUNTS`]) or [`ReadFault::CounterRanOver`], with the recording's source.
+    /// [`MIN_TRAVEL_COUNTS`]), [`ReadFault::CounterRanOver`] or [`ReadFault::Wraps`], with the recording's
+    /// source.
     pub fn check_excited(&self) -> Result<(), ReadError> {
         excitation_fault(self).map_or(Ok(()), |fault| {
             Err(ReadError::new(Place::file(&self.source), fault))
@@ -49,6 +50,39 @@ fn excitation_fault(recording: &Recording) -> Option<ReadFault> {
     [16, 32]
         .into_iter()
         .find_map(|bits| ran_over(recording, travel, bits))
+        .or_else(|| wraps(recording, travel))
+}
+
+/// An angle that starts anew every revolution, or every 2^k counts: see [`wraps_every`].
+fn wraps(recording: &Recording, travel: f64) -> Option<ReadFault> {
+    let powers = (8..=32).map(|bits| 2f64.powi(bits));
+    std::iter::once(recording.counts_per_rev)
+        .chain(powers)
+        // Angles printed with few digits may end a little outside the turn.
+        .filter(|turn| travel <= 1.001 * turn && travel > 0.8 * turn)
+        .find_map(|turn| wraps_every(recording, turn))
+}
+
+/// At least two jumps of nearly a whole `turn`, each among small steps that go the other way, as the motion
+/// itself does when the reading wraps. A real jump would be among steps the same way, and a glitch would
+/// jump back at once.
+fn wraps_every(recording: &Recording, turn: f64) -> Option<ReadFault> {
+    let wrap = |readings: &[f64]| {
+        let [before, jump, after] = [0, 1, 2].map(|k| readings[k + 1] - readings[k]);
+        let small = |step: f64| step.abs() < turn / 4.0;
+        let short_by = turn - jump.abs();
+        let turns_on = (before + after) * jump < 0.0 || short_by <= 2.0;
+        small(before) && small(after) && small(short_by) && jump.abs() > 0.75 * turn && turns_on
+    };
+    let mut found = (recording.counts.windows(4).enumerate()).filter(|(_, four)| wrap(four));
+    let (first, four) = found.next()?;
+    found.next()?;
+    Some(ReadFault::Wraps {
+        time_s: recording.time_s[first + 2],
+        from: four[1],
+        to: four[2],
+        turn,
+    })
 }
 
 /// A counter of `bits` that ran over: all readings lie in one turn of it, and a jump shrinks to less than a

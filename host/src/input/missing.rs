@@ -55,5 +55,15 @@ pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: 
         text += "\n    [units]";
         text += &units.concat();
     }
+    text += "\nor give";
+    for column in missing {
+        text += &match &column.near {
+            Some((near, Some(unit))) => {
+                format!(" --column {0}={near} --unit {0}={unit}", column.key)
+            }
+            Some((near, None)) => format!(" --column {}={near}", column.key),
+            None => format!(" --column {}=...", column.key),
+        };
+    }
     text
 }

@@ -203,7 +203,7 @@ pub enum ReadFault {
     /// Metres without a pitch.
     #[error(
         "the angle is in metres, so the travel per revolution is needed; add `metres_per_rev = 0.0025` (your screw or \
-         pulley) at the top of {motor}"
+         pulley) at the top of {motor}, or give --metres-per-rev"
     )]
     NoMetresPerRev {
         /// How to speak of the motor file.
@@ -216,6 +216,15 @@ pub enum ReadFault {
         key: &'static str,
         /// The value.
         value: f64,
+    },
+    /// A duty beyond all of the supply.
+    #[error(
+        "a duty of {} is more than all of the supply (a duty is -1 ... 1); if the column is in percent, divide it by 100",
+        plain(*.duty)
+    )]
+    DutyBeyondSupply {
+        /// The duty.
+        duty: f64,
     },
     /// Nothing was commanded.
     #[error(
@@ -257,6 +266,21 @@ pub enum ReadFault {
         to: f64,
         /// Width of the counter.
         bits: u32,
+    },
+    /// An angle that starts anew every turn.
+    #[error(
+        "the angle jumps from {from} to {to} counts at t = {time_s} s, and again later, as one does that wraps every \
+         {turn} counts; unwrap it first: add the turns, so that the reading is cumulative (numpy's or MATLAB's unwrap)"
+    )]
+    Wraps {
+        /// Time of the second reading of the first jump, s.
+        time_s: f64,
+        /// Reading before.
+        from: f64,
+        /// Reading after.
+        to: f64,
+        /// Where it wraps, counts.
+        turn: f64,
     },
 }
 

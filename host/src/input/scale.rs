@@ -5,6 +5,9 @@ use super::motor_file::MotorFile;
 use super::motor_units::{AngleUnit, CommandUnit};
 use super::read_error::ReadFault;
 
+/// Largest duty: all of the supply, and a little for a logger that scales by 255 of 256 or so.
+const MOST_DUTY: f64 = 1.05;
+
 /// The conversions of one file.
 pub(super) struct Scale<'m> {
     motor: &'m MotorFile,
@@ -52,6 +55,9 @@ impl<'m> Scale<'m> {
         Ok(match self.motor.units.voltage {
             CommandUnit::Volts | CommandUnit::Amperes => command,
             CommandUnit::Milliamperes => command / 1e3,
+            CommandUnit::Duty if command.abs() > MOST_DUTY => {
+                return Err(ReadFault::DutyBeyondSupply { duty: command });
+            }
             CommandUnit::Duty => command * self.volts_per_duty,
         })
     }

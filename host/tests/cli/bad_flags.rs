@@ -29,24 +29,60 @@ const FIT: &[(&str, &[&str])] = &[
     ("--bounds gian=1:10", &["--bounds", "`gain`"]),
     (
         "--counts-per-rev 0",
-        &["counts_per_rev", "greater than zero"],
+        &["servoid: --counts-per-rev ", "greater than zero"],
     ),
     (
         "--counts-per-rev -5",
-        &["counts_per_rev", "greater than zero"],
+        &["servoid: --counts-per-rev ", "greater than zero"],
     ),
+    (
+        "--counts-per-rev nan",
+        &["servoid: --counts-per-rev NaN: ", "finite"],
+    ),
+    ("--supply-v inf", &["servoid: --supply-v inf: ", "finite"]),
+    (
+        "--known resistance_ohm=abc",
+        &["servoid: --known resistance_ohm=abc: ", "not a number"],
+    ),
+    (
+        "--known resistance_ohm=nan",
+        &["servoid: --known resistance_ohm=nan: "],
+    ),
+    (
+        "--known resistance_ohm=1 --known resistance_ohm=2",
+        &["--known resistance_ohm=2", "before"],
+    ),
+    ("--unit voltage=A", &["servoid: --unit voltage=A: "]),
     ("--counts-per-rev many", &["--counts-per-rev", "many"]),
-    ("--supply-v -12", &["supply_v", "greater than zero"]),
+    (
+        "--supply-v -12",
+        &["servoid: --supply-v -12: ", "greater than zero"],
+    ),
     ("--column angle", &["--column", "angle=name"]),
-    ("--column angel=x", &["angel", "`angle`"]),
-    ("--unit angle=grad", &["grad", "`deg`"]),
-    ("--drive torque", &["torque", "`current`"]),
-    ("--known resistance=1", &["`resistance_ohm`"]),
+    (
+        "--column angel=x",
+        &["servoid: --column angel=x: ", "`angle`"],
+    ),
+    (
+        "--unit angle=grad",
+        &["servoid: --unit angle=grad: ", "`deg`"],
+    ),
+    (
+        "--drive torque",
+        &["servoid: --drive torque: ", "`current`"],
+    ),
+    (
+        "--known resistance=1",
+        &["servoid: --known resistance=1: ", "`resistance_ohm`"],
+    ),
     (
         "--known resistance_ohm=-1",
-        &["resistance_ohm", "greater than zero"],
+        &["servoid: --known resistance_ohm=-1: ", "greater than zero"],
     ),
-    ("--known resistance_ohm=1~2", &["tolerance", "0.05"]),
+    (
+        "--known resistance_ohm=1~2",
+        &["servoid: --known resistance_ohm=1~2: ", "0.05"],
+    ),
     ("--no-such-flag", &["--no-such-flag"]),
     ("second.csv", &["second.csv"]),
 ];
@@ -129,18 +165,22 @@ fn bad_flags_are_wrong_use() {
 #[test]
 fn settings_that_no_bench_has_are_refused() {
     let desk = Desk::new();
-    for (flag, says) in [
-        ("--jitter nan", "jitter"),
-        ("--jitter -1", "jitter"),
+    for (flags, says) in [
+        ("--jitter nan", "--jitter NaN"),
+        ("--jitter -1", "--jitter -1"),
         ("--jitter 1e-3", "half the sample interval"),
-        ("--counts-per-rev 0", "counts_per_rev"),
-        ("--current-noise -1", "current_noise"),
-        ("--substep-hz 10", "substep_hz"),
+        ("--counts-per-rev 0", "--counts-per-rev 0: needs at least 1"),
+        ("--counts-per-rev 4000000000", "32-bit counter"),
+        ("--current-noise -1", "--current-noise -1"),
+        ("--substep-hz 10", "--substep-hz 10"),
+        ("--sample 10", "--sample 10: leaves"),
         ("--hide coulomb --hide coulomb", "twice"),
+        ("--hide coulomb:strength=1e300 --hide coulomb", "--hide"),
+        ("--hide coulomb:", "nothing follows the colon"),
+        ("--hide coulomb:,", "nothing follows the colon"),
     ] {
-        let outcome = desk.run(&format!("simulate --out new.csv {flag}"));
-        assert!(matches!(outcome.code, Some(1 | 2)), "{outcome}");
-        desk.refused(&outcome.line, outcome.code.expect("a code"), &[says]);
+        let flag = flags.split(' ').next().expect("a flag");
+        desk.refused(&format!("simulate --out new.csv {flags}"), 2, &[flag, says]);
     }
 }
 

@@ -209,3 +209,79 @@ fn bad_motor_files_are_refused() {
     );
     desk.refused("fit rec.csv --motor rec.csv", 1, &["rec.csv:", "TOML"]);
 }
+
+#[test]
+fn a_remedy_in_a_flag_is_named() {
+    let desk = Desk::new();
+    desk.write("rec.csv", format!("{HEADER}0,1,0\n1,1,9\n"));
+    let fit = "fit rec.csv --counts-per-rev 2000 --supply-v 12";
+    desk.refused(
+        &format!("{fit} --column angle=x"),
+        1,
+        &["`x`", "or give --column angle="],
+    );
+    desk.refused(&format!("{fit} --unit angle=m"), 1, &["--metres-per-rev"]);
+}
+
+#[test]
+fn a_duty_in_percent_is_refused() {
+    let desk = Desk::new();
+    desk.write("rec.csv", format!("{HEADER}0,0.5,0\n1,50,9\n"));
+    desk.refused(
+        "fit rec.csv --counts-per-rev 2000 --supply-v 12 --unit voltage=duty",
+        1,
+        &["rec.csv:3:2", "percent", "divide it by 100"],
+    );
+}
+
+/// A motor that speeds up, logged modulo one turn from `least` on, in whatever unit a turn is `turn` of.
+fn wrapping(turn: f64, least: f64, whole: bool) -> String {
+    let mut text = HEADER.to_owned();
+    for k in 0..1000 {
+        let t = f64::from(k) * 1e-3;
+        let turns = 10.0 * (t - 0.05 * (1.0 - (-t / 0.05).exp()));
+        let angle = (turns * turn - least).rem_euclid(turn) + least;
+        let angle = if whole { angle.floor() } else { angle };
+        writeln!(text, "{t},6,{angle}").expect("a string");
+    }
+    text
+}
+
+#[test]
+fn an_angle_that_wraps_is_refused_whatever_its_turn() {
+    let tau = std::f64::consts::TAU;
+    for (turn, least, unit, whole) in [
+        (2000.0, 0.0, "counts", true),
+        (2000.0, -1000.0, "counts", true),
+        (256.0, 0.0, "counts", true),
+        (1024.0, -512.0, "counts", true),
+        (tau, -tau / 2.0, "rad", false),
+        (tau, 0.0, "rad", false),
+        (360.0, 0.0, "deg", false),
+        (1.0, 0.0, "rev", false),
+    ] {
+        let desk = Desk::new();
+        desk.write("rec.csv", wrapping(turn, least, whole));
+        desk.refused(
+            &format!("fit rec.csv --counts-per-rev 2000 --unit angle={unit} {OUTPUTS}"),
+            1,
+            &["rec.csv: the angle jumps", "unwrap it first"],
+        );
+    }
+}
+
+/// Strokes of nearly a turn between two slow samples are motion, not wraps.
+#[test]
+fn an_axis_that_goes_to_and_fro_does_not_wrap() {
+    let desk = Desk::new();
+    let mut text = HEADER.to_owned();
+    for k in 0..200_u32 {
+        let up = k / 5 % 2 == 1;
+        let angle = if up { 230 } else { 0 } + i32::from(k % 5 > 0) * if up { 3 } else { -3 };
+        let voltage = if up { 6 } else { -6 };
+        writeln!(text, "{},{voltage},{angle}", f64::from(k) * 0.1).expect("a string");
+    }
+    desk.write("rec.csv", text);
+    let outcome = desk.run("fit rec.csv --counts-per-rev 2000");
+    assert!(!outcome.stderr.contains("unwrap"), "{outcome}");
+}

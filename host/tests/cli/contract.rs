@@ -1,5 +1,6 @@
 //! The shape of the JSON that scripts rely on: every key of the contract, each with its type.
 
+use crate::desk::Desk;
 use serde_json::Value;
 
 /// What stands behind a key.
@@ -156,4 +157,14 @@ pub fn are_margins(margins: &Value) {
         margins,
         &[("gain_db", Is::NumberOrNull), ("phase_deg", Is::Number)],
     );
+}
+
+#[test]
+fn every_verb_tells_the_version_of_the_program() {
+    let desk = Desk::new();
+    let version = desk.done("--version").stdout;
+    assert!(version.starts_with("servoid "), "{version}");
+    for verb in ["fit", "compare", "demo", "simulate", "paper", "completions"] {
+        assert_eq!(desk.done(&format!("{verb} --version")).stdout, version);
+    }
 }

@@ -120,3 +120,20 @@ fn a_motor_file_that_is_there_is_kept() {
     assert_eq!(again.stderr, "", "{again}");
     assert_eq!(desk.read("motor.toml"), written);
 }
+
+#[test]
+fn the_list_is_the_same_in_json() {
+    let list = Desk::new().json("simulate --list");
+    assert_eq!(list["schema"], "servoid.simulate-list/1");
+    let names = |key: &str| -> Vec<String> {
+        let entries = list[key].as_array().expect("a list");
+        let name = |entry: &serde_json::Value| {
+            let name = entry.as_str().or(entry["name"].as_str());
+            name.expect("a name").to_owned()
+        };
+        entries.iter().map(name).collect()
+    };
+    assert_eq!(names("machines"), listed("motors"));
+    assert_eq!(names("effects"), listed("effects"));
+    assert_eq!(names("excitations"), listed("excitations"));
+}
