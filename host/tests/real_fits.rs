@@ -2,24 +2,18 @@
 //! suspiciously small would be as wrong as one that is too large. Skipped, and said so, where the
 //! recordings are missing.
 
+#[path = "real/folder.rs"]
+mod folder;
+
+use folder::folder;
 use host::fit::{self, Fit, Options};
 use host::input::{MotorFile, read_recording};
 use host::problem::Data;
 use host::solve;
 use shared::effects::Kind;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
-
-fn folder() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    let folder = std::env::var_os("SERVOID_DATA").map_or(beside, PathBuf::from);
-    if !folder.is_dir() {
-        eprintln!("skipped: no recordings in {}", folder.display());
-        return None;
-    }
-    Some(folder)
-}
 
 fn data(folder: &Path, file: &str, map: &str) -> Data {
     let map = Path::new(env!("CARGO_MANIFEST_DIR"))

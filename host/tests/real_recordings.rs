@@ -1,21 +1,14 @@
 //! Recordings measured by others, through the motor files in `tests/maps`. They are not part of the project:
 //! where they are missing the tests say so and pass.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+#[path = "real/folder.rs"]
+mod folder;
+
+use folder::folder;
 use host::input::{MotorFile, read_recording};
 use host::recording::{Drive, Recording};
-
-/// The folder of the recordings: `SERVOID_DATA`, else beside the workspace.
-fn data() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    let folder = std::env::var_os("SERVOID_DATA").map_or(beside, PathBuf::from);
-    if !folder.is_dir() {
-        eprintln!("skipped: no recordings in {}", folder.display());
-        return None;
-    }
-    Some(folder)
-}
 
 fn read(folder: &Path, file: &str, map: &str) -> Recording {
     let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/maps");
@@ -46,7 +39,7 @@ fn range(values: &[f64]) -> (f64, f64) {
 
 #[test]
 fn un_dcmotor_counts_sum_to_the_logged_differences() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = folder() else { return };
     let recording = read(&folder, "un_dcmotor/prbs_open.csv", "un_dcmotor.toml");
     assert_eq!(recording.len(), 4093);
     assert!(recording.quantised);
@@ -64,7 +57,7 @@ fn un_dcmotor_counts_sum_to_the_logged_differences() {
 
 #[test]
 fn emps_is_a_current_driven_axis_of_whole_counts() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = folder() else { return };
     let recording = read(&folder, "emps/emps_train.csv", "emps.toml");
     assert_eq!(recording.len(), 24841);
     assert!(recording.quantised);
@@ -75,7 +68,7 @@ fn emps_is_a_current_driven_axis_of_whole_counts() {
 
 #[test]
 fn every_bam_recording_is_in_whole_counts_and_says_when_it_was_driven() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = folder() else { return };
     for motion in ["sin_time_square", "up_and_down"] {
         for gain in [100, 200, 400, 800] {
             let recording = read(
@@ -94,7 +87,7 @@ fn every_bam_recording_is_in_whole_counts_and_says_when_it_was_driven() {
 
 #[test]
 fn odrive_is_current_driven_and_its_observer_is_no_counter() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = folder() else { return };
     let recording = read(
         &folder,
         "odrive_cogging/slow2_nocomp_0.csv",

@@ -3,6 +3,7 @@
 //! The virtual bench records a motor with Coulomb friction twice. The linear model is fitted to the
 //! one and fails; with the friction added the error falls to the encoder's own, on both.
 
+use super::search::search;
 use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
 use crate::error::Error;
@@ -14,7 +15,6 @@ use crate::recording::Recording;
 use crate::report;
 use crate::report::html::{Page, Section};
 use crate::session::Session;
-use crate::solve;
 use shared::effects::Kind;
 use shared::excite::{COMMISSIONING, commands};
 
@@ -85,19 +85,7 @@ fn fitted_with(
         ..Options::default()
     };
     let problem = fit::problem(data, &options)?;
-    let solver = solve::by_name("lm").ok_or_else(|| Error::Failed("no method `lm`".to_owned()))?;
-    let bar = session.progress(options.budget as u64, "fit");
-    let found = fit::search(
-        &problem,
-        solver.as_ref(),
-        &options,
-        session.stop(),
-        &mut |count, best| {
-            bar.set_position(count as u64);
-            bar.set_message(format!("cost {best:.6}"));
-        },
-    );
-    bar.finish_and_clear();
+    let found = search(session, &problem, "lm", &options)?;
     Fit::conclude(&problem, "lm", "squared", &found, &options, Some(held_out))
 }
 

@@ -1,5 +1,6 @@
 //! `servoid fit`: a model of one recording.
 
+use super::search::search;
 use super::{model, motor};
 use crate::cli::FitArgs;
 use crate::error::Error;
@@ -9,7 +10,6 @@ use crate::plot;
 use crate::problem::Data;
 use crate::report;
 use crate::session::Session;
-use crate::solve;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     check_outputs(session, args)?;
@@ -20,23 +20,10 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         None => None,
     };
     let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;
-    let solver = solve::by_name(&args.algorithm)
-        .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", args.algorithm)))?;
     let mut problem = fit::problem(&data, &options)?;
     model::apply_bounds(&mut problem, &args.model.bounds)?;
 
-    let bar = session.progress(args.budget, "fit");
-    let found = fit::search(
-        &problem,
-        solver.as_ref(),
-        &options,
-        session.stop(),
-        &mut |count, best| {
-            bar.set_position(count as u64);
-            bar.set_message(format!("cost {best:.6}"));
-        },
-    );
-    bar.finish_and_clear();
+    let found = search(session, &problem, &args.algorithm, &options)?;
     let cost_kind = args.model.cost.name();
     let fit = Fit::conclude(
         &problem,

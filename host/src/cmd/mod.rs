@@ -6,8 +6,11 @@ mod demo;
 mod fit;
 mod model;
 mod motor;
+mod motor_beside;
 mod paper;
+mod search;
 mod simulate;
+mod simulate_list;
 
 use crate::cli::{Cli, Verb};
 use crate::error::Error;

@@ -1,16 +1,17 @@
 //! `servoid simulate`: the virtual bench makes a recording.
 
-use crate::bench::{Bench, BenchError, DriveSample, Hidden, Machine, PRESETS};
+use super::motor_beside::write_motor;
+use super::simulate_list::Offer;
+use crate::bench::{Bench, BenchError, DriveSample, Hidden, Machine};
 use crate::cli::SimulateArgs;
 use crate::error::Error;
 use crate::input::MotorFile;
 use crate::input::suggest::did_you_mean;
-use crate::output::{write_recording, write_whole};
+use crate::output::write_recording;
 use crate::recording::Recording;
 use crate::session::Session;
 use serde::Serialize;
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
-use std::path::Path;
 
 /// Usual length of a single shape, s.
 const USUAL_SECONDS: f64 = 10.0;
@@ -26,86 +27,6 @@ struct Simulated<'a> {
     excitation: &'a str,
     samples: usize,
     seed: u64,
-}
-
-/// Everything that can be ordered: `--list`.
-#[derive(Serialize)]
-struct Offer {
-    schema: &'static str,
-    machines: Vec<OfferedMachine>,
-    effects: Vec<&'static str>,
-    excitations: Vec<OfferedExcitation>,
-}
-
-#[derive(Serialize)]
-struct OfferedMachine {
-    name: &'static str,
-    supply_v: f64,
-    no_load_rad_s: f64,
-}
-
-#[derive(Serialize)]
-struct OfferedExcitation {
-    name: &'static str,
-    about: String,
-}
-
-impl Offer {
-    fn new() -> Self {
-        let machines = PRESETS.iter().filter_map(|name| {
-            let machine = Machine::preset(name).ok()?;
-            Some(OfferedMachine {
-                name,
-                supply_v: machine.supply_v,
-                no_load_rad_s: machine.top_speed_rad_s(),
-            })
-        });
-        let programs = [
-            ("commissioning", "all that tells effects apart, 20 s"),
-            (
-                "commissioning-coast",
-                "the same, with the bridge open in the pauses",
-            ),
-        ]
-        .map(|(name, about)| (name, about.to_owned()));
-        let shapes = Shape::ALL
-            .iter()
-            .map(|(name, shape)| (*name, format!("shows {}", shape.reveals())));
-        Offer {
-            schema: "servoid.simulate-list/1",
-            machines: machines.collect(),
-            effects: crate::bench::effects::CATALOGUE
-                .iter()
-                .map(|kind| kind.name)
-                .collect(),
-            excitations: programs
-                .into_iter()
-                .chain(shapes)
-                .map(|(name, about)| OfferedExcitation { name, about })
-                .collect(),
-        }
-    }
-
-    fn text(&self) -> String {
-        let mut text = String::from("motors:\n");
-        for OfferedMachine {
-            name,
-            supply_v,
-            no_load_rad_s,
-        } in &self.machines
-        {
-            text += &format!("  {name:14} {supply_v} V, no-load {no_load_rad_s:.0} rad/s\n");
-        }
-        text += "effects to hide:\n";
-        for name in &self.effects {
-            text += &format!("  {name}\n");
-        }
-        text += "excitations:\n";
-        for OfferedExcitation { name, about } in &self.excitations {
-            text += &format!("  {name:14} {about}\n");
-        }
-        text
-    }
 }
 
 pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
@@ -182,67 +103,6 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             seed: session.seed,
         },
     )
-}
-
-/// Writes what is known of the motor, unless a file is there already: it may hold what its owner knows, and
-/// other recordings beside it depend on it. Returns what to say of it.
-fn write_motor(session: &Session, path: &Path, motor: &MotorFile) -> Result<String, Error> {
-    if !path.exists() {
-        write_whole(path, |out| out.write_all(motor.to_toml().as_bytes()))?;
-        return Ok(format!("; what is known of the motor: {}", path.display()));
-    }
-    let disagrees = match MotorFile::read(path) {
-        Err(error) => vec![format!("it cannot be used: {error}")],
-        Ok(there) => disagreements(&there, motor),
-    };
-    if !disagrees.is_empty() {
-        session.remark(&format!(
-            "{} was there already and is kept, but it disagrees with this recording: {}; put the recording into \
-             another folder, or give these facts to `servoid fit` as flags",
-            path.display(),
-            disagrees.join("; ")
-        ));
-    }
-    Ok(format!(
-        "; {} was there already and is kept",
-        path.display()
-    ))
-}
-
-/// Where a motor file would make a recording of `motor` be misread, or tells of another motor.
-fn disagreements(there: &MotorFile, motor: &MotorFile) -> Vec<String> {
-    let shown = |value: Option<f64>| value.map_or_else(|| "nothing".to_owned(), |x| x.to_string());
-    let mut found = Vec::new();
-    for (key, theirs, ours) in [
-        ("counts_per_rev", there.counts_per_rev, motor.counts_per_rev),
-        ("supply_v", there.supply_v, motor.supply_v),
-    ] {
-        if theirs != ours {
-            found.push(format!(
-                "it says {key} = {}, here it is {}",
-                shown(theirs),
-                shown(ours)
-            ));
-        }
-    }
-    if there.name != motor.name {
-        let name = |file: &MotorFile| file.name.clone().unwrap_or_else(|| "no name".to_owned());
-        found.push(format!(
-            "it is of `{}`, not of `{}`",
-            name(there),
-            name(motor)
-        ));
-    }
-    for (section, differs) in [
-        ("columns", there.columns != motor.columns),
-        ("units", there.units != motor.units),
-        ("drive", there.drive != motor.drive),
-    ] {
-        if differs {
-            found.push(format!("its [{section}] is of another log"));
-        }
-    }
-    found
 }
 
 /// One `--hide`.
