@@ -89,7 +89,7 @@ pub fn evaluate<S: Scalar>(
     let mut state = start;
     let mut value = Default::default();
     for k in 0..recording.len() {
-        value = value + cost.sample(state.angle.minus(recording.counts[k]));
+        value = value + cost.sample(model.reading(&state).minus(recording.counts[k]));
         if limit.is_some_and(|limit| value > limit) {
             return Sum {
                 value,

@@ -7,7 +7,7 @@
 //! [`motor`](crate::motor)).
 
 use crate::error::ModelError;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// What a parameter measures, and with that its unit and its base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub enum Quantity {
     Angle,
     /// 1/V: something that acts in proportion to a (current or torque) voltage.
     PerVolt,
+    /// 1/V²: something that acts in proportion to the square of a voltage.
+    PerSquareVolt,
     /// 1/(V²·s): something that grows with power over time.
     PerEnergy,
     /// A plain ratio.
@@ -53,6 +55,7 @@ impl Quantity {
             Quantity::Stiffness => "V/rad",
             Quantity::Angle => "rad",
             Quantity::PerVolt => "1/V",
+            Quantity::PerSquareVolt => "1/V^2",
             Quantity::PerEnergy => "1/(V^2*s)",
             Quantity::Ratio => "1",
             Quantity::PerRev => "1/rev",
@@ -115,6 +118,7 @@ impl<R: Real> PerUnit<R> {
             Quantity::Stiffness => self.volts / self.base(Quantity::Angle),
             Quantity::Angle => R::from_f64(core::f64::consts::TAU),
             Quantity::PerVolt => one / self.volts,
+            Quantity::PerSquareVolt => one / (self.volts * self.volts),
             Quantity::PerEnergy => one / (self.volts * self.volts * self.interval),
             Quantity::Ratio | Quantity::PerRev => one,
         }
@@ -123,6 +127,16 @@ impl<R: Real> PerUnit<R> {
     /// From SI to per unit.
     pub fn lower(&self, value: R, quantity: Quantity) -> R {
         value / self.base(quantity)
+    }
+
+    /// From SI to per unit, as a number of the format `S`.
+    pub fn number<S: Scalar>(&self, value: R, quantity: Quantity) -> S {
+        S::from_f64(self.lower(value, quantity).to_f64())
+    }
+
+    /// From SI to per unit, as a multiplier of the format `S`.
+    pub fn multiplier<S: Scalar>(&self, value: R, quantity: Quantity) -> S::Coefficient {
+        S::coefficient(self.lower(value, quantity).to_f64())
     }
 
     /// From per unit to SI.

@@ -169,14 +169,13 @@ fn effect_columns(
             }
             let lowered = Lowered::<f64>::new(&set, &data.units);
             let lost = |k: usize| {
-                let shaft = Shaft {
-                    turns: (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0),
-                    speed: motion[k].rate / data.units.speed,
-                    current: 0.0,
-                };
+                let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
+                let shaft = Shaft::at(turns, motion[k].rate / data.units.speed, 0.0);
                 let volts = data.command[k];
-                let friction = lowered.friction(&shaft).moving * shaft.speed.signum();
-                let lost = volts - lowered.drive(volts, &shaft) + lowered.torque(&shaft) + friction;
+                let budget = lowered.friction(&shaft);
+                let friction = budget.moving * shaft.speed.signum() + budget.bias;
+                let torque = lowered.torque(&shaft, &Default::default());
+                let lost = volts - lowered.drive(volts) + torque + friction;
                 lost * data.units.volts / values[index]
             };
             let integrated = integral(data, lost);

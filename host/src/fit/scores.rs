@@ -10,7 +10,7 @@ use crate::problem::simulate::{Method, Simulation};
 use crate::problem::{Candidate, Data, StartAngle};
 use crate::recording::Drive;
 use shared::cost::Cost;
-use shared::effects::{Lowered, Shaft};
+use shared::effects::{Lowered, Place, Shaft};
 
 /// Filter time of the equation error, sample intervals.
 const EQUATION_FILTER_SAMPLES: f64 = 5.0;
@@ -93,14 +93,13 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     // What the effects leave of the drive, less what they take from it.
     let net: Vec<f64> = (0..data.len())
         .map(|k| {
-            let shaft = Shaft {
-                turns: (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0),
-                speed: motion[k].rate / data.units.speed,
-                current: 0.0,
-            };
-            let friction = lowered.friction(&shaft).moving * shaft.speed.signum();
-            let drive = lowered.drive(data.command[k], &shaft);
-            (drive - lowered.torque(&shaft) - friction) * data.units.volts
+            let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
+            let shaft = Shaft::at(turns, motion[k].rate / data.units.speed, 0.0);
+            let budget = lowered.friction(&shaft);
+            let friction = budget.moving * shaft.speed.signum() + budget.bias;
+            let drive = lowered.drive(data.command[k]);
+            let torque = lowered.torque(&shaft, &Default::default());
+            (drive - torque - friction) * data.units.volts
         })
         .collect();
     let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
@@ -108,6 +107,10 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
         filtered(data, time, &net, true),
         filtered(data, time, &command, true),
     );
+    let holds = candidate
+        .effects
+        .iter()
+        .any(|(kind, _)| kind.description().place == Place::Friction);
     let m = &candidate.machine;
     let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
     let third = m.electrical * m.inertia;
@@ -118,7 +121,7 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
         } else if data.time_s[k] - closed_since > 6.0 * time {
             let f = &motion[k];
             // Near rest friction is whatever holds the shaft: the equation says nothing there.
-            if lowered.friction && f.rate.abs() < AT_REST * data.units.speed {
+            if holds && f.rate.abs() < AT_REST * data.units.speed {
                 continue;
             }
             let needed = total * f.rate + second * f.acceleration + third * f.jerk;

@@ -4,7 +4,7 @@ use super::data::Data;
 use shared::discretise::Discretisation;
 use shared::effects::EffectSet;
 use shared::error::ModelError;
-use shared::model::{Model, Plan, State};
+use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
 use std::ops::Range;
 
@@ -64,7 +64,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// Runs over the samples of `range` from an angle in counts and a speed in rad/s; calls `each`
-    /// with the sample and the model's angle (counts) there.
+    /// with the sample and what the model's encoder sees there (counts).
     pub fn run(
         &self,
         range: Range<usize>,
@@ -72,37 +72,50 @@ impl<'a> Simulation<'a> {
         speed: f64,
         mut each: impl FnMut(usize, f64),
     ) {
-        // The current starts at zero: what it really was dies out within the electrical time constant.
-        let mut state = State {
-            current: 0.0,
-            speed: speed / self.data.units.speed,
-            angle,
-        };
+        let mut state = self.start(range.start, angle, speed);
         if let ([model], None) = (&self.models[..], &self.data.open) {
             // The usual case: even samples, the bridge always closed.
             for k in range {
-                each(k, state.angle);
+                each(k, model.reading(&state));
                 model.step(&mut state, self.data.command[k], false);
             }
             return;
         }
         for k in range {
-            each(k, state.angle);
-            let model = &self.models[self.data.length_of[k] as usize];
+            let model = self.model(k);
+            each(k, model.reading(&state));
             model.step(&mut state, self.data.command[k], self.data.is_open(k));
         }
     }
 
+    fn model(&self, k: usize) -> &Model<f64> {
+        &self.models[self.data.length_of[k] as usize]
+    }
+
+    /// State at sample `k`, where the encoder saw `angle` counts.
+    fn start(&self, k: usize, angle: f64, speed: f64) -> State<f64> {
+        // The current starts at zero: what it really was dies out within the electrical time constant.
+        let mut state = State::at(angle, speed / self.data.units.speed);
+        let Some(last) = self.data.len().checked_sub(1) else {
+            return state;
+        };
+        let error = self.model(k.min(last)).reading(&state) - angle;
+        state.motion.angle = angle - error;
+        // Commands given before may be on their way still.
+        for k in k.saturating_sub(MAX_DELAY)..k {
+            let (command, open) = (self.data.command[k], self.data.is_open(k));
+            self.model(k).recall(&mut state, command, open);
+        }
+        state
+    }
+
     /// Current at each sample as the voltage across the resistance, V, from rest at `angle` counts.
     pub fn currents(&self, angle: f64) -> Vec<f64> {
-        let mut state = State {
-            angle,
-            ..State::default()
-        };
+        let mut state = self.start(0, angle, 0.0);
         (0..self.data.len())
             .map(|k| {
-                let volts = state.current * self.data.units.volts;
-                let model = &self.models[self.data.length_of[k] as usize];
+                let volts = state.motion.current * self.data.units.volts;
+                let model = self.model(k);
                 model.step(&mut state, self.data.command[k], self.data.is_open(k));
                 volts
             })

@@ -1,6 +1,6 @@
 //! Cogging: the magnets prefer some angles.
 
-use super::{Description, Effect, Parameter, Place, Shaft};
+use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -8,9 +8,7 @@ use crate::units::{PerUnit, Quantity};
 /// speeds and currents.
 #[derive(Clone, Copy, Debug)]
 pub struct Cogging<S: Scalar> {
-    order: S::Coefficient,
-    cosine: S,
-    sine: S,
+    torque: Harmonic<S>,
 }
 
 impl<S: Scalar> Effect<S> for Cogging<S> {
@@ -19,27 +17,9 @@ impl<S: Scalar> Effect<S> for Cogging<S> {
         place: Place::Torque,
         title: "cogging torque",
         parameters: &[
-            Parameter {
-                name: "cosine_torque",
-                quantity: Quantity::Torque,
-                range: (-0.3, 0.3),
-                typical: 0.03,
-                amplitude: true,
-            },
-            Parameter {
-                name: "sine_torque",
-                quantity: Quantity::Torque,
-                range: (-0.3, 0.3),
-                typical: 0.02,
-                amplitude: true,
-            },
-            Parameter {
-                name: "order",
-                quantity: Quantity::PerRev,
-                range: (2.0, 128.0),
-                typical: 12.0,
-                amplitude: false,
-            },
+            Parameter::amplitude("cosine_torque", Quantity::Torque, (-0.3, 0.3), 0.03),
+            Parameter::amplitude("sine_torque", Quantity::Torque, (-0.3, 0.3), 0.02),
+            Parameter::shape("order", Quantity::PerRev, (2.0, 128.0), 12.0),
         ],
         equation: "T = A*cos(k*theta) + B*sin(k*theta), k cycles a revolution",
         signature: "lines of the residual torque at fixed angle orders, alike in both directions and at all speeds",
@@ -47,20 +27,24 @@ impl<S: Scalar> Effect<S> for Cogging<S> {
         look_alikes: &["unbalance", "enc_ecc"],
         source: "Piccoli, Yim, Robotics: Science and Systems, 2014",
     };
-    const BENDS: bool = true;
+    const NEEDS: Needs = Needs {
+        mean: true,
+        angle: true,
+        ..Needs::NOTHING
+    };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         Cogging {
-            cosine: S::from_f64(units.lower(values[0], Quantity::Torque).to_f64()),
-            sine: S::from_f64(units.lower(values[1], Quantity::Torque).to_f64()),
-            // Orders are whole: the torque must be the same after a full turn.
-            order: S::coefficient(libm::round(values[2].to_f64())),
+            torque: Harmonic::new(
+                units.number(values[0], Quantity::Torque),
+                units.number(values[1], Quantity::Torque),
+                values[2].to_f64(),
+            ),
         }
     }
 
     #[inline]
-    fn torque(&self, shaft: &Shaft<S>) -> S {
-        let (sine, cosine) = shaft.turns.times(self.order).sin_cos_turns();
-        self.cosine * cosine + self.sine * sine
+    fn torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
+        self.torque.mean(shaft)
     }
 }

@@ -1,6 +1,6 @@
 //! Coulomb friction.
 
-use super::{Budget, Description, Effect, Parameter, Place, Shaft};
+use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -15,32 +15,31 @@ impl<S: Scalar> Effect<S> for Coulomb<S> {
         name: "coulomb",
         place: Place::Friction,
         title: "Coulomb friction",
-        parameters: &[Parameter {
-            name: "torque",
-            quantity: Quantity::Torque,
-            range: (0.0, 0.5),
-            typical: 0.04,
-            amplitude: true,
-        }],
+        parameters: &[Parameter::amplitude(
+            "torque",
+            Quantity::Torque,
+            (0.0, 0.5),
+            0.04,
+        )],
         equation: "T = Tc*sgn(w); |T| <= Tc at rest",
         signature: "residual torque changes sign with speed and does not grow with it",
         exposed_by: "a slow triangle through zero, or steps of both signs",
         look_alikes: &["stribeck", "asym_coulomb", "brush_drop", "lugre"],
         source: "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
     };
-    const FRICTION: bool = true;
+    const NEEDS: Needs = Needs {
+        friction: true,
+        ..Needs::NOTHING
+    };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         Coulomb {
-            torque: S::from_f64(units.lower(values[0], Quantity::Torque).to_f64()),
+            torque: units.number(values[0], Quantity::Torque),
         }
     }
 
     #[inline(always)]
     fn friction(&self, _shaft: &Shaft<S>) -> Budget<S> {
-        Budget {
-            moving: self.torque,
-            holding: self.torque,
-        }
+        Budget::even(self.torque)
     }
 }

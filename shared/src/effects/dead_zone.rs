@@ -1,6 +1,6 @@
 //! Dead zone of the power stage.
 
-use super::{Description, Effect, Parameter, Place, Shaft};
+use super::{Description, Effect, Parameter, Place};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -15,28 +15,28 @@ impl<S: Scalar> Effect<S> for DeadZone<S> {
         name: "dead_zone",
         place: Place::Drive,
         title: "dead zone of the power stage",
-        parameters: &[Parameter {
-            name: "voltage",
-            quantity: Quantity::Voltage,
-            range: (0.0, 0.5),
-            typical: 0.03,
-            amplitude: true,
-        }],
+        parameters: &[Parameter::amplitude(
+            "voltage",
+            Quantity::Voltage,
+            (0.0, 0.5),
+            0.03,
+        )],
         equation: "v = sgn(u)*max(|u| - V0, 0)",
         signature: "no motion below a command that is the same at all angles; a constant voltage missing above it",
         exposed_by: "a slow triangle of small amplitude",
         look_alikes: &["coulomb", "brush_drop", "stribeck"],
         source: "Kara, Eker, Energy Conversion and Management 45, 2004",
     };
+    const ORDER: u8 = 1;
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         DeadZone {
-            volts: S::from_f64(units.lower(values[0], Quantity::Voltage).to_f64()),
+            volts: units.number(values[0], Quantity::Voltage),
         }
     }
 
     #[inline(always)]
-    fn drive(&self, volts: S, _shaft: &Shaft<S>) -> S {
+    fn drive(&self, volts: S) -> S {
         volts - volts.min(self.volts).max(-self.volts)
     }
 }

@@ -15,13 +15,12 @@ impl<S: Scalar> Effect<S> for LoadTorque<S> {
         name: "load_torque",
         place: Place::Torque,
         title: "constant load torque",
-        parameters: &[Parameter {
-            name: "torque",
-            quantity: Quantity::Torque,
-            range: (-0.5, 0.5),
-            typical: 0.04,
-            amplitude: true,
-        }],
+        parameters: &[Parameter::amplitude(
+            "torque",
+            Quantity::Torque,
+            (-0.5, 0.5),
+            0.04,
+        )],
         equation: "T = T0",
         signature: "constant residual torque, also at rest and with the bridge open",
         exposed_by: "coasting with the bridge open, or holding at rest",
@@ -31,12 +30,12 @@ impl<S: Scalar> Effect<S> for LoadTorque<S> {
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         LoadTorque {
-            torque: S::from_f64(units.lower(values[0], Quantity::Torque).to_f64()),
+            torque: units.number(values[0], Quantity::Torque),
         }
     }
 
     #[inline(always)]
-    fn torque(&self, _shaft: &Shaft<S>) -> S {
+    fn torque(&self, _shaft: &Shaft<S>, _memory: S) -> S {
         self.torque
     }
 }

@@ -4,272 +4,153 @@
 //! each place, with a default that does nothing. `kinds!` at the end of this file lists the
 //! effects; the enum of kinds, the names, the dispatch (a `match`, no `dyn`) and all tests that run
 //! over the whole catalogue follow from that list. Its order is the number on the wire: append only.
+//!
+//! To add one: write its file, then add its `mod` line and its line in `kinds!`.
 
+mod asym_coulomb;
+mod asym_viscous;
+mod backlash;
+mod brush_drop;
 mod cogging;
+mod compliance;
 mod coulomb;
 mod dead_zone;
+mod delay;
+mod enc_ecc;
+mod heating;
+mod l_sat;
+mod load_friction;
 mod load_torque;
+mod lugre;
+mod missed_counts;
 mod offset_voltage;
 mod stribeck;
+mod supply_sag;
+mod torque_sat;
+mod unbalance;
+mod voltage_sat;
+mod windage;
 
-use crate::error::ModelError;
+mod describe;
+mod harmonic;
+mod lowered;
+mod set;
+mod shaft;
+
+pub use describe::{Description, MAX_PARAMETERS, Parameter, Place};
+pub use lowered::Lowered;
+pub use set::EffectSet;
+pub use shaft::{Brush, Budget, Coupling, Shaft, Winding};
+
+use crate::motor::Machine;
 use crate::scalar::{Real, Scalar};
-use crate::units::{PerUnit, Quantity};
+use crate::units::PerUnit;
 
 /// Most effects in one model.
 pub const MAX_EFFECTS: usize = 8;
-/// Most parameters of one effect.
-pub const MAX_PARAMETERS: usize = 4;
 
-/// One parameter of an effect.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
-    /// Name, in the field's words.
-    pub name: &'static str,
-    /// What it measures: its unit and its per-unit base.
-    pub quantity: Quantity,
-    /// Search range, relative to the motor: volts (and torques in volts) as parts of the supply,
-    /// speeds as parts of the no-load speed, their quotients likewise; see [`Parameter::scaled`].
-    pub range: (f64, f64),
-    /// A typical value, in the same measure as the range.
-    pub typical: f64,
-    /// Whether the effect vanishes as this parameter goes to zero.
-    pub amplitude: bool,
+/// What an effect needs of the model, so that no model pays for what it has not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// Its hooks depend on speed, angle or current: they are asked twice, for the start and for
+    /// the mean of each part.
+    pub mean: bool,
+    /// It depends on the current, which may jump with the voltage: parts are short after a jump.
+    pub current: bool,
+    /// It looks at [`Shaft::turns`].
+    pub angle: bool,
+    /// It has a friction budget, so that stops must be located.
+    pub friction: bool,
+    /// It changes the winding or drops voltage at the brushes.
+    pub winding: bool,
+    /// It remembers a number.
+    pub memory: bool,
+    /// It changes what the encoder sees.
+    pub sensed: bool,
 }
 
-impl Parameter {
-    /// A value in the measure of [`range`](Self::range), in SI, for a motor at `supply` volts
-    /// that runs at `no_load` rad/s.
-    pub fn scaled(&self, value: f64, supply: f64, no_load: f64) -> f64 {
-        match self.quantity {
-            Quantity::Voltage | Quantity::Torque => value * supply,
-            Quantity::Speed => value * no_load,
-            Quantity::Damping => value * supply / no_load,
-            Quantity::Drag => value * supply / (no_load * no_load),
-            Quantity::PerVolt => value / supply,
-            Quantity::PerEnergy => value / (supply * supply),
-            Quantity::Stiffness
-            | Quantity::Inertia
-            | Quantity::Time
-            | Quantity::Angle
-            | Quantity::Ratio
-            | Quantity::PerRev => value,
+impl Needs {
+    /// Nothing but the command or a constant torque.
+    pub const NOTHING: Needs = Needs {
+        mean: false,
+        current: false,
+        angle: false,
+        friction: false,
+        winding: false,
+        memory: false,
+        sensed: false,
+    };
+
+    /// What either needs.
+    pub fn or(self, other: Needs) -> Needs {
+        Needs {
+            mean: self.mean | other.mean,
+            current: self.current | other.current,
+            angle: self.angle | other.angle,
+            friction: self.friction | other.friction,
+            winding: self.winding | other.winding,
+            memory: self.memory | other.memory,
+            sensed: self.sensed | other.sensed,
         }
     }
 }
 
-/// Where in the chain from command to encoder an effect acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// Between command and winding.
-    Drive,
-    /// On the winding's own constants.
-    Winding,
-    /// A signed torque on the shaft.
-    Torque,
-    /// A friction budget on the shaft.
-    Friction,
-    /// Beyond a spring or a gap.
-    Load,
-    /// Between shaft and counter.
-    Sensed,
-}
-
-/// What an effect says about itself.
-#[derive(Clone, Copy, Debug)]
-pub struct Description {
-    /// Its name on the command line and in JSON.
-    pub name: &'static str,
-    /// Where it acts.
-    pub place: Place,
-    /// One line for a person.
-    pub title: &'static str,
-    /// Its parameters, at most [`MAX_PARAMETERS`].
-    pub parameters: &'static [Parameter],
-    /// The equation.
-    pub equation: &'static str,
-    /// Tell-tale sign in the residual.
-    pub signature: &'static str,
-    /// The excitation that exposes it.
-    pub exposed_by: &'static str,
-    /// Names of effects that it is confused with.
-    pub look_alikes: &'static [&'static str],
-    /// Where the equation comes from.
-    pub source: &'static str,
-}
-
-/// The state of shaft and winding that a hook may look at. Per unit.
-#[derive(Clone, Copy, Debug)]
-pub struct Shaft<S> {
-    /// Position within a revolution, as a fraction of a turn.
-    pub turns: S,
-    /// Speed.
-    pub speed: S,
-    /// Current, as the voltage across the resistance.
-    pub current: S,
-}
-
-/// A torque budget: friction that may stop the shaft and hold it, but never push it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Budget<S> {
-    /// Available against motion.
-    pub moving: S,
-    /// Available to hold a shaft at rest.
-    pub holding: S,
-}
-
-/// One physical effect, lowered to per unit in the number format `S`.
+/// One physical effect, lowered to per unit in the number format `S`. An effect overrides the hook
+/// of the place where it acts.
+///
+/// Hooks see the mean of a part of a step. That is enough for what is nearly linear within a part;
+/// what is not can average over the part itself, see [`Shaft::mean_over_speed`].
 pub trait Effect<S: Scalar>: Copy {
     /// What it is.
     const DESCRIPTION: Description;
-    /// Whether the hooks below depend on speed, angle or current, so that the model must look at
-    /// the middle of a step rather than at its start.
-    const BENDS: bool = false;
-    /// Whether [`friction`](Self::friction) is used, so that stops must be located.
-    const FRICTION: bool = false;
+    /// What it needs of the model.
+    const NEEDS: Needs = Needs::NOTHING;
+    /// Where the command meets it: effects with a [`drive`](Self::drive) act in rising order,
+    /// however a model lists them.
+    const ORDER: u8 = 0;
 
     /// From the values of its parameters in SI.
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self;
 
-    /// Volts that reach the winding, from the volts that were commanded.
-    fn drive(&self, volts: S, _shaft: &Shaft<S>) -> S {
+    /// Time by which the command is late, in intervals.
+    fn delay<R: Real>(_values: &[R], _units: &PerUnit<R>) -> R {
+        R::zero()
+    }
+    /// What stands between the motor and its load, for a machine per unit.
+    fn coupling<R: Real>(
+        _values: &[R],
+        _units: &PerUnit<R>,
+        _machine: &Machine<R>,
+    ) -> Option<Coupling<R>> {
+        None
+    }
+    /// Volts behind this effect, from those before it.
+    fn drive(&self, volts: S) -> S {
         volts
     }
+    /// Drop of the brushes.
+    fn brush(&self) -> Brush<S> {
+        Brush::default()
+    }
+    /// Changes of the winding, with `volts` from the drive.
+    fn winding(&self, _volts: S, _shaft: &Shaft<S>, _memory: S) -> Winding<S> {
+        Winding::default()
+    }
     /// Torque against positive rotation, in volts referred to the winding.
-    fn torque(&self, _shaft: &Shaft<S>) -> S {
+    fn torque(&self, _shaft: &Shaft<S>, _memory: S) -> S {
         S::zero()
     }
     /// Friction budget.
     fn friction(&self, _shaft: &Shaft<S>) -> Budget<S> {
-        Budget {
-            moving: S::zero(),
-            holding: S::zero(),
-        }
+        Budget::default()
     }
-}
-
-/// The effects of one model with their parameters, in SI. Copyable, no allocation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EffectSet<R> {
-    kinds: [Option<Kind>; MAX_EFFECTS],
-    values: [[R; MAX_PARAMETERS]; MAX_EFFECTS],
-}
-
-impl<R: Real> Default for EffectSet<R> {
-    fn default() -> Self {
-        EffectSet {
-            kinds: [None; MAX_EFFECTS],
-            values: [[R::zero(); MAX_PARAMETERS]; MAX_EFFECTS],
-        }
+    /// What it remembers after a part; nothing in it may depend on the sample interval.
+    fn remember(&self, memory: S, _shaft: &Shaft<S>) -> S {
+        memory
     }
-}
-
-impl<R: Real> EffectSet<R> {
-    /// How many effects it holds.
-    pub fn len(&self) -> usize {
-        self.kinds.iter().flatten().count()
-    }
-
-    /// Whether it holds none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Adds an effect with the values of its parameters in SI.
-    pub fn push(&mut self, kind: Kind, values: &[R]) -> Result<(), ModelError> {
-        let slot = self.len();
-        if slot == MAX_EFFECTS {
-            return Err(ModelError::TooManyEffects { limit: MAX_EFFECTS });
-        }
-        let parameters = kind.description().parameters;
-        for (k, parameter) in parameters.iter().enumerate() {
-            let value = values.get(k).copied().unwrap_or_default();
-            if !value.is_finite() {
-                return Err(ModelError::Parameter {
-                    name: parameter.name,
-                    value: value.to_f64(),
-                });
-            }
-            self.values[slot][k] = value;
-        }
-        self.kinds[slot] = Some(kind);
-        Ok(())
-    }
-
-    /// Each effect with its values.
-    pub fn iter(&self) -> impl Iterator<Item = (Kind, &[R])> {
-        self.kinds
-            .iter()
-            .zip(&self.values)
-            .filter_map(|(kind, values)| {
-                kind.map(|kind| (kind, &values[..kind.description().parameters.len()]))
-            })
-    }
-}
-
-/// Effects lowered to per unit, ready to run.
-#[derive(Clone, Copy, Debug)]
-pub struct Lowered<S: Scalar> {
-    effects: [Option<Any<S>>; MAX_EFFECTS],
-    /// See [`Effect::BENDS`].
-    pub bends: bool,
-    /// See [`Effect::FRICTION`].
-    pub friction: bool,
-}
-
-impl<S: Scalar> Lowered<S> {
-    /// Lowers a set.
-    pub fn new<R: Real>(set: &EffectSet<R>, units: &PerUnit<R>) -> Self {
-        let mut lowered = Lowered {
-            effects: [None; MAX_EFFECTS],
-            bends: false,
-            friction: false,
-        };
-        for (slot, (kind, values)) in lowered.effects.iter_mut().zip(set.iter()) {
-            *slot = Some(kind.lower(values, units));
-            lowered.bends |= kind.bends();
-            lowered.friction |= kind.has_friction();
-        }
-        lowered
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.effects[0].is_none()
-    }
-
-    fn each(&self) -> impl Iterator<Item = &Any<S>> {
-        self.effects.iter().map_while(Option::as_ref)
-    }
-
-    /// Volts at the winding.
-    #[inline]
-    pub fn drive(&self, volts: S, shaft: &Shaft<S>) -> S {
-        self.each()
-            .fold(volts, |volts, effect| effect.drive(volts, shaft))
-    }
-
-    /// Sum of the torques against positive rotation.
-    #[inline]
-    pub fn torque(&self, shaft: &Shaft<S>) -> S {
-        self.each()
-            .fold(S::zero(), |sum, effect| sum + effect.torque(shaft))
-    }
-
-    /// Sum of the friction budgets.
-    #[inline]
-    pub fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-        let none = Budget {
-            moving: S::zero(),
-            holding: S::zero(),
-        };
-        self.each().fold(none, |sum, effect| {
-            let more = effect.friction(shaft);
-            Budget {
-                moving: sum.moving + more.moving,
-                holding: sum.holding + more.holding,
-            }
-        })
+    /// Error of the angle that the encoder sees, in turns, at a position within the revolution.
+    fn sensed(&self, _turns: S, _memory: S) -> S {
+        S::zero()
     }
 }
 
@@ -292,12 +173,35 @@ macro_rules! kinds {
                 }
             }
 
-            fn bends(self) -> bool {
-                match self { $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::BENDS),* }
+            /// What it needs of the model.
+            pub fn needs(self) -> Needs {
+                match self { $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::NEEDS),* }
             }
 
-            fn has_friction(self) -> bool {
-                match self { $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::FRICTION),* }
+            /// Place in the order in which effects act.
+            fn rank(self) -> u16 {
+                let order = match self {
+                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::ORDER),*
+                };
+                (order as u16) << 8 | self as u16
+            }
+
+            fn delay<R: Real>(self, values: &[R], units: &PerUnit<R>) -> R {
+                match self {
+                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::delay(values, units)),*
+                }
+            }
+
+            fn coupling<R: Real>(
+                self,
+                values: &[R],
+                units: &PerUnit<R>,
+                machine: &Machine<R>,
+            ) -> Option<Coupling<R>> {
+                match self {
+                    $(Kind::$kind =>
+                        <$file::$kind<f64> as Effect<f64>>::coupling(values, units, machine)),*
+                }
             }
 
             fn lower<S: Scalar, R: Real>(self, values: &[R], units: &PerUnit<R>) -> Any<S> {
@@ -313,16 +217,31 @@ macro_rules! kinds {
 
         impl<S: Scalar> Any<S> {
             #[inline(always)]
-            fn drive(&self, volts: S, shaft: &Shaft<S>) -> S {
-                match self { $(Any::$kind(effect) => effect.drive(volts, shaft)),* }
+            fn drive(&self, volts: S) -> S {
+                match self { $(Any::$kind(effect) => effect.drive(volts)),* }
+            }
+            fn brush(&self) -> Brush<S> {
+                match self { $(Any::$kind(effect) => effect.brush()),* }
             }
             #[inline(always)]
-            fn torque(&self, shaft: &Shaft<S>) -> S {
-                match self { $(Any::$kind(effect) => effect.torque(shaft)),* }
+            fn winding(&self, volts: S, shaft: &Shaft<S>, memory: S) -> Winding<S> {
+                match self { $(Any::$kind(effect) => effect.winding(volts, shaft, memory)),* }
+            }
+            #[inline(always)]
+            fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+                match self { $(Any::$kind(effect) => effect.torque(shaft, memory)),* }
             }
             #[inline(always)]
             fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
                 match self { $(Any::$kind(effect) => effect.friction(shaft)),* }
+            }
+            #[inline(always)]
+            fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
+                match self { $(Any::$kind(effect) => effect.remember(memory, shaft)),* }
+            }
+            #[inline(always)]
+            fn sensed(&self, turns: S, memory: S) -> S {
+                match self { $(Any::$kind(effect) => effect.sensed(turns, memory)),* }
             }
         }
     };
@@ -341,6 +260,40 @@ kinds! {
     DeadZone in dead_zone,
     /// Constant voltage added to the command.
     OffsetVoltage in offset_voltage,
+    /// Friction of different size in the two directions.
+    AsymCoulomb in asym_coulomb,
+    /// Drag on the square of the speed.
+    Windage in windage,
+    /// Gravity on an eccentric mass.
+    Unbalance in unbalance,
+    /// A load behind a gap.
+    Backlash in backlash,
+    /// A load behind a spring.
+    Compliance in compliance,
+    /// Voltage lost at the brushes.
+    BrushDrop in brush_drop,
+    /// The supply falls with the current drawn.
+    SupplySag in supply_sag,
+    /// Large commands are clipped.
+    VoltageSat in voltage_sat,
+    /// Large currents give less torque than their share.
+    TorqueSat in torque_sat,
+    /// The inductance falls as the current grows.
+    LSat in l_sat,
+    /// The winding heats up.
+    Heating in heating,
+    /// Commands arrive late.
+    Delay in delay,
+    /// The encoder's disc is off centre.
+    EncEcc in enc_ecc,
+    /// The counter misses counts.
+    MissedCounts in missed_counts,
+    /// Friction whose bristles bend before they slide.
+    Lugre in lugre,
+    /// Viscous friction of different size in the two directions.
+    AsymViscous in asym_viscous,
+    /// Friction that grows with the torque passed on.
+    LoadFriction in load_friction,
 }
 
 impl Kind {

@@ -1,6 +1,6 @@
 //! Constant voltage added to the command.
 
-use super::{Description, Effect, Parameter, Place, Shaft};
+use super::{Description, Effect, Parameter, Place};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -15,13 +15,12 @@ impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
         name: "offset_voltage",
         place: Place::Drive,
         title: "voltage offset of the drive",
-        parameters: &[Parameter {
-            name: "voltage",
-            quantity: Quantity::Voltage,
-            range: (-0.5, 0.5),
-            typical: 0.02,
-            amplitude: true,
-        }],
+        parameters: &[Parameter::amplitude(
+            "voltage",
+            Quantity::Voltage,
+            (-0.5, 0.5),
+            0.02,
+        )],
         equation: "v = u + V0",
         signature: "creeps at zero command; forward and backward differ by a constant voltage",
         exposed_by: "zero command with the bridge closed and with it open",
@@ -31,12 +30,12 @@ impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         OffsetVoltage {
-            volts: S::from_f64(units.lower(values[0], Quantity::Voltage).to_f64()),
+            volts: units.number(values[0], Quantity::Voltage),
         }
     }
 
     #[inline(always)]
-    fn drive(&self, volts: S, _shaft: &Shaft<S>) -> S {
+    fn drive(&self, volts: S) -> S {
         volts + self.volts
     }
 }

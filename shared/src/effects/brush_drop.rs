@@ -1,0 +1,47 @@
+//! Voltage drop of the brushes.
+
+use super::{Brush, Description, Effect, Needs, Parameter, Place};
+use crate::scalar::{Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+
+/// A voltage against the current: proportional up to the knee, constant beyond.
+#[derive(Clone, Copy, Debug)]
+pub struct BrushDrop<S> {
+    brush: Brush<S>,
+}
+
+impl<S: Scalar> Effect<S> for BrushDrop<S> {
+    const DESCRIPTION: Description = Description {
+        name: "brush_drop",
+        place: Place::Drive,
+        title: "voltage drop of the brushes",
+        parameters: &[
+            Parameter::amplitude("voltage", Quantity::Voltage, (0.0, 0.5), 0.04),
+            Parameter::shape("knee", Quantity::Voltage, (0.001, 0.1), 0.01),
+        ],
+        equation: "v = u - Vb*max(-1, min(R*i/V0, 1))",
+        signature: "residual voltage changes sign with the current and does not grow with it",
+        exposed_by: "braking and driving at the same speed; coasting tells it from friction",
+        look_alikes: &["coulomb", "dead_zone"],
+        source: "Modelica Standard Library, Machines.Losses.DCMachines.Brush",
+    };
+    const NEEDS: Needs = Needs {
+        mean: true,
+        current: true,
+        winding: true,
+        ..Needs::NOTHING
+    };
+
+    fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
+        BrushDrop {
+            brush: Brush {
+                drop: units.number(values[0], Quantity::Voltage),
+                knee: units.number(values[1], Quantity::Voltage),
+            },
+        }
+    }
+
+    fn brush(&self) -> Brush<S> {
+        self.brush
+    }
+}

@@ -1,0 +1,52 @@
+//! A load behind a spring.
+
+use super::{Coupling, Description, Effect, Parameter, Place};
+use crate::motor::Machine;
+use crate::scalar::{Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+use core::marker::PhantomData;
+
+/// Part of the machine's inertia is a load on an elastic shaft; the encoder sits on the motor. The
+/// spring is given by the period of the two inertias against each other, `2π·√(Jm·Jl/(J·k))`: at zero
+/// it is rigid.
+#[derive(Clone, Copy, Debug)]
+pub struct Compliance<S>(PhantomData<S>);
+
+impl<S: Scalar> Effect<S> for Compliance<S> {
+    const DESCRIPTION: Description = Description {
+        name: "compliance",
+        place: Place::Load,
+        title: "elastic shaft between motor and load",
+        parameters: &[
+            Parameter::amplitude("period", Quantity::Time, (0.0, 0.1), 0.033),
+            Parameter::shape("load_share", Quantity::Ratio, (0.05, 0.95), 0.4),
+            Parameter::shape("damping_ratio", Quantity::Ratio, (0.0, 1.0), 0.05),
+        ],
+        equation: "T = k*twist + d*d(twist)/dt on the motor and against the load",
+        signature: "ringing after steps; a notch and a peak in the frequency response",
+        exposed_by: "a chirp, multisine",
+        look_alikes: &["backlash", "delay", "lugre"],
+        source: "Ellis, Control System Design Guide, 2012, ch. 16",
+    };
+
+    fn lower<R: Real>(_values: &[R], _units: &PerUnit<R>) -> Self {
+        Compliance(PhantomData)
+    }
+
+    fn coupling<R: Real>(
+        values: &[R],
+        units: &PerUnit<R>,
+        machine: &Machine<R>,
+    ) -> Option<Coupling<R>> {
+        let period = units.lower(values[0], Quantity::Time);
+        let none = R::zero();
+        let (load_share, damping_ratio) = (values[1], values[2]);
+        Some(Coupling::new(
+            load_share,
+            machine.inertia,
+            period,
+            damping_ratio,
+            none,
+        ))
+    }
+}

@@ -1,0 +1,121 @@
+//! What an effect says about itself, for people and for programs.
+
+use crate::units::Quantity;
+
+/// Most parameters of one effect.
+pub const MAX_PARAMETERS: usize = 5;
+
+/// One parameter of an effect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name, in the field's words.
+    pub name: &'static str,
+    /// What it measures: its unit and its per-unit base.
+    pub quantity: Quantity,
+    /// Search range, relative to the motor: volts (and torques in volts) as parts of the supply,
+    /// speeds as parts of the no-load speed, their quotients likewise; see [`Parameter::scaled`].
+    pub range: (f64, f64),
+    /// A typical value, in the same measure as the range.
+    pub typical: f64,
+    /// Whether the effect vanishes, in proportion, as this parameter (and every other amplitude of
+    /// the effect) goes to zero.
+    pub amplitude: bool,
+    /// Value, in the same measure as the range, at which the effect vanishes; `None` for a
+    /// parameter that only shapes it.
+    pub neutral: Option<f64>,
+}
+
+impl Parameter {
+    /// A parameter that the effect is proportional to, or at least vanishes with.
+    pub const fn amplitude(
+        name: &'static str,
+        quantity: Quantity,
+        range: (f64, f64),
+        typical: f64,
+    ) -> Self {
+        Parameter {
+            name,
+            quantity,
+            range,
+            typical,
+            amplitude: true,
+            neutral: Some(0.0),
+        }
+    }
+
+    /// A parameter that shapes the effect.
+    pub const fn shape(
+        name: &'static str,
+        quantity: Quantity,
+        range: (f64, f64),
+        typical: f64,
+    ) -> Self {
+        Parameter {
+            name,
+            quantity,
+            range,
+            typical,
+            amplitude: false,
+            neutral: None,
+        }
+    }
+
+    /// A value in the measure of [`range`](Self::range), in SI, for a motor at `supply` volts
+    /// that runs at `no_load` rad/s.
+    pub fn scaled(&self, value: f64, supply: f64, no_load: f64) -> f64 {
+        match self.quantity {
+            Quantity::Voltage | Quantity::Torque => value * supply,
+            Quantity::Speed => value * no_load,
+            Quantity::Damping => value * supply / no_load,
+            Quantity::Drag => value * supply / (no_load * no_load),
+            Quantity::PerVolt => value / supply,
+            Quantity::PerSquareVolt | Quantity::PerEnergy => value / (supply * supply),
+            Quantity::Stiffness
+            | Quantity::Inertia
+            | Quantity::Time
+            | Quantity::Angle
+            | Quantity::Ratio
+            | Quantity::PerRev => value,
+        }
+    }
+}
+
+/// Where in the chain from command to encoder an effect acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Between command and winding.
+    Drive,
+    /// On the winding's own constants.
+    Winding,
+    /// A signed torque on the shaft.
+    Torque,
+    /// A friction budget on the shaft.
+    Friction,
+    /// Beyond a spring or a gap.
+    Load,
+    /// Between shaft and counter.
+    Sensed,
+}
+
+/// What an effect says about itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// Its name on the command line and in JSON.
+    pub name: &'static str,
+    /// Where it acts.
+    pub place: Place,
+    /// One line for a person.
+    pub title: &'static str,
+    /// Its parameters, at most [`MAX_PARAMETERS`].
+    pub parameters: &'static [Parameter],
+    /// The equation.
+    pub equation: &'static str,
+    /// Tell-tale sign in the residual.
+    pub signature: &'static str,
+    /// The excitation that exposes it.
+    pub exposed_by: &'static str,
+    /// Names of effects that it is confused with.
+    pub look_alikes: &'static [&'static str],
+    /// Where the equation comes from.
+    pub source: &'static str,
+}

@@ -1,0 +1,183 @@
+//! What an effect sees of the motor, and what it may give back. Per unit.
+
+use crate::scalar::{Real, Scalar};
+
+/// The mean state of shaft and winding over a part of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaft<S: Scalar> {
+    /// Position within a revolution at the middle of the travel, as a fraction of a turn; only if
+    /// the effect [needs](super::Needs::angle) it.
+    pub turns: S,
+    /// Travel, turns.
+    pub travel: S,
+    /// Speed.
+    pub speed: S,
+    /// By how much the speed changes.
+    pub speed_change: S,
+    /// Current, as the voltage across the resistance.
+    pub current: S,
+    /// By how much the current changes.
+    pub current_change: S,
+    /// Torque that the motor and its load pass to each other, without dry friction; only in
+    /// [`Effect::friction`](super::Effect::friction).
+    pub transmitted: S,
+    /// Length of the part in intervals.
+    pub length: S::Coefficient,
+    /// One over that.
+    pub per_length: S::Coefficient,
+}
+
+impl<S: Scalar> Shaft<S> {
+    /// One instant.
+    pub fn at(turns: S, speed: S, current: S) -> Self {
+        let zero = S::zero();
+        Shaft {
+            turns,
+            travel: zero,
+            speed,
+            speed_change: zero,
+            current,
+            current_change: zero,
+            transmitted: current,
+            length: S::coefficient(0.0),
+            per_length: S::coefficient(0.0),
+        }
+    }
+
+    /// Mean over the part of what depends on the speed alone, by Gauss's rule of two points.
+    #[inline(always)]
+    pub fn mean_over_speed(&self, f: impl Fn(S) -> S) -> S {
+        mean(self.speed, self.speed_change, f)
+    }
+
+    /// Mean over the part of what depends on the current alone, by Gauss's rule of two points.
+    #[inline(always)]
+    pub fn mean_over_current(&self, f: impl Fn(S) -> S) -> S {
+        mean(self.current, self.current_change, f)
+    }
+}
+
+/// Mean of `f` over an interval of width `change` about `middle`: exact for cubics.
+#[inline(always)]
+fn mean<S: Scalar>(middle: S, change: S, f: impl Fn(S) -> S) -> S {
+    // 1/(2√3)
+    let reach = change * S::from_f64(0.288_675_134_594_812_9);
+    (f(middle - reach) + f(middle + reach)) * S::from_f64(0.5)
+}
+
+/// A torque budget: friction that may stop the shaft and hold it, but never push it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Budget<S> {
+    /// Available against motion.
+    pub moving: S,
+    /// Available to hold a shaft at rest.
+    pub holding: S,
+    /// How much more of both there is against forward motion, and how much less against backward
+    /// motion; never more than they are. A torque to the equations: friction `F + B` forward and
+    /// `F − B` backward holds the same pulls as friction `F` with a load `B`.
+    pub bias: S,
+}
+
+impl<S: Scalar> Budget<S> {
+    /// The same at rest and in motion, and in both directions.
+    pub fn even(torque: S) -> Self {
+        Budget {
+            moving: torque,
+            holding: torque,
+            bias: S::zero(),
+        }
+    }
+
+    /// Both.
+    #[inline(always)]
+    pub fn and(self, other: Self) -> Self {
+        Budget {
+            moving: self.moving + other.moving,
+            holding: self.holding + other.holding,
+            bias: self.bias + other.bias,
+        }
+    }
+}
+
+/// Changes of the winding, as shares of its own constants; zero where nothing changes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Winding<S> {
+    /// Extra resistance.
+    pub resistance: S,
+    /// Extra of one over the inductance.
+    pub rate: S,
+    /// Extra back-EMF.
+    pub back_emf: S,
+    /// Torque that the current should give and does not.
+    pub lost_torque: S,
+}
+
+impl<S: Scalar> Winding<S> {
+    /// Both.
+    #[inline(always)]
+    pub fn and(self, other: Self) -> Self {
+        Winding {
+            resistance: self.resistance + other.resistance,
+            rate: self.rate + other.rate,
+            back_emf: self.back_emf + other.back_emf,
+            lost_torque: self.lost_torque + other.lost_torque,
+        }
+    }
+}
+
+/// A voltage lost against the current: proportional up to a knee, constant beyond.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Brush<S> {
+    /// Voltage beyond the knee.
+    pub drop: S,
+    /// Current of the knee, as the voltage across the resistance.
+    pub knee: S,
+}
+
+impl<S: Scalar> Brush<S> {
+    /// Both, which bend at the later of their knees.
+    pub fn and(self, other: Self) -> Self {
+        Brush {
+            drop: self.drop + other.drop,
+            knee: self.knee.max(other.knee),
+        }
+    }
+}
+
+/// A second inertia behind a spring, perhaps behind a gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling<R> {
+    /// Share of the machine's inertia that is the load's.
+    pub load_share: R,
+    /// One over the spring rate: angle (base speed × interval) per torque.
+    pub compliance: R,
+    /// Damping ratio of the two inertias against each other.
+    pub damping_ratio: R,
+    /// Half of the gap, in base speed × interval.
+    pub half_gap: R,
+}
+
+impl<R: Real> Coupling<R> {
+    /// Two inertias that swing against each other with `period` (in intervals), sharing the
+    /// inertia of a machine.
+    pub fn new(load_share: R, inertia: R, period: R, damping_ratio: R, half_gap: R) -> Self {
+        let reduced = load_share * (R::from_f64(1.0) - load_share) * inertia;
+        let per_radian = period / R::from_f64(core::f64::consts::TAU);
+        Coupling {
+            load_share,
+            compliance: per_radian * per_radian / reduced,
+            damping_ratio,
+            half_gap,
+        }
+    }
+
+    /// Both in series, in front of one load.
+    pub fn in_series_with(self, other: Self) -> Self {
+        Coupling {
+            load_share: self.load_share.max(other.load_share),
+            compliance: self.compliance + other.compliance,
+            damping_ratio: self.damping_ratio.max(other.damping_ratio),
+            half_gap: self.half_gap + other.half_gap,
+        }
+    }
+}

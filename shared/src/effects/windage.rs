@@ -1,0 +1,46 @@
+//! Windage: the drag of the air that a fan or a fast rotor stirs.
+
+use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use crate::scalar::{Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+
+/// Turbulent drag, `c·ω·|ω|`.
+#[derive(Clone, Copy, Debug)]
+pub struct Windage<S: Scalar> {
+    drag: S::Coefficient,
+}
+
+impl<S: Scalar> Effect<S> for Windage<S> {
+    const DESCRIPTION: Description = Description {
+        name: "windage",
+        place: Place::Torque,
+        title: "windage (drag on the square of the speed)",
+        parameters: &[Parameter::amplitude(
+            "drag",
+            Quantity::Drag,
+            (0.0, 0.5),
+            0.05,
+        )],
+        equation: "T = c*w*|w|",
+        signature: "curvature of the voltage over the speed, at high speed",
+        exposed_by: "a staircase up to full speed, and coasting down from it",
+        look_alikes: &["asym_viscous", "heating", "supply_sag", "torque_sat"],
+        source: "Vrancik, NASA TN D-4849, 1968",
+    };
+    const NEEDS: Needs = Needs {
+        mean: true,
+        ..Needs::NOTHING
+    };
+
+    fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
+        Windage {
+            drag: units.multiplier::<S>(values[0], Quantity::Drag),
+        }
+    }
+
+    #[inline]
+    fn torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
+        let square = shaft.mean_over_speed(|speed| speed * speed.abs());
+        square.times(self.drag)
+    }
+}

@@ -1,0 +1,373 @@
+//! A motor that drives a second inertia through a spring, perhaps behind a gap.
+//!
+//! ```text
+//! m·dω/dt  = c − b·ω − τ − q        q = kx·(ε ∓ α) + d·ε'   while the flanks touch, never pulling
+//! ml·dωl/dt = q                     q = 0                   within the gap
+//! ```
+//!
+//! (Nordin, Gutman, *Controlling mechanical systems with backlash – a survey*, Automatica 38(10),
+//! 2002.) While the flanks touch, and while they do not, the motion is linear, so both have exact
+//! maps; contacts are located like stops of friction. The twist `ε` is kept as `x = Ω·ε` with `Ω`
+//! the frequency of the two inertias against each other, and its rate is the slip `s = ω − ωl`:
+//! `x' = Ω·s` and `s' = … − Ω·x − 2ζΩ·s`, numbers of one size.
+
+use super::body::{Body, Increment};
+use super::friction::is_zero;
+use super::rung::{RUNGS, Rung, Timing, shortest};
+use super::state::Motion;
+use crate::discretise::{Discretisation, LinearMap, LinearSystem, lowered};
+use crate::effects::Coupling;
+use crate::error::ModelError;
+use crate::motor::Machine;
+use crate::scalar::{Mask, Real, Scalar};
+
+/// Maps of one part of a step while the flanks touch.
+#[derive(Clone, Copy, Debug)]
+struct Touching<S: Scalar> {
+    timing: Timing<S>,
+    /// Current, speed, twist, slip and angle by `[c, ω, x, s, v, τ]` with the bridge closed.
+    driven: [[S::Coefficient; 6]; 5],
+    /// Speed, twist, slip and angle by `[ω, x, s, τ]` with the bridge open.
+    coast: [[S::Coefficient; 4]; 4],
+    /// Twist and slip by `[x, s]` while friction holds the motor.
+    held: [[S::Coefficient; 2]; 2],
+    /// Twist by slip while the load is free.
+    flight: S::Coefficient,
+}
+
+/// The coupling's constants, per unit.
+#[derive(Clone, Copy, Debug)]
+struct Joint<S: Scalar> {
+    /// Torque by twist and by slip.
+    stiffness: S::Coefficient,
+    damping: S::Coefficient,
+    /// Twist by angle.
+    twist_per_angle: S::Coefficient,
+    /// Half of the gap, as a twist.
+    half_gap: S,
+    /// Whether there is a gap.
+    loose: bool,
+}
+
+/// Motor and load.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled<S: Scalar> {
+    joint: Joint<S>,
+    touching: [Touching<S>; RUNGS],
+}
+
+/// A machine split in two, per unit.
+struct Split<R> {
+    /// The motor alone.
+    motor: Machine<R>,
+    /// Share of the inertia that is the load's.
+    share: R,
+    /// `Ω`, per interval.
+    frequency: R,
+    /// `2ζ`.
+    twice_damping: R,
+}
+
+impl<R: Real> Split<R> {
+    fn new(machine: &Machine<R>, coupling: &Coupling<R>) -> Result<Self, ModelError> {
+        let one = R::from_f64(1.0);
+        let share = coupling.load_share;
+        if !(share > R::zero() && share < one) {
+            return Err(ModelError::Parameter {
+                name: "load share",
+                value: share.to_f64(),
+            });
+        }
+        let mut motor = *machine;
+        motor.inertia = (one - share) * machine.inertia;
+        let reduced = share * motor.inertia;
+        Ok(Split {
+            motor,
+            share,
+            frequency: one / (reduced * coupling.compliance).sqrt(),
+            twice_damping: coupling.damping_ratio + coupling.damping_ratio,
+        })
+    }
+
+    fn maps(
+        &self,
+        machine: &Machine<R>,
+        length: R,
+        how: Discretisation,
+    ) -> Result<Maps<R>, ModelError> {
+        let zero = R::zero();
+        let rate = length / machine.electrical;
+        let push = length / machine.inertia;
+        let drag = machine.damping * push;
+        let turn = self.frequency * length;
+        let (x, s) = (turn, self.twice_damping * turn);
+        let (mx, ms) = (self.share * x, self.share * s);
+        let load = R::from_f64(1.0) - self.share;
+        let driven = LinearSystem {
+            states: [
+                [-rate, -(machine.kb * rate), zero, zero],
+                [push, -drag, -mx, -ms],
+                [zero, zero, zero, turn],
+                [push, -drag, -x, -s],
+            ],
+            inputs: [[rate, zero], [zero, -push], [zero, zero], [zero, -push]],
+            speed: 1,
+        };
+        let coast = LinearSystem {
+            states: [[-drag, -mx, -ms], [zero, zero, turn], [-drag, -x, -s]],
+            inputs: [[-push], [zero], [-push]],
+            speed: 0,
+        };
+        let held = LinearSystem {
+            states: [[zero, turn], [-(load * x), -(load * s)]],
+            inputs: [[], []],
+            speed: 0,
+        };
+        Ok(Maps {
+            driven: driven.step(length, how)?,
+            coast: coast.step(length, how)?,
+            held: held.step(length, how)?,
+        })
+    }
+}
+
+/// The maps of a part in R, before they are lowered.
+#[derive(Clone, Copy)]
+struct Maps<R> {
+    driven: LinearMap<R, 4, 2>,
+    coast: LinearMap<R, 3, 1>,
+    held: LinearMap<R, 2, 0>,
+}
+
+impl<R: Real> Maps<R> {
+    fn twice(&self) -> Self {
+        Maps {
+            driven: self.driven.twice(),
+            coast: self.coast.twice(),
+            held: self.held.twice(),
+        }
+    }
+
+    fn lower<S: Scalar>(
+        &self,
+        split: &Split<R>,
+        machine: &Machine<R>,
+        length: R,
+    ) -> Result<Touching<S>, ModelError> {
+        let driven = |k: usize| {
+            let map = &self.driven;
+            let (x, u) = match k {
+                4 => (map.angle_by_states, map.angle_by_inputs),
+                _ => (map.states[k], map.inputs[k]),
+            };
+            lowered::<S, R, 6>("coupled increment", [x[0], x[1], x[2], x[3], u[0], u[1]])
+        };
+        let coast = |k: usize| {
+            let map = &self.coast;
+            let (x, u) = match k {
+                3 => (map.angle_by_states, map.angle_by_inputs),
+                _ => (map.states[k], map.inputs[k]),
+            };
+            lowered::<S, R, 4>("coupled coasting increment", [x[0], x[1], x[2], u[0]])
+        };
+        let held = |k: usize| lowered::<S, R, 2>("held load increment", self.held.states[k]);
+        let flight = split.frequency * length;
+        Ok(Touching {
+            timing: Timing::new(
+                machine,
+                length,
+                self.driven.inputs[0][0],
+                self.driven.angle_by_inputs[0],
+            ),
+            driven: [driven(0)?, driven(1)?, driven(2)?, driven(3)?, driven(4)?],
+            coast: [coast(0)?, coast(1)?, coast(2)?, coast(3)?],
+            held: [held(0)?, held(1)?],
+            flight: S::coefficient(flight.to_f64()),
+        })
+    }
+}
+
+impl<S: Scalar> Coupled<S> {
+    /// The maps of a step of `step` intervals and of all its halvings; with them the machine of the
+    /// motor alone.
+    pub fn new<R: Real>(
+        machine: &Machine<R>,
+        coupling: &Coupling<R>,
+        step: R,
+        how: Discretisation,
+    ) -> Result<(Self, Machine<R>), ModelError> {
+        let split = Split::new(machine, coupling)?;
+        let depth = RUNGS - 1;
+        let (motor, lengths) = shortest(&split.motor, step, depth, how);
+        let mut maps = split.maps(&motor, lengths[depth], how)?;
+        let mut touching = [maps.lower::<S>(&split, &motor, lengths[depth])?; RUNGS];
+        for level in (0..depth).rev() {
+            maps = match how {
+                Discretisation::Exact => maps.twice(),
+                Discretisation::Euler => split.maps(&motor, lengths[level], how)?,
+            };
+            touching[level] = maps.lower::<S>(&split, &motor, lengths[level])?;
+        }
+        let stiffness = split.share * split.motor.inertia * split.frequency;
+        let half_gap = coupling.half_gap * split.frequency;
+        let joint = Joint {
+            stiffness: S::coefficient(stiffness.to_f64()),
+            damping: S::coefficient((stiffness * split.twice_damping).to_f64()),
+            twist_per_angle: S::coefficient(split.frequency.to_f64()),
+            half_gap: S::from_f64(half_gap.to_f64()),
+            loose: coupling.half_gap > R::zero(),
+        };
+        Ok((Coupled { joint, touching }, split.motor))
+    }
+}
+
+impl<S: Scalar> Joint<S> {
+    /// Twist beyond the flank on `side`.
+    fn bend(&self, twist: S, side: S) -> S {
+        twist - side * self.half_gap
+    }
+
+    /// Torque that the motor passes on.
+    fn torque(&self, bend: S, slip: S) -> S {
+        bend.times(self.stiffness) + slip.times(self.damping)
+    }
+}
+
+/// A [`Coupled`] and, for the time of free flight, the maps of the motor alone.
+pub struct MotorAndLoad<'a, S: Scalar> {
+    /// The motor alone.
+    pub motor: &'a [Rung<S>; RUNGS],
+    /// Both.
+    pub coupled: &'a Coupled<S>,
+}
+
+impl<S: Scalar> MotorAndLoad<'_, S> {
+    fn touching(
+        &self,
+        level: usize,
+        from: &Motion<S>,
+        bend: S,
+        volts: S,
+        torque: S,
+        open: bool,
+    ) -> Increment<S> {
+        let maps = &self.coupled.touching[level];
+        let (speed, slip) = (from.speed, from.slip);
+        if open {
+            let row = |k: &[S::Coefficient; 4]| {
+                speed.times(k[0]) + bend.times(k[1]) + slip.times(k[2]) + torque.times(k[3])
+            };
+            let [speed, twist, slip, angle] = &maps.coast;
+            return Increment {
+                current: -from.current,
+                speed: row(speed),
+                angle: row(angle),
+                twist: row(twist),
+                slip: row(slip),
+            };
+        }
+        let row = |k: &[S::Coefficient; 6]| {
+            let own = from.current.times(k[0]) + speed.times(k[1]);
+            let load = bend.times(k[2]) + slip.times(k[3]);
+            own + load + volts.times(k[4]) + torque.times(k[5])
+        };
+        let [current, speed, twist, slip, angle] = &maps.driven;
+        Increment {
+            current: row(current),
+            speed: row(speed),
+            angle: row(angle),
+            twist: row(twist),
+            slip: row(slip),
+        }
+    }
+}
+
+fn select<S: Scalar>(mask: S::Mask, a: Increment<S>, b: Increment<S>) -> Increment<S> {
+    Increment {
+        current: S::select(mask, a.current, b.current),
+        speed: S::select(mask, a.speed, b.speed),
+        angle: S::select(mask, a.angle, b.angle),
+        twist: S::select(mask, a.twist, b.twist),
+        slip: S::select(mask, a.slip, b.slip),
+    }
+}
+
+impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
+    const COUPLED: bool = true;
+
+    fn timing(&self, level: usize) -> &Timing<S> {
+        &self.coupled.touching[level].timing
+    }
+
+    fn slide(
+        &self,
+        level: usize,
+        from: &Motion<S>,
+        volts: S,
+        torque: S,
+        open: bool,
+    ) -> Increment<S> {
+        let joint = &self.coupled.joint;
+        let side = self.side(from);
+        let bend = joint.bend(from.twist, side);
+        let touching = self.touching(level, from, bend, volts, torque, open);
+        if !joint.loose {
+            return touching;
+        }
+        let mut free = self.motor[level].slide(from, volts, torque, open);
+        free.slip = free.speed;
+        // The load flies on at the speed that it had.
+        let ahead = (from.slip - from.speed).times(self.coupled.touching[level].flight);
+        free.twist = free.angle.times(joint.twist_per_angle) + ahead;
+        select(is_zero(side), free, touching)
+    }
+
+    fn settle(&self, level: usize, from: &Motion<S>, volts: S, open: bool) -> Increment<S> {
+        let joint = &self.coupled.joint;
+        let maps = &self.coupled.touching[level];
+        let side = self.side(from);
+        let bend = joint.bend(from.twist, side);
+        let row = |k: &[S::Coefficient; 2]| bend.times(k[0]) + from.slip.times(k[1]);
+        let still = self.motor.settle(level, from, volts, open);
+        let touching = Increment {
+            twist: row(&maps.held[0]),
+            slip: row(&maps.held[1]),
+            ..still
+        };
+        if !joint.loose {
+            return touching;
+        }
+        let free = Increment {
+            twist: from.slip.times(maps.flight),
+            ..still
+        };
+        select(is_zero(side), free, touching)
+    }
+
+    fn yields(&self, level: usize, torque: S) -> S {
+        torque.times(self.coupled.touching[level].driven[1][5])
+    }
+
+    fn load(&self, from: &Motion<S>) -> S {
+        let joint = &self.coupled.joint;
+        let side = self.side(from);
+        let torque = joint.torque(joint.bend(from.twist, side), from.slip);
+        if !joint.loose {
+            return torque;
+        }
+        S::select(is_zero(side), S::zero(), torque)
+    }
+
+    /// The flanks touch where the twist is beyond the gap and they push; without a gap, always.
+    fn side(&self, from: &Motion<S>) -> S {
+        let joint = &self.coupled.joint;
+        if !joint.loose {
+            return S::zero();
+        }
+        let side = from.twist.signum();
+        let bend = joint.bend(from.twist, side);
+        let beyond = S::zero().less(bend * side);
+        let pushes = S::zero().less(joint.torque(bend, from.slip) * side);
+        S::select(beyond.and(pushes), side, S::zero())
+    }
+}

@@ -1,0 +1,245 @@
+//! The maps of a step and of its half, quarter, … for a motor that is one rigid body.
+
+use super::body::{Body, Increment};
+use super::state::Motion;
+use crate::discretise::{Discretisation, LinearMap, LinearSystem, lowered};
+use crate::error::ModelError;
+use crate::motor::Machine;
+use crate::scalar::{Real, Scalar};
+
+/// Lengths of parts: a step and seven halvings of it.
+pub const RUNGS: usize = 8;
+
+/// Shortest electrical time constant, as a part of the shortest part of a step: below it the
+/// current follows at once.
+const SHORTEST_ELECTRICAL: f64 = 1.0 / 1024.0;
+
+/// A part of a step in numbers: its length, and how the mean current follows from its ends.
+///
+/// The mean of `τe·dc/dt = v − c − kb·ω` over a part of length `h` is exactly
+/// `c̄ = v − kb·ω̄ − (τe/h)·Δc`.
+#[derive(Clone, Copy, Debug)]
+pub struct Timing<S: Scalar> {
+    /// Length in intervals.
+    pub length: S::Coefficient,
+    /// One over that.
+    pub per_length: S::Coefficient,
+    /// `τe/h`.
+    pub lag: S::Coefficient,
+    /// Back-EMF constant.
+    pub kb: S::Coefficient,
+    /// Mean current per held volt.
+    pub gain: S,
+}
+
+/// Maps of one part of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Rung<S: Scalar> {
+    timing: Timing<S>,
+    /// Current, speed and angle by `[c, ω, v, τ]` with the bridge closed.
+    current: [S::Coefficient; 4],
+    speed: [S::Coefficient; 4],
+    angle: [S::Coefficient; 4],
+    /// Speed and angle by `[ω, τ]` with the bridge open: the current is cut off at once.
+    coast_speed: [S::Coefficient; 2],
+    coast_angle: [S::Coefficient; 2],
+    /// Current by `[c, v]` of a shaft that friction holds.
+    held: [S::Coefficient; 2],
+}
+
+/// The maps of a step in R, before they are lowered.
+#[derive(Clone, Copy)]
+struct Maps<R> {
+    driven: LinearMap<R, 2, 2>,
+    coast: LinearMap<R, 1, 1>,
+    held: LinearMap<R, 1, 1>,
+}
+
+impl<R: Real> Maps<R> {
+    fn new(machine: &Machine<R>, length: R, how: Discretisation) -> Result<Self, ModelError> {
+        let zero = R::zero();
+        let rate = length / machine.electrical;
+        let push = length / machine.inertia;
+        let drag = machine.damping * push;
+        let driven = LinearSystem {
+            states: [[-rate, -(machine.kb * rate)], [push, -drag]],
+            inputs: [[rate, zero], [zero, -push]],
+            speed: 1,
+        };
+        let coast = LinearSystem {
+            states: [[-drag]],
+            inputs: [[-push]],
+            speed: 0,
+        };
+        let held = LinearSystem {
+            states: [[-rate]],
+            inputs: [[rate]],
+            speed: 0,
+        };
+        Ok(Maps {
+            driven: driven.step(length, how)?,
+            coast: coast.step(length, how)?,
+            held: held.step(length, how)?,
+        })
+    }
+
+    fn twice(&self) -> Self {
+        Maps {
+            driven: self.driven.twice(),
+            coast: self.coast.twice(),
+            held: self.held.twice(),
+        }
+    }
+
+    fn lower<S: Scalar>(&self, machine: &Machine<R>, length: R) -> Result<Rung<S>, ModelError> {
+        let driven = &self.driven;
+        let row = |k: usize| {
+            let (x, u) = (driven.states[k], driven.inputs[k]);
+            [x[0], x[1], u[0], u[1]]
+        };
+        let (x, u) = (driven.angle_by_states, driven.angle_by_inputs);
+        Ok(Rung {
+            timing: Timing::new(machine, length, driven.inputs[0][0], u[0]),
+            current: lowered::<S, R, 4>("current increment", row(0))?,
+            speed: lowered::<S, R, 4>("speed increment", row(1))?,
+            angle: lowered::<S, R, 4>("angle increment", [x[0], x[1], u[0], u[1]])?,
+            coast_speed: lowered::<S, R, 2>(
+                "coasting speed increment",
+                [self.coast.states[0][0], self.coast.inputs[0][0]],
+            )?,
+            coast_angle: lowered::<S, R, 2>(
+                "coasting angle increment",
+                [self.coast.angle_by_states[0], self.coast.angle_by_inputs[0]],
+            )?,
+            held: lowered::<S, R, 2>(
+                "held current increment",
+                [self.held.states[0][0], self.held.inputs[0][0]],
+            )?,
+        })
+    }
+}
+
+impl<S: Scalar> Timing<S> {
+    /// Of a part of `length` intervals in which a held volt raises the current by `current` and
+    /// turns the shaft by `angle`.
+    pub fn new<R: Real>(machine: &Machine<R>, length: R, current: R, angle: R) -> Self {
+        let per_length = R::from_f64(1.0) / length;
+        let lag = machine.electrical * per_length;
+        let gain = R::from_f64(1.0) - machine.kb * angle * per_length - lag * current;
+        Timing {
+            length: S::coefficient(length.to_f64()),
+            per_length: S::coefficient(per_length.to_f64()),
+            lag: S::coefficient(lag.to_f64()),
+            kb: S::coefficient(machine.kb.to_f64()),
+            gain: S::from_f64(gain.to_f64()),
+        }
+    }
+}
+
+/// Lengths of the rungs of a ladder whose whole step is `step` intervals long and is halved `depth`
+/// times, and the machine with an electrical time constant that the shortest part can follow.
+pub fn shortest<R: Real>(
+    machine: &Machine<R>,
+    step: R,
+    depth: usize,
+    how: Discretisation,
+) -> (Machine<R>, [R; RUNGS]) {
+    let mut lengths = [step; RUNGS];
+    for level in 1..RUNGS {
+        lengths[level] = lengths[level - 1] * R::from_f64(0.5);
+    }
+    let fastest = lengths[depth] * R::from_f64(SHORTEST_ELECTRICAL);
+    let mut machine = *machine;
+    if how == Discretisation::Exact {
+        machine.electrical = machine.electrical.max(fastest);
+    }
+    (machine, lengths)
+}
+
+/// The maps of a step of `step` intervals and of its halvings down to `depth` (the rest repeats the
+/// last one). The shortest is computed, the others follow by doubling.
+pub fn ladder<S: Scalar, R: Real>(
+    machine: &Machine<R>,
+    step: R,
+    depth: usize,
+    how: Discretisation,
+) -> Result<[Rung<S>; RUNGS], ModelError> {
+    let (machine, lengths) = shortest(machine, step, depth, how);
+    let mut maps = Maps::new(&machine, lengths[depth], how)?;
+    let mut rungs = [maps.lower::<S>(&machine, lengths[depth])?; RUNGS];
+    for level in (0..depth).rev() {
+        maps = match how {
+            Discretisation::Exact => maps.twice(),
+            // Euler's step is what it is at each length: two half steps are not one whole step.
+            Discretisation::Euler => Maps::new(&machine, lengths[level], how)?,
+        };
+        rungs[level] = maps.lower::<S>(&machine, lengths[level])?;
+    }
+    Ok(rungs)
+}
+
+impl<S: Scalar> Rung<S> {
+    /// Everything that one held voltage and one held torque (against positive rotation) do.
+    #[inline(always)]
+    pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
+        let (current, speed) = (from.current, from.speed);
+        if open {
+            let row = |k: &[S::Coefficient; 2]| speed.times(k[0]) + torque.times(k[1]);
+            return Increment {
+                current: -current,
+                speed: row(&self.coast_speed),
+                angle: row(&self.coast_angle),
+                ..Increment::default()
+            };
+        }
+        let row = |k: &[S::Coefficient; 4]| {
+            current.times(k[0]) + speed.times(k[1]) + volts.times(k[2]) + torque.times(k[3])
+        };
+        Increment {
+            current: row(&self.current),
+            speed: row(&self.speed),
+            angle: row(&self.angle),
+            ..Increment::default()
+        }
+    }
+}
+
+impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {
+    const COUPLED: bool = false;
+
+    #[inline(always)]
+    fn timing(&self, level: usize) -> &Timing<S> {
+        &self[level].timing
+    }
+
+    #[inline(always)]
+    fn slide(
+        &self,
+        level: usize,
+        from: &Motion<S>,
+        volts: S,
+        torque: S,
+        open: bool,
+    ) -> Increment<S> {
+        self[level].slide(from, volts, torque, open)
+    }
+
+    #[inline(always)]
+    fn settle(&self, level: usize, from: &Motion<S>, volts: S, open: bool) -> Increment<S> {
+        let current = if open {
+            -from.current
+        } else {
+            let [by_current, by_volts] = self[level].held;
+            from.current.times(by_current) + volts.times(by_volts)
+        };
+        Increment {
+            current,
+            ..Increment::default()
+        }
+    }
+
+    #[inline(always)]
+    fn yields(&self, level: usize, torque: S) -> S {
+        torque.times(self[level].speed[3])
+    }
+}

@@ -1,0 +1,54 @@
+//! Changes of the winding, and the drop of its brushes, as volts added to the drive.
+//!
+//! With resistance `1 + r`, inductance `1/(1 + l)`, back-EMF `1 + e` times their own and a drop `D`
+//! of the brushes, all held over the part,
+//!
+//! ```text
+//! τe·dc/dt = (1 + l)·(v − (1 + r)·c − (1 + e)·kb·ω − D(c))  =  v + E − c − kb·ω
+//! ```
+//!
+//! defines the volts `E` that the plain winding must see instead. Its mean is solved for, with the
+//! gain `g` of the mean current: the current follows within the part when the winding is fast, and
+//! an explicit formula would overshoot. `D = Vb·clamp(c/knee, ±1)` has one bend each way and is
+//! solved exactly.
+
+use super::rung::Timing;
+use crate::effects::{Brush, Shaft, Winding};
+use crate::scalar::Scalar;
+
+/// Volts `E` for a part whose mean, with the plain winding at `volts`, is `free`.
+pub fn extra_volts<S: Scalar>(
+    changed: &Winding<S>,
+    brush: &Brush<S>,
+    volts: S,
+    free: &Shaft<S>,
+    timing: &Timing<S>,
+) -> S {
+    let one = S::from_f64(1.0);
+    let Winding {
+        resistance,
+        rate,
+        back_emf,
+        ..
+    } = *changed;
+    let gain = timing.gain;
+    let emf = free.speed.times(timing.kb);
+    let inductive = volts - free.current - emf;
+    let lost = resistance * free.current + back_emf * emf;
+    let given = bounded(rate, inductive) - lost - bounded(rate, lost);
+    let stiffness = one + gain * (rate + resistance + rate * resistance);
+    // The current without brushes, times the stiffness.
+    let current = free.current * stiffness + gain * given;
+    let most = brush.drop + rate * brush.drop;
+    let part = current.abs().part_of(brush.knee * stiffness + gain * most);
+    let drop = most * part * current.signum();
+    (given - drop) * one.part_of(stiffness)
+}
+
+/// The product, kept within half the range of a format that has one.
+fn bounded<S: Scalar>(a: S, b: S) -> S {
+    let sixteenth = S::from_f64(0.0625);
+    let limit = S::from_f64(S::LIMIT / 32.0);
+    let product = (a * sixteenth) * b;
+    product.min(limit).max(-limit).times(S::coefficient(16.0))
+}
