@@ -8,6 +8,7 @@ pub mod bench;
 pub mod cli;
 pub mod cmd;
 pub mod compare;
+pub mod diagnose;
 pub mod error;
 pub mod fit;
 pub mod input;
