@@ -14,6 +14,7 @@ pub mod fit;
 pub mod input;
 pub mod output;
 pub mod paper;
+pub mod plan;
 pub mod plot;
 pub mod problem;
 pub mod recording;

@@ -188,9 +188,7 @@ pub fn write_csv(
     recording: &Recording,
     provenance: &[String],
 ) -> io::Result<()> {
-    for line in provenance.iter().flat_map(|text| text.split(['\n', '\r'])) {
-        writeln!(out, "# {line}")?;
-    }
+    write_comments(out, provenance)?;
     let angle = if recording.quantised {
         "angle_counts"
     } else {
@@ -206,6 +204,49 @@ pub fn write_csv(
     writeln!(out)?;
     for k in 0..recording.len() {
         write_row(out, recording, k)?;
+    }
+    Ok(())
+}
+
+/// A command sequence, which is what a recording has before it is recorded: columns of equal length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CommandSequence {
+    /// Time of each command, s.
+    pub time_s: Vec<f64>,
+    /// Voltage from then until the next, V.
+    pub voltage_v: Vec<f64>,
+    /// False while the bridge is to be open.
+    pub enabled: Option<Vec<bool>>,
+}
+
+/// Writes a command sequence with the columns of a recording, less what only a recording knows.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_commands(
+    path: &Path,
+    commands: &CommandSequence,
+    provenance: &[String],
+) -> Result<(), WriteError> {
+    write_whole(path, |out| {
+        write_comments(out, provenance)?;
+        let enabled = commands.enabled.as_deref();
+        let header = if enabled.is_some() { ",enabled" } else { "" };
+        writeln!(out, "t_s,voltage_v{header}")?;
+        for (k, (time, volts)) in commands.time_s.iter().zip(&commands.voltage_v).enumerate() {
+            write!(out, "{time:?},{volts:?}")?;
+            if let Some(enabled) = enabled {
+                write!(out, ",{}", u8::from(enabled[k]))?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    })
+}
+
+fn write_comments(out: &mut dyn Write, provenance: &[String]) -> io::Result<()> {
+    for line in provenance.iter().flat_map(|text| text.split(['\n', '\r'])) {
+        writeln!(out, "# {line}")?;
     }
     Ok(())
 }

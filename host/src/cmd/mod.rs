@@ -8,6 +8,7 @@ mod model;
 mod motor;
 mod motor_beside;
 mod paper;
+mod plan;
 mod search;
 mod simulate;
 mod simulate_list;

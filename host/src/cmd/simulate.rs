@@ -30,6 +30,9 @@ struct Simulated<'a> {
 }
 
 pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
+    if args.plan.plan {
+        return super::plan::run(session, args);
+    }
     if args.list {
         session.check_outputs(&[], &[])?;
         let offer = Offer::new();

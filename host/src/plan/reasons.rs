@@ -1,0 +1,93 @@
+//! Why the best excitation separates, and what would where none does.
+
+use super::candidates::Excitation;
+use super::hypothesis::Hypothesis;
+use shared::effects::{Kind, Place};
+use shared::excite::{Experiment, Shape};
+
+/// Words of `Description::exposed_by` that tell of a shape.
+fn words(shape: Shape) -> &'static [&'static str] {
+    match shape {
+        Shape::Rest => &["rest", "hold"],
+        Shape::Step => &["step"],
+        Shape::Steps { open: false } => &["steps", "zero command", "braking"],
+        Shape::Steps { open: true } => &["coasting", "bridge open", "with it open"],
+        Shape::Staircase { .. } => &["staircase", "speeds", "levels"],
+        Shape::Triangle { .. } => &["triangle", "creeping", "slow"],
+        Shape::Reversals { .. } => &["reversals", "square waves", "braking"],
+        Shape::Chirp { .. } => &["chirp"],
+        Shape::Telegraph { .. } => &["levels", "commands of at least four sizes"],
+        Shape::Multisine { .. } => &["multisine"],
+    }
+}
+
+/// Why the excitation separates the hypotheses, in one sentence.
+pub fn why(excitation: &Excitation, hypotheses: &[Hypothesis]) -> String {
+    let driven = |part: &&Experiment| part.amplitude > 0.0 || part.shape == Shape::Rest;
+    let parts: Vec<&Experiment> = excitation.parts.iter().filter(driven).collect();
+    let mut reveals: Vec<&str> = Vec::new();
+    for part in &parts {
+        let text = part.shape.reveals();
+        if !reveals.contains(&text) {
+            reveals.push(text);
+        }
+    }
+    let fits = |kind: &Kind| {
+        let exposed = kind.description().exposed_by;
+        parts
+            .iter()
+            .any(|part| words(part.shape).iter().any(|word| exposed.contains(word)))
+    };
+    let mut exposed: Vec<String> = Vec::new();
+    for kind in hypotheses
+        .iter()
+        .flat_map(|h| &h.effects)
+        .filter(|k| fits(k))
+    {
+        let text = format!(
+            "{} is exposed by {}",
+            kind.name(),
+            kind.description().exposed_by
+        );
+        if !exposed.contains(&text) {
+            exposed.push(text);
+        }
+    }
+    let mut sentence = format!("it shows {}", reveals.join(", and "));
+    if !exposed.is_empty() {
+        sentence += &format!(": {}", exposed.join(", "));
+    }
+    sentence
+}
+
+/// What would part two hypotheses that voltage and angle cannot, within the limits or at all.
+pub fn remedy(a: &Hypothesis, b: &Hypothesis) -> String {
+    let only = |of: &Hypothesis, other: &Hypothesis| -> Vec<Kind> {
+        let absent = |kind: &&Kind| !other.effects.contains(kind);
+        of.effects.iter().filter(absent).copied().collect()
+    };
+    let apart: Vec<Kind> = only(a, b).into_iter().chain(only(b, a)).collect();
+    let any = |wanted: &[Kind]| wanted.iter().all(|kind| apart.contains(kind));
+    let placed =
+        |places: &[Place]| (apart.iter()).any(|kind| places.contains(&kind.description().place));
+    let text = if any(&[Kind::LoadTorque, Kind::AsymCoulomb]) {
+        "a hold at several angles with a creep back: a load acts at rest, friction does not"
+    } else if any(&[Kind::BrushDrop, Kind::DeadZone]) {
+        "the same at two supply voltages: what the stage loses grows with the supply, what the brushes drop does not"
+    } else if any(&[Kind::VoltageSat, Kind::TorqueSat]) {
+        "a current sensor together with a known added inertia: a plateau of the current against a sag of the torque"
+    } else if any(&[Kind::LoadFriction, Kind::SupplySag]) {
+        "a measured supply voltage, or a known weight lifted and lowered"
+    } else if placed(&[Place::Sensed]) {
+        "an index pulse, or runs at several speeds: an error of the encoder stays at its angle, a torque does not"
+    } else if placed(&[Place::Drive, Place::Winding])
+        && placed(&[Place::Friction, Place::Torque, Place::Load])
+    {
+        "a current sensor, or coasting with the bridge open: what is electrical vanishes without current"
+    } else if placed(&[Place::Drive, Place::Winding]) {
+        "a current sensor, or the same at two supply voltages"
+    } else {
+        "a known added inertia, which scales every torque but not the friction of the shaft"
+    };
+    text.to_owned()
+}
