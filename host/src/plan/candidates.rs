@@ -12,11 +12,13 @@ pub struct Excitation {
 }
 
 /// Amplitudes of single shapes, parts of the largest command.
-const LEVELS: [f64; 4] = [1.0, 0.5, 0.25, 0.12];
+const LEVELS: [f64; 3] = [1.0, 0.4, 0.12];
 /// Amplitudes of sequences.
 const SEQUENCE_LEVELS: [f64; 2] = [1.0, 0.4];
 /// A triangle or reversals that creep, relative to the rest of their sequence.
 const CREEP: f64 = 0.25;
+/// How often a coast is repeated instead of being drawn out: short ones travel less.
+const REPEATS: [usize; 2] = [5, 20];
 /// A reversal is held for at least this many samples: shorter ones do not reach the shaft.
 const SHORTEST_HOLD_SAMPLES: f64 = 4.0;
 
@@ -67,8 +69,15 @@ impl Frame {
         }
     }
 
+    /// Coasting so many times, each time from every level.
+    fn coasts(&self, times: usize, amplitude: f64) -> Excitation {
+        Excitation {
+            parts: vec![self.part(COAST, 1.0 / times as f64, amplitude); times],
+        }
+    }
+
     /// `list` at this length and amplitude.
-    fn stretched(&self, list: &[Experiment], amplitude: f64) -> Excitation {
+    pub fn stretched(&self, list: &[Experiment], amplitude: f64) -> Excitation {
         let usual: f64 = list.iter().map(|part| part.seconds).sum();
         let part = |e: &Experiment| self.part(e.shape, e.seconds / usual, e.amplitude * amplitude);
         Excitation {
@@ -97,6 +106,7 @@ pub fn all(frame: &Frame) -> Vec<Excitation> {
         found.extend(sequences(frame, level));
         found.push(frame.stretched(&COMMISSIONING, level));
         found.push(frame.stretched(&COMMISSIONING_COAST, level));
+        found.extend(REPEATS.map(|times| frame.coasts(times, level)));
     }
     // In a short recording of a slow motor several rates are the same.
     let mut distinct: Vec<Excitation> = Vec::with_capacity(found.len());
@@ -195,18 +205,27 @@ impl Excitation {
 /// As in `triangle at 25 % for 8 s, coast at 100 % for 12 s`.
 impl fmt::Display for Excitation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, part) in self.parts.iter().enumerate() {
+        for (k, same) in self.parts.chunk_by(|a, b| a == b).enumerate() {
+            let (part, times) = (&same[0], same.len());
             if k > 0 {
                 write!(f, ", ")?;
             }
+            if times > 1 {
+                write!(f, "{times} times ")?;
+            }
             match part.shape {
                 Shape::Rest => write!(f, "rest")?,
-                shape => write!(f, "{} at {:.3} %", name(shape), 100.0 * part.amplitude)?,
+                shape => write!(f, "{} at {} %", name(shape), short(100.0 * part.amplitude))?,
             }
-            write!(f, " for {:.3} s", part.seconds)?;
+            write!(f, " for {} s", short(part.seconds))?;
         }
         Ok(())
     }
+}
+
+/// Three decimals at most, and none that are zero.
+fn short(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
 }
 
 fn name(shape: Shape) -> String {

@@ -71,6 +71,19 @@ impl Hypothesis {
         }
     }
 
+    /// A model as a hypothesis.
+    pub fn of(candidate: &Candidate) -> Self {
+        let effects = &candidate.effects;
+        Hypothesis {
+            effects: effects.iter().map(|(kind, _)| kind).collect(),
+            machine: candidate.machine,
+            values: effects
+                .iter()
+                .flat_map(|(_, values)| values.to_vec())
+                .collect(),
+        }
+    }
+
     /// Its effects, as in `coulomb + cogging`.
     pub fn name(&self) -> String {
         if self.effects.is_empty() {

@@ -1,39 +1,49 @@
 //! The candidates with the largest separation.
 //!
-//! A refit that is cut short leaves too much, never too little: its separation is an upper bound. So
-//! all candidates are screened with few evaluations, and then only those whose bound is among the best
-//! are refitted with more effort, until the best three stand with all of it. Nothing that was passed
-//! over can be better than they are.
+//! First each hypothesis learns to imitate each other one on a common recording, as it would have in
+//! the recording that both explain: from there a refit has not far to go. A refit that is cut short
+//! leaves too much, never too little: its separation is an upper bound. So all candidates are screened
+//! with a single step, and then only those whose bound is among the best are refitted with more effort,
+//! until the best three stand with all of it. Nothing that was passed over can be better than they are.
 
 use super::candidates::{Excitation, Frame, all};
 use super::hypothesis::{Hypothesis, Setup};
 use super::limits::{Limits, Usage};
-use super::separation::{Effort, Separation, separation};
+use super::separation::{Effort, Separation, Trial};
 use crate::error::Error;
 use rayon::prelude::*;
 use shared::error::ModelError;
+use shared::excite::{COMMISSIONING, Command};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many are ranked.
 const PLACES: usize = 3;
 /// Efforts in turn; the first screens.
-const EFFORTS: [Effort; 3] = [
+const EFFORTS: [Effort; 4] = [
     Effort {
-        evaluations: 3,
-        regression: false,
+        steps: 1,
+        regression: 0,
     },
     Effort {
-        evaluations: 8,
-        regression: false,
+        steps: 4,
+        regression: 0,
     },
     Effort {
-        evaluations: 40,
-        regression: true,
+        steps: 12,
+        regression: 0,
+    },
+    Effort {
+        steps: 15,
+        regression: 8,
     },
 ];
-/// Candidates refitted at a time. Fixed, so that the result does not depend on the number of cores.
-const BATCH: usize = 3;
-
+/// Effort of learning to imitate.
+const LEARNING: Effort = Effort {
+    steps: 25,
+    regression: 10,
+};
+/// Longest recording to learn from, s.
+const LESSON_SECONDS: f64 = 8.0;
 /// What the ranking is to work with.
 pub struct Work<'a> {
     /// What may be the truth; at least two.
@@ -85,9 +95,10 @@ pub fn screened(work: &Work<'_>) -> usize {
 /// ranked; a hypothesis that is no possible model.
 pub fn rank(work: &Work<'_>) -> Result<Vec<Ranked>, Error> {
     let candidates = all(&frame(work));
+    let pairs = imitations(work)?;
     let admitted: Vec<Option<Ranked>> = candidates
         .par_iter()
-        .map(|candidate| admitted(work, candidate))
+        .map(|candidate| admitted(work, candidate, &pairs))
         .collect::<Result<_, ModelError>>()?;
     let mut ranked: Vec<Ranked> = admitted.into_iter().flatten().collect();
     if ranked.is_empty() {
@@ -129,12 +140,28 @@ fn frame(work: &Work<'_>) -> Frame {
     }
 }
 
+/// The pairs, each with the values by which one imitates the other while the bridge is closed.
+fn imitations(work: &Work<'_>) -> Result<Vec<Separation>, ModelError> {
+    let lesson = Frame {
+        seconds: work.seconds.min(LESSON_SECONDS),
+        ..frame(work)
+    };
+    let drive = lesson
+        .stretched(&COMMISSIONING, 1.0)
+        .drive(work.setup.sample_s, work.seed);
+    refitted_pairs(work, &drive, &Separation::pairs(work.hypotheses), LEARNING)
+}
+
 fn stopped(work: &Work<'_>) -> bool {
     work.stop.load(Ordering::Relaxed)
 }
 
 /// Screens a candidate, if it can be brought within the limits.
-fn admitted(work: &Work<'_>, candidate: &Excitation) -> Result<Option<Ranked>, ModelError> {
+fn admitted(
+    work: &Work<'_>,
+    candidate: &Excitation,
+    pairs: &[Separation],
+) -> Result<Option<Ranked>, ModelError> {
     if stopped(work) {
         return Ok(None);
     }
@@ -146,7 +173,7 @@ fn admitted(work: &Work<'_>, candidate: &Excitation) -> Result<Option<Ranked>, M
     let unknown = Ranked {
         excitation,
         usage,
-        separations: Separation::pairs(work.hypotheses),
+        separations: pairs.to_vec(),
         efforts: 0,
     };
     refitted(work, &unknown).map(Some)
@@ -157,30 +184,33 @@ fn refitted(work: &Work<'_>, candidate: &Ranked) -> Result<Ranked, ModelError> {
     let mut candidate = candidate.clone();
     let effort = EFFORTS[candidate.efforts.min(EFFORTS.len() - 1)];
     let drive = (candidate.excitation).drive(work.setup.sample_s, work.seed);
-    candidate.separations = candidate
-        .separations
-        .into_par_iter()
-        .map(|pair| {
-            let (truth, fitted) = (&work.hypotheses[pair.truth], &work.hypotheses[pair.fitted]);
-            let counts = separation(truth, fitted, &work.setup, &drive, effort, work.stop)?;
-            Ok(Separation {
-                counts: counts.min(pair.counts),
-                ..pair
-            })
-        })
-        .collect::<Result<_, ModelError>>()?;
+    candidate.separations = refitted_pairs(work, &drive, &candidate.separations, effort)?;
     candidate.efforts += 1;
     (work.done)();
     Ok(candidate)
 }
 
-/// The best candidates that lack an effort while they stand among the first places.
+fn refitted_pairs(
+    work: &Work<'_>,
+    drive: &[Command<f64>],
+    pairs: &[Separation],
+    effort: Effort,
+) -> Result<Vec<Separation>, ModelError> {
+    let trial = Trial {
+        hypotheses: work.hypotheses,
+        setup: &work.setup,
+        drive,
+        stop: work.stop,
+    };
+    let refit = |pair: &Separation| trial.refit(pair, effort);
+    pairs.par_iter().map(refit).collect()
+}
+
+/// The candidates that lack an effort while they stand among the first places.
 fn next(sorted: &[Ranked]) -> Vec<usize> {
-    let lacks = |k: &usize| sorted[*k].efforts < EFFORTS.len();
-    if !(0..sorted.len().min(PLACES)).any(|k| lacks(&k)) {
-        return Vec::new();
-    }
-    (0..sorted.len()).filter(lacks).take(BATCH).collect()
+    (0..sorted.len().min(PLACES))
+        .filter(|&k| sorted[k].efforts < EFFORTS.len())
+        .collect()
 }
 
 /// Largest separation first; candidates that separate alike stay in their order.

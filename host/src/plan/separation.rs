@@ -5,6 +5,7 @@ use super::playback::record;
 use crate::fit::{self, Options};
 use crate::problem::cost::rms_counts;
 use crate::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
+use crate::solve::Objective;
 use crate::solve::levenberg_marquardt::LevenbergMarquardt;
 use shared::cost::Cost;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -19,8 +20,11 @@ pub const SEPARABLE_COUNTS: f64 = 1.0;
 /// Relative fall of the sum of squares below which a refit has converged, as in the diagnosis.
 const TOLERANCE: f64 = 1e-7;
 
+/// Evaluations beside those of the steps: the start, and trial points that were refused.
+const SPARE: usize = 2;
+
 /// What `fitted` leaves of the recording that it did not make.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
     /// Index of the hypothesis that made the recording.
     pub truth: usize,
@@ -28,21 +32,25 @@ pub struct Separation {
     pub fitted: usize,
     /// RMS error of the refit above the encoder's own, counts. Infinite before the first refit.
     pub counts: f64,
+    /// The fitted hypothesis with the values that imitate the truth best so far.
+    pub imitation: Hypothesis,
 }
 
 impl Separation {
     /// Every ordered pair that a recording can part: a hypothesis that contains the truth explains all
     /// that the truth does, and is told from it by its needless parameters, not by its error.
     pub fn pairs(hypotheses: &[Hypothesis]) -> Vec<Separation> {
+        let pair = |truth: usize, fitted: usize| Separation {
+            truth,
+            fitted,
+            counts: f64::INFINITY,
+            imitation: hypotheses[fitted].clone(),
+        };
         let indices = 0..hypotheses.len();
         (indices.clone())
             .flat_map(|truth| indices.clone().map(move |fitted| (truth, fitted)))
             .filter(|&(truth, fitted)| !hypotheses[fitted].contains(&hypotheses[truth]))
-            .map(|(truth, fitted)| Separation {
-                truth,
-                fitted,
-                counts: f64::INFINITY,
-            })
+            .map(|(truth, fitted)| pair(truth, fitted))
             .collect()
     }
 }
@@ -50,51 +58,98 @@ impl Separation {
 /// How hard a refit tries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Model evaluations from each start, for each unknown.
-    pub evaluations: usize,
-    /// Whether it also starts from regression on the recording, beside the hypothesis' own values.
-    pub regression: bool,
+    /// Steps of the search, each with its own Jacobian.
+    pub steps: usize,
+    /// Steps of a second search, which starts from regression on the recording; 0 for none.
+    pub regression: usize,
 }
 
-/// What is left, counts RMS above the encoder's own, when `fitted` may choose all its parameters and
-/// those of the motor to explain the drive's effect on `truth`. More effort never leaves more.
-///
-/// # Errors
-/// A hypothesis that is no possible model.
-pub fn separation(
-    truth: &Hypothesis,
-    fitted: &Hypothesis,
-    setup: &Setup,
-    drive: &[Command<f64>],
-    effort: Effort,
-    stop: &AtomicBool,
-) -> Result<f64, ModelError> {
-    let data = record(truth, setup, drive)?;
-    let options = Options {
-        effects: fitted.effects.clone(),
-        ..Options::default()
-    };
-    let own = from_own_values(&data, fitted, &options);
-    let mut least = left_after_refit(&own, &options, effort, stop)?;
-    if effort.regression
-        && let Ok(regressed) = fit::problem(&data, &options)
-    {
-        least = least.min(left_after_refit(&regressed, &options, effort, stop)?);
+/// A drive and what may have made the recording of it.
+pub struct Trial<'a> {
+    /// What may be the truth.
+    pub hypotheses: &'a [Hypothesis],
+    /// Drive, encoder and motor.
+    pub setup: &'a Setup,
+    /// The drive.
+    pub drive: &'a [Command<f64>],
+    /// Ends a search early.
+    pub stop: &'a AtomicBool,
+}
+
+impl Trial<'_> {
+    /// The separation after a refit of all parameters, the motor's among them, to the recording that the
+    /// drive makes of the truth. It begins at the hypothesis' own values or at its imitation, whichever
+    /// is nearer.
+    ///
+    /// # Errors
+    /// A hypothesis that is no possible model.
+    pub fn refit(&self, pair: &Separation, effort: Effort) -> Result<Separation, ModelError> {
+        let (truth, own) = (&self.hypotheses[pair.truth], &self.hypotheses[pair.fitted]);
+        let data = record(truth, self.setup, self.drive)?;
+        let options = Options {
+            effects: own.effects.clone(),
+            ..Options::default()
+        };
+        let mut problem = problem(&data, own, &options);
+        if pair.imitation != *own {
+            let values = values_of(&problem.structure, &pair.imitation);
+            let near = problem.structure.coordinates(&values);
+            let nearer = |own: &Vec<f64>| problem.cost(&near) < problem.cost(own);
+            if problem.start.as_ref().is_none_or(nearer) {
+                problem.start = Some(near);
+            }
+        }
+        let mut best = self.search(&problem, &options, effort.steps, pair)?;
+        if effort.regression > 0
+            && let Ok(regressed) = fit::problem(&data, &options)
+        {
+            let other = self.search(&regressed, &options, effort.regression, pair)?;
+            if other.counts < best.counts {
+                best = other;
+            }
+        }
+        Ok(best)
     }
-    Ok(least)
+
+    fn search(
+        &self,
+        problem: &FitProblem<'_>,
+        options: &Options,
+        steps: usize,
+        pair: &Separation,
+    ) -> Result<Separation, ModelError> {
+        let solver = LevenbergMarquardt {
+            tolerance: TOLERANCE,
+            ..LevenbergMarquardt::default()
+        };
+        let options = Options {
+            budget: steps * (problem.structure.dim() + 1) + SPARE,
+            ..options.clone()
+        };
+        let found = fit::search(problem, &solver, &options, self.stop, &mut |_, _| {});
+        if !found.cost.is_finite() {
+            return Ok(pair.clone());
+        }
+        let candidate = problem
+            .structure
+            .candidate(&problem.structure.values(&found.x));
+        let rms = rms_counts(problem.data, &problem.errors(&candidate)?);
+        let floor = FLOOR_RMS_COUNTS;
+        Ok(Separation {
+            counts: (rms * rms - floor * floor).max(0.0).sqrt(),
+            imitation: Hypothesis::of(&candidate),
+            ..*pair
+        })
+    }
 }
 
 /// The problem of fitting `hypothesis`, begun at its own values. Viscous friction is always free: more
 /// freedom than the data may hold makes the refit no worse.
-fn from_own_values<'a>(
-    data: &'a Data,
-    hypothesis: &Hypothesis,
-    options: &Options,
-) -> FitProblem<'a> {
+fn problem<'a>(data: &'a Data, hypothesis: &Hypothesis, options: &Options) -> FitProblem<'a> {
     let base = Base::Response { damping: true };
     let machine = &hypothesis.machine;
     let structure = Structure::around(data, base, &hypothesis.effects, machine, false);
-    let start = structure.coordinates(&structure.values_of(machine, &hypothesis.values, 0.0));
+    let start = structure.coordinates(&values_of(&structure, hypothesis));
     FitProblem {
         data,
         structure,
@@ -107,29 +162,6 @@ fn from_own_values<'a>(
     }
 }
 
-fn left_after_refit(
-    problem: &FitProblem<'_>,
-    options: &Options,
-    effort: Effort,
-    stop: &AtomicBool,
-) -> Result<f64, ModelError> {
-    let solver = LevenbergMarquardt {
-        tolerance: TOLERANCE,
-        ..LevenbergMarquardt::default()
-    };
-    let options = Options {
-        budget: effort.evaluations * (problem.structure.dim() + 1),
-        ..options.clone()
-    };
-    let found = fit::search(problem, &solver, &options, stop, &mut |_, _| {});
-    if !found.cost.is_finite() {
-        return Ok(f64::INFINITY);
-    }
-    let candidate = problem
-        .structure
-        .candidate(&problem.structure.values(&found.x));
-    let rms = rms_counts(problem.data, &problem.errors(&candidate)?);
-    Ok((rms * rms - FLOOR_RMS_COUNTS * FLOOR_RMS_COUNTS)
-        .max(0.0)
-        .sqrt())
+fn values_of(structure: &Structure, hypothesis: &Hypothesis) -> Vec<f64> {
+    structure.values_of(&hypothesis.machine, &hypothesis.values, 0.0)
 }
