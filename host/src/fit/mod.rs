@@ -184,7 +184,7 @@ fn candidate_problem<'a>(
 
 /// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
 /// coasting with the bridge open, or a torque that passes only the one of them.
-fn base_for(data: &Data, effects: &[Kind]) -> Base {
+pub(crate) fn base_for(data: &Data, effects: &[Kind]) -> Base {
     let mechanical = |kind: &Kind| {
         matches!(
             kind.description().place,
@@ -200,7 +200,7 @@ fn base_for(data: &Data, effects: &[Kind]) -> Base {
 }
 
 /// Whether the first samples show any motion at all.
-fn may_start_moving(data: &Data) -> bool {
+pub(crate) fn may_start_moving(data: &Data) -> bool {
     let per_interval = data.speed_counts_s(0, SPEED_HALF_WIDTH).abs() * data.units.interval;
     per_interval * SPEED_HALF_WIDTH as f64 > 1.0
 }

@@ -15,6 +15,7 @@
 mod body;
 mod coupled;
 mod friction;
+mod led;
 mod part;
 mod rung;
 mod state;
@@ -28,6 +29,7 @@ use crate::scalar::{Angle, Mask, Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 use coupled::{Coupled, MotorAndLoad};
 use friction::Forces;
+pub use led::Seen;
 use rung::{RUNGS, Rung};
 pub use state::{MAX_DELAY, Motion, Past, State};
 

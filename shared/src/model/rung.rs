@@ -179,6 +179,11 @@ pub fn ladder<S: Scalar, R: Real>(
 }
 
 impl<S: Scalar> Rung<S> {
+    /// Its length, and how the mean current follows from its ends.
+    pub fn timing(&self) -> &Timing<S> {
+        &self.timing
+    }
+
     /// Everything that one held voltage and one held torque (against positive rotation) do.
     #[inline(always)]
     pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
