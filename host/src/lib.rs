@@ -16,6 +16,7 @@ pub mod output;
 pub mod paper;
 pub mod plot;
 pub mod problem;
+pub mod prove;
 pub mod recording;
 pub mod report;
 pub mod session;

@@ -8,6 +8,7 @@ mod model;
 mod motor;
 mod motor_beside;
 mod paper;
+mod prove;
 mod search;
 mod simulate;
 mod simulate_list;
@@ -28,6 +29,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Fit(args) => fit::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
+        Verb::Prove(args) => prove::run(&session, &args),
         Verb::Completions { shell } => completions::run(shell),
     }
 }
