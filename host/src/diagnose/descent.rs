@@ -17,6 +17,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Only every so manyeth residual enters the Jacobian's products.
     pub stride: usize,
+    /// Sum of squares that nothing more is wanted of.
+    pub enough: f64,
 }
 
 /// Where a search ended.
@@ -35,15 +37,28 @@ const STEP: f64 = 1e-5;
 /// Damping: at the start, and between which it stays.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-12, 1e9);
 
-/// Descends from `start`; `None` where the model cannot run there.
+/// Distance from a wall at which a search that ended there is begun again, as a share of the cube's side.
+const INSIDE: f64 = 0.02;
+/// A second search is the better one if it lowers the sum of squares by more than this part.
+const BETTER: f64 = 0.02;
+
+/// Descends from `start`; `None` where the model cannot run there. A search that ends at a wall is begun
+/// once more from a little inside: a coordinate that was driven there early may have no slope back.
 pub fn descend(objective: &dyn Objective, start: &[f64], settings: Settings) -> Option<Descent> {
-    let mut search = Search::new(objective, start, settings)?;
-    search.run();
-    Some(Descent {
-        x: search.x,
-        squares: search.squares,
-        evaluations: search.evaluations,
-    })
+    let mut best = Search::new(objective, start, settings)?.run();
+    let inside = |x: &f64| x.clamp(INSIDE, 1.0 - INSIDE);
+    if best.squares > settings.enough && best.x.iter().any(|x| *x == 0.0 || *x == 1.0) {
+        let start: Vec<f64> = best.x.iter().map(inside).collect();
+        if let Some(search) = Search::new(objective, &start, settings) {
+            let again = search.run();
+            let evaluations = best.evaluations + again.evaluations;
+            if again.squares < best.squares * (1.0 - BETTER) {
+                best = again;
+            }
+            best.evaluations = evaluations;
+        }
+    }
+    Some(best)
 }
 
 struct Search<'a> {
@@ -76,7 +91,16 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn run(&mut self) {
+    fn run(mut self) -> Descent {
+        self.go_down();
+        Descent {
+            x: self.x,
+            squares: self.squares,
+            evaluations: self.evaluations,
+        }
+    }
+
+    fn go_down(&mut self) {
         while self.differences() {
             loop {
                 let before = self.squares;

@@ -18,11 +18,13 @@ const SKETCH: Settings = Settings {
     evaluations: 60,
     tolerance: 1e-3,
     stride: 4,
+    enough: f64::INFINITY,
 };
 const FULL: Settings = Settings {
     evaluations: 80,
     tolerance: 1e-3,
     stride: 2,
+    enough: 0.0,
 };
 
 /// A fitted model with its errors.
@@ -90,7 +92,10 @@ impl<'a> Workshop<'a> {
             data,
             held_out,
             motion: Motion::measured(data),
-            method: options.method,
+            method: Method {
+                substeps: 1,
+                ..options.method
+            },
         }
     }
 
@@ -178,7 +183,11 @@ impl<'a> Workshop<'a> {
     /// [`Error::Failed`] where the model cannot run from there.
     pub fn refit(&self, sketch: &Sketch) -> Result<Refit, Error> {
         let problem = self.problem(&sketch.structure);
-        let found = descend(&problem, &sketch.x, FULL)
+        let settings = Settings {
+            enough: NOISE_COUNTS * NOISE_COUNTS * self.data.len() as f64,
+            ..FULL
+        };
+        let found = descend(&problem, &sketch.x, settings)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
         self.conclude(problem.structure, &found, sketch.led)
     }

@@ -183,18 +183,20 @@ fn candidate_problem<'a>(
 }
 
 /// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
-/// coasting with the bridge open, or a torque that passes only the one of them.
+/// coasting with the bridge open, a torque that passes only the one of them, or an effect of the
+/// current, since the current that a speed takes depends on how much of the damping is friction.
 pub(crate) fn base_for(data: &Data, effects: &[Kind]) -> Base {
-    let mechanical = |kind: &Kind| {
-        matches!(
+    let separates = |kind: &Kind| {
+        let mechanical = matches!(
             kind.description().place,
             Place::Friction | Place::Torque | Place::Load
-        )
+        );
+        mechanical || kind.needs().winding || kind.needs().current
     };
     match data.drive {
         Drive::Current => Base::CurrentDriven,
         Drive::Voltage => Base::Response {
-            damping: data.coasts() || effects.iter().any(mechanical),
+            damping: data.coasts() || effects.iter().any(separates),
         },
     }
 }
