@@ -1,5 +1,6 @@
 //! The shape of the command line, and nothing else.
 
+use crate::prove::{Excite, HowMany};
 use crate::solve;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgGroup, Args, Parser, Subcommand, ValueEnum};
@@ -57,6 +58,8 @@ pub enum Verb {
     Compare(CompareArgs),
     /// Reproduces the paper: its motor, its step, its bounds, its table beside ours
     Paper(PaperArgs),
+    /// Diagnoses random motors with random hidden effects, and says how good that was
+    Prove(ProveArgs),
     /// Prints a completion script for a shell
     Completions {
         /// The shell
@@ -311,6 +314,23 @@ pub struct PaperArgs {
         allow_hyphen_values = true
     )]
     pub bounds: String,
+}
+
+/// `servoid prove`.
+#[derive(Debug, Args)]
+pub struct ProveArgs {
+    /// Number of cases
+    #[arg(long, default_value_t = 100, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub cases: u64,
+    /// How many effects a case hides
+    #[arg(long, value_enum, default_value_t = HowMany::Mix)]
+    pub hidden: HowMany,
+    /// How the motor is driven
+    #[arg(long, value_enum, default_value_t = Excite::Commissioning)]
+    pub excite: Excite,
+    /// Effects to choose from; all if not given
+    #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "EFFECT", value_parser = effect_names())]
+    pub effect: Vec<String>,
 }
 
 /// Costs by name.

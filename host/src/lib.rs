@@ -17,6 +17,7 @@ pub mod paper;
 pub mod plan;
 pub mod plot;
 pub mod problem;
+pub mod prove;
 pub mod recording;
 pub mod report;
 pub mod session;

@@ -175,6 +175,23 @@ pub fn lowered<S: Scalar, R: Real, const K: usize>(
     Ok(row.map(|k| S::coefficient(k.to_f64())))
 }
 
+/// [`lowered`] multipliers of numbers that are kept in other measures: the result of the row times
+/// `row_scale`, and each factor times its entry of `column_scales`.
+///
+/// # Errors
+/// As [`lowered`], before the scaling: what is large then multiplies what is small.
+pub fn scaled<S: Scalar, R: Real, const K: usize>(
+    name: &'static str,
+    row: [R; K],
+    row_scale: R,
+    column_scales: [R; K],
+) -> Result<[S::Coefficient; K], ModelError> {
+    lowered::<S, R, K>(name, row)?;
+    Ok(core::array::from_fn(|k| {
+        S::coefficient((row[k] * row_scale * column_scales[k]).to_f64())
+    }))
+}
+
 fn product<R: Real, const A: usize, const B: usize, const C: usize>(
     a: &[[R; B]; A],
     b: &[[R; C]; B],

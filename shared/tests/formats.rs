@@ -82,15 +82,11 @@ fn every_format_stays_within_one_count_of_f64_over_ten_seconds() {
     }
 }
 
-/// A gap and a bristle magnify the last bits of a small format until an impact, or a slip, comes at
-/// another moment: for these two the device's formats are not enough, and the host's f64 it must be.
-const NEEDS_DOUBLE: [Kind; 2] = [Kind::Backlash, Kind::Lugre];
-
 #[test]
 fn every_effect_in_every_format_stays_within_one_count_of_f64() {
     let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
     for bench in &BENCHES {
-        for &kind in Kind::ALL.iter().filter(|kind| !NEEDS_DOUBLE.contains(kind)) {
+        for &kind in Kind::ALL {
             let values: Vec<f64> = typical(kind, bench);
             let plan = plan(bench, &[(kind, &values)]);
             let exact = run::<f64>(&plan, &drive);

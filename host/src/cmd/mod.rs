@@ -9,6 +9,7 @@ mod motor;
 mod motor_beside;
 mod paper;
 mod plan;
+mod prove;
 mod search;
 mod simulate;
 mod simulate_list;
@@ -29,6 +30,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Fit(args) => fit::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
+        Verb::Prove(args) => prove::run(&session, &args),
         Verb::Completions { shell } => completions::run(shell),
     }
 }

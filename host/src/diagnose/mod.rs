@@ -5,11 +5,16 @@
 //! An effect is named only where the held-out error agrees; otherwise the verdict says that
 //! something is missing and that nothing in the catalogue explains it.
 
+mod descent;
 mod judge;
+mod led;
+mod motion;
+mod orders;
 mod refit;
+mod starts;
 
 pub use judge::{Ruling, judge};
-pub use refit::{Refit, refit};
+pub use refit::{Refit, Sketch, Workshop};
 
 use crate::error::Error;
 use crate::fit::Options;
@@ -92,7 +97,8 @@ pub fn diagnose(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let base = refit(data, held_out, &[], None, options, stop)?;
+    let workshop = Workshop::new(data, held_out, options);
+    let base = workshop.base(options)?;
     let mut diagnosis = Diagnosis {
         last: base.clone(),
         base,
@@ -106,7 +112,7 @@ pub fn diagnose(
         if diagnosis.steps.len() == MOST_STEPS.min(MAX_EFFECTS) || stop.load(Ordering::Relaxed) {
             break;
         }
-        let candidates = candidates(data, held_out, &diagnosis.last, options, stop, done);
+        let candidates = candidates(&workshop, &diagnosis.last, stop, done);
         match judge(data, &diagnosis.last, candidates) {
             Ruling::Named(step) => {
                 diagnosis.last = step.candidates[0].clone();
@@ -133,25 +139,66 @@ pub fn diagnose(
     Ok(diagnosis)
 }
 
-/// Every effect that is not in the model yet, refitted on top of it, on all cores.
+/// A sketch is worth a full refit if its error is within this factor of the best.
+const WORTH: f64 = 4.0;
+/// Most full refits a step.
+const MOST_REFITS: usize = 7;
+
+/// Every effect that is not in the model yet, sketched on top of it; the promising ones refitted, on all
+/// cores.
 fn candidates(
-    data: &Data,
-    held_out: &Data,
+    workshop: &Workshop<'_>,
     last: &Refit,
-    options: &Options,
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
-    Kind::ALL
+    let mut sketches: Vec<(Kind, Sketch)> = Kind::ALL
         .par_iter()
-        .filter(|kind| !last.effects.contains(kind))
+        .filter(|kind| !last.effects.contains(kind) && !stop.load(Ordering::Relaxed))
         .filter_map(|&kind| {
-            let mut effects = last.effects.clone();
-            effects.push(kind);
-            // A candidate that cannot be fitted is no candidate.
-            let refitted = refit(data, held_out, &effects, Some(last), options, stop).ok();
+            let t = std::time::Instant::now();
+            let sketch = workshop.sketches(last, kind);
             done();
-            refitted
+            if std::env::var("TRACE").is_ok() {
+                if let Some(s) = &sketch {
+                    eprintln!(
+                        "  sketch {:16} led {:9.3} sim {:9.3} {:.3}s {:?}",
+                        kind.name(),
+                        s.led,
+                        s.simulated,
+                        t.elapsed().as_secs_f64(),
+                        s.structure.values(&s.x)
+                    );
+                }
+            }
+            Some((kind, sketch?))
+        })
+        .collect();
+    sketches.sort_by(|(_, a), (_, b)| a.led.min(a.simulated).total_cmp(&b.led.min(b.simulated)));
+    let Some(least) = sketches.first().map(|(_, s)| s.led.min(s.simulated)) else {
+        return Vec::new();
+    };
+    sketches
+        .par_iter()
+        .take(MOST_REFITS)
+        .filter(|(_, s)| s.led.min(s.simulated) < WORTH * least.max(0.5))
+        .filter_map(|(kind, sketch)| {
+            let t = std::time::Instant::now();
+            let r = workshop.refit(sketch).ok();
+            if std::env::var("TRACE").is_ok() {
+                if let Some(r) = &r {
+                    eprintln!(
+                        "  refit {:16} {:9.3}/{:9.3} {} evals {:.3}s {:?}",
+                        kind.name(),
+                        r.rms_counts,
+                        r.validate_rms_counts,
+                        r.evaluations,
+                        t.elapsed().as_secs_f64(),
+                        r.parameters
+                    );
+                }
+            }
+            r
         })
         .collect()
 }

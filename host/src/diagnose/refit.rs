@@ -1,19 +1,31 @@
 //! One model with one set of effects, fitted to the recording and judged on the other.
 
 use super::NOISE_COUNTS;
+use super::descent::{Descent, Settings, descend};
+use super::led::{Led, follows};
+use super::motion::Motion;
+use super::starts::starts;
 use crate::error::Error;
-use crate::fit::{self, Options, scores, validate};
+use crate::fit::{self, Options, base_for, scores, validate};
 use crate::problem::cost::rms_counts;
-use crate::problem::{Candidate, Data, FitProblem};
-use crate::solve::Objective;
-use crate::solve::levenberg_marquardt::LevenbergMarquardt;
+use crate::problem::simulate::Method;
+use crate::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure};
+use shared::cost::Cost;
 use shared::effects::Kind;
-use std::sync::atomic::AtomicBool;
 
-/// Evaluations of one refit at most.
-const BUDGET: usize = 400;
-/// Relative fall of the sum of squares below which a refit has converged.
-const TOLERANCE: f64 = 1e-7;
+/// Of the led fit, of a simulated fit, and of the last one.
+const SKETCH: Settings = Settings {
+    evaluations: 60,
+    tolerance: 1e-3,
+    stride: 4,
+    enough: f64::INFINITY,
+};
+const FULL: Settings = Settings {
+    evaluations: 80,
+    tolerance: 1e-3,
+    stride: 2,
+    enough: 0.0,
+};
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -22,12 +34,18 @@ pub struct Refit {
     pub effects: Vec<Kind>,
     /// The model.
     pub candidate: Candidate,
+    /// The unknowns.
+    pub structure: Structure,
     /// Values of the effects' parameters, SI.
     pub parameters: Vec<f64>,
     /// RMS error on the fitted recording, open loop, counts.
     pub rms_counts: f64,
     /// RMS error on the held-out recording, counts.
     pub validate_rms_counts: f64,
+    /// RMS error that the led model foresaw, counts; that of the fit where there was none.
+    pub foreseen_rms_counts: f64,
+    /// Evaluations spent, led ones apart.
+    pub evaluations: usize,
 }
 
 impl Refit {
@@ -43,84 +61,169 @@ impl Refit {
     }
 }
 
-/// Fits the linear motor with `effects`, from regression and from the model that it extends.
-///
-/// # Errors
-/// [`Error::Failed`] where no motor fits even roughly.
-pub fn refit(
-    data: &Data,
-    held_out: &Data,
-    effects: &[Kind],
-    extends: Option<&Refit>,
-    options: &Options,
-    stop: &AtomicBool,
-) -> Result<Refit, Error> {
-    let options = Options {
-        effects: effects.to_vec(),
-        budget: BUDGET,
-        ..options.clone()
-    };
-    let mut problem = fit::problem(data, &options)?;
-    let mut best: Option<(f64, Vec<f64>)> = None;
-    for start in starts(&problem, extends) {
-        problem.start = Some(start);
-        let solver = LevenbergMarquardt {
-            tolerance: TOLERANCE,
-            ..LevenbergMarquardt::default()
-        };
-        let found = fit::search(&problem, &solver, &options, stop, &mut |_, _| {});
-        if best.as_ref().is_none_or(|(cost, _)| found.cost < *cost) {
-            best = Some((found.cost, found.x));
-        }
-    }
-    let (_, x) =
-        best.ok_or_else(|| Error::Failed(format!("{}: no start for a fit", data.source)))?;
-    let values = problem.structure.values(&x);
-    let candidate = problem.structure.candidate(&values);
-    let whole = scores::whole(data, &candidate, options.method)?;
-    let parameters = candidate
-        .effects
-        .iter()
-        .flat_map(|(_, values)| values.to_vec())
-        .collect();
-    Ok(Refit {
-        effects: effects.to_vec(),
-        candidate,
-        parameters,
-        rms_counts: rms_counts(data, &whole),
-        validate_rms_counts: validate(held_out, &candidate, options.method)?,
-    })
+/// The recordings and how models are run: what every refit needs.
+pub struct Workshop<'a> {
+    /// Fitted.
+    pub data: &'a Data,
+    /// Never fitted.
+    pub held_out: &'a Data,
+    /// The fitted recording's motion.
+    pub motion: Motion,
+    /// How models are run.
+    pub method: Method,
 }
 
-/// Starts of the search: the regression's, and that of the extended model with the regression's
-/// values for the new effect. Only one where both cost about the same.
-fn starts(problem: &FitProblem<'_>, extends: Option<&Refit>) -> Vec<Vec<f64>> {
-    let Some(regression) = problem.start.clone() else {
-        return Vec::new();
-    };
-    let Some(base) = extends else {
-        return vec![regression];
-    };
-    let guessed = problem.structure.values(&regression);
-    let guessed = problem.structure.candidate(&guessed);
-    let mut effects = base.parameters.clone();
-    let new: Vec<f64> = guessed
-        .effects
-        .iter()
-        .flat_map(|(_, values)| values.to_vec())
-        .collect();
-    effects.extend_from_slice(&new[effects.len().min(new.len())..]);
-    let values = problem.structure.values_of(
-        &base.candidate.machine,
-        &effects,
-        base.candidate.start_speed,
-    );
-    let extended = problem.structure.coordinates(&values);
-    let (a, b) = (problem.cost(&regression), problem.cost(&extended));
-    // A start ten times worse than the other is not worth a search of its own.
-    match (a, b) {
-        _ if a > 100.0 * b => vec![extended],
-        _ if b > 100.0 * a => vec![regression],
-        _ => vec![regression, extended],
+/// A model that was fitted while led.
+pub struct Sketch {
+    /// The unknowns.
+    pub structure: Structure,
+    /// Where the led fit ended.
+    pub x: Vec<f64>,
+    /// RMS error that the led model leaves, counts; infinite where the effect cannot be led.
+    pub led: f64,
+    /// RMS error of a simulation from there, counts.
+    pub simulated: f64,
+}
+
+impl<'a> Workshop<'a> {
+    /// Prepares.
+    pub fn new(data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
+        Workshop {
+            data,
+            held_out,
+            motion: Motion::measured(data),
+            method: Method {
+                substeps: 1,
+                ..options.method
+            },
+        }
+    }
+
+    /// The linear motor.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] where no motor fits even roughly.
+    pub fn base(&self, options: &Options) -> Result<Refit, Error> {
+        let options = Options {
+            effects: Vec::new(),
+            ..options.clone()
+        };
+        let problem = fit::problem(self.data, &options)?;
+        let start = problem.start.clone().unwrap_or_default();
+        let found = descend(&problem, &start, FULL)
+            .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
+        let foreseen = f64::NAN;
+        self.conclude(problem.structure, &found, foreseen)
+    }
+
+    /// The model `current` with `kind` added, fitted while led along the measured motion.
+    pub fn sketches(&self, current: &Refit, kind: Kind) -> Option<Sketch> {
+        let mut effects = current.effects.clone();
+        effects.push(kind);
+        let structure = Structure::around(
+            self.data,
+            base_for(self.data, &effects),
+            &effects,
+            &current.candidate.machine,
+            current.structure.start_speed,
+        );
+        let mut best: Option<Sketch> = None;
+        for start in starts(self.data, &current.candidate, kind) {
+            let mut parameters = current.parameters.clone();
+            parameters.extend(start);
+            let x = structure.coordinates(&structure.values_of(
+                &current.candidate.machine,
+                &parameters,
+                current.candidate.start_speed,
+            ));
+            let Some(sketch) = self.sketch(&structure, x) else {
+                continue;
+            };
+            let quality = |s: &Sketch| s.led.min(s.simulated);
+            if best.as_ref().is_none_or(|b| quality(&sketch) < quality(b)) {
+                best = Some(sketch);
+            }
+        }
+        best
+    }
+
+    fn sketch(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
+        let samples = self.data.len() as f64;
+        if !structure.effects.iter().all(|&kind| follows(kind)) {
+            let found = descend(&self.problem(structure), &x, SKETCH)?;
+            let rms = (found.squares / samples).sqrt();
+            return Some(Sketch {
+                structure: structure.clone(),
+                x: found.x,
+                led: f64::INFINITY,
+                simulated: rms,
+            });
+        }
+        let led = Led {
+            data: self.data,
+            motion: &self.motion,
+            structure: structure.clone(),
+            method: self.method,
+        };
+        let found = descend(&led, &x, SKETCH)?;
+        let values = structure.values(&found.x);
+        let simulated = scores::whole(self.data, &structure.candidate(&values), self.method)
+            .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
+        Some(Sketch {
+            structure: structure.clone(),
+            x: found.x,
+            led: (found.squares / samples).sqrt(),
+            simulated,
+        })
+    }
+
+    /// Fits a sketched model by full simulation.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] where the model cannot run from there.
+    pub fn refit(&self, sketch: &Sketch) -> Result<Refit, Error> {
+        let problem = self.problem(&sketch.structure);
+        let settings = Settings {
+            enough: NOISE_COUNTS * NOISE_COUNTS * self.data.len() as f64,
+            ..FULL
+        };
+        let found = descend(&problem, &sketch.x, settings)
+            .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
+        self.conclude(problem.structure, &found, sketch.led)
+    }
+
+    fn problem(&self, structure: &Structure) -> FitProblem<'a> {
+        FitProblem {
+            data: self.data,
+            structure: structure.clone(),
+            cost: Cost::Squared,
+            weight: 1.0,
+            horizon: Horizon::Whole,
+            start_angle: StartAngle::Free,
+            method: self.method,
+            start: None,
+        }
+    }
+
+    fn conclude(
+        &self,
+        structure: Structure,
+        found: &Descent,
+        foreseen: f64,
+    ) -> Result<Refit, Error> {
+        let values = structure.values(&found.x);
+        let candidate = structure.candidate(&values);
+        let whole = scores::whole(self.data, &candidate, self.method)?;
+        let rms = rms_counts(self.data, &whole);
+        Ok(Refit {
+            effects: structure.effects.clone(),
+            parameters: structure.effect_values(&values).to_vec(),
+            candidate,
+            structure,
+            rms_counts: rms,
+            validate_rms_counts: validate(self.held_out, &candidate, self.method)?,
+            foreseen_rms_counts: if foreseen.is_finite() { foreseen } else { rms },
+            evaluations: found.evaluations,
+        })
     }
 }

@@ -183,24 +183,26 @@ fn candidate_problem<'a>(
 }
 
 /// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
-/// coasting with the bridge open, or a torque that passes only the one of them.
-fn base_for(data: &Data, effects: &[Kind]) -> Base {
-    let mechanical = |kind: &Kind| {
-        matches!(
+/// coasting with the bridge open, a torque that passes only the one of them, or an effect of the
+/// current, since the current that a speed takes depends on how much of the damping is friction.
+pub(crate) fn base_for(data: &Data, effects: &[Kind]) -> Base {
+    let separates = |kind: &Kind| {
+        let mechanical = matches!(
             kind.description().place,
             Place::Friction | Place::Torque | Place::Load
-        )
+        );
+        mechanical || kind.needs().winding || kind.needs().current
     };
     match data.drive {
         Drive::Current => Base::CurrentDriven,
         Drive::Voltage => Base::Response {
-            damping: data.coasts() || effects.iter().any(mechanical),
+            damping: data.coasts() || effects.iter().any(separates),
         },
     }
 }
 
 /// Whether the first samples show any motion at all.
-fn may_start_moving(data: &Data) -> bool {
+pub(crate) fn may_start_moving(data: &Data) -> bool {
     let per_interval = data.speed_counts_s(0, SPEED_HALF_WIDTH).abs() * data.units.interval;
     per_interval * SPEED_HALF_WIDTH as f64 > 1.0
 }

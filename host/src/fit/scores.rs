@@ -84,6 +84,32 @@ pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option
 /// the bridge was open too much of the time.
 pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     let time = EQUATION_FILTER_SAMPLES * data.units.interval;
+    let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
+    let command = filtered(data, time, &command, true);
+    let (mut wrong, mut driven) = (0.0, 0.0);
+    for left in equation_residuals(data, candidate, time) {
+        wrong += left.volts.powi(2);
+        driven += command[left.sample].value.powi(2);
+    }
+    (driven > 0.0).then(|| (wrong / driven).sqrt())
+}
+
+/// What a model's equation leaves unexplained at one sample.
+#[derive(Clone, Copy, Debug)]
+pub struct EquationResidual {
+    /// The sample.
+    pub sample: usize,
+    /// Drive that the equation asks for and did not get, V: a torque against the motion counts positive.
+    pub volts: f64,
+    /// Angle, rad, from the first sample; as late as the filter makes the residual.
+    pub angle: f64,
+    /// Speed, rad/s; as late as the residual.
+    pub speed: f64,
+}
+
+/// The volts that the model's equation leaves unexplained along the measured motion, filtered with
+/// `time` (s); samples with the bridge open, just closed, or held by friction are left out.
+pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<EquationResidual> {
     let radians = core::f64::consts::TAU / data.units.counts_per_rev;
     let angle: Vec<f64> = (0..data.len())
         .map(|k| (data.centre(k) - data.centre(0)) * radians)
@@ -102,11 +128,7 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
             (drive - torque - friction) * data.units.volts
         })
         .collect();
-    let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
-    let (net, command) = (
-        filtered(data, time, &net, true),
-        filtered(data, time, &command, true),
-    );
+    let net = filtered(data, time, &net, true);
     let holds = candidate
         .effects
         .iter()
@@ -114,7 +136,8 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     let m = &candidate.machine;
     let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
     let third = m.electrical * m.inertia;
-    let (mut wrong, mut driven, mut closed_since) = (0.0, 0.0, 0.0);
+    let mut closed_since = 0.0;
+    let mut residuals = Vec::with_capacity(data.len());
     for k in 0..data.len() {
         if data.is_open(k) {
             closed_since = data.time_s[k];
@@ -124,12 +147,15 @@ pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
             if holds && f.rate.abs() < AT_REST * data.units.speed {
                 continue;
             }
-            let needed = total * f.rate + second * f.acceleration + third * f.jerk;
-            wrong += (needed - net[k].value).powi(2);
-            driven += command[k].value.powi(2);
+            residuals.push(EquationResidual {
+                sample: k,
+                volts: net[k].value - total * f.rate - second * f.acceleration - third * f.jerk,
+                angle: f.value,
+                speed: f.rate,
+            });
         }
     }
-    (driven > 0.0).then(|| (wrong / driven).sqrt())
+    residuals
 }
 
 /// Resistance from a measured current, Ω. The model's `R·i` has no noise, the sensor's `i` has: so

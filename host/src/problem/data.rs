@@ -201,7 +201,9 @@ fn interval_lengths(time_s: &[f64], nominal: f64, fastest_counts: f64) -> (Vec<f
     let mut lengths = Vec::new();
     let length_of = (0..time_s.len())
         .map(|k| {
-            // The last sample begins no interval; any length will do.
+            // The last sample begins no interval: that of the one before, so that an even recording has one
+            // length.
+            let k = k.min(time_s.len().saturating_sub(2));
             let next = (k + 1).min(time_s.len().saturating_sub(1));
             let ticks = (tick(next) - tick(k)).max(1);
             *known.entry(ticks).or_insert_with(|| {

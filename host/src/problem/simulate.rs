@@ -4,7 +4,7 @@ use super::data::Data;
 use shared::discretise::Discretisation;
 use shared::effects::EffectSet;
 use shared::error::ModelError;
-use shared::model::{MAX_DELAY, Model, Plan, State};
+use shared::model::{MAX_DELAY, Model, Plan, Seen, State};
 use shared::motor::Machine;
 use std::ops::Range;
 
@@ -86,6 +86,25 @@ impl<'a> Simulation<'a> {
             each(k, model.reading(&state));
             model.step(&mut state, self.data.command[k], self.data.is_open(k));
         }
+    }
+
+    /// Runs led along a measured motion, one entry of `seen` an interval and of `turns` a sample, from
+    /// the first reading and a speed in rad/s. Gives model minus reading in counts.
+    pub fn led(&self, seen: &[Seen<f64>], turns: &[f64], speed: f64) -> Vec<f64> {
+        let mut state = self.start(0, self.data.centre(0), speed);
+        (0..self.data.len())
+            .map(|k| {
+                let model = self.model(k);
+                let error = model.reading_at(&state, turns[k]) - self.data.counts[k];
+                model.lead(
+                    &mut state,
+                    self.data.command[k],
+                    self.data.is_open(k),
+                    &seen[k],
+                );
+                error
+            })
+            .collect()
     }
 
     fn model(&self, k: usize) -> &Model<f64> {

@@ -116,7 +116,7 @@ impl Structure {
                     &format!("{}.{}", kind.name(), parameter.name),
                     parameter.quantity.unit(),
                     (scaled(parameter.range.0), scaled(parameter.range.1)),
-                    if parameter.amplitude {
+                    if parameter.amplitude || parameter.range.0 <= 0.0 {
                         Scale::Linear
                     } else {
                         Scale::Log
@@ -161,6 +161,11 @@ impl Structure {
             .zip(values)
             .map(|(unknown, &v)| unknown.coordinate(v))
             .collect()
+    }
+
+    /// Those of the values that belong to effects, in the order of the effects.
+    pub fn effect_values<'v>(&self, values: &'v [f64]) -> &'v [f64] {
+        &values[base_len(self.base)..values.len() - usize::from(self.start_speed)]
     }
 
     /// The model with these values of the unknowns.

@@ -1,6 +1,6 @@
 //! Effects lowered to per unit, ready to run.
 
-use super::{Any, Brush, Budget, EffectSet, MAX_EFFECTS, Needs, Shaft, Winding};
+use super::{Any, Brush, Budget, EffectSet, MAX_EFFECTS, Needs, Shaft, Stiff, Winding};
 use crate::scalar::{Real, Scalar};
 use crate::units::PerUnit;
 
@@ -70,6 +70,15 @@ impl<S: Scalar> Lowered<S> {
             .zip(memory)
             .fold(S::zero(), |sum, (effect, memory)| {
                 sum + effect.torque(shaft, *memory)
+            })
+    }
+
+    /// Sum of the stiff torques.
+    pub fn stiff(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Stiff<S> {
+        self.each()
+            .zip(memory)
+            .fold(Stiff::default(), |sum, (effect, memory)| {
+                sum.and(effect.stiff(shaft, *memory))
             })
     }
 

@@ -1,6 +1,7 @@
 //! LuGre friction: bristles that bend before they slide.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::decay::{REACH, decay};
+use super::{Description, Effect, Needs, Parameter, Place, Shaft, Stiff};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -16,17 +17,18 @@ pub struct Lugre<S: Scalar> {
     excess: S,
     /// Speed at which the Stribeck hump is over.
     reach: S,
+    /// One over two Stribeck speeds.
     per_speed: S::Coefficient,
     /// Travel that bends the bristles as far as they go, turns.
     far: S,
     per_deflection: S::Coefficient,
     /// `σ1/σ0` in intervals.
     damping: S::Coefficient,
+    /// Largest rate whose product with that the number format can hold.
+    fastest: S,
+    /// Largest angle per torque whose product with `per_deflection` the number format can hold.
+    softest: S,
 }
-
-/// Deflections of travel after which the bristles slide steadily, and Stribeck speeds, squared,
-/// after which the hump is over: `e` to the minus this is as good as nothing.
-const REACH: f64 = 7.0;
 
 /// Slowest Stribeck speed, as a part of the base speed, and least deflection, turns.
 const SLOWEST: f64 = 1e-4;
@@ -52,6 +54,7 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
     };
     const NEEDS: Needs = Needs {
         mean: true,
+        stiff: true,
         memory: true,
         ..Needs::NOTHING
     };
@@ -61,51 +64,98 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         let speed = speed.max(SLOWEST);
         let excess = values[1].to_f64().max(0.0);
         let presliding = units.lower(values[3], Quantity::Angle).to_f64();
+        let damping = units.lower(values[4], Quantity::Time).to_f64();
         let deflection = presliding.max(SHORTEST) / (1.0 + excess);
         Lugre {
             torque: units.number(values[0], Quantity::Torque),
             excess: S::from_f64(excess),
-            reach: S::from_f64(libm::sqrt(REACH) * speed),
-            per_speed: S::coefficient(1.0 / speed),
-            far: S::from_f64(REACH * deflection),
+            reach: S::from_f64(2.0 * libm::sqrt(REACH) * speed),
+            per_speed: S::coefficient(0.5 / speed),
+            far: S::from_f64(4.0 * REACH * deflection),
             per_deflection: S::coefficient(1.0 / deflection),
             damping: units.multiplier::<S>(values[4], Quantity::Time),
+            fastest: S::from_f64(S::LIMIT / 2.0 / damping.max(1.0)),
+            softest: S::from_f64(S::LIMIT / 4.0 * deflection),
         }
     }
 
-    fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
-        let (mean, end) = self.bent(memory, shaft);
-        let rate = (end - memory).times(shaft.per_length);
-        self.torque * (mean + rate.times(self.damping))
+    fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
+        let half = S::coefficient(0.5);
+        let bent = self.bent(memory, shaft);
+        // Bristles know the travel, and the mean over time is not that over the travel.
+        let late = shaft.late.max(-self.far).min(self.far);
+        let late = late.times(self.per_deflection);
+        // What a little more travel bends at the end of the part, it bends half in the mean.
+        let give = (self.torque * shaft.give).min(self.softest);
+        let further = give.times(self.per_deflection) * bent.further;
+        Stiff {
+            torque: self.torque * (bent.mean - late * bent.further)
+                + self.damped(self.torque * (bent.end - memory), shaft),
+            slope: further.times(half) + self.damped(further, shaft),
+            doubt: self.torque * late.abs() * bent.to_go,
+        }
     }
 
     fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
-        self.bent(memory, shaft).1
+        self.bent(memory, shaft).end
     }
 }
 
+/// Bristles over a part.
+struct Bent<S> {
+    /// Mean deflection.
+    mean: S,
+    /// Deflection at the end.
+    end: S,
+    /// Deflections to go at the start; not negative.
+    to_go: S,
+    /// By how much it grows there with further travel, both in deflections; not negative.
+    further: S,
+}
+
 impl<S: Scalar> Lugre<S> {
-    /// Mean and final deflection of a part that begins at `from`.
-    fn bent(&self, from: S, shaft: &Shaft<S>) -> (S, S) {
+    /// Damping of a torque that changes by `change` over the part. It may be beyond the number format
+    /// for a moment: far less is left of it when the torque has been solved for.
+    fn damped(&self, change: S, shaft: &Shaft<S>) -> S {
+        let most = self.fastest.times(shaft.length);
+        let change = change.min(most).max(-most);
+        change.times(shaft.per_length).times(self.damping)
+    }
+
+    /// The bristles over a part that they begin at a deflection `from`.
+    fn bent(&self, from: S, shaft: &Shaft<S>) -> Bent<S> {
         let one = S::from_f64(1.0);
         let half = S::from_f64(0.5);
-        let slow = shaft.speed.abs().min(self.reach).times(self.per_speed);
-        let steady = one + self.excess * (-(slow * slow)).exp_decay();
-        let travel = shaft.travel.abs().min(self.far).times(self.per_deflection);
-        // Deflections travelled: at most seven, so the quotient of an eighth is below one.
-        let eighth = S::coefficient(0.125);
-        let bends = travel
-            .times(eighth)
-            .part_of(steady)
-            .times(S::coefficient(8.0));
-        let left = (-bends).exp_decay();
+        let hump = shaft.mean_over_speed(|speed| {
+            let slow = speed.abs().min(self.reach).times(self.per_speed);
+            decay(slow * slow)
+        });
+        let steady = one + self.excess * hump;
+        // A quarter of the deflections travelled, x/4, at most seven: its eighth is a part.
+        let quarter = S::coefficient(0.25);
+        let travel = shaft.travel.abs().min(self.far).times(quarter);
+        let eighth = travel
+            .times(self.per_deflection)
+            .times(S::coefficient(0.125));
+        let short = eighth.part_of(steady).times(S::coefficient(8.0));
+        let left = decay(short);
         // (1 − e^−x)/x, by its series where the difference would lose digits.
-        let series = one - bends * half + bends * bends * S::from_f64(1.0 / 6.0);
-        let quotient = (one - left).part_of(bends);
-        let small = bends.less(S::from_f64(1.0 / 256.0));
+        let x = short.times(S::coefficient(4.0));
+        let series = one - x * (half - x * S::from_f64(1.0 / 6.0));
+        let quotient = (one - left).times(quarter).part_of(short);
+        let small = short.less(S::from_f64(1.0 / 1024.0));
         let mean_left = S::select(small, series, quotient);
-        let goal = steady * shaft.travel.signum();
+        let sense = shaft.travel.signum();
+        let goal = steady * sense;
         let gap = from - goal;
-        (goal + gap * mean_left, goal + gap * left)
+        // The bristles may be bent the other way: a gap of up to twice what is steady.
+        let to_go = (-(gap * sense)).max(S::zero());
+        let share = (to_go * half).part_of(steady);
+        Bent {
+            mean: goal + gap * mean_left,
+            end: goal + gap * left,
+            to_go,
+            further: (share * left).times(S::coefficient(2.0)),
+        }
     }
 }

@@ -31,6 +31,7 @@ mod unbalance;
 mod voltage_sat;
 mod windage;
 
+mod decay;
 mod describe;
 mod harmonic;
 mod lowered;
@@ -40,7 +41,7 @@ mod shaft;
 pub use describe::{Description, MAX_PARAMETERS, Parameter, Place};
 pub use lowered::Lowered;
 pub use set::EffectSet;
-pub use shaft::{Brush, Budget, Coupling, Shaft, Winding};
+pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, Winding};
 
 use crate::motor::Machine;
 use crate::scalar::{Real, Scalar};
@@ -63,6 +64,8 @@ pub struct Needs {
     pub friction: bool,
     /// It changes the winding or drops voltage at the brushes.
     pub winding: bool,
+    /// It gives a stiff torque.
+    pub stiff: bool,
     /// It remembers a number.
     pub memory: bool,
     /// It changes what the encoder sees.
@@ -77,6 +80,7 @@ impl Needs {
         angle: false,
         friction: false,
         winding: false,
+        stiff: false,
         memory: false,
         sensed: false,
     };
@@ -89,6 +93,7 @@ impl Needs {
             angle: self.angle | other.angle,
             friction: self.friction | other.friction,
             winding: self.winding | other.winding,
+            stiff: self.stiff | other.stiff,
             memory: self.memory | other.memory,
             sensed: self.sensed | other.sensed,
         }
@@ -139,6 +144,10 @@ pub trait Effect<S: Scalar>: Copy {
     /// Torque against positive rotation, in volts referred to the winding.
     fn torque(&self, _shaft: &Shaft<S>, _memory: S) -> S {
         S::zero()
+    }
+    /// Torque against positive rotation that rises steeply with the travel of the part.
+    fn stiff(&self, _shaft: &Shaft<S>, _memory: S) -> Stiff<S> {
+        Stiff::default()
     }
     /// Friction budget.
     fn friction(&self, _shaft: &Shaft<S>) -> Budget<S> {
@@ -230,6 +239,9 @@ macro_rules! kinds {
             #[inline(always)]
             fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
                 match self { $(Any::$kind(effect) => effect.torque(shaft, memory)),* }
+            }
+            fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
+                match self { $(Any::$kind(effect) => effect.stiff(shaft, memory)),* }
             }
             #[inline(always)]
             fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {

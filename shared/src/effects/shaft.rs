@@ -1,15 +1,18 @@
 //! What an effect sees of the motor, and what it may give back. Per unit.
 
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar};
 
 /// The mean state of shaft and winding over a part of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Shaft<S: Scalar> {
-    /// Position within a revolution at the middle of the travel, as a fraction of a turn; only if
+    /// Mean position within a revolution, as a fraction of a turn; only if
     /// the effect [needs](super::Needs::angle) it.
     pub turns: S,
     /// Travel, turns.
     pub travel: S,
+    /// By how much the mean position lies before the middle of the travel, turns: a shaft that
+    /// gathers speed is late.
+    pub late: S,
     /// Speed.
     pub speed: S,
     /// By how much the speed changes.
@@ -21,6 +24,8 @@ pub struct Shaft<S: Scalar> {
     /// Torque that the motor and its load pass to each other, without dry friction; only in
     /// [`Effect::friction`](super::Effect::friction).
     pub transmitted: S,
+    /// By how much the travel falls per torque against it, turns.
+    pub give: S,
     /// Length of the part in intervals.
     pub length: S::Coefficient,
     /// One over that.
@@ -34,11 +39,13 @@ impl<S: Scalar> Shaft<S> {
         Shaft {
             turns,
             travel: zero,
+            late: zero,
             speed,
             speed_change: zero,
             current,
             current_change: zero,
             transmitted: current,
+            give: zero,
             length: S::coefficient(0.0),
             per_length: S::coefficient(0.0),
         }
@@ -60,6 +67,10 @@ impl<S: Scalar> Shaft<S> {
 /// Mean of `f` over an interval of width `change` about `middle`: exact for cubics.
 #[inline(always)]
 fn mean<S: Scalar>(middle: S, change: S, f: impl Fn(S) -> S) -> S {
+    let zero = S::zero();
+    if !change.less(zero).or(zero.less(change)).any() {
+        return f(middle);
+    }
     // 1/(2√3)
     let reach = change * S::from_f64(0.288_675_134_594_812_9);
     (f(middle - reach) + f(middle + reach)) * S::from_f64(0.5)
@@ -96,6 +107,36 @@ impl<S: Scalar> Budget<S> {
             holding: self.holding + other.holding,
             bias: self.bias + other.bias,
         }
+    }
+}
+
+/// A torque that rises so steeply with the travel that it must be solved for: by one step of Newton,
+/// from the torque for the travel as foreseen and its slope there (the linearly implicit method of
+/// Hairer, Wanner, *Solving Ordinary Differential Equations II*, IV.7).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stiff<S> {
+    /// Torque against positive rotation for the travel as foreseen.
+    pub torque: S,
+    /// By how much it falls per torque, for the travel that the torque takes; not negative.
+    pub slope: S,
+    /// What may be wrong with the torque if the speed changes within the part; not negative.
+    pub doubt: S,
+}
+
+impl<S: Scalar> Stiff<S> {
+    /// Both.
+    pub fn and(self, other: Self) -> Self {
+        Stiff {
+            torque: self.torque + other.torque,
+            slope: self.slope + other.slope,
+            doubt: self.doubt + other.doubt,
+        }
+    }
+
+    /// The torque that agrees with the travel it leaves, if `reckoned` with was another.
+    pub fn from(self, reckoned: S) -> S {
+        let one = S::from_f64(1.0);
+        reckoned + (self.torque - reckoned) * one.part_of(one + self.slope)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Stribeck friction: static friction above the sliding one.
 
+use super::decay::{REACH, decay};
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
 /// Sliding friction `Tc` that rises to `Tc + Ts` as the speed falls below about `ws`. The rise is
@@ -11,18 +12,16 @@ use crate::units::{PerUnit, Quantity};
 pub struct Stribeck<S: Scalar> {
     sliding: S,
     excess: S,
-    /// Speed at which the hump is over.
-    reach: S,
-    per_speed: S::Coefficient,
+    /// Speeds at which the exponential and the Gaussian are over; zero for one that has no part.
+    reach: [S; 2],
+    /// One over four, and over two, Stribeck speeds.
+    per_speed: [S::Coefficient; 2],
     exponential: S,
     gaussian: S,
 }
 
 /// Slowest Stribeck speed, as a part of the base speed: below it the hump is a static friction.
 const SLOWEST: f64 = 1e-4;
-
-/// Stribeck speeds after which the hump is over: `e` to the minus this is as good as nothing.
-const REACH: f64 = 7.0;
 
 impl<S: Scalar> Effect<S> for Stribeck<S> {
     const DESCRIPTION: Description = Description {
@@ -53,11 +52,18 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
             .max(R::from_f64(SLOWEST))
             .to_f64();
         let gaussian = (values[3].to_f64() - 1.0).clamp(0.0, 1.0);
+        let over = |share: f64, speeds: f64| {
+            let speeds = if share > 0.0 { speeds } else { 0.0 };
+            S::from_f64(speeds * speed)
+        };
         Stribeck {
             sliding: units.number(values[0], Quantity::Torque),
             excess: units.number(values[1], Quantity::Torque),
-            reach: S::from_f64(REACH * speed),
-            per_speed: S::coefficient(1.0 / speed),
+            reach: [
+                over(1.0 - gaussian, 4.0 * REACH),
+                over(gaussian, 2.0 * libm::sqrt(REACH)),
+            ],
+            per_speed: [4.0, 2.0].map(|n| S::coefficient(1.0 / (n * speed))),
             exponential: S::from_f64(1.0 - gaussian),
             gaussian: S::from_f64(gaussian),
         }
@@ -65,12 +71,16 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
 
     #[inline]
     fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-        // The square reaches as far as the magnitude: beyond, fixed point could not hold it.
-        let limit = S::from_f64(libm::sqrt(REACH));
         let hump = shaft.mean_over_speed(|speed| {
-            let near = speed.abs().min(self.reach).times(self.per_speed);
-            let close = near.min(limit);
-            self.exponential * (-near).exp_decay() + self.gaussian * (-(close * close)).exp_decay()
+            let speed = speed.abs();
+            // Most of the time the shaft is faster than that, and nothing has to be computed.
+            let near = |k: usize| {
+                let near = speed.less(self.reach[k]).any();
+                near.then(|| speed.min(self.reach[k]).times(self.per_speed[k]))
+            };
+            let exponential = near(0).map_or(S::zero(), |x| self.exponential * decay(x));
+            let gaussian = near(1).map_or(S::zero(), |x| self.gaussian * decay(x * x));
+            exponential + gaussian
         });
         Budget {
             moving: self.sliding + self.excess * hump,

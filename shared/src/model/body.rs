@@ -28,24 +28,31 @@ pub trait Body<S: Scalar> {
     fn timing(&self, level: usize) -> &Timing<S>;
 
     /// A part in which the shaft turns freely under a held voltage and a held torque (against
-    /// positive rotation).
+    /// positive rotation), the load against the flank on `side`.
     fn slide(
         &self,
         level: usize,
         from: &Motion<S>,
+        side: S,
         volts: S,
         torque: S,
         open: bool,
     ) -> Increment<S>;
 
     /// A part in which friction holds the shaft: the current settles, the load swings.
-    fn settle(&self, level: usize, from: &Motion<S>, volts: S, open: bool) -> Increment<S>;
+    fn settle(&self, level: usize, from: &Motion<S>, side: S, volts: S, open: bool)
+    -> Increment<S>;
 
     /// Speed that a torque against positive rotation adds within a part.
     fn yields(&self, level: usize, torque: S) -> S;
 
     /// Torque of the load on the motor shaft, against positive rotation.
-    fn load(&self, _from: &Motion<S>) -> S {
+    fn load(&self, _from: &Motion<S>, _side: S) -> S {
+        S::zero()
+    }
+
+    /// Twist beyond the flank on `side`, in its direction.
+    fn beyond(&self, _from: &Motion<S>, _side: S) -> S {
         S::zero()
     }
 

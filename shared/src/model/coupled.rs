@@ -7,15 +7,16 @@
 //!
 //! (Nordin, Gutman, *Controlling mechanical systems with backlash – a survey*, Automatica 38(10),
 //! 2002.) While the flanks touch, and while they do not, the motion is linear, so both have exact
-//! maps; contacts are located like stops of friction. The twist `ε` is kept as `x = Ω·ε` with `Ω`
-//! the frequency of the two inertias against each other, and its rate is the slip `s = ω − ωl`:
-//! `x' = Ω·s` and `s' = … − Ω·x − 2ζΩ·s`, numbers of one size.
+//! maps; contacts are located like stops of friction. The maps are made for `x = Ω·ε`, with `Ω` the
+//! frequency of the two inertias against each other, and the slip `s = ω − ωl`: `x' = Ω·s` and
+//! `s' = … − Ω·x − 2ζΩ·s`, numbers of one size. The state keeps a twist `σ·ε` with `σ ≤ Ω` such that
+//! a wide gap does not leave the range of a fixed-point number.
 
 use super::body::{Body, Increment};
 use super::friction::is_zero;
 use super::rung::{RUNGS, Rung, Timing, shortest};
 use super::state::Motion;
-use crate::discretise::{Discretisation, LinearMap, LinearSystem, lowered};
+use crate::discretise::{Discretisation, LinearMap, LinearSystem, scaled};
 use crate::effects::Coupling;
 use crate::error::ModelError;
 use crate::motor::Machine;
@@ -38,9 +39,12 @@ struct Touching<S: Scalar> {
 /// The coupling's constants, per unit.
 #[derive(Clone, Copy, Debug)]
 struct Joint<S: Scalar> {
-    /// Torque by twist and by slip.
-    stiffness: S::Coefficient,
+    /// `2ζ·σ/Ω`: what the slip adds to the twist in the torque.
     damping: S::Coefficient,
+    /// Torque by both.
+    stiffness: S::Coefficient,
+    /// Largest twist whose torque the number format holds: dry friction sees no more.
+    most: S,
     /// Twist by angle.
     twist_per_angle: S::Coefficient,
     /// Half of the gap, as a twist.
@@ -66,6 +70,8 @@ struct Split<R> {
     frequency: R,
     /// `2ζ`.
     twice_damping: R,
+    /// `σ/Ω`.
+    scale: R,
 }
 
 impl<R: Real> Split<R> {
@@ -81,10 +87,12 @@ impl<R: Real> Split<R> {
         let mut motor = *machine;
         motor.inertia = (one - share) * machine.inertia;
         let reduced = share * motor.inertia;
+        let frequency = one / (reduced * coupling.compliance).sqrt();
         Ok(Split {
             motor,
             share,
-            frequency: one / (reduced * coupling.compliance).sqrt(),
+            frequency,
+            scale: one / (coupling.half_gap * frequency).max(one),
             twice_damping: coupling.damping_ratio + coupling.damping_ratio,
         })
     }
@@ -154,13 +162,20 @@ impl<R: Real> Maps<R> {
         machine: &Machine<R>,
         length: R,
     ) -> Result<Touching<S>, ModelError> {
+        let (own, one) = (split.scale, R::from_f64(1.0));
+        // What a row gives and what a column takes are twists in the third place.
+        let (rows, columns) = (
+            [one, one, own, one, one],
+            [one, one, one / own, one, one, one],
+        );
         let driven = |k: usize| {
             let map = &self.driven;
             let (x, u) = match k {
                 4 => (map.angle_by_states, map.angle_by_inputs),
                 _ => (map.states[k], map.inputs[k]),
             };
-            lowered::<S, R, 6>("coupled increment", [x[0], x[1], x[2], x[3], u[0], u[1]])
+            let row = [x[0], x[1], x[2], x[3], u[0], u[1]];
+            scaled::<S, R, 6>("coupled increment", row, rows[k], columns)
         };
         let coast = |k: usize| {
             let map = &self.coast;
@@ -168,16 +183,22 @@ impl<R: Real> Maps<R> {
                 3 => (map.angle_by_states, map.angle_by_inputs),
                 _ => (map.states[k], map.inputs[k]),
             };
-            lowered::<S, R, 4>("coupled coasting increment", [x[0], x[1], x[2], u[0]])
+            let columns = [one, one / own, one, one];
+            let row = [x[0], x[1], x[2], u[0]];
+            scaled::<S, R, 4>("coupled coasting increment", row, rows[k + 1], columns)
         };
-        let held = |k: usize| lowered::<S, R, 2>("held load increment", self.held.states[k]);
-        let flight = split.frequency * length;
+        let held = |k: usize| {
+            let columns = [one / own, one];
+            let row = self.held.states[k];
+            scaled::<S, R, 2>("held load increment", row, rows[k + 2], columns)
+        };
+        let flight = split.frequency * own * length;
         Ok(Touching {
             timing: Timing::new(
                 machine,
                 length,
                 self.driven.inputs[0][0],
-                self.driven.angle_by_inputs[0],
+                self.driven.angle_by_inputs,
             ),
             driven: [driven(0)?, driven(1)?, driven(2)?, driven(3)?, driven(4)?],
             coast: [coast(0)?, coast(1)?, coast(2)?, coast(3)?],
@@ -208,12 +229,15 @@ impl<S: Scalar> Coupled<S> {
             };
             touching[level] = maps.lower::<S>(&split, &motor, lengths[level])?;
         }
-        let stiffness = split.share * split.motor.inertia * split.frequency;
-        let half_gap = coupling.half_gap * split.frequency;
+        let stiffness = split.share * split.motor.inertia * split.frequency / split.scale;
+        let damping = split.twice_damping * split.scale;
+        let twist_per_angle = split.frequency * split.scale;
+        let half_gap = coupling.half_gap * twist_per_angle;
         let joint = Joint {
+            damping: S::coefficient(damping.to_f64()),
             stiffness: S::coefficient(stiffness.to_f64()),
-            damping: S::coefficient((stiffness * split.twice_damping).to_f64()),
-            twist_per_angle: S::coefficient(split.frequency.to_f64()),
+            most: S::from_f64(S::LIMIT / 4.0 / stiffness.to_f64()),
+            twist_per_angle: S::coefficient(twist_per_angle.to_f64()),
             half_gap: S::from_f64(half_gap.to_f64()),
             loose: coupling.half_gap > R::zero(),
         };
@@ -227,9 +251,9 @@ impl<S: Scalar> Joint<S> {
         twist - side * self.half_gap
     }
 
-    /// Torque that the motor passes on.
-    fn torque(&self, bend: S, slip: S) -> S {
-        bend.times(self.stiffness) + slip.times(self.damping)
+    /// Torque that the motor passes on, as the twist of an undamped spring.
+    fn push(&self, bend: S, slip: S) -> S {
+        bend + slip.times(self.damping)
     }
 }
 
@@ -303,12 +327,12 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         &self,
         level: usize,
         from: &Motion<S>,
+        side: S,
         volts: S,
         torque: S,
         open: bool,
     ) -> Increment<S> {
         let joint = &self.coupled.joint;
-        let side = self.side(from);
         let bend = joint.bend(from.twist, side);
         let touching = self.touching(level, from, bend, volts, torque, open);
         if !joint.loose {
@@ -322,13 +346,19 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         select(is_zero(side), free, touching)
     }
 
-    fn settle(&self, level: usize, from: &Motion<S>, volts: S, open: bool) -> Increment<S> {
+    fn settle(
+        &self,
+        level: usize,
+        from: &Motion<S>,
+        side: S,
+        volts: S,
+        open: bool,
+    ) -> Increment<S> {
         let joint = &self.coupled.joint;
         let maps = &self.coupled.touching[level];
-        let side = self.side(from);
         let bend = joint.bend(from.twist, side);
         let row = |k: &[S::Coefficient; 2]| bend.times(k[0]) + from.slip.times(k[1]);
-        let still = self.motor.settle(level, from, volts, open);
+        let still = self.motor.settle(level, from, side, volts, open);
         let touching = Increment {
             twist: row(&maps.held[0]),
             slip: row(&maps.held[1]),
@@ -348,14 +378,18 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         torque.times(self.coupled.touching[level].driven[1][5])
     }
 
-    fn load(&self, from: &Motion<S>) -> S {
+    fn load(&self, from: &Motion<S>, side: S) -> S {
         let joint = &self.coupled.joint;
-        let side = self.side(from);
-        let torque = joint.torque(joint.bend(from.twist, side), from.slip);
+        let push = joint.push(joint.bend(from.twist, side), from.slip);
+        let torque = push.min(joint.most).max(-joint.most).times(joint.stiffness);
         if !joint.loose {
             return torque;
         }
         S::select(is_zero(side), S::zero(), torque)
+    }
+
+    fn beyond(&self, from: &Motion<S>, side: S) -> S {
+        self.coupled.joint.bend(from.twist, side) * side
     }
 
     /// The flanks touch where the twist is beyond the gap and they push; without a gap, always.
@@ -367,7 +401,7 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         let side = from.twist.signum();
         let bend = joint.bend(from.twist, side);
         let beyond = S::zero().less(bend * side);
-        let pushes = S::zero().less(joint.torque(bend, from.slip) * side);
+        let pushes = S::zero().less(joint.push(bend, from.slip) * side);
         S::select(beyond.and(pushes), side, S::zero())
     }
 }

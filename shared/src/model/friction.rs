@@ -2,6 +2,7 @@
 //! are taken by the exact maps of the halves. No root finding; and the same path for every lane.
 
 use super::body::Body;
+use super::pieces::Pieces;
 use super::rung::RUNGS;
 use super::state::Motion;
 use crate::effects::Budget;
@@ -49,16 +50,16 @@ struct Piece<S: Scalar> {
     turns_back: S::Mask,
     /// The pull outgrew what friction can hold.
     breaks_loose: S::Mask,
-    /// A flank touched or parted.
-    meets: S::Mask,
 }
 
 impl<S: Scalar> Piece<S> {
+    /// With the load against the flank on `side`.
     #[inline(always)]
     fn take<B: Body<S>>(
         body: &B,
         level: usize,
         from: &Motion<S>,
+        side: S,
         forces: &Forces<S>,
         open: bool,
     ) -> Self {
@@ -68,11 +69,12 @@ impl<S: Scalar> Piece<S> {
             budget,
         } = *forces;
         let zero = S::zero();
-        let pull = from.current - torque - body.load(from);
+        let pull = from.current - torque - body.load(from, side);
         let sense = direction(from.speed, pull, &budget);
         let holds = is_zero(sense);
-        let slide = body.slide(level, from, volts, torque + sense * budget.moving, open);
-        let settle = body.settle(level, from, volts, open);
+        let against = torque + sense * budget.moving;
+        let slide = body.slide(level, from, side, volts, against, open);
+        let settle = body.settle(level, from, side, volts, open);
         let either = |settle, slide| S::select(holds, settle, slide);
         let mut end = Motion {
             current: from.current + either(settle.current, slide.current),
@@ -83,12 +85,7 @@ impl<S: Scalar> Piece<S> {
             end.twist = from.twist + either(settle.twist, slide.twist);
             end.slip = from.slip + either(settle.slip, slide.slip);
         }
-        let pull_after = end.current - torque - body.load(&end);
-        let met = if B::COUPLED {
-            body.side(&end) - body.side(from)
-        } else {
-            zero
-        };
+        let pull_after = end.current - torque - body.load(&end, side);
         Piece {
             end,
             turned: either(zero, slide.angle),
@@ -96,24 +93,71 @@ impl<S: Scalar> Piece<S> {
             holds,
             turns_back: (end.speed * sense).less(zero),
             breaks_loose: budget.holding.less(pull_after.abs()).and(holds),
-            meets: is_zero(met).not(),
         }
     }
 
-    /// Speed at the end of a piece so short that the stop or the release in it need not be located
-    /// any better.
-    fn settled_speed<B: Body<S>>(&self, body: &B, level: usize, budget: &Budget<S>) -> S {
+    /// Whether the shaft stopped, reversed or broke loose.
+    fn eventful(&self) -> bool {
+        self.turns_back.or(self.breaks_loose).any()
+    }
+
+    /// The end of a piece so short that the stop or the release in it need not be located any
+    /// better.
+    fn settle_speed<B: Body<S>>(&mut self, body: &B, level: usize, budget: &Budget<S>) {
         let started = started(body, level, self.pull, budget);
         let passed = passed_through(self.end.speed, self.pull.1, budget);
         let sliding = S::select(self.turns_back, passed, self.end.speed);
         let held = S::select(self.breaks_loose, started, S::zero());
-        S::select(self.holds, held, sliding)
+        let speed = S::select(self.holds, held, sliding);
+        // What friction did to the motor it did not do to the load.
+        self.end.slip = self.end.slip + (speed - self.end.speed);
+        self.end.speed = speed;
     }
+
+    /// A piece so short that the contact within it need not be located any better: for the `share`
+    /// of it after the contact the motion is that of `touching`, which touched all along.
+    fn land(&mut self, touching: &Self, share: S) {
+        let blend = |a: S, b: S| a + (b - a) * share;
+        self.turned = blend(self.turned, touching.turned);
+        let (end, other) = (&mut self.end, &touching.end);
+        end.current = blend(end.current, other.current);
+        end.speed = blend(end.speed, other.speed);
+        end.twist = blend(end.twist, other.twist);
+        end.slip = blend(end.slip, other.slip);
+    }
+}
+
+/// Takes a part of a step if the shaft slides on throughout; most do. Gives the angle travelled.
+#[inline(always)]
+pub fn slide_on<S: Scalar, B: Body<S>>(
+    body: &B,
+    level: usize,
+    motion: &mut Motion<S>,
+    forces: &Forces<S>,
+    open: bool,
+    counts_per_unit: S::Coefficient,
+) -> Option<S> {
+    if B::COUPLED {
+        return None;
+    }
+    let zero = S::zero();
+    let sense = motion.speed.signum();
+    let torque = forces.torque + sense * forces.budget.moving;
+    let slide = body.slide(level, motion, zero, forces.volts, torque, open);
+    let speed = motion.speed + slide.speed;
+    if is_zero(sense).or((speed * sense).less(zero)).any() {
+        return None;
+    }
+    motion.current = motion.current + slide.current;
+    motion.speed = speed;
+    motion.angle = motion.angle.advance(slide.angle, counts_per_unit);
+    Some(slide.angle)
 }
 
 /// Takes a part of a step (`level` halvings of it) in the largest pieces that hold no stop, no
 /// release and no contact. Gives the angle travelled, in base speed × interval.
-#[inline]
+// Rare, and long: out of the way of what is neither.
+#[inline(never)]
 pub fn slide_and_stick<S: Scalar, B: Body<S>>(
     body: &B,
     level: usize,
@@ -122,53 +166,33 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
     open: bool,
     counts_per_unit: S::Coefficient,
 ) -> S {
-    if !B::COUPLED {
-        // Most parts hold nothing of the kind.
-        let sense = motion.speed.signum();
-        let torque = forces.torque + sense * forces.budget.moving;
-        let slide = body.slide(level, motion, forces.volts, torque, open);
-        let speed = motion.speed + slide.speed;
-        if !is_zero(sense).or((speed * sense).less(S::zero())).any() {
-            motion.current = motion.current + slide.current;
-            motion.speed = speed;
-            motion.angle = motion.angle.advance(slide.angle, counts_per_unit);
-            return slide.angle;
-        }
-    }
-    let base = level;
-    let finest = if B::COUPLED {
-        RUNGS - 1
-    } else {
-        FINEST.max(base)
-    };
-    let whole = 1u32 << (finest - base);
-    let mut level = base;
-    let mut done = 0;
+    let finest = if B::COUPLED { RUNGS - 1 } else { FINEST };
+    let mut pieces = Pieces::new(level, finest);
     let mut now = *motion;
     let mut travel = S::zero();
-    while done < whole {
-        let mut piece = Piece::take(body, level, &now, forces, open);
-        let event = piece.turns_back.or(piece.breaks_loose).any();
-        let contact = B::COUPLED && piece.meets.any();
-        if (event || contact) && level < finest {
-            level += 1;
+    while let Some(level) = pieces.next() {
+        let side = body.side(&now);
+        let mut piece = Piece::take(body, level, &now, side, forces, open);
+        let end_side = body.side(&piece.end);
+        let contact = B::COUPLED && is_zero(end_side - side).not().any();
+        if (piece.eventful() || contact) && pieces.halve() {
             continue;
         }
-        if event {
-            let speed = piece.settled_speed(body, level, &forces.budget);
-            if B::COUPLED {
-                // What friction did to the motor it did not do to the load.
-                piece.end.slip = piece.end.slip + (speed - piece.end.speed);
-            }
-            piece.end.speed = speed;
+        if contact {
+            // Flanks part without a jump of the torque, but they touch with one.
+            let touching = Piece::take(body, level, &now, end_side, forces, open);
+            let beyond = body.beyond(&piece.end, end_side);
+            let share = beyond.part_of(beyond - body.beyond(&now, end_side));
+            let lands = is_zero(side).and(is_zero(end_side).not());
+            piece.land(&touching, S::select(lands, share, S::zero()));
+        }
+        if piece.eventful() {
+            piece.settle_speed(body, level, &forces.budget);
         }
         piece.end.angle = now.angle.advance(piece.turned, counts_per_unit);
         now = piece.end;
         travel = travel + piece.turned;
-        done += whole >> (level - base);
-        while level > base && done.is_multiple_of(whole >> (level - 1 - base)) {
-            level -= 1;
-        }
+        pieces.pass();
     }
     *motion = now;
     travel

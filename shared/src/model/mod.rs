@@ -3,7 +3,8 @@
 //! A [`Model`] holds coefficients and never changes; a [`State`] is what runs. Without effects a
 //! step is one linear map. With effects it is cut into parts, and in each part
 //!
-//! * what depends on speed, angle and current is held at its mean over the part (`part`);
+//! * what depends on speed, angle and current is held at its mean over the part (`foresee`), and a
+//!   part that is too long for that is halved (`part`);
 //! * a changed winding, and the drop of brushes, are solved for as volts (`winding`);
 //! * friction is a budget whose stops and releases are located by halving (`friction`);
 //! * a load behind a spring or a gap moves by maps of its own (`coupled`).
@@ -14,8 +15,11 @@
 
 mod body;
 mod coupled;
+mod foresee;
 mod friction;
+mod led;
 mod part;
+mod pieces;
 mod rung;
 mod state;
 mod winding;
@@ -28,6 +32,7 @@ use crate::scalar::{Angle, Mask, Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 use coupled::{Coupled, MotorAndLoad};
 use friction::Forces;
+pub use led::Seen;
 use rung::{RUNGS, Rung};
 pub use state::{MAX_DELAY, Motion, Past, State};
 
@@ -226,10 +231,10 @@ impl<S: Scalar> Stretch<S> {
                 grade += 1;
             }
         }
-        let depth = match (needs.friction, coupling.is_some()) {
-            (_, true) => RUNGS - 1,
-            (true, false) => friction::FINEST.max(grade),
-            (false, false) => grade,
+        let depth = match (needs.mean || coupling.is_some(), needs.friction) {
+            (true, _) => RUNGS - 1,
+            (false, true) => friction::FINEST,
+            (false, false) => 0,
         };
         let (coupled, machine) = match coupling {
             None => (None, machine),

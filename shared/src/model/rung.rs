@@ -30,12 +30,13 @@ pub struct Timing<S: Scalar> {
     pub kb: S::Coefficient,
     /// Mean current per held volt.
     pub gain: S,
+    /// Angle that a held torque against it takes from the travel, in base speed × interval.
+    pub give: S,
 }
 
 /// Maps of one part of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Rung<S: Scalar> {
-    timing: Timing<S>,
     /// Current, speed and angle by `[c, ω, v, τ]` with the bridge closed.
     current: [S::Coefficient; 4],
     speed: [S::Coefficient; 4],
@@ -45,6 +46,7 @@ pub struct Rung<S: Scalar> {
     coast_angle: [S::Coefficient; 2],
     /// Current by `[c, v]` of a shaft that friction holds.
     held: [S::Coefficient; 2],
+    timing: Timing<S>,
 }
 
 /// The maps of a step in R, before they are lowered.
@@ -99,7 +101,7 @@ impl<R: Real> Maps<R> {
         };
         let (x, u) = (driven.angle_by_states, driven.angle_by_inputs);
         Ok(Rung {
-            timing: Timing::new(machine, length, driven.inputs[0][0], u[0]),
+            timing: Timing::new(machine, length, driven.inputs[0][0], u),
             current: lowered::<S, R, 4>("current increment", row(0))?,
             speed: lowered::<S, R, 4>("speed increment", row(1))?,
             angle: lowered::<S, R, 4>("angle increment", [x[0], x[1], u[0], u[1]])?,
@@ -120,18 +122,19 @@ impl<R: Real> Maps<R> {
 }
 
 impl<S: Scalar> Timing<S> {
-    /// Of a part of `length` intervals in which a held volt raises the current by `current` and
-    /// turns the shaft by `angle`.
-    pub fn new<R: Real>(machine: &Machine<R>, length: R, current: R, angle: R) -> Self {
+    /// Of a part of `length` intervals in which a held volt raises the current by `current`, and a
+    /// held volt and a held torque turn the shaft by `angle`.
+    pub fn new<R: Real>(machine: &Machine<R>, length: R, current: R, angle: [R; 2]) -> Self {
         let per_length = R::from_f64(1.0) / length;
         let lag = machine.electrical * per_length;
-        let gain = R::from_f64(1.0) - machine.kb * angle * per_length - lag * current;
+        let gain = R::from_f64(1.0) - machine.kb * angle[0] * per_length - lag * current;
         Timing {
             length: S::coefficient(length.to_f64()),
             per_length: S::coefficient(per_length.to_f64()),
             lag: S::coefficient(lag.to_f64()),
             kb: S::coefficient(machine.kb.to_f64()),
             gain: S::from_f64(gain.to_f64()),
+            give: S::from_f64(-angle[1].to_f64()),
         }
     }
 }
@@ -179,6 +182,11 @@ pub fn ladder<S: Scalar, R: Real>(
 }
 
 impl<S: Scalar> Rung<S> {
+    /// Its length, and how the mean current follows from its ends.
+    pub fn timing(&self) -> &Timing<S> {
+        &self.timing
+    }
+
     /// Everything that one held voltage and one held torque (against positive rotation) do.
     #[inline(always)]
     pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
@@ -217,6 +225,7 @@ impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {
         &self,
         level: usize,
         from: &Motion<S>,
+        _side: S,
         volts: S,
         torque: S,
         open: bool,
@@ -225,7 +234,14 @@ impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {
     }
 
     #[inline(always)]
-    fn settle(&self, level: usize, from: &Motion<S>, volts: S, open: bool) -> Increment<S> {
+    fn settle(
+        &self,
+        level: usize,
+        from: &Motion<S>,
+        _side: S,
+        volts: S,
+        open: bool,
+    ) -> Increment<S> {
         let current = if open {
             -from.current
         } else {

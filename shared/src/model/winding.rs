@@ -14,7 +14,7 @@
 
 use super::rung::Timing;
 use crate::effects::{Brush, Shaft, Winding};
-use crate::scalar::Scalar;
+use crate::scalar::{Mask, Scalar};
 
 /// Volts `E` for a part whose mean, with the plain winding at `volts`, is `free`.
 pub fn extra_volts<S: Scalar>(
@@ -43,6 +43,15 @@ pub fn extra_volts<S: Scalar>(
     let part = current.abs().part_of(brush.knee * stiffness + gain * most);
     let drop = most * part * current.signum();
     (given - drop) * one.part_of(stiffness)
+}
+
+/// Whether the current passes a bend of the brushes' law on its way through the part.
+pub fn bends<S: Scalar>(brush: &Brush<S>, start: &Shaft<S>, mean: &Shaft<S>) -> S::Mask {
+    let zero = S::zero();
+    let side = |current: S| S::select(current.abs().less(brush.knee), zero, current.signum());
+    let moved = side(start.current) - side(start.current + mean.current_change);
+    let bent = zero.less(moved).or(moved.less(zero));
+    bent.and(zero.less(brush.drop))
 }
 
 /// The product, kept within half the range of a format that has one.

@@ -1,0 +1,115 @@
+//! The blind proving ground: how good is the diagnosis, on random motors with random hidden physics?
+//!
+//! ```text
+//! seed, number → case (motor, hidden effects, two recordings) → diagnosis → outcome → tally
+//! ```
+//!
+//! | file | holds |
+//! |---|---|
+//! | `draws` | random draws from a stream that belongs to seed, case and purpose |
+//! | `motor`, `hide` | a random motor; random effects with random strength and shape |
+//! | `case` | all that is drawn for a case, and its recordings |
+//! | `outcome` | the diagnosis of a case beside its truth |
+//! | `tally` | how often which, with intervals |
+//!
+//! Case `k` of a seed is the same whatever the shard, the number of threads and the order.
+
+pub mod case;
+mod draws;
+mod hide;
+mod motor;
+pub mod outcome;
+pub mod tally;
+
+pub use case::Case;
+pub use motor::Motor;
+pub use outcome::Outcome;
+
+use crate::error::Error;
+use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// How many effects a case hides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum HowMany {
+    /// None: whatever is named is wrong
+    None,
+    /// One of the catalogue
+    One,
+    /// Two that act in different ways
+    Two,
+    /// A fifth none, two fifths one, two fifths two
+    Mix,
+}
+
+/// How the motor is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Excite {
+    /// The commissioning sequence at 0.6 to 1 of the supply
+    Commissioning,
+    /// Any single shape at any amplitude, and coarse encoders too
+    Mixed,
+}
+
+/// What the cases follow from, beside their numbers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SetUp {
+    /// Seed of everything random.
+    pub seed: u64,
+    /// How many effects a case hides.
+    pub hidden: HowMany,
+    /// How the motor is driven.
+    pub excite: Excite,
+    /// Names of the effects to choose from; empty for all.
+    pub effects: Vec<String>,
+}
+
+/// Proves the cases of these `numbers`, each in one thread, as many at a time as there are threads (see
+/// `RAYON_NUM_THREADS`), and hands each outcome to `finished` as it comes. When `stop` is set the cases
+/// under way are dropped: half a diagnosis says nothing.
+///
+/// # Errors
+/// A case that cannot be drawn, or what `finished` returns.
+pub fn run(
+    set_up: &SetUp,
+    numbers: &[u64],
+    stop: &AtomicBool,
+    finished: &mut dyn FnMut(Outcome) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let next = AtomicUsize::new(0);
+    let over = AtomicBool::new(false);
+    let threads = rayon::current_num_threads().min(numbers.len());
+    std::thread::scope(|scope| {
+        let (sender, outcomes) = mpsc::channel();
+        for _ in 0..threads {
+            let sender = sender.clone();
+            let (next, over) = (&next, &over);
+            scope.spawn(move || {
+                while !stop.load(Ordering::Relaxed) && !over.load(Ordering::Relaxed) {
+                    let Some(&number) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                        break;
+                    };
+                    let outcome = Case::record(set_up, number)
+                        .and_then(|case| outcome::prove(&case, set_up, stop));
+                    let complete = !stop.load(Ordering::Relaxed);
+                    if !complete || sender.send(outcome).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let collect = || -> Result<(), Error> {
+            for outcome in outcomes {
+                finished(outcome?)?;
+            }
+            Ok(())
+        };
+        let collected = collect();
+        over.store(true, Ordering::Relaxed);
+        collected
+    })
+}
