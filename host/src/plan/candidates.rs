@@ -18,7 +18,7 @@ const SEQUENCE_LEVELS: [f64; 2] = [1.0, 0.4];
 /// A triangle or reversals that creep, relative to the rest of their sequence.
 const CREEP: f64 = 0.25;
 /// How often a coast is repeated instead of being drawn out: short ones travel less.
-const REPEATS: [usize; 2] = [5, 20];
+const REPEATS: [usize; 3] = [5, 20, 100];
 /// A reversal is held for at least this many samples: shorter ones do not reach the shaft.
 const SHORTEST_HOLD_SAMPLES: f64 = 4.0;
 
@@ -69,6 +69,11 @@ impl Frame {
         }
     }
 
+    /// Six levels and as many pauses, none shorter than a reversal may be, s.
+    fn shortest_coast(&self) -> f64 {
+        12.0 * SHORTEST_HOLD_SAMPLES * self.sample_s
+    }
+
     /// Coasting so many times, each time from every level.
     fn coasts(&self, times: usize, amplitude: f64) -> Excitation {
         Excitation {
@@ -106,7 +111,9 @@ pub fn all(frame: &Frame) -> Vec<Excitation> {
         found.extend(sequences(frame, level));
         found.push(frame.stretched(&COMMISSIONING, level));
         found.push(frame.stretched(&COMMISSIONING_COAST, level));
-        found.extend(REPEATS.map(|times| frame.coasts(times, level)));
+        let long_enough = |times: &usize| frame.seconds / *times as f64 >= frame.shortest_coast();
+        let repeats = REPEATS.into_iter().filter(long_enough);
+        found.extend(repeats.map(|times| frame.coasts(times, level)));
     }
     // In a short recording of a slow motor several rates are the same.
     let mut distinct: Vec<Excitation> = Vec::with_capacity(found.len());

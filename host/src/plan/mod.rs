@@ -31,4 +31,4 @@ pub use hypothesis::{Hypothesis, Setup};
 pub use limits::{Limits, Usage};
 pub use ranking::{Ranked, Work, rank, screened};
 pub use reasons::{remedy, why};
-pub use separation::{SEPARABLE_COUNTS, Separation};
+pub use separation::{Effort, SEPARABLE_COUNTS, Separation, Trial};
