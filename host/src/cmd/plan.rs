@@ -31,7 +31,13 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     };
     let seconds = seconds(args, setup.sample_s)?;
     let bar = session.progress(0, "plan");
-    let done = || bar.inc(1);
+    // How many will be refitted beyond the screening shows as it goes.
+    let done = || {
+        bar.inc(1);
+        if bar.length() == Some(bar.position()) {
+            bar.inc_length(1);
+        }
+    };
     let work = Work {
         hypotheses: &hypotheses,
         setup,

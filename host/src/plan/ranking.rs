@@ -179,12 +179,16 @@ fn admitted(
     refitted(work, &unknown).map(Some)
 }
 
-/// The candidate after its next effort.
+/// The candidate after its next effort; as it was where the user stopped that.
 fn refitted(work: &Work<'_>, candidate: &Ranked) -> Result<Ranked, ModelError> {
     let mut candidate = candidate.clone();
     let effort = EFFORTS[candidate.efforts.min(EFFORTS.len() - 1)];
     let drive = (candidate.excitation).drive(work.setup.sample_s, work.seed);
-    candidate.separations = refitted_pairs(work, &drive, &candidate.separations, effort)?;
+    let separations = refitted_pairs(work, &drive, &candidate.separations, effort)?;
+    if stopped(work) {
+        return Ok(candidate);
+    }
+    candidate.separations = separations;
     candidate.efforts += 1;
     (work.done)();
     Ok(candidate)

@@ -83,7 +83,7 @@ pub fn remedy(a: &Hypothesis, b: &Hypothesis) -> String {
     } else if placed(&[Place::Drive, Place::Winding])
         && placed(&[Place::Friction, Place::Torque, Place::Load])
     {
-        "a current sensor, or coasting with the bridge open: what is electrical vanishes without current"
+        "a current sensor: a voltage that is lost shows against the current, a torque does not"
     } else if placed(&[Place::Drive, Place::Winding]) {
         "a current sensor, or the same at two supply voltages"
     } else {

@@ -1,6 +1,8 @@
 //! A plan as text, as JSON, and as the comments above its commands.
 
-use crate::plan::{Hypothesis, Ranked, SEPARABLE_COUNTS, Separation, Usage, Work, remedy, why};
+use crate::plan::{
+    Hypothesis, Limits, Ranked, SEPARABLE_COUNTS, Separation, Usage, Work, remedy, why,
+};
 use serde::Serialize;
 use std::path::Path;
 
@@ -100,10 +102,15 @@ impl Plan<'_> {
 
     /// What would separate the pairs that stay alike.
     fn advice(&self) -> Vec<String> {
+        let wider = if self.work.limits == Limits::default() {
+            ""
+        } else {
+            ", or wider limits"
+        };
         let one = |&(a, b): &(usize, usize)| {
             let (a, b) = (self.hypothesis(a), self.hypothesis(b));
             format!(
-                "{} and {} cannot be separated with voltage and angle within these limits; what would: {}",
+                "{} and {} cannot be separated with voltage and angle within these limits; what would: {}{wider}",
                 a.name(),
                 b.name(),
                 remedy(a, b)
