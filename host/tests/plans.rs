@@ -122,7 +122,7 @@ fn left_after_fit(recording: &Recording, kind: Kind) -> f64 {
 fn a_plan_keeps_its_limits_on_the_bench_whichever_effect_is_true() {
     let cases = [
         ([Kind::Coulomb, Kind::DeadZone], Some(6.0), None, None),
-        ([Kind::Coulomb, Kind::DeadZone], None, Some(1.5), Some(20.0)),
+        ([Kind::Coulomb, Kind::DeadZone], None, None, Some(2.0)),
         (
             [Kind::Coulomb, Kind::OffsetVoltage],
             Some(9.0),

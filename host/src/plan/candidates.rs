@@ -1,15 +1,8 @@
 //! The excitations to choose from: every shape at several amplitudes and rates, and short sequences of
 //! them for what one shape cannot show: hot after cold, coasting after creeping, a hold after motion.
 
-use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands};
-use std::fmt;
-
-/// An excitation: experiments one after the other. Amplitudes are parts of the supply.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Excitation {
-    /// The experiments.
-    pub parts: Vec<Experiment>,
-}
+use super::excitation::{COAST, Excitation};
+use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape};
 
 /// Amplitudes of single shapes, parts of the largest command.
 const LEVELS: [f64; 3] = [1.0, 0.4, 0.12];
@@ -91,7 +84,6 @@ impl Frame {
     }
 }
 
-const COAST: Shape = Shape::Steps { open: true };
 const BRAKE: Shape = Shape::Steps { open: false };
 const TELEGRAPH: Shape = Shape::Telegraph {
     levels: 7,
@@ -184,71 +176,6 @@ fn sequences(frame: &Frame, level: f64) -> Vec<Excitation> {
             parts: list.iter().map(part).collect(),
         })
         .collect()
-}
-
-impl Excitation {
-    /// The same with every amplitude `factor` times as large.
-    pub fn scaled(&self, factor: f64) -> Self {
-        let part = |e: &Experiment| Experiment {
-            amplitude: e.amplitude * factor,
-            ..*e
-        };
-        Excitation {
-            parts: self.parts.iter().map(part).collect(),
-        }
-    }
-
-    /// One command a sample. The seed matters to telegraphs only.
-    pub fn drive(&self, sample_s: f64, seed: u64) -> Vec<Command<f64>> {
-        commands(&self.parts, sample_s, seed).collect()
-    }
-
-    /// Whether the bridge is ever open.
-    pub fn coasts(&self) -> bool {
-        self.parts.iter().any(|part| part.shape == COAST)
-    }
-}
-
-/// As in `triangle at 25 % for 8 s, coast at 100 % for 12 s`.
-impl fmt::Display for Excitation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, same) in self.parts.chunk_by(|a, b| a == b).enumerate() {
-            let (part, times) = (&same[0], same.len());
-            if k > 0 {
-                write!(f, ", ")?;
-            }
-            if times > 1 {
-                write!(f, "{times} times ")?;
-            }
-            match part.shape {
-                Shape::Rest => write!(f, "rest")?,
-                shape => write!(f, "{} at {} %", name(shape), short(100.0 * part.amplitude))?,
-            }
-            write!(f, " for {} s", short(part.seconds))?;
-        }
-        Ok(())
-    }
-}
-
-/// Three decimals at most, and none that are zero.
-fn short(value: f64) -> f64 {
-    (value * 1e3).round() / 1e3
-}
-
-fn name(shape: Shape) -> String {
-    match shape {
-        Shape::Rest => "rest".to_owned(),
-        Shape::Step => "step".to_owned(),
-        Shape::Steps { open: false } => "steps".to_owned(),
-        Shape::Steps { open: true } => "coast".to_owned(),
-        Shape::Staircase { .. } => "staircase".to_owned(),
-        Shape::Triangle { waves: 1 } => "triangle".to_owned(),
-        Shape::Triangle { waves } => format!("{waves} triangles"),
-        Shape::Reversals { count } => format!("{count} reversals"),
-        Shape::Chirp { .. } => "chirp".to_owned(),
-        Shape::Telegraph { .. } => "telegraph".to_owned(),
-        Shape::Multisine { .. } => "multisine".to_owned(),
-    }
 }
 
 #[cfg(test)]

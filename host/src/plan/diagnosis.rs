@@ -1,107 +1,17 @@
 //! The models of a diagnosis, from the JSON that `servoid diagnose --json` writes: the only place that
 //! knows its keys.
 
+use super::diagnosis_error::{DiagnosisError, DiagnosisFault};
 use super::hypothesis::{Hypothesis, Setup};
 use crate::input::suggest::did_you_mean;
 use serde::Deserialize;
 use shared::effects::{Kind, MAX_EFFECTS};
 use shared::motor::Machine;
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// A diagnosis that no plan can be made from: the file, and why.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", .path.display())]
-pub struct DiagnosisError {
-    /// The file.
-    pub path: PathBuf,
-    /// What was seen in it and what to do.
-    pub fault: DiagnosisFault,
-}
-
-/// Why no plan can be made from a diagnosis.
-#[derive(Debug, thiserror::Error)]
-pub enum DiagnosisFault {
-    /// The system refused.
-    #[error(": cannot be read: {0}; give the file that `servoid diagnose REC --json FILE` wrote")]
-    Io(io::Error),
-    /// It is no JSON, or a value has the wrong type. The message ends with line and column.
-    #[error(
-        ":{line}:{column}: {what}; give the file that `servoid diagnose REC --json FILE` wrote"
-    )]
-    Json {
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1.
-        column: usize,
-        /// What was seen.
-        what: String,
-    },
-    /// It is some other result.
-    #[error(
-        ": schema is `{0}`, needed is `{SCHEMA}`; give the file that `servoid diagnose REC --json FILE` wrote"
-    )]
-    Schema(String),
-    /// A diagnosis that carries no models.
-    #[error(
-        ": has no `{0}`: it was written by an older servoid; run `servoid diagnose REC --json FILE` again"
-    )]
-    Missing(&'static str),
-    /// A number that no motor and no drive has.
-    #[error(": `{key}` is {value}, needed is {need}; run `servoid diagnose REC --json FILE` again")]
-    Number {
-        /// Where it stands.
-        key: String,
-        /// What was seen.
-        value: f64,
-        /// What would do.
-        need: &'static str,
-    },
-    /// An effect that is not in the catalogue.
-    #[error(": models[{model}] has the effect `{name}`, which is unknown; {remedy}")]
-    Effect {
-        /// Index of the model.
-        model: usize,
-        /// The effect.
-        name: String,
-        /// The nearest name, or all of them.
-        remedy: String,
-    },
-    /// A parameter that is not there.
-    #[error(
-        ": models[{model}] lacks the parameter `{name}`; run `servoid diagnose REC --json FILE` again"
-    )]
-    Parameter {
-        /// Index of the model.
-        model: usize,
-        /// The parameter, as in `coulomb.torque`.
-        name: String,
-    },
-    /// A parameter in another unit than the model computes with.
-    #[error(
-        ": models[{model}] gives {name} in `{unit}`, needed is `{needed}` (torques in volts referred to the winding); \
-         run `servoid diagnose REC --json FILE` again"
-    )]
-    Unit {
-        /// Index of the model.
-        model: usize,
-        /// The parameter.
-        name: String,
-        /// Its unit in the file.
-        unit: String,
-        /// The unit that the model computes with.
-        needed: &'static str,
-    },
-    /// Nothing to separate.
-    #[error(
-        ": holds only one model ({0}): nothing else of the catalogue explains the recording as well, so that there is \
-         nothing to separate; to plan against a rival that you have in mind, use --between with its name instead"
-    )]
-    OneModel(String),
-}
-
-const SCHEMA: &str = "servoid.diagnosis/1";
+/// What a diagnosis calls itself.
+pub(super) const SCHEMA: &str = "servoid.diagnosis/1";
 
 /// What is read of the file; other keys are ignored.
 #[derive(Deserialize)]
@@ -286,92 +196,4 @@ fn machine(index: usize, keys: &MachineKeys) -> Result<Machine<f64>, DiagnosisFa
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const GOOD: &str = r#"{
-  "schema": "servoid.diagnosis/1", "verdict": "missing_effects",
-  "supply_v": 12.0, "no_load_rad_s": 700.0, "counts_per_rev": 2000, "sample_s": 0.001,
-  "models": [
-    {"effects": ["coulomb"], "role": "chosen",
-     "machine": {"kb_v_s_rad": 0.017, "damping_v_s_rad": 1e-4, "inertia_v_s2_rad": 4.3e-4, "electrical_s": 2.6e-4},
-     "parameters": [{"name": "coulomb.torque", "value": 0.48, "unit": "V"}]},
-    {"effects": ["brush_drop"], "role": "alternative",
-     "machine": {"kb_v_s_rad": 0.017, "damping_v_s_rad": 1e-4, "inertia_v_s2_rad": 4.3e-4, "electrical_s": 2.6e-4},
-     "parameters": [{"name": "brush_drop.knee", "value": 0.1, "unit": "V"},
-                    {"name": "brush_drop.voltage", "value": 0.5, "unit": "V"}]}
-  ]
-}"#;
-
-    #[test]
-    fn models_are_read_with_their_parameters_in_the_catalogue_s_order() {
-        let (hypotheses, setup) = parse(GOOD).expect("a diagnosis");
-        assert_eq!(setup.counts_per_rev, 2000.0);
-        let names: Vec<String> = hypotheses.iter().map(Hypothesis::name).collect();
-        assert_eq!(names, ["coulomb", "brush_drop"]);
-        assert_eq!(hypotheses[0].values, [0.48]);
-        assert_eq!(hypotheses[1].values, [0.5, 0.1]);
-        assert_eq!(hypotheses[0].machine.electrical, 2.6e-4);
-    }
-
-    #[test]
-    fn every_refusal_says_what_was_seen_and_what_to_do() {
-        let cases = [
-            (
-                "\"schema\": \"servoid.diagnosis/1\"",
-                "\"schema\": \"servoid.fit/1\"",
-                "servoid.fit/1",
-            ),
-            (
-                "\"schema\": \"servoid.diagnosis/1\"",
-                "\"schema\": 1",
-                ":2:",
-            ),
-            ("\"models\"", "\"model\"", "no `models`"),
-            ("\"supply_v\"", "\"supply\"", "no `supply_v`"),
-            ("\"sample_s\": 0.001", "\"sample_s\": 0", "`sample_s` is 0"),
-            ("700.0", "-1", "`no_load_rad_s` is -1"),
-            ("[\"coulomb\"]", "[\"colomb\"]", "did you mean `coulomb`?"),
-            (
-                "brush_drop.knee",
-                "brush_drop.nee",
-                "lacks the parameter `brush_drop.knee`",
-            ),
-            (
-                "\"value\": 0.48, \"unit\": \"V\"",
-                "\"value\": 0.48, \"unit\": \"N*m\"",
-                "needed is `V`",
-            ),
-            (
-                "\"inertia_v_s2_rad\": 4.3e-4",
-                "\"inertia_v_s2_rad\": 0",
-                "models[0].machine.inertia_v_s2_rad",
-            ),
-            ("\"kb_v_s_rad\": 0.017", "\"kb\": 0.017", "kb_v_s_rad"),
-            (
-                "[\"brush_drop\"]",
-                "[\"coulomb\"]",
-                "models[1] lacks the parameter `coulomb.torque`",
-            ),
-            ("0.001,", "0.001", ":4:"),
-        ];
-        for (from, to, says) in cases {
-            let broken = GOOD.replacen(from, to, 1);
-            assert_ne!(broken, GOOD, "{from}");
-            let message = parse(&broken).expect_err(from).to_string();
-            assert!(message.contains(says), "{to}: {message}");
-        }
-    }
-
-    #[test]
-    fn one_model_leaves_nothing_to_separate() {
-        let start = GOOD
-            .find(",\n    {\"effects\": [\"brush_drop\"]")
-            .expect("it");
-        let one = format!("{}]}}", &GOOD[..start]);
-        let message = parse(&one).expect_err("one model").to_string();
-        for word in ["only one model (coulomb)", "--between"] {
-            assert!(message.contains(word), "{message}");
-        }
-    }
-}
+mod tests;

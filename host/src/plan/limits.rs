@@ -1,7 +1,7 @@
 //! What an excitation may ask of the motor. A candidate that asks for more under any hypothesis is
 //! scaled down, or dropped where that does not help.
 
-use super::candidates::Excitation;
+use super::excitation::Excitation;
 use super::hypothesis::{Hypothesis, Setup};
 use super::playback::play;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
@@ -37,8 +37,8 @@ pub struct Usage {
 /// fraction of a percent; the rest is for a current that peaks between samples where an effect adds to
 /// the command, and for start angles that were not tried.
 const USABLE: f64 = 0.9;
-/// Amplitudes to try are one another's multiple.
-const STEP_DOWN: f64 = 0.75;
+/// Each amplitude that is tried is this part of the one before; those that ask for too much end early.
+const STEP_DOWN: f64 = 0.85;
 /// Smallest part of a candidate's amplitude that is tried.
 const SMALLEST: f64 = 0.01;
 /// Start angles tried, parts of a revolution, where an effect depends on the angle.

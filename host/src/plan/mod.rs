@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `hypothesis` | a model that may be the truth, and the setup that it runs on |
 //! | `diagnosis` | the models of a diagnosis, from its JSON |
+//! | `excitation` | experiments in turn, with a name |
 //! | `candidates` | the excitations to choose from |
 //! | `playback` | an excitation played to a hypothesis |
 //! | `limits` | what an excitation may ask of the motor; scaled down until it keeps to it |
@@ -19,6 +20,8 @@
 
 mod candidates;
 pub mod diagnosis;
+mod diagnosis_error;
+mod excitation;
 mod hypothesis;
 mod limits;
 mod playback;
@@ -26,7 +29,8 @@ mod ranking;
 mod reasons;
 mod separation;
 
-pub use candidates::Excitation;
+pub use diagnosis_error::{DiagnosisError, DiagnosisFault};
+pub use excitation::Excitation;
 pub use hypothesis::{Hypothesis, Setup};
 pub use limits::{Limits, Usage};
 pub use ranking::{Ranked, Work, rank, screened};

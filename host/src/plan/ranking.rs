@@ -6,7 +6,8 @@
 //! with a single step, and then only those whose bound is among the best are refitted with more effort,
 //! until the best three stand with all of it. Nothing that was passed over can be better than they are.
 
-use super::candidates::{Excitation, Frame, all};
+use super::candidates::{Frame, all};
+use super::excitation::Excitation;
 use super::hypothesis::{Hypothesis, Setup};
 use super::limits::{Limits, Usage};
 use super::separation::{Effort, Separation, Trial};

@@ -1,6 +1,6 @@
 //! Why the best excitation separates, and what would where none does.
 
-use super::candidates::Excitation;
+use super::excitation::Excitation;
 use super::hypothesis::Hypothesis;
 use shared::effects::{Kind, Place};
 use shared::excite::{Experiment, Shape};
