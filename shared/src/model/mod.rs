@@ -216,8 +216,9 @@ impl<S: Scalar> Stretch<S> {
         let how = plan.discretisation;
         let needs = effects.needs;
         let coupling = plan.effects.coupling(&plan.units, &machine);
-        // Held voltage and torque need no parts: one exact map does.
-        let straight = !(needs.mean || needs.friction || coupling.is_some());
+        // Held voltage and torque need no parts: one exact map does, and friction's stops are located
+        // wherever they are.
+        let straight = !(needs.mean || coupling.is_some());
         let parts = if straight { 1 } else { plan.substeps.max(1) };
         let step = length / R::from_f64(parts as f64);
         let mut grade = 0;
@@ -229,10 +230,10 @@ impl<S: Scalar> Stretch<S> {
                 grade += 1;
             }
         }
-        let depth = match (needs.mean || coupling.is_some(), needs.friction) {
-            (true, _) => RUNGS - 1,
-            (false, true) => friction::FINEST,
-            (false, false) => 0,
+        let depth = if straight && !needs.friction {
+            0
+        } else {
+            RUNGS - 1
         };
         let (coupled, machine) = match coupling {
             None => (None, machine),
