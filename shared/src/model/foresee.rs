@@ -11,7 +11,7 @@ use super::friction::{Forces, direction};
 use super::rung::Timing;
 use super::state::{Motion, State};
 use super::winding::{bends, extra_volts};
-use crate::effects::{Lowered, Shaft};
+use crate::effects::{Budget, Lowered, Shaft};
 use crate::scalar::{Angle, Mask, Scalar};
 
 /// A part is halved if what acts in it, per unit, changes on second thought by more than this.
@@ -58,6 +58,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// The mean shaft of a part that began at `start` and brings `by` at `volts` on the winding.
+    #[inline(always)]
     pub(super) fn mean(
         &self,
         start: &Shaft<S>,
@@ -103,23 +104,33 @@ impl<S: Scalar> Model<S> {
         open: bool,
     ) -> Forces<S> {
         let effects = &self.effects;
-        let mut torque = further + effects.torque(shaft, &state.memory);
-        let mut shaft = *shaft;
-        shaft.transmitted = shaft.current + torque;
-        if effects.needs.winding && !open {
-            let lost = effects.winding(volts, &shaft, &state.memory).lost_torque;
-            shaft.transmitted = shaft.transmitted - lost;
-            torque = torque + lost;
+        let needs = effects.needs;
+        let mut torque = further;
+        if needs.torque {
+            torque = torque + effects.torque(shaft, &state.memory);
         }
-        let budget = effects.friction(&shaft);
+        let mut budget = Budget::default();
+        let lost = if needs.lost_torque && !open {
+            effects.lost_torque(shaft, &state.memory)
+        } else {
+            S::zero()
+        };
+        if needs.friction {
+            let transmitted = shaft.current + torque - lost;
+            budget = effects.friction(&Shaft {
+                transmitted,
+                ..*shaft
+            });
+        }
         Forces {
             volts,
-            torque: torque + budget.bias,
+            torque: torque + lost + budget.bias,
             budget,
         }
     }
 
     /// What acts in a part that begins at `start` with the drive at `volts`.
+    #[inline(always)]
     pub(super) fn foresee<B: Body<S>>(
         &self,
         body: &B,
@@ -129,69 +140,151 @@ impl<S: Scalar> Model<S> {
         volts: S,
         open: bool,
     ) -> Foreseen<S> {
-        let zero = S::zero();
-        let Lowered { needs, brush, .. } = &self.effects;
-        let timing = body.timing(level);
-        let side = body.side(&state.motion);
-        let slide = |volts: S, torque: S| {
-            let by = body.slide(level, &state.motion, side, volts, torque, open);
-            self.mean(start, &by, volts, timing, open)
+        let part = Part {
+            model: self,
+            body,
+            level,
+            state,
+            start,
+            side: body.side(&state.motion),
+            volts,
+            open,
         };
-        let winding = |at: &Shaft<S>, free: &Shaft<S>| {
-            let changed = self.effects.winding(volts, at, &state.memory);
-            extra_volts(&changed, brush, volts, free, timing)
-        };
+        let first = part.first_thought();
+        part.second_thought(first)
+    }
+}
 
-        // Near the start: the speed alone foresees the angle.
+/// A part that begins at `start` with the drive at `volts`.
+struct Part<'a, S: Scalar, B> {
+    model: &'a Model<S>,
+    body: &'a B,
+    level: usize,
+    state: &'a State<S>,
+    start: &'a Shaft<S>,
+    side: S,
+    volts: S,
+    open: bool,
+}
+
+/// What seems to act in a part.
+struct Thought<S: Scalar> {
+    /// On the shaft, but for the stiff torque.
+    forces: Forces<S>,
+    /// Torque that rises steeply with the travel.
+    stiff: S,
+    /// Volts that the changes of the winding add.
+    extra: S,
+    /// The mean shaft under all that.
+    shaft: Shaft<S>,
+}
+
+impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
+    /// From the shaft at the start; the speed alone foresees the angle.
+    #[inline(always)]
+    fn first_thought(&self) -> Thought<S> {
+        let zero = S::zero();
+        let start = self.start;
+        let effects = &self.model.effects;
         let ahead = Shaft {
             turns: start.turns + start.travel * S::from_f64(0.5),
             ..*start
         };
-        let near = self.forces(state, &ahead, volts, zero, open);
-        let pull = start.current - near.torque - body.load(&state.motion, side);
-        let sense = direction(start.speed, pull, &near.budget);
-        let torque = near.torque + sense * near.budget.moving;
-        let mut shaft = slide(volts, torque);
-        let changes = needs.winding && !open;
+        let forces = self.forces(&ahead, zero);
+        let mut torque = forces.torque;
+        if effects.needs.friction {
+            let load = self.body.load(&self.state.motion, self.side);
+            let pull = start.current - torque - load;
+            let sense = direction(start.speed, pull, &forces.budget);
+            torque = torque + sense * forces.budget.moving;
+        }
+        let mut shaft = self.slide(zero, torque);
         let mut extra = zero;
-        if changes {
-            extra = winding(start, &shaft);
-            shaft = slide(volts + extra, torque);
+        if self.winding_changes() {
+            extra = self.extra_volts(start, &shaft);
+            shaft = self.slide(extra, torque);
         }
         let mut stiff = zero;
-        if needs.stiff {
-            stiff = self.effects.stiff(&shaft, &state.memory).from(zero);
-            shaft = slide(volts + extra, torque + stiff);
+        if effects.needs.stiff {
+            stiff = effects.stiff(&shaft, &self.state.memory).from(zero);
+            shaft = self.slide(extra, torque + stiff);
         }
-
-        // At the mean of that.
-        let mut doubt = zero;
-        let mut doubtful = zero.less(zero);
-        if changes {
-            let free = Shaft {
-                current: shaft.current - timing.gain * extra,
-                ..shaft
-            };
-            let again = winding(&shaft, &free);
-            shaft.current = free.current + timing.gain * again;
-            doubt = doubt + (again - extra).abs();
-            doubtful = bends(brush, start, &shaft);
-            extra = again;
-        }
-        if needs.stiff {
-            let given = self.effects.stiff(&shaft, &state.memory);
-            let again = given.from(stiff);
-            doubt = doubt + (again - stiff).abs() + given.doubt;
-            stiff = again;
-        }
-        let mut forces = self.forces(state, &shaft, volts, stiff, open);
-        doubt = doubt + (forces.torque - stiff - near.torque).abs();
-        doubt = doubt + (forces.budget.moving - near.budget.moving).abs();
-        forces.volts = volts + extra;
-        let tolerated = S::from_f64(DOUBT);
-        Foreseen {
+        Thought {
             forces,
-            doubtful: doubtful.or(tolerated.less(doubt)),
+            stiff,
+            extra,
+            shaft,
         }
+    }
+
+    /// From the mean shaft of the first.
+    #[inline(always)]
+    fn second_thought(&self, first: Thought<S>) -> Foreseen<S> {
+        let effects = &self.model.effects;
+        let Thought {
+            stiff,
+            extra,
+            mut shaft,
+            ..
+        } = first;
+        let mut doubt = S::zero();
+        let mut bent = S::zero().less(S::zero());
+        let mut volts = self.volts;
+        if self.winding_changes() {
+            let gain = self.body.timing(self.level).gain;
+            let current = shaft.current - gain * extra;
+            let again = self.extra_volts(&shaft, &Shaft { current, ..shaft });
+            shaft.current = current + gain * again;
+            doubt = doubt + (again - extra).abs();
+            bent = bends(&effects.brush, self.start, &shaft);
+            volts = volts + again;
+        }
+        let mut again = S::zero();
+        if effects.needs.stiff {
+            let given = effects.stiff(&shaft, &self.state.memory);
+            again = given.from(stiff);
+            doubt = doubt + (again - stiff).abs() + given.doubt;
+        }
+        let forces = self.forces(&shaft, again);
+        doubt = doubt + (forces.torque - again - first.forces.torque).abs();
+        doubt = doubt + (forces.budget.moving - first.forces.budget.moving).abs();
+        Foreseen {
+            forces: Forces { volts, ..forces },
+            doubtful: bent.or(S::from_f64(DOUBT).less(doubt)),
+        }
+    }
+
+    #[inline(always)]
+    fn winding_changes(&self) -> bool {
+        self.model.effects.needs.winding && !self.open
+    }
+
+    #[inline(always)]
+    fn forces(&self, shaft: &Shaft<S>, further: S) -> Forces<S> {
+        let Part {
+            state, volts, open, ..
+        } = *self;
+        self.model.forces(state, shaft, volts, further, open)
+    }
+
+    /// The mean shaft under a held torque, with `extra` volts on top of those of the drive.
+    #[inline(always)]
+    fn slide(&self, extra: S, torque: S) -> Shaft<S> {
+        let volts = self.volts + extra;
+        let (motion, timing) = (&self.state.motion, self.body.timing(self.level));
+        let by = self
+            .body
+            .slide(self.level, motion, self.side, volts, torque, self.open);
+        self.model.mean(self.start, &by, volts, timing, self.open)
+    }
+
+    /// Volts that the changes of the winding `at` a shaft add to those of the drive, with which alone
+    /// the shaft would be `free`.
+    #[inline(always)]
+    fn extra_volts(&self, at: &Shaft<S>, free: &Shaft<S>) -> S {
+        let effects = &self.model.effects;
+        let changed = effects.winding(self.volts, at, &self.state.memory);
+        let timing = self.body.timing(self.level);
+        extra_volts(&changed, &effects.brush, self.volts, free, timing)
     }
 }

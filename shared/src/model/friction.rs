@@ -33,9 +33,6 @@ pub fn is_zero<S: Scalar>(x: S) -> S::Mask {
     x.less(S::zero()).or(S::zero().less(x)).not()
 }
 
-/// Halvings of a step to which a stop or a release of a rigid motor is located.
-pub const FINEST: usize = 5;
-
 /// One piece, taken as if nothing happened within it.
 struct Piece<S: Scalar> {
     /// Where it ends.
@@ -166,8 +163,7 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
     open: bool,
     counts_per_unit: S::Coefficient,
 ) -> S {
-    let finest = if B::COUPLED { RUNGS - 1 } else { FINEST };
-    let mut pieces = Pieces::new(level, finest);
+    let mut pieces = Pieces::new(level, RUNGS - 1);
     let mut now = *motion;
     let mut travel = S::zero();
     while let Some(level) = pieces.next() {
