@@ -141,7 +141,7 @@ impl Drawn {
     }
 
     /// Recording 0, to fit, or 1, to hold out.
-    fn data(&self, which: usize) -> Result<Data, Error> {
+    pub(super) fn data(&self, which: usize) -> Result<Data, Error> {
         let seed = self.recording_seeds[which];
         let machine = self.motor.machine();
         let mut bench = Bench::new(machine);

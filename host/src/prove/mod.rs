@@ -9,21 +9,32 @@
 //! | `draws` | random draws from a stream that belongs to seed, case and purpose |
 //! | `motor`, `hide` | a random motor; random effects with random strength and shape |
 //! | `case` | all that is drawn for a case, and its recordings |
-//! | `outcome` | the diagnosis of a case beside its truth |
-//! | `tally` | how often which, with intervals |
+//! | `truth` | the bench's parameters in the model's terms |
+//! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
+//! | `store`, `shard` | finished cases in a file; a part of the cases |
+//! | `tally`, `interval`, `confusion` | how often which |
 //!
 //! Case `k` of a seed is the same whatever the shard, the number of threads and the order.
 
-pub mod case;
+mod case;
+mod confusion;
 mod draws;
 mod hide;
+pub mod interval;
+mod judge;
 mod motor;
-pub mod outcome;
+mod outcome;
+mod shard;
+pub mod store;
 pub mod tally;
+pub mod truth;
 
-pub use case::Case;
+pub use case::{Case, Drawn};
+pub use confusion::Confusion;
 pub use motor::Motor;
-pub use outcome::Outcome;
+pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
+pub use shard::{BadShard, Shard};
+pub use tally::Tally;
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
@@ -52,6 +63,25 @@ pub enum Excite {
     Commissioning,
     /// Any single shape at any amplitude, and coarse encoders too
     Mixed,
+}
+
+impl HowMany {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        value_name(&self)
+    }
+}
+
+impl Excite {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        value_name(&self)
+    }
+}
+
+fn value_name(value: &impl clap::ValueEnum) -> String {
+    let value = value.to_possible_value();
+    value.map_or(String::new(), |value| value.get_name().to_owned())
 }
 
 /// What the cases follow from, beside their numbers.
@@ -93,7 +123,7 @@ pub fn run(
                         break;
                     };
                     let outcome = Case::record(set_up, number)
-                        .and_then(|case| outcome::prove(&case, set_up, stop));
+                        .and_then(|case| Outcome::of(&case, set_up, stop));
                     let complete = !stop.load(Ordering::Relaxed);
                     if !complete || sender.send(outcome).is_err() {
                         break;

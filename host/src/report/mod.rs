@@ -3,4 +3,5 @@
 pub mod html;
 pub mod json;
 pub mod paper;
+pub mod prove;
 pub mod text;
