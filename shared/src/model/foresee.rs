@@ -109,19 +109,19 @@ impl<S: Scalar> Model<S> {
         if needs.torque {
             torque = torque + effects.torque(shaft, &state.memory);
         }
-        let mut budget = Budget::default();
         let lost = if needs.lost_torque && !open {
             effects.lost_torque(shaft, &state.memory)
         } else {
             S::zero()
         };
-        if needs.friction {
-            let transmitted = shaft.current + torque - lost;
-            budget = effects.friction(&Shaft {
-                transmitted,
+        let budget = if needs.friction {
+            effects.friction(&Shaft {
+                transmitted: shaft.current + torque - lost,
                 ..*shaft
-            });
-        }
+            })
+        } else {
+            Budget::default()
+        };
         Forces {
             volts,
             torque: torque + lost + budget.bias,
