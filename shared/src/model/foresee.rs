@@ -14,8 +14,12 @@ use super::winding::{bends, extra_volts};
 use crate::effects::{Budget, Lowered, Shaft};
 use crate::scalar::{Angle, Mask, Scalar};
 
-/// A part is halved if what acts in it, per unit, changes on second thought by more than this.
-const DOUBT: f64 = 0.004;
+/// A part is halved if what is doubtful in it might leave the angle wrong by more than this, counts.
+///
+/// A torque `τ` that acts for a time `h` gives the speed `τ·h/m`, which back-EMF and friction take
+/// away again with the time constant `m/(kb + b)`; meanwhile the shaft turns by `τ·h/(kb + b)`. Per
+/// unit, `kb` is about one.
+const TOLERATED_COUNTS: f64 = 0.1;
 
 /// What acts in a part.
 pub(super) struct Foreseen<S: Scalar> {
@@ -26,6 +30,11 @@ pub(super) struct Foreseen<S: Scalar> {
 }
 
 impl<S: Scalar> Model<S> {
+    /// Doubtful torque times its length, per unit, that needs no shorter parts.
+    pub(super) fn tolerated(counts_per_unit: f64) -> S {
+        S::from_f64(TOLERATED_COUNTS / counts_per_unit)
+    }
+
     /// What acts where nothing depends on the state.
     pub(super) fn constant(effects: &Lowered<S>) -> Forces<S> {
         let rest = Shaft::at(S::zero(), S::zero(), S::zero());
@@ -191,9 +200,10 @@ impl<S: Scalar> Model<S> {
         doubt = doubt + (forces.torque - stiff - first.torque).abs();
         doubt = doubt + (forces.budget.moving - first.budget.moving).abs();
         forces.volts = volts + extra;
+        let impulse = doubt.times(body.timing(level).length);
         Foreseen {
             forces,
-            doubtful: bent.or(S::from_f64(DOUBT).less(doubt)),
+            doubtful: bent.or(self.tolerated.less(impulse)),
         }
     }
 }
