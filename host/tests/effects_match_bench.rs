@@ -187,7 +187,7 @@ const FINE: u16 = 8;
 const COARSE: u16 = 2;
 const COARSE_LIMITS: Range<f64> = 0.24..0.36;
 /// Bristles that bend within hundredths of a sample want more substeps on a quick motor.
-const COARSE_BRISTLE_LIMITS: Range<f64> = 0.24..1.6;
+const COARSE_BRISTLE_LIMITS: Range<f64> = 0.24..0.6;
 
 /// Counts are lost at random on the bench: no parameters reproduce the draw.
 const RANDOM: [Kind; 1] = [Kind::MissedCounts];

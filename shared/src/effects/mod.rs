@@ -34,6 +34,7 @@ mod windage;
 mod decay;
 mod describe;
 mod harmonic;
+mod hump;
 mod lowered;
 mod set;
 mod shaft;

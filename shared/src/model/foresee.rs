@@ -14,8 +14,12 @@ use super::winding::{bends, extra_volts};
 use crate::effects::{Budget, Lowered, Shaft};
 use crate::scalar::{Angle, Mask, Scalar};
 
-/// A part is halved if what acts in it, per unit, changes on second thought by more than this.
-const DOUBT: f64 = 0.004;
+/// A part is halved if what is doubtful in it might leave the angle wrong by more than this, counts.
+///
+/// A torque `τ` that acts for a time `h` gives the speed `τ·h/m`, which back-EMF and friction take
+/// away again with the time constant `m/(kb + b)`; meanwhile the shaft turns by `τ·h/(kb + b)`. Per
+/// unit, `kb` is about one.
+const TOLERATED_COUNTS: f64 = 0.1;
 
 /// What acts in a part.
 pub(super) struct Foreseen<S: Scalar> {
@@ -26,6 +30,11 @@ pub(super) struct Foreseen<S: Scalar> {
 }
 
 impl<S: Scalar> Model<S> {
+    /// Doubtful torque times its length, per unit, that needs no shorter parts.
+    pub(super) fn tolerated(counts_per_unit: f64) -> S {
+        S::from_f64(TOLERATED_COUNTS / counts_per_unit)
+    }
+
     /// What acts where nothing depends on the state.
     pub(super) fn constant(effects: &Lowered<S>) -> Forces<S> {
         let rest = Shaft::at(S::zero(), S::zero(), S::zero());
@@ -109,19 +118,19 @@ impl<S: Scalar> Model<S> {
         if needs.torque {
             torque = torque + effects.torque(shaft, &state.memory);
         }
-        let mut budget = Budget::default();
         let lost = if needs.lost_torque && !open {
             effects.lost_torque(shaft, &state.memory)
         } else {
             S::zero()
         };
-        if needs.friction {
-            let transmitted = shaft.current + torque - lost;
-            budget = effects.friction(&Shaft {
-                transmitted,
+        let budget = if needs.friction {
+            effects.friction(&Shaft {
+                transmitted: shaft.current + torque - lost,
                 ..*shaft
-            });
-        }
+            })
+        } else {
+            Budget::default()
+        };
         Forces {
             volts,
             torque: torque + lost + budget.bias,
@@ -140,6 +149,8 @@ impl<S: Scalar> Model<S> {
         volts: S,
         open: bool,
     ) -> Foreseen<S> {
+        let zero = S::zero();
+        let effects = &self.effects;
         let part = Part {
             model: self,
             body,
@@ -150,8 +161,50 @@ impl<S: Scalar> Model<S> {
             volts,
             open,
         };
-        let first = part.first_thought();
-        part.second_thought(first)
+        let winding = effects.needs.winding && !open;
+
+        // First thought, from the start of the part.
+        let first = part.forces(&part.ahead(), zero);
+        let torque = first.torque + part.drag(&first);
+        let mut shaft = part.slide(zero, torque);
+        let mut extra = zero;
+        if winding {
+            extra = part.extra_volts(start, &shaft);
+            shaft = part.slide(extra, torque);
+        }
+        let mut stiff = zero;
+        if effects.needs.stiff {
+            stiff = effects.stiff(&shaft, &state.memory).from(zero);
+            shaft = part.slide(extra, torque + stiff);
+        }
+
+        // Second thought, from the mean shaft of the first.
+        let mut doubt = zero;
+        let mut bent = zero.less(zero);
+        if winding {
+            let gain = body.timing(level).gain;
+            let current = shaft.current - gain * extra;
+            let again = part.extra_volts(&shaft, &Shaft { current, ..shaft });
+            shaft.current = current + gain * again;
+            bent = bends(&effects.brush, start, &shaft);
+            doubt = doubt + (again - extra).abs();
+            extra = again;
+        }
+        if effects.needs.stiff {
+            let given = effects.stiff(&shaft, &state.memory);
+            let again = given.from(stiff);
+            doubt = doubt + (again - stiff).abs() + given.doubt;
+            stiff = again;
+        }
+        let mut forces = part.forces(&shaft, stiff);
+        doubt = doubt + (forces.torque - stiff - first.torque).abs();
+        doubt = doubt + (forces.budget.moving - first.budget.moving).abs();
+        forces.volts = volts + extra;
+        let impulse = doubt.times(body.timing(level).length);
+        Foreseen {
+            forces,
+            doubtful: bent.or(self.tolerated.less(impulse)),
+        }
     }
 }
 
@@ -167,98 +220,29 @@ struct Part<'a, S: Scalar, B> {
     open: bool,
 }
 
-/// What seems to act in a part.
-struct Thought<S: Scalar> {
-    /// On the shaft, but for the stiff torque.
-    forces: Forces<S>,
-    /// Torque that rises steeply with the travel.
-    stiff: S,
-    /// Volts that the changes of the winding add.
-    extra: S,
-    /// The mean shaft under all that.
-    shaft: Shaft<S>,
-}
-
 impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
-    /// From the shaft at the start; the speed alone foresees the angle.
+    /// The shaft as the speed at the start alone foresees it.
     #[inline(always)]
-    fn first_thought(&self) -> Thought<S> {
-        let zero = S::zero();
-        let start = self.start;
-        let effects = &self.model.effects;
-        let ahead = Shaft {
-            turns: start.turns + start.travel * S::from_f64(0.5),
-            ..*start
-        };
-        let forces = self.forces(&ahead, zero);
-        let mut torque = forces.torque;
-        if effects.needs.friction {
-            let load = self.body.load(&self.state.motion, self.side);
-            let pull = start.current - torque - load;
-            let sense = direction(start.speed, pull, &forces.budget);
-            torque = torque + sense * forces.budget.moving;
-        }
-        let mut shaft = self.slide(zero, torque);
-        let mut extra = zero;
-        if self.winding_changes() {
-            extra = self.extra_volts(start, &shaft);
-            shaft = self.slide(extra, torque);
-        }
-        let mut stiff = zero;
-        if effects.needs.stiff {
-            stiff = effects.stiff(&shaft, &self.state.memory).from(zero);
-            shaft = self.slide(extra, torque + stiff);
-        }
-        Thought {
-            forces,
-            stiff,
-            extra,
-            shaft,
+    fn ahead(&self) -> Shaft<S> {
+        let half = S::from_f64(0.5);
+        Shaft {
+            turns: self.start.turns + self.start.travel * half,
+            ..*self.start
         }
     }
 
-    /// From the mean shaft of the first.
+    /// Torque of the friction in `forces` as the part begins.
     #[inline(always)]
-    fn second_thought(&self, first: Thought<S>) -> Foreseen<S> {
-        let effects = &self.model.effects;
-        let Thought {
-            stiff,
-            extra,
-            mut shaft,
-            ..
-        } = first;
-        let mut doubt = S::zero();
-        let mut bent = S::zero().less(S::zero());
-        let mut volts = self.volts;
-        if self.winding_changes() {
-            let gain = self.body.timing(self.level).gain;
-            let current = shaft.current - gain * extra;
-            let again = self.extra_volts(&shaft, &Shaft { current, ..shaft });
-            shaft.current = current + gain * again;
-            doubt = doubt + (again - extra).abs();
-            bent = bends(&effects.brush, self.start, &shaft);
-            volts = volts + again;
+    fn drag(&self, forces: &Forces<S>) -> S {
+        if !self.model.effects.needs.friction {
+            return S::zero();
         }
-        let mut again = S::zero();
-        if effects.needs.stiff {
-            let given = effects.stiff(&shaft, &self.state.memory);
-            again = given.from(stiff);
-            doubt = doubt + (again - stiff).abs() + given.doubt;
-        }
-        let forces = self.forces(&shaft, again);
-        doubt = doubt + (forces.torque - again - first.forces.torque).abs();
-        doubt = doubt + (forces.budget.moving - first.forces.budget.moving).abs();
-        Foreseen {
-            forces: Forces { volts, ..forces },
-            doubtful: bent.or(S::from_f64(DOUBT).less(doubt)),
-        }
+        let load = self.body.load(&self.state.motion, self.side);
+        let pull = self.start.current - forces.torque - load;
+        direction(self.start.speed, pull, &forces.budget) * forces.budget.moving
     }
 
-    #[inline(always)]
-    fn winding_changes(&self) -> bool {
-        self.model.effects.needs.winding && !self.open
-    }
-
+    /// What acts at `shaft`, with a torque `further` that is known already.
     #[inline(always)]
     fn forces(&self, shaft: &Shaft<S>, further: S) -> Forces<S> {
         let Part {

@@ -80,6 +80,8 @@ pub struct Model<S: Scalar> {
     /// Whole, for the position within a revolution.
     counts_per_rev: u32,
     effects: Lowered<S>,
+    /// Doubtful torque times its length that needs no shorter parts.
+    tolerated: S,
     /// What acts on the shaft, if nothing of it depends on the state.
     constant: Forces<S>,
 }
@@ -129,6 +131,7 @@ impl<S: Scalar> Model<S> {
             counts_per_turn: S::coefficient(units.counts_per_rev.to_f64()),
             counts_per_rev: (units.counts_per_rev.to_f64() + 0.5) as u32,
             constant: Self::constant(&effects),
+            tolerated: Self::tolerated(units.counts_per_unit().to_f64()),
             effects,
         })
     }
