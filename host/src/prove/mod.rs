@@ -27,6 +27,8 @@ mod outcome;
 mod shard;
 pub mod store;
 pub mod tally;
+#[cfg(test)]
+mod tests;
 pub mod truth;
 
 pub use case::{Case, Drawn};

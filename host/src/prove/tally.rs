@@ -193,8 +193,8 @@ impl Group {
             cases: cases.len() as u64,
             detectable: seen.len() as u64,
             shares,
-            seconds: Spread::of(cases.iter().map(|o| o.seconds)),
-            refits: Spread::of(cases.iter().map(|o| o.refits as f64)),
+            seconds: Spread::of(seen.iter().map(|o| o.seconds)),
+            refits: Spread::of(seen.iter().map(|o| o.refits as f64)),
         })
     }
 }

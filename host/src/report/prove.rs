@@ -113,14 +113,14 @@ fn three(spread: &Spread) -> String {
     )
 }
 
-/// Three digits.
+/// Three digits, no exponent.
 fn number(value: Option<f64>) -> String {
-    match value {
-        None => "-".to_owned(),
-        Some(value) if value.abs() >= 99.5 => format!("{value:.0}"),
-        Some(value) if value.abs() >= 9.95 => format!("{value:.1}"),
-        Some(value) => format!("{value:.2}"),
-    }
+    let Some(value) = value else {
+        return "-".to_owned();
+    };
+    let size = value.abs().max(1e-4).log10().floor() as i32;
+    let digits = (2 - size).max(0) as usize;
+    format!("{value:.digits$}")
 }
 
 fn confusions_text(rows: &[Confusion]) -> String {
