@@ -2,9 +2,8 @@
 
 use super::confusion::{Confusion, confusions};
 use super::interval::Count;
-use super::store::Header;
 use super::truth::ParameterError;
-use super::{Outcome, SetUp};
+use super::{Header, Outcome, SetUp};
 use crate::compare::quantile;
 use serde::Serialize;
 

@@ -2,7 +2,6 @@
 
 use super::draws::Draws;
 use super::hide::{self, acts_otherwise};
-use super::store::{Header, Store, merge, read};
 use super::*;
 use crate::bench::Hidden;
 use crate::bench::effects::CATALOGUE;
@@ -195,16 +194,16 @@ fn a_file_that_was_cut_anywhere_is_continued_to_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("whole");
     let whole: Vec<Outcome> = (0..4)
-        .map(|case| outcome(&set_up, case, &["coulomb|stribeck", "windage"]))
+        .map(|case| Outcome {
+            failure: Some("a cut through \u{3a9} too".to_owned()),
+            ..outcome(&set_up, case, &["coulomb|stribeck", "windage"])
+        })
         .collect();
     let mut store = Store::create(&path, &header).unwrap();
     whole.iter().for_each(|o| store.append(o).unwrap());
     let bytes = std::fs::read(&path).unwrap();
     let cut = folder.path().join("cut");
-    for length in (0..=bytes.len())
-        .step_by(37)
-        .chain([bytes.len() - 1, bytes.len()])
-    {
+    for length in 0..=bytes.len() {
         std::fs::write(&cut, &bytes[..length]).unwrap();
         let (mut store, done) = Store::resume(&cut, &header).unwrap();
         assert_eq!(done, whole[..done.len()]);

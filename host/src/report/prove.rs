@@ -19,8 +19,8 @@ pub fn text(tally: &Tally) -> String {
     };
     let mut out = folded(
         &format!(
-            "{} cases of seed {}: --hidden {}, --excite {}{effects}",
-            tally.cases,
+            "{} of seed {}: --hidden {}, --excite {}{effects}",
+            cases(tally.cases),
             set_up.seed,
             set_up.hidden.name(),
             set_up.excite.name(),
@@ -59,16 +59,25 @@ pub fn text(tally: &Tally) -> String {
     out
 }
 
+fn cases(number: u64) -> String {
+    match number {
+        1 => "1 case".to_owned(),
+        _ => format!("{number} cases"),
+    }
+}
+
 fn group_text(group: &Group) -> String {
     let title = match group.hidden {
-        0 => format!("nothing hidden ({} cases)", group.cases),
+        0 => format!("nothing hidden ({})", cases(group.cases)),
         1 => format!(
-            "one effect hidden ({} of {} cases leave > {DETECTABLE_COUNTS} count to the linear motor)",
-            group.detectable, group.cases
+            "one effect hidden ({} of {} leave > {DETECTABLE_COUNTS} count to the linear motor)",
+            group.detectable,
+            cases(group.cases)
         ),
         _ => format!(
-            "two effects hidden ({} of {} cases: each alone leaves > {DETECTABLE_COUNTS} count)",
-            group.detectable, group.cases
+            "two effects hidden ({} of {}: each alone leaves > {DETECTABLE_COUNTS} count)",
+            group.detectable,
+            cases(group.cases)
         ),
     };
     let mut out = format!("\n{title}\n");

@@ -44,7 +44,7 @@ fn shards_and_a_cut_file_come_to_the_same_as_the_whole() {
     assert_eq!(resumed, whole);
     assert_eq!(cases(&desk, "cut.jsonl"), cases(&desk, "whole.jsonl"));
     let again = desk.done("prove --hidden none --only 1 --out one.jsonl");
-    assert!(again.stdout.contains("1 cases of seed 1"), "{again}");
+    assert!(again.stdout.contains("1 case of seed 1"), "{again}");
     assert_eq!(cases(&desk, "one.jsonl"), cases(&desk, "whole.jsonl")[1..]);
 }
 
@@ -52,12 +52,7 @@ fn shards_and_a_cut_file_come_to_the_same_as_the_whole() {
 fn the_table_says_what_was_proved() {
     let desk = Desk::new();
     let outcome = desk.done("prove --hidden none --cases 1 --seed 5 --json p.json --out p.jsonl");
-    for line in [
-        "1 cases of seed 5",
-        "nothing hidden",
-        "all cases",
-        "seconds",
-    ] {
+    for line in ["1 case of seed 5", "nothing hidden", "all cases", "seconds"] {
         assert!(outcome.stdout.contains(line), "{outcome}");
     }
     let width = |line: &str| line.chars().count();
