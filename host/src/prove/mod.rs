@@ -23,14 +23,14 @@ mod content;
 mod draws;
 mod header;
 mod hide;
-pub mod interval;
+mod interval;
 mod judge;
 mod motor;
 mod outcome;
 mod shard;
 mod store;
 mod store_error;
-pub mod tally;
+mod tally;
 #[cfg(test)]
 mod tests;
 pub mod truth;
@@ -39,12 +39,14 @@ pub use case::{Case, Drawn};
 pub use confusion::Confusion;
 pub use content::{Content, merge, read};
 pub use header::Header;
+pub use interval::{Count, Rate};
+pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
 pub use shard::{BadShard, Shard};
 pub use store::Store;
 pub use store_error::{Fault, StoreError};
-pub use tally::Tally;
+pub use tally::{Group, Share, Spread, Tally};
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
@@ -71,7 +73,7 @@ pub enum HowMany {
 pub enum Excite {
     /// The commissioning sequence at 0.6 to 1 of the supply
     Commissioning,
-    /// Any single shape at any amplitude, and coarse encoders too
+    /// Any single shape but rest at any amplitude, and coarse encoders too
     Mixed,
 }
 

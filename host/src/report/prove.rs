@@ -1,8 +1,6 @@
 //! The table of the proving ground, as text and as JSON.
 
-use crate::prove::interval::{Count, Rate};
-use crate::prove::tally::{Group, Spread};
-use crate::prove::{Confusion, DETECTABLE_COUNTS, SetUp, Tally};
+use crate::prove::{Confusion, Count, DETECTABLE_COUNTS, Group, Rate, SetUp, Spread, Tally};
 use serde::Serialize;
 
 /// Width of the text, columns.
