@@ -3,7 +3,7 @@
 use crate::bench::BenchError;
 use crate::input::{MotorFileError, ReadError};
 use crate::output::WriteError;
-use crate::prove::store::StoreError;
+use crate::prove::StoreError;
 use shared::error::ModelError;
 use thiserror::Error;
 

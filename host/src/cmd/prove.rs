@@ -2,8 +2,7 @@
 
 use crate::cli::ProveArgs;
 use crate::error::Error;
-use crate::prove::store::{self, Content, Fault, Header, Store, StoreError};
-use crate::prove::{self, Outcome, SetUp, Shard, Tally};
+use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError, Tally};
 use crate::report::prove::{ProveJson, text};
 use crate::session::Session;
 use std::collections::BTreeSet;
@@ -51,7 +50,7 @@ fn merge(session: &Session, args: &ProveArgs) -> Result<(), Error> {
         .map(|path| ("a file of --merge", path.as_path()))
         .collect();
     session.check_outputs(&[], &inputs)?;
-    let merged = store::merge(&args.merge);
+    let merged = prove::merge(&args.merge);
     match merged.map_err(|error| wrong_flag("--merge", error))? {
         Some(Content { header, outcomes }) => deliver(session, &header, &outcomes),
         None => Err(Error::Usage("--merge: name the files".to_owned())),

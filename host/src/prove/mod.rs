@@ -11,30 +11,42 @@
 //! | `case` | all that is drawn for a case, and its recordings |
 //! | `truth` | the bench's parameters in the model's terms |
 //! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
-//! | `store`, `shard` | finished cases in a file; a part of the cases |
+//! | `store`, `header`, `content` | finished cases in a file: written, what they are, read and joined |
+//! | `shard` | a part of the cases, for one machine of several |
 //! | `tally`, `interval`, `confusion` | how often which |
 //!
 //! Case `k` of a seed is the same whatever the shard, the number of threads and the order.
 
 mod case;
 mod confusion;
+mod content;
 mod draws;
+mod header;
 mod hide;
-pub mod interval;
+mod interval;
 mod judge;
 mod motor;
 mod outcome;
 mod shard;
-pub mod store;
-pub mod tally;
+mod store;
+mod store_error;
+mod tally;
+#[cfg(test)]
+mod tests;
 pub mod truth;
 
 pub use case::{Case, Drawn};
 pub use confusion::Confusion;
+pub use content::{Content, merge, read};
+pub use header::Header;
+pub use interval::{Count, Rate};
+pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
 pub use shard::{BadShard, Shard};
-pub use tally::Tally;
+pub use store::Store;
+pub use store_error::{Fault, StoreError};
+pub use tally::{Group, Share, Spread, Tally};
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
@@ -61,7 +73,7 @@ pub enum HowMany {
 pub enum Excite {
     /// The commissioning sequence at 0.6 to 1 of the supply
     Commissioning,
-    /// Any single shape at any amplitude, and coarse encoders too
+    /// Any single shape but rest at any amplitude, and coarse encoders too
     Mixed,
 }
 

@@ -2,9 +2,8 @@
 
 use super::confusion::{Confusion, confusions};
 use super::interval::Count;
-use super::store::Header;
 use super::truth::ParameterError;
-use super::{Outcome, SetUp};
+use super::{Header, Outcome, SetUp};
 use crate::compare::quantile;
 use serde::Serialize;
 
@@ -76,10 +75,20 @@ pub struct Spread {
 
 type Question = (&'static str, &'static str, fn(&Outcome) -> bool);
 
+/// Whether the model reaches [`COMPLETE_COUNTS`](super::judge::COMPLETE_COUNTS).
+const COMPLETE: Question = ("complete", "held-out RMS <= 0.35 counts", Outcome::complete);
+
+/// Whether the diagnosis made it worse.
+const WORSE: Question = (
+    "worse_than_base",
+    "held-out RMS above the linear motor's",
+    Outcome::worse_than_base,
+);
+
 /// Asked where nothing is hidden.
 const OF_NONE: [Question; 2] = [
     ("any_name", "an effect is named", |o| !o.named.is_empty()),
-    ("complete", "held-out RMS <= 0.35 counts", Outcome::complete),
+    COMPLETE,
 ];
 
 /// Asked where one effect is hidden.
@@ -96,12 +105,8 @@ const OF_ONE: [Question; 6] = [
         Outcome::right_or_look_alike_first,
     ),
     ("nothing_named", "nothing named", |o| o.named.is_empty()),
-    ("complete", "held-out RMS <= 0.35 counts", Outcome::complete),
-    (
-        "worse_than_base",
-        "held-out RMS above the linear motor's",
-        Outcome::worse_than_base,
-    ),
+    COMPLETE,
+    WORSE,
 ];
 
 /// Asked where two effects are hidden.
@@ -121,12 +126,8 @@ const OF_TWO: [Question; 7] = [
         "any that is no declared look-alike either",
         |o| !o.quite_wrong_names().is_empty(),
     ),
-    ("complete", "held-out RMS <= 0.35 counts", Outcome::complete),
-    (
-        "worse_than_base",
-        "held-out RMS above the linear motor's",
-        Outcome::worse_than_base,
-    ),
+    COMPLETE,
+    WORSE,
 ];
 
 impl Tally {
@@ -193,8 +194,8 @@ impl Group {
             cases: cases.len() as u64,
             detectable: seen.len() as u64,
             shares,
-            seconds: Spread::of(cases.iter().map(|o| o.seconds)),
-            refits: Spread::of(cases.iter().map(|o| o.refits as f64)),
+            seconds: Spread::of(seen.iter().map(|o| o.seconds)),
+            refits: Spread::of(seen.iter().map(|o| o.refits as f64)),
         })
     }
 }

@@ -1,8 +1,6 @@
 //! The table of the proving ground, as text and as JSON.
 
-use crate::prove::interval::{Count, Rate};
-use crate::prove::tally::{Group, Spread};
-use crate::prove::{Confusion, DETECTABLE_COUNTS, SetUp, Tally};
+use crate::prove::{Confusion, Count, DETECTABLE_COUNTS, Group, Rate, SetUp, Spread, Tally};
 use serde::Serialize;
 
 /// Width of the text, columns.
@@ -19,8 +17,8 @@ pub fn text(tally: &Tally) -> String {
     };
     let mut out = folded(
         &format!(
-            "{} cases of seed {}: --hidden {}, --excite {}{effects}",
-            tally.cases,
+            "{} of seed {}: --hidden {}, --excite {}{effects}",
+            cases(tally.cases),
             set_up.seed,
             set_up.hidden.name(),
             set_up.excite.name(),
@@ -59,16 +57,25 @@ pub fn text(tally: &Tally) -> String {
     out
 }
 
+fn cases(number: u64) -> String {
+    match number {
+        1 => "1 case".to_owned(),
+        _ => format!("{number} cases"),
+    }
+}
+
 fn group_text(group: &Group) -> String {
     let title = match group.hidden {
-        0 => format!("nothing hidden ({} cases)", group.cases),
+        0 => format!("nothing hidden ({})", cases(group.cases)),
         1 => format!(
-            "one effect hidden ({} of {} cases leave > {DETECTABLE_COUNTS} count to the linear motor)",
-            group.detectable, group.cases
+            "one effect hidden ({} of {} leave > {DETECTABLE_COUNTS} count to the linear motor)",
+            group.detectable,
+            cases(group.cases)
         ),
         _ => format!(
-            "two effects hidden ({} of {} cases: each alone leaves > {DETECTABLE_COUNTS} count)",
-            group.detectable, group.cases
+            "two effects hidden ({} of {}: each alone leaves > {DETECTABLE_COUNTS} count)",
+            group.detectable,
+            cases(group.cases)
         ),
     };
     let mut out = format!("\n{title}\n");
@@ -113,14 +120,14 @@ fn three(spread: &Spread) -> String {
     )
 }
 
-/// Three digits.
+/// Three digits, no exponent.
 fn number(value: Option<f64>) -> String {
-    match value {
-        None => "-".to_owned(),
-        Some(value) if value.abs() >= 99.5 => format!("{value:.0}"),
-        Some(value) if value.abs() >= 9.95 => format!("{value:.1}"),
-        Some(value) => format!("{value:.2}"),
-    }
+    let Some(value) = value else {
+        return "-".to_owned();
+    };
+    let size = value.abs().max(1e-4).log10().floor() as i32;
+    let digits = (2 - size).max(0) as usize;
+    format!("{value:.digits$}")
 }
 
 fn confusions_text(rows: &[Confusion]) -> String {

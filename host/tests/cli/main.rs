@@ -14,6 +14,7 @@ mod known_facts;
 mod main_job;
 mod paper;
 mod pipes;
+mod prove;
 mod repeatable;
 mod searches;
 mod simulate;
