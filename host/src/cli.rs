@@ -1,6 +1,6 @@
 //! The shape of the command line, and nothing else.
 
-use crate::prove::{Excite, HowMany};
+use crate::prove::{Excite, HowMany, Shard};
 use crate::solve;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgGroup, Args, Parser, Subcommand, ValueEnum};
@@ -331,6 +331,21 @@ pub struct ProveArgs {
     /// Effects to choose from; all if not given
     #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "EFFECT", value_parser = effect_names())]
     pub effect: Vec<String>,
+    /// Do every n-th case only, beginning with the i-th
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<Shard>,
+    /// Do the cases of these numbers only
+    #[arg(long, value_delimiter = ',', value_name = "CASE,…", conflicts_with_all = ["shard", "cases"])]
+    pub only: Vec<u64>,
+    /// Where each finished case goes, a line of JSON
+    #[arg(long, short, value_name = "FILE", conflicts_with = "resume")]
+    pub out: Option<PathBuf>,
+    /// Continue this file of --out: what is in it is not done again
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
+    /// Do nothing new: the joint table of these files of --out
+    #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["cases", "hidden", "excite", "effect", "shard", "only", "out", "resume"])]
+    pub merge: Vec<PathBuf>,
 }
 
 /// Costs by name.

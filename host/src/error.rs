@@ -3,6 +3,7 @@
 use crate::bench::BenchError;
 use crate::input::{MotorFileError, ReadError};
 use crate::output::WriteError;
+use crate::prove::StoreError;
 use shared::error::ModelError;
 use thiserror::Error;
 
@@ -27,6 +28,9 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A file of finished cases cannot be used.
+    #[error(transparent)]
+    Store(#[from] StoreError),
     /// The work was done as far as it goes, and it does not go far enough.
     #[error("{0}")]
     Failed(String),

@@ -2,26 +2,120 @@
 
 use crate::cli::ProveArgs;
 use crate::error::Error;
-use crate::prove::{self, Outcome, SetUp, tally};
+use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError, Tally};
+use crate::report::prove::{ProveJson, text};
 use crate::session::Session;
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::atomic::Ordering;
 
 pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
-    let set_up = SetUp {
-        seed: session.seed,
-        hidden: args.hidden,
-        excite: args.excite,
-        effects: args.effect.clone(),
-    };
-    session.check_outputs(&[], &[])?;
-    let numbers: Vec<u64> = (0..args.cases).collect();
-    let bar = session.progress(args.cases, "prove");
-    let mut outcomes: Vec<Outcome> = Vec::new();
-    prove::run(&set_up, &numbers, session.stop(), &mut |outcome| {
+    if !args.merge.is_empty() {
+        return merge(session, args);
+    }
+    let outputs: Vec<(&str, &Path)> = [("--out", &args.out), ("--resume", &args.resume)]
+        .into_iter()
+        .filter_map(|(flag, path)| Some((flag, path.as_deref()?)))
+        .collect();
+    session.check_outputs(&outputs, &[])?;
+    let header = Header::new(&set_up(session, args));
+    let (mut store, mut outcomes) = opened(args, &header)?;
+    let numbers = missing(args, &outcomes);
+    if !outcomes.is_empty() {
+        let done = outcomes.len();
+        session.remark(&format!(
+            "{done} cases done before, {} to do",
+            numbers.len()
+        ));
+    }
+    let bar = session.progress(numbers.len() as u64, "prove");
+    prove::run(&header.set_up, &numbers, session.stop(), &mut |outcome| {
+        if let Some(store) = &mut store {
+            store.append(&outcome)?;
+        }
         outcomes.push(outcome);
         bar.inc(1);
         Ok(())
     })?;
     bar.finish_and_clear();
     outcomes.sort_by_key(|outcome| outcome.case);
-    session.deliver(&tally::text(&outcomes), &outcomes)
+    deliver(session, &header, &outcomes)
+}
+
+/// The joint table of several files.
+fn merge(session: &Session, args: &ProveArgs) -> Result<(), Error> {
+    let inputs: Vec<(&str, &Path)> = args
+        .merge
+        .iter()
+        .map(|path| ("a file of --merge", path.as_path()))
+        .collect();
+    session.check_outputs(&[], &inputs)?;
+    let merged = prove::merge(&args.merge);
+    match merged.map_err(|error| wrong_flag("--merge", error))? {
+        Some(Content { header, outcomes }) => deliver(session, &header, &outcomes),
+        None => Err(Error::Usage("--merge: name the files".to_owned())),
+    }
+}
+
+fn set_up(session: &Session, args: &ProveArgs) -> SetUp {
+    let effects: BTreeSet<String> = args.effect.iter().cloned().collect();
+    SetUp {
+        seed: session.seed,
+        hidden: args.hidden,
+        excite: args.excite,
+        effects: effects.into_iter().collect(),
+    }
+}
+
+/// Where finished cases go, and those that are there.
+fn opened(args: &ProveArgs, header: &Header) -> Result<(Option<Store>, Vec<Outcome>), Error> {
+    if let Some(path) = &args.resume {
+        let resumed = Store::resume(path, header);
+        let (store, outcomes) = resumed.map_err(|error| wrong_flag("--resume", error))?;
+        return Ok((Some(store), outcomes));
+    }
+    let store = match &args.out {
+        Some(path) => {
+            let created = Store::create(path, header);
+            Some(created.map_err(|error| wrong_flag("--out", error))?)
+        }
+        None => None,
+    };
+    Ok((store, Vec::new()))
+}
+
+/// What is wrong with the use of a file, under the flag's name; what is wrong with the file itself as it is.
+fn wrong_flag(flag: &str, error: StoreError) -> Error {
+    match error.fault {
+        Fault::Exists | Fault::Missing | Fault::Other(_) => Error::Usage(format!("{flag} {error}")),
+        _ => error.into(),
+    }
+}
+
+/// The cases that are asked for and not done.
+fn missing(args: &ProveArgs, done: &[Outcome]) -> Vec<u64> {
+    let done: BTreeSet<u64> = done.iter().map(|outcome| outcome.case).collect();
+    let asked: Vec<u64> = match &args.only[..] {
+        [] => args
+            .shard
+            .unwrap_or(Shard::WHOLE)
+            .numbers(args.cases)
+            .collect(),
+        only => only
+            .iter()
+            .copied()
+            .collect::<BTreeSet<u64>>()
+            .into_iter()
+            .collect(),
+    };
+    asked
+        .into_iter()
+        .filter(|case| !done.contains(case))
+        .collect()
+}
+
+fn deliver(session: &Session, header: &Header, outcomes: &[Outcome]) -> Result<(), Error> {
+    let tally = Tally::new(header, outcomes);
+    let interrupted = session.stop().load(Ordering::Relaxed);
+    session.deliver(&text(&tally), &ProveJson::new(&tally, interrupted))
 }

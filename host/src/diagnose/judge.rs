@@ -1,6 +1,6 @@
-//! Which candidate, if any, may be named.
+//! Which model may be believed, and beside which others.
 
-use super::{Refit, Step};
+use super::refit::Refit;
 use crate::problem::Data;
 use shared::effects::Kind;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -9,58 +9,32 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 const MUST_REMOVE: f64 = 0.6;
 /// Lead over the best rival that is no look-alike, in the logarithm of the errors' product.
 const MUST_LEAD: f64 = 0.1;
-/// Candidates whose score is within this of the best explain the recording alike.
+/// Models whose score is within this of the best explain the recording alike.
 const ALIKE: f64 = 0.1;
+/// Of models within this of the best score the simplest is taken: 2 % in each error.
+const AS_GOOD: f64 = 0.04;
+/// More models than this that explain a recording alike, and none of them is named.
+const MOST_ALIKE: usize = 4;
 
-/// What the judge says.
-pub enum Ruling {
-    /// An effect is named.
-    Named(Step),
-    /// None is; perhaps one was near.
-    Doubtful(Option<Kind>),
+/// The best of some models that are sorted by score: the simplest of those that are as good as the first.
+pub fn best(models: &[Refit]) -> Option<&Refit> {
+    let least = models.first()?.judged().score();
+    models
+        .iter()
+        .take_while(|model| model.judged().score() - least < AS_GOOD)
+        .min_by_key(|model| model.parameters.len())
 }
 
-/// Judges the refitted candidates against the model that they extend.
-pub fn judge(data: &Data, before: &Refit, mut candidates: Vec<Refit>) -> Ruling {
-    candidates.sort_by(|a, b| a.score().total_cmp(&b.score()));
-    let Some(best) = candidates.first() else {
-        return Ruling::Doubtful(None);
+/// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.
+pub fn removes(before: &Refit, after: &Refit) -> bool {
+    // Both in the same measure.
+    let (old, new) = if before.tracked.is_some() && after.tracked.is_some() {
+        (before.judged(), after.judged())
+    } else {
+        (before.free(), after.free())
     };
-    let Some(&added) = best.effects.last() else {
-        return Ruling::Doubtful(None);
-    };
-    let removed = 1.0 - excess(best.validate_rms_counts) / excess(before.validate_rms_counts);
-    if removed.is_nan() || removed < MUST_REMOVE {
-        return Ruling::Doubtful((removed > 0.0).then_some(added));
-    }
-    let newest = |refit: &Refit| refit.effects.last().copied();
-    // Known look-alikes, and whatever explains this recording as well, are no rivals: they are
-    // named beside the winner.
-    let look_alike = |kind: Kind| added.description().look_alikes.contains(&kind.name());
-    let alike: Vec<Kind> = candidates[1..]
-        .iter()
-        .filter(|rival| rival.score() - best.score() < ALIKE)
-        .filter_map(newest)
-        .collect();
-    let lead = candidates[1..]
-        .iter()
-        .filter(|rival| newest(rival).is_some_and(|kind| !look_alike(kind)))
-        .map(|rival| rival.score() - best.score())
-        .fold(f64::INFINITY, f64::min);
-    if lead < MUST_LEAD && alike.iter().any(|&kind| !look_alike(kind)) {
-        return Ruling::Doubtful(Some(added));
-    }
-    let p_values = candidates
-        .iter()
-        .map(|refit| p_value(data, before, refit))
-        .collect();
-    Ruling::Named(Step {
-        added,
-        indistinguishable_from: alike,
-        confidence: 1.0 / (1.0 + (-lead / MUST_LEAD).exp()),
-        candidates,
-        p_values,
-    })
+    let removed = 1.0 - excess(new.held_out) / excess(old.held_out);
+    removed > MUST_REMOVE && new.fitted < old.fitted
 }
 
 /// Mean square error beyond the encoder's own.
@@ -68,15 +42,81 @@ fn excess(rms: f64) -> f64 {
     (rms * rms - 1.0 / 12.0).max(0.0)
 }
 
+/// Whether two effects are known to look alike.
+pub fn look_alikes(a: Kind, b: Kind) -> bool {
+    a.description().look_alikes.contains(&b.name())
+        || b.description().look_alikes.contains(&a.name())
+}
+
+/// What stands beside the chosen model.
+pub struct Company {
+    /// Effects that explain this recording as well in the place of the one in question.
+    pub alike: Vec<Kind>,
+    /// Lead over the best rival that is neither a look-alike nor among `alike`.
+    pub lead: f64,
+}
+
+/// Looks for models that differ from `chosen` in `place` alone, among `others`.
+pub fn company(chosen: &Refit, place: Kind, others: &[Refit]) -> Company {
+    let mut company = Company {
+        alike: Vec::new(),
+        lead: f64::INFINITY,
+    };
+    for other in others {
+        let Some(instead) = instead(chosen, place, other) else {
+            continue;
+        };
+        let behind = other.judged().score() - chosen.judged().score();
+        if behind < ALIKE {
+            company.alike.push(instead);
+        } else if !look_alikes(place, instead) {
+            company.lead = company.lead.min(behind);
+        }
+    }
+    company
+}
+
+impl Company {
+    /// Whether the effect may be named in this company: not where too many others, or others of quite
+    /// another nature, do as well.
+    pub fn allows(&self, place: Kind) -> bool {
+        let strangers = self
+            .alike
+            .iter()
+            .filter(|&&kind| !look_alikes(place, kind))
+            .count();
+        self.alike.len() <= MOST_ALIKE && strangers <= 1
+    }
+
+    /// From one half (no lead) to one.
+    pub fn confidence(&self) -> f64 {
+        let sets = 1.0 / (1.0 + self.alike.len() as f64 * 0.1);
+        sets / (1.0 + (-self.lead.min(10.0) / MUST_LEAD).exp())
+    }
+}
+
+/// The effect that `other` has in the place of `place`, if that is all in which they differ.
+fn instead(chosen: &Refit, place: Kind, other: &Refit) -> Option<Kind> {
+    if other.effects.len() != chosen.effects.len() || other.effects.contains(&place) {
+        return None;
+    }
+    let mut different = other
+        .effects
+        .iter()
+        .filter(|kind| !chosen.effects.contains(kind));
+    let instead = *different.next()?;
+    different.next().is_none().then_some(instead)
+}
+
 /// Chance of so large a fall of the error if the new effect were absent: likelihood ratio with as many
 /// samples as the reading changes, since a motor at rest says the same thing a thousand times.
-fn p_value(data: &Data, before: &Refit, after: &Refit) -> f64 {
+pub fn p_value(data: &Data, before: &Refit, after: &Refit) -> f64 {
     let samples = data.transitions() as f64;
     let statistic = 2.0 * samples * (before.rms_counts / after.rms_counts).ln();
     let added = after
-        .parameters
-        .len()
-        .saturating_sub(before.parameters.len())
+        .structure
+        .dim()
+        .saturating_sub(before.structure.dim())
         .max(1);
     ChiSquared::new(added as f64).map_or(1.0, |law| law.sf(statistic.max(0.0)))
 }

@@ -18,10 +18,13 @@ pub struct Led<'a> {
     pub method: Method,
 }
 
-/// Whether a led model follows this effect: not where motor and load part ways, nor where commands are
-/// late. Those cost little to simulate in full, or are not helped by being led.
+/// Whether a led model follows this effect: not where motor and load part ways, where commands are
+/// late, or where bristles bend by less than a sample's travel. Those cost little to simulate in full, or are not helped by being led.
 pub fn follows(kind: Kind) -> bool {
-    !matches!(kind, Kind::Compliance | Kind::Backlash | Kind::Delay)
+    !matches!(
+        kind,
+        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre
+    )
 }
 
 impl Led<'_> {

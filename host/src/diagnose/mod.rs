@@ -6,25 +6,31 @@
 //! something is missing and that nothing in the catalogue explains it.
 
 mod descent;
+mod extend;
 mod judge;
 mod led;
 mod motion;
 mod orders;
 mod refit;
+mod sketch;
 mod starts;
+mod swap;
+mod workshop;
 
-pub use judge::{Ruling, judge};
-pub use refit::{Refit, Sketch, Workshop};
+pub use refit::{Errors, Refit};
 
 use crate::error::Error;
 use crate::fit::Options;
 use crate::problem::Data;
-use rayon::prelude::*;
-use shared::effects::{Kind, MAX_EFFECTS};
+use extend::extend;
+use shared::effects::Kind;
 use std::sync::atomic::{AtomicBool, Ordering};
+use workshop::Workshop;
 
 /// Most effects that are added.
-const MOST_STEPS: usize = 3;
+const MOST_STEPS: usize = 4;
+/// Models of one level that the next one builds on.
+const BEAM: usize = 3;
 /// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
 /// whose readings dwell in one part of their cells.
 pub const NOISE_COUNTS: f64 = 0.33;
@@ -99,6 +105,8 @@ pub fn diagnose(
 ) -> Result<Diagnosis, Error> {
     let workshop = Workshop::new(data, held_out, options);
     let base = workshop.base(options)?;
+    let levels = levels(&workshop, &base, stop, done);
+    let chosen = levels.iter().rposition(|level| level.believed);
     let mut diagnosis = Diagnosis {
         last: base.clone(),
         base,
@@ -107,25 +115,17 @@ pub fn diagnose(
         not_named: None,
         advice: Vec::new(),
     };
-    while !diagnosis.last.at_floor() {
-        diagnosis.verdict = Verdict::Unexplained;
-        if diagnosis.steps.len() == MOST_STEPS.min(MAX_EFFECTS) || stop.load(Ordering::Relaxed) {
-            break;
-        }
-        let candidates = candidates(&workshop, &diagnosis.last, stop, done);
-        match judge(data, &diagnosis.last, candidates) {
-            Ruling::Named(step) => {
-                diagnosis.last = step.candidates[0].clone();
-                diagnosis.steps.push(step);
-            }
-            Ruling::Doubtful(kind) => {
-                diagnosis.not_named = kind;
-                break;
-            }
-        }
+    if let Some(depth) = chosen {
+        conclude(&workshop, &levels[..=depth], &mut diagnosis);
     }
-    if diagnosis.last.at_floor() && !diagnosis.steps.is_empty() {
-        diagnosis.verdict = Verdict::MissingEffects;
+    let next = levels.get(chosen.map_or(0, |depth| depth + 1));
+    diagnosis.not_named = next.and_then(|level| level.best.effects.last().copied());
+    if diagnosis.last.judged().at_floor() {
+        if !diagnosis.steps.is_empty() {
+            diagnosis.verdict = Verdict::MissingEffects;
+        }
+    } else {
+        diagnosis.verdict = Verdict::Unexplained;
     }
     if diagnosis.verdict != Verdict::Complete && !moves_both_ways(data) {
         diagnosis.verdict = Verdict::Inconclusive;
@@ -139,68 +139,125 @@ pub fn diagnose(
     Ok(diagnosis)
 }
 
-/// A sketch is worth a full refit if its error is within this factor of the best.
-const WORTH: f64 = 4.0;
-/// Most full refits a step.
-const MOST_REFITS: usize = 7;
+/// Models with one effect more than the level before.
+struct Level {
+    /// Best first.
+    models: Vec<Refit>,
+    /// The simplest of the best.
+    best: Refit,
+    /// Whether its newest effect earned its place.
+    believed: bool,
+}
 
-/// Every effect that is not in the model yet, sketched on top of it; the promising ones refitted, on all
-/// cores.
-fn candidates(
+/// Adds effects one by one until the error is the encoder's own, or none earns its place. The first is not
+/// judged alone: two effects of one size each leave the other's error.
+fn levels(
     workshop: &Workshop<'_>,
-    last: &Refit,
+    base: &Refit,
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
-) -> Vec<Refit> {
-    let mut sketches: Vec<(Kind, Sketch)> = Kind::ALL
-        .par_iter()
-        .filter(|kind| !last.effects.contains(kind) && !stop.load(Ordering::Relaxed))
-        .filter_map(|&kind| {
-            let t = std::time::Instant::now();
-            let sketch = workshop.sketches(last, kind);
-            done();
-            if std::env::var("TRACE").is_ok() {
-                if let Some(s) = &sketch {
-                    eprintln!(
-                        "  sketch {:16} led {:9.3} sim {:9.3} {:.3}s {:?}",
-                        kind.name(),
-                        s.led,
-                        s.simulated,
-                        t.elapsed().as_secs_f64(),
-                        s.structure.values(&s.x)
-                    );
-                }
+) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    let mut before = base.clone();
+    while !before.judged().at_floor()
+        && levels.len() < MOST_STEPS
+        && !stop.load(Ordering::Relaxed)
+        && levels.iter().skip(1).all(|level| level.believed)
+    {
+        let parents: Vec<&Refit> = match levels.last() {
+            None => vec![base],
+            Some(level) => level.models.iter().take(BEAM).collect(),
+        };
+        let mut models = extend(workshop, &parents, stop, done);
+        polish_best(workshop, &mut models);
+        let Some(best) = judge::best(&models).cloned() else {
+            break;
+        };
+        if best.tracked.is_some() && before.tracked.is_none() {
+            let _ = workshop.track(&mut before);
+        }
+        let believed = judge::removes(&before, &best);
+        before = best.clone();
+        levels.push(Level {
+            models,
+            best,
+            believed,
+        });
+    }
+    levels
+}
+
+/// Models of a level whose fit is brought to its end before any more physics is blamed.
+const POLISHED: usize = 2;
+
+/// Polishes the best models of a level that are not at the floor yet.
+fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
+    if models.first().is_none_or(|model| model.judged().at_floor()) {
+        return;
+    }
+    for model in models.iter_mut().take(POLISHED) {
+        // A model that cannot be polished stays as it is.
+        if let Ok(polished) = workshop.polish(model) {
+            *model = polished;
+        }
+    }
+    models.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+}
+
+/// Swaps earlier terms with their look-alikes, and writes down the steps to the model that was chosen.
+fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis) {
+    let Some(last) = levels.last() else { return };
+    let mut chosen = last.best.clone();
+    let mut known = last.models.clone();
+    if levels.len() > 1 {
+        for place in chosen.effects.clone() {
+            let swapped = swap::swaps(workshop, &chosen, place, &known);
+            if let Some(better) = swap::better(&chosen, &swapped) {
+                chosen = better;
             }
-            Some((kind, sketch?))
-        })
-        .collect();
-    sketches.sort_by(|(_, a), (_, b)| a.led.min(a.simulated).total_cmp(&b.led.min(b.simulated)));
-    let Some(least) = sketches.first().map(|(_, s)| s.led.min(s.simulated)) else {
-        return Vec::new();
-    };
-    sketches
-        .par_iter()
-        .take(MOST_REFITS)
-        .filter(|(_, s)| s.led.min(s.simulated) < WORTH * least.max(0.5))
-        .filter_map(|(kind, sketch)| {
-            let t = std::time::Instant::now();
-            let r = workshop.refit(sketch).ok();
-            if std::env::var("TRACE").is_ok() {
-                if let Some(r) = &r {
-                    eprintln!(
-                        "  refit {:16} {:9.3}/{:9.3} {} evals {:.3}s {:?}",
-                        kind.name(),
-                        r.rms_counts,
-                        r.validate_rms_counts,
-                        r.evaluations,
-                        t.elapsed().as_secs_f64(),
-                        r.parameters
-                    );
-                }
-            }
-            r
-        })
-        .collect()
+            known.extend(swapped);
+        }
+    }
+    let mut before = diagnosis.base.clone();
+    for (depth, &added) in chosen.effects.iter().enumerate() {
+        let company = judge::company(&chosen, added, &known);
+        if !company.allows(added) {
+            diagnosis.not_named = Some(added);
+            break;
+        }
+        let prefix = &chosen.effects[..=depth];
+        let list = levels
+            .get(depth)
+            .map(|level| &level.models[..])
+            .unwrap_or_default();
+        let after = if depth + 1 == chosen.effects.len() {
+            Some(&chosen)
+        } else {
+            list.iter().find(|model| swap::same(&model.effects, prefix))
+        };
+        let Some(after) = after.or(list.first()).cloned() else {
+            break;
+        };
+        let mut candidates = vec![after.clone()];
+        candidates.extend(
+            list.iter()
+                .filter(|m| !swap::same(&m.effects, &after.effects))
+                .cloned(),
+        );
+        let p_values = candidates
+            .iter()
+            .map(|c| judge::p_value(workshop.data, &before, c))
+            .collect();
+        diagnosis.steps.push(Step {
+            added,
+            indistinguishable_from: company.alike.clone(),
+            confidence: company.confidence(),
+            candidates,
+            p_values,
+        });
+        before = after.clone();
+        diagnosis.last = after;
+    }
 }
 
 /// Whether a twentieth of the travel at least goes against the prevailing direction.

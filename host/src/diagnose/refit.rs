@@ -2,30 +2,65 @@
 
 use super::NOISE_COUNTS;
 use super::descent::{Descent, Settings, descend};
-use super::led::{Led, follows};
-use super::motion::Motion;
-use super::starts::starts;
+use super::sketch::Sketch;
+use super::workshop::Workshop;
 use crate::error::Error;
-use crate::fit::{self, Options, base_for, scores, validate};
-use crate::problem::cost::rms_counts;
+use crate::fit::{scores, validate};
+use crate::problem::cost::{errors, rms_counts};
 use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure};
 use shared::cost::Cost;
 use shared::effects::Kind;
 
-/// Of the led fit, of a simulated fit, and of the last one.
-const SKETCH: Settings = Settings {
-    evaluations: 60,
-    tolerance: 1e-3,
-    stride: 4,
-    enough: f64::INFINITY,
-};
+/// Of a fit by full simulation.
 const FULL: Settings = Settings {
     evaluations: 80,
     tolerance: 1e-3,
     stride: 2,
     enough: 0.0,
 };
+/// Of one that must converge.
+const LAST: Settings = Settings {
+    evaluations: 150,
+    tolerance: 1e-5,
+    stride: 1,
+    enough: 0.0,
+};
+/// Of a stage with a short memory.
+const FADE: Settings = Settings {
+    evaluations: 40,
+    tolerance: 1e-2,
+    stride: 4,
+    enough: f64::INFINITY,
+};
+/// How long errors are remembered, stage by stage.
+const MEMORIES_S: [f64; 3] = [0.02, 0.1, 0.5];
+/// A simulation whose error is so many times the led one's has lost its way.
+const LOST: f64 = 3.0;
+/// How long an error is remembered where free runs are chaotic and models are judged nevertheless.
+const JUDGED_MEMORY_S: f64 = 0.1;
+
+/// RMS errors on both recordings, counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// On the fitted recording.
+    pub fitted: f64,
+    /// On the held-out recording.
+    pub held_out: f64,
+}
+
+impl Errors {
+    /// Whether both are the encoder's own.
+    pub fn at_floor(&self) -> bool {
+        self.fitted < NOISE_COUNTS && self.held_out < NOISE_COUNTS
+    }
+
+    /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.
+    pub fn score(&self) -> f64 {
+        let floored = |rms: f64| rms.max(shared::encoder::FLOOR_RMS_COUNTS);
+        (floored(self.fitted) * floored(self.held_out)).ln()
+    }
+}
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -42,157 +77,167 @@ pub struct Refit {
     pub rms_counts: f64,
     /// RMS error on the held-out recording, counts.
     pub validate_rms_counts: f64,
-    /// RMS error that the led model foresaw, counts; that of the fit where there was none.
+    /// Errors that are soon forgotten, where free runs are chaotic.
+    pub tracked: Option<Errors>,
+    /// RMS error that was foreseen before the refit, counts.
     pub foreseen_rms_counts: f64,
-    /// Evaluations spent, led ones apart.
+    /// Evaluations spent on it.
     pub evaluations: usize,
-}
-
-impl Refit {
-    /// Whether both errors are the encoder's own.
-    pub fn at_floor(&self) -> bool {
-        self.rms_counts < NOISE_COUNTS && self.validate_rms_counts < NOISE_COUNTS
-    }
-
-    /// ln(fitted · held-out error), neither counted below the noise: what candidates are ranked by.
-    pub fn score(&self) -> f64 {
-        let floored = |rms: f64| rms.max(shared::encoder::FLOOR_RMS_COUNTS);
-        (floored(self.rms_counts) * floored(self.validate_rms_counts)).ln()
-    }
-}
-
-/// The recordings and how models are run: what every refit needs.
-pub struct Workshop<'a> {
-    /// Fitted.
-    pub data: &'a Data,
-    /// Never fitted.
-    pub held_out: &'a Data,
-    /// The fitted recording's motion.
-    pub motion: Motion,
-    /// How models are run.
+    /// How it was run.
     pub method: Method,
 }
 
-/// A model that was fitted while led.
-pub struct Sketch {
-    /// The unknowns.
-    pub structure: Structure,
-    /// Where the led fit ended.
-    pub x: Vec<f64>,
-    /// RMS error that the led model leaves, counts; infinite where the effect cannot be led.
-    pub led: f64,
-    /// RMS error of a simulation from there, counts.
-    pub simulated: f64,
+impl Refit {
+    /// Errors of the free runs.
+    pub fn free(&self) -> Errors {
+        Errors {
+            fitted: self.rms_counts,
+            held_out: self.validate_rms_counts,
+        }
+    }
+
+    /// The errors that it is judged by: those of the free runs, unless they are chaotic.
+    pub fn judged(&self) -> Errors {
+        match self.tracked {
+            Some(tracked) if !self.free().at_floor() => tracked,
+            _ => self.free(),
+        }
+    }
+
+    /// Point of the unit cube where it stands.
+    pub fn coordinates(&self) -> Vec<f64> {
+        self.structure.coordinates(&self.structure.values_of(
+            &self.candidate.machine,
+            &self.parameters,
+            self.candidate.start_speed,
+        ))
+    }
 }
 
-impl<'a> Workshop<'a> {
-    /// Prepares.
-    pub fn new(data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
-        Workshop {
-            data,
-            held_out,
-            motion: Motion::measured(data),
-            method: Method {
-                substeps: 1,
-                ..options.method
-            },
-        }
-    }
-
-    /// The linear motor.
-    ///
-    /// # Errors
-    /// [`Error::Failed`] where no motor fits even roughly.
-    pub fn base(&self, options: &Options) -> Result<Refit, Error> {
-        let options = Options {
-            effects: Vec::new(),
-            ..options.clone()
-        };
-        let problem = fit::problem(self.data, &options)?;
-        let start = problem.start.clone().unwrap_or_default();
-        let found = descend(&problem, &start, FULL)
-            .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
-        let foreseen = f64::NAN;
-        self.conclude(problem.structure, &found, foreseen)
-    }
-
-    /// The model `current` with `kind` added, fitted while led along the measured motion.
-    pub fn sketches(&self, current: &Refit, kind: Kind) -> Option<Sketch> {
-        let mut effects = current.effects.clone();
-        effects.push(kind);
-        let structure = Structure::around(
-            self.data,
-            base_for(self.data, &effects),
-            &effects,
-            &current.candidate.machine,
-            current.structure.start_speed,
-        );
-        let mut best: Option<Sketch> = None;
-        for start in starts(self.data, &current.candidate, kind) {
-            let mut parameters = current.parameters.clone();
-            parameters.extend(start);
-            let x = structure.coordinates(&structure.values_of(
-                &current.candidate.machine,
-                &parameters,
-                current.candidate.start_speed,
-            ));
-            let Some(sketch) = self.sketch(&structure, x) else {
-                continue;
-            };
-            let quality = |s: &Sketch| s.led.min(s.simulated);
-            if best.as_ref().is_none_or(|b| quality(&sketch) < quality(b)) {
-                best = Some(sketch);
-            }
-        }
-        best
-    }
-
-    fn sketch(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
-        let samples = self.data.len() as f64;
-        if !structure.effects.iter().all(|&kind| follows(kind)) {
-            let found = descend(&self.problem(structure), &x, SKETCH)?;
-            let rms = (found.squares / samples).sqrt();
-            return Some(Sketch {
-                structure: structure.clone(),
-                x: found.x,
-                led: f64::INFINITY,
-                simulated: rms,
-            });
-        }
-        let led = Led {
-            data: self.data,
-            motion: &self.motion,
-            structure: structure.clone(),
-            method: self.method,
-        };
-        let found = descend(&led, &x, SKETCH)?;
-        let values = structure.values(&found.x);
-        let simulated = scores::whole(self.data, &structure.candidate(&values), self.method)
-            .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
-        Some(Sketch {
-            structure: structure.clone(),
-            x: found.x,
-            led: (found.squares / samples).sqrt(),
-            simulated,
-        })
-    }
-
+impl Workshop<'_> {
     /// Fits a sketched model by full simulation.
     ///
     /// # Errors
     /// [`Error::Failed`] where the model cannot run from there.
     pub fn refit(&self, sketch: &Sketch) -> Result<Refit, Error> {
-        let problem = self.problem(&sketch.structure);
+        // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
+        let lost = sketch.simulated > LOST * sketch.led.max(NOISE_COUNTS);
+        let start = if lost {
+            self.fade(&sketch.structure, &sketch.x)
+        } else {
+            sketch.x.clone()
+        };
         let settings = Settings {
             enough: NOISE_COUNTS * NOISE_COUNTS * self.data.len() as f64,
             ..FULL
         };
-        let found = descend(&problem, &sketch.x, settings)
-            .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
-        self.conclude(problem.structure, &found, sketch.led)
+        let found = self.descend(&sketch.structure, &start, settings, self.method)?;
+        let mut refit = self.conclude(
+            sketch.structure.clone(),
+            &found,
+            sketch.foreseen(),
+            self.method,
+        )?;
+        if lost && !refit.free().at_floor() {
+            self.track(&mut refit)?;
+        }
+        Ok(refit)
     }
 
-    fn problem(&self, structure: &Structure) -> FitProblem<'a> {
+    /// Adds the errors that are soon forgotten.
+    ///
+    /// # Errors
+    /// As [`refit`](Self::refit).
+    pub fn track(&self, refit: &mut Refit) -> Result<(), Error> {
+        let tracked = |data: &Data| {
+            errors(
+                data,
+                &Candidate {
+                    start_speed: 0.0,
+                    ..refit.candidate
+                },
+                refit.method,
+                &Horizon::Nudged(JUDGED_MEMORY_S),
+                StartAngle::Free,
+                Cost::Squared,
+            )
+            .map(|errors| rms_counts(data, &errors))
+        };
+        refit.tracked = Some(Errors {
+            fitted: tracked(self.data)?,
+            held_out: tracked(self.held_out)?,
+        });
+        Ok(())
+    }
+
+    /// Descends with a memory that grows from stage to stage, so that the search meets the rough cost of the
+    /// free run only when it is near.
+    fn fade(&self, structure: &Structure, x: &[f64]) -> Vec<f64> {
+        let mut x = x.to_vec();
+        for memory_s in MEMORIES_S {
+            let problem = FitProblem {
+                horizon: Horizon::Nudged(memory_s),
+                ..self.problem(structure, self.method)
+            };
+            if let Some(found) = descend(&problem, &x, FADE) {
+                x = found.x;
+            }
+        }
+        x
+    }
+
+    /// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
+    /// converged: what is left then is not the arithmetic's.
+    ///
+    /// # Errors
+    /// As [`refit`](Self::refit).
+    pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
+        let mut best = refit.clone();
+        loop {
+            let method = best.method;
+            let found = self.descend(&best.structure, &best.coordinates(), LAST, method)?;
+            let polished = self.conclude(
+                best.structure.clone(),
+                &found,
+                best.foreseen_rms_counts,
+                method,
+            )?;
+            best = Refit {
+                tracked: best.tracked,
+                evaluations: best.evaluations + polished.evaluations,
+                ..polished
+            };
+            if best.tracked.is_some() {
+                self.track(&mut best)?;
+            }
+            let finer = Method {
+                substeps: method.substeps * FINER,
+                ..method
+            };
+            let again = scores::whole(self.data, &best.candidate, finer)?;
+            let change = (rms_counts(self.data, &again) - best.rms_counts).abs().max(
+                (validate(self.held_out, &best.candidate, finer)? - best.validate_rms_counts).abs(),
+            );
+            if best.judged().at_floor() || change < STEP_ERROR || finer.substeps > FINEST {
+                return Ok(best);
+            }
+            best.method = finer;
+        }
+    }
+
+    fn descend(
+        &self,
+        structure: &Structure,
+        start: &[f64],
+        settings: Settings,
+        method: Method,
+    ) -> Result<Descent, Error> {
+        descend(&self.problem(structure, method), start, settings)
+            .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))
+    }
+
+    /// The whole recording, run freely.
+    pub(super) fn problem(&self, structure: &Structure, method: Method) -> FitProblem<'_> {
         FitProblem {
             data: self.data,
             structure: structure.clone(),
@@ -200,30 +245,43 @@ impl<'a> Workshop<'a> {
             weight: 1.0,
             horizon: Horizon::Whole,
             start_angle: StartAngle::Free,
-            method: self.method,
+            method,
             start: None,
         }
     }
 
-    fn conclude(
+    /// Scores a model where a search ended.
+    ///
+    /// # Errors
+    /// As [`refit`](Self::refit).
+    pub(super) fn conclude(
         &self,
         structure: Structure,
         found: &Descent,
         foreseen: f64,
+        method: Method,
     ) -> Result<Refit, Error> {
         let values = structure.values(&found.x);
         let candidate = structure.candidate(&values);
-        let whole = scores::whole(self.data, &candidate, self.method)?;
-        let rms = rms_counts(self.data, &whole);
+        let whole = scores::whole(self.data, &candidate, method)?;
         Ok(Refit {
             effects: structure.effects.clone(),
             parameters: structure.effect_values(&values).to_vec(),
             candidate,
             structure,
-            rms_counts: rms,
-            validate_rms_counts: validate(self.held_out, &candidate, self.method)?,
-            foreseen_rms_counts: if foreseen.is_finite() { foreseen } else { rms },
+            rms_counts: rms_counts(self.data, &whole),
+            validate_rms_counts: validate(self.held_out, &candidate, method)?,
+            tracked: None,
+            foreseen_rms_counts: foreseen,
             evaluations: found.evaluations,
+            method,
         })
     }
 }
+
+/// Factor between step sizes that are compared.
+const FINER: u16 = 4;
+/// Most parts to a sample.
+const FINEST: u16 = 16;
+/// A finer step that changes the RMS error by less is not worth its time, counts.
+const STEP_ERROR: f64 = 0.02;

@@ -1,7 +1,8 @@
 //! Where the search for a new effect's parameters starts.
 
 use super::orders;
-use crate::problem::{Candidate, Data};
+use super::refit::Refit;
+use super::workshop::Workshop;
 use shared::effects::Kind;
 use shared::units::Quantity;
 
@@ -10,24 +11,26 @@ const LINES: usize = 3;
 /// Part of the typical amplitude to start from.
 const AMPLITUDE: f64 = 0.5;
 
-/// Starts for the parameters of `kind`, SI, beside the model `current`.
-pub fn starts(data: &Data, current: &Candidate, kind: Kind) -> Vec<Vec<f64>> {
-    let description = kind.description();
-    let typical: Vec<f64> = description
-        .parameters
+/// Starts for the parameters of `kind`, SI, beside the model `parent`.
+pub fn starts(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Vec<Vec<f64>> {
+    let data = workshop.data;
+    let parameters = kind.description().parameters;
+    let mut typical: Vec<f64> = parameters
         .iter()
         .map(|p| {
             let share = if p.amplitude { AMPLITUDE } else { 1.0 };
             p.scaled(p.typical * share, data.supply, data.units.speed)
         })
         .collect();
-    let order = description
-        .parameters
+    if kind == Kind::Lugre {
+        return friction(workshop, parent, &mut typical);
+    }
+    match parameters
         .iter()
-        .position(|p| p.quantity == Quantity::PerRev);
-    match order {
+        .position(|p| p.quantity == Quantity::PerRev)
+    {
         None => vec![typical],
-        Some(order) => orders::lines(data, current)
+        Some(order) => orders::lines(data, &parent.candidate)
             .iter()
             .filter(|line| line.order > 1)
             .take(LINES)
@@ -39,3 +42,24 @@ pub fn starts(data: &Data, current: &Candidate, kind: Kind) -> Vec<Vec<f64>> {
             .collect(),
     }
 }
+
+/// Bristles slide as dry friction does: their torque starts at what dry friction alone would have. None
+/// where that explains little, since bristles cannot be led and cost much.
+fn friction(workshop: &Workshop<'_>, parent: &Refit, typical: &mut [f64]) -> Vec<Vec<f64>> {
+    if parent.effects.contains(&Kind::Coulomb) {
+        return Vec::new();
+    }
+    let Some(dry) = workshop.sketch(parent, Kind::Coulomb) else {
+        return Vec::new();
+    };
+    if dry.foreseen() > EXPLAINS * parent.rms_counts {
+        return Vec::new();
+    }
+    let values = dry.structure.values(&dry.x);
+    let torque = dry.structure.effect_values(&values).last().copied();
+    typical[0] = torque.unwrap_or(typical[0]);
+    vec![typical.to_vec()]
+}
+
+/// Part of the error that dry friction must at most leave for bristles to be tried.
+const EXPLAINS: f64 = 0.5;

@@ -15,6 +15,8 @@ pub enum Horizon {
     Whole,
     /// In windows, each started from the measured angle and speed.
     Windows(Vec<Window>),
+    /// Pulled towards the measurement, so that an error is forgotten within so many seconds.
+    Nudged(f64),
 }
 
 /// One window of a [`Horizon`].
@@ -178,6 +180,9 @@ pub fn errors(
                     *error += centre - middle;
                 }
             }
+        }
+        Horizon::Nudged(memory_s) => {
+            errors = simulation.nudged(candidate.start_speed, *memory_s);
         }
         Horizon::Windows(windows) => {
             for window in windows {

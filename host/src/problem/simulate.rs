@@ -88,6 +88,33 @@ impl<'a> Simulation<'a> {
         }
     }
 
+    /// Runs like [`run`](Self::run) over the whole recording, but pulled towards the readings like an
+    /// observer that forgets an error within `memory_s`: what happens once, such as a slipped detent,
+    /// does not stay for ever. Gives model minus reading, in counts, before each pull.
+    pub fn nudged(&self, speed: f64, memory_s: f64) -> Vec<f64> {
+        let data = self.data;
+        let mut state = self.start(0, data.centre(0), speed);
+        let units = &data.units;
+        let per_count = units.interval / (memory_s * units.counts_per_unit());
+        (0..data.len())
+            .map(|k| {
+                let model = self.model(k);
+                let error = model.reading(&state) - data.counts[k];
+                let off = error - (data.centre(k) - data.counts[k]);
+                // Both poles of the error at 1/memory.
+                let share =
+                    (data.lengths[data.length_of[k] as usize] * units.interval / memory_s).min(0.5);
+                state.motion.angle -= 2.0 * share * off;
+                // A shaft that friction holds stays at rest.
+                if state.motion.speed != 0.0 {
+                    state.motion.speed -= share * off * per_count;
+                }
+                model.step(&mut state, data.command[k], data.is_open(k));
+                error
+            })
+            .collect()
+    }
+
     /// Runs led along a measured motion, one entry of `seen` an interval and of `turns` a sample, from
     /// the first reading and a speed in rad/s. Gives model minus reading in counts.
     pub fn led(&self, seen: &[Seen<f64>], turns: &[f64], speed: f64) -> Vec<f64> {

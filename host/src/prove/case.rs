@@ -34,7 +34,7 @@ pub struct Drawn {
     pub hidden: Vec<String>,
     /// Encoder counts per revolution.
     pub counts_per_rev: u32,
-    /// `commissioning` or the name of one of [`Shape::ALL`].
+    /// `commissioning` or the name of one of [`Shape::ALL`], never of rest.
     pub excitation: String,
     /// Its amplitude, as a part of the supply.
     pub amplitude: f64,
@@ -101,7 +101,9 @@ impl Drawn {
             }
             Excite::Mixed => {
                 let coarse = draws.chance(COARSE.1);
-                let names = Shape::ALL.map(|(name, _)| name);
+                // At rest nothing is commanded: there is no motor to identify.
+                let driven = Shape::ALL.iter().filter(|(_, shape)| *shape != Shape::Rest);
+                let names: Vec<&str> = driven.map(|(name, _)| *name).collect();
                 let name = draws.pick(&names).unwrap_or_default();
                 let (low, high) = MIXED_AMPLITUDE;
                 let counts = if coarse { COARSE.0 } else { fine };
@@ -141,7 +143,7 @@ impl Drawn {
     }
 
     /// Recording 0, to fit, or 1, to hold out.
-    fn data(&self, which: usize) -> Result<Data, Error> {
+    pub(super) fn data(&self, which: usize) -> Result<Data, Error> {
         let seed = self.recording_seeds[which];
         let machine = self.motor.machine();
         let mut bench = Bench::new(machine);

@@ -9,21 +9,44 @@
 //! | `draws` | random draws from a stream that belongs to seed, case and purpose |
 //! | `motor`, `hide` | a random motor; random effects with random strength and shape |
 //! | `case` | all that is drawn for a case, and its recordings |
-//! | `outcome` | the diagnosis of a case beside its truth |
-//! | `tally` | how often which, with intervals |
+//! | `truth` | the bench's parameters in the model's terms |
+//! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
+//! | `store`, `header`, `content` | finished cases in a file: written, what they are, read and joined |
+//! | `shard` | a part of the cases, for one machine of several |
+//! | `tally`, `interval`, `confusion` | how often which |
 //!
 //! Case `k` of a seed is the same whatever the shard, the number of threads and the order.
 
-pub mod case;
+mod case;
+mod confusion;
+mod content;
 mod draws;
+mod header;
 mod hide;
+mod interval;
+mod judge;
 mod motor;
-pub mod outcome;
-pub mod tally;
+mod outcome;
+mod shard;
+mod store;
+mod store_error;
+mod tally;
+#[cfg(test)]
+mod tests;
+pub mod truth;
 
-pub use case::Case;
+pub use case::{Case, Drawn};
+pub use confusion::Confusion;
+pub use content::{Content, merge, read};
+pub use header::Header;
+pub use interval::{Count, Rate};
+pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
-pub use outcome::Outcome;
+pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
+pub use shard::{BadShard, Shard};
+pub use store::Store;
+pub use store_error::{Fault, StoreError};
+pub use tally::{Group, Share, Spread, Tally};
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
@@ -50,8 +73,27 @@ pub enum HowMany {
 pub enum Excite {
     /// The commissioning sequence at 0.6 to 1 of the supply
     Commissioning,
-    /// Any single shape at any amplitude, and coarse encoders too
+    /// Any single shape but rest at any amplitude, and coarse encoders too
     Mixed,
+}
+
+impl HowMany {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        value_name(&self)
+    }
+}
+
+impl Excite {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        value_name(&self)
+    }
+}
+
+fn value_name(value: &impl clap::ValueEnum) -> String {
+    let value = value.to_possible_value();
+    value.map_or(String::new(), |value| value.get_name().to_owned())
 }
 
 /// What the cases follow from, beside their numbers.
@@ -93,7 +135,7 @@ pub fn run(
                         break;
                     };
                     let outcome = Case::record(set_up, number)
-                        .and_then(|case| outcome::prove(&case, set_up, stop));
+                        .and_then(|case| Outcome::of(&case, set_up, stop));
                     let complete = !stop.load(Ordering::Relaxed);
                     if !complete || sender.send(outcome).is_err() {
                         break;

@@ -1,11 +1,16 @@
 //! The diagnosis of one case beside its truth.
 
+use super::SetUp;
 use super::case::{Case, Drawn};
-use super::{SetUp, hide};
-use crate::diagnose::{self, Diagnosis};
+use super::draws::rounded;
+use super::truth::{self, ParameterError};
+use crate::diagnose::{self, Diagnosis, Refit};
 use crate::error::Error;
-use crate::fit::Options;
+use crate::fit::{self, Options};
+use crate::problem::Data;
+use crate::solve::levenberg_marquardt::LevenbergMarquardt;
 use serde::{Deserialize, Serialize};
+use shared::effects::Kind;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -45,65 +50,128 @@ pub struct Outcome {
     pub drawn: Drawn,
     /// Errors of the linear motor.
     pub base: Errors,
-    /// Whether the linear motor leaves more than [`DETECTABLE_COUNTS`] on the fitted recording.
+    /// Whether every hidden effect leaves more than [`DETECTABLE_COUNTS`] once the linear motor is
+    /// fitted. Where there is no diagnosis this is taken to be so.
     pub detectable: bool,
+    /// What each hidden effect leaves, on its own in the same motor under the same drive, counts RMS.
+    pub alone: Vec<Option<f64>>,
     /// What the diagnosis names, in its order.
     pub named: Vec<Naming>,
     /// Its verdict; `failed` where there is none.
     pub verdict: String,
     /// Errors of its model.
     pub last: Errors,
-    /// Candidates refitted.
+    /// Errors of the parameters of the effects that it names rightly.
+    pub parameters: Vec<ParameterError>,
+    /// Model evaluations, where the diagnosis counts them.
+    pub evaluations: Option<u64>,
+    /// Times that it reported progress: candidates refitted.
     pub refits: u64,
-    /// Time that the diagnosis took in one thread, s.
+    /// Time that it took in one thread, s.
     pub seconds: f64,
     /// Why there is no diagnosis.
     pub failure: Option<String>,
 }
 
-/// Diagnoses a case in one thread.
-///
-/// # Errors
-/// Where no thread can be made. A diagnosis that fails is an outcome too.
-pub fn prove(case: &Case, set_up: &SetUp, stop: &AtomicBool) -> Result<Outcome, Error> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .map_err(|error| Error::Failed(format!("no thread for a case: {error}")))?;
-    let refits = AtomicU64::new(0);
-    let began = Instant::now();
-    let diagnosed = catch_unwind(AssertUnwindSafe(|| {
-        pool.install(|| {
-            diagnose::diagnose(
-                &case.fitted,
-                &case.held_out,
-                &Options::default(),
-                stop,
-                &|| {
-                    refits.fetch_add(1, Ordering::Relaxed);
-                },
-            )
+impl Outcome {
+    /// Diagnoses a case in one thread.
+    ///
+    /// # Errors
+    /// Where no thread can be made. A diagnosis that fails is an outcome too.
+    pub fn of(case: &Case, set_up: &SetUp, stop: &AtomicBool) -> Result<Outcome, Error> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .build()
+            .map_err(|error| Error::Failed(format!("no thread for a case: {error}")))?;
+        let refits = AtomicU64::new(0);
+        let count = || {
+            refits.fetch_add(1, Ordering::Relaxed);
+        };
+        let options = Options::default();
+        let began = Instant::now();
+        // A fault of the diagnosis in one case of a thousand must not lose the others.
+        let diagnosed = catch_unwind(AssertUnwindSafe(|| {
+            pool.install(|| {
+                diagnose::diagnose(&case.fitted, &case.held_out, &options, stop, &count)
+            })
+        }));
+        let outcome = Outcome {
+            seed: set_up.seed,
+            case: case.number,
+            drawn: case.drawn.clone(),
+            base: Errors::default(),
+            detectable: true,
+            alone: Vec::new(),
+            named: Vec::new(),
+            verdict: "failed".to_owned(),
+            last: Errors::default(),
+            parameters: Vec::new(),
+            evaluations: None,
+            refits: refits.load(Ordering::Relaxed),
+            seconds: rounded(began.elapsed().as_secs_f64()),
+            failure: None,
+        };
+        match diagnosed {
+            Ok(Ok(diagnosis)) => outcome.with(&diagnosis, stop),
+            Ok(Err(error)) => Ok(outcome.failed(error.to_string())),
+            Err(fault) => Ok(outcome.failed(format!("the diagnosis panicked: {}", said(&*fault)))),
+        }
+    }
+
+    /// Whether this program draws the case in the same way.
+    pub fn is_drawn_from(&self, set_up: &SetUp) -> bool {
+        self.seed == set_up.seed
+            && Drawn::draw(set_up, self.case, self.drawn.redrawn)
+                .is_ok_and(|drawn| drawn == self.drawn)
+    }
+
+    fn failed(self, reason: String) -> Outcome {
+        Outcome {
+            failure: Some(reason),
+            ..self
+        }
+    }
+
+    fn with(self, diagnosis: &Diagnosis, stop: &AtomicBool) -> Result<Outcome, Error> {
+        let names = |kinds: &[Kind]| kinds.iter().map(|kind| kind.name().to_owned()).collect();
+        let named = diagnosis.steps.iter().map(|step| Naming {
+            effect: step.added.name().to_owned(),
+            alike: names(&step.indistinguishable_from),
+        });
+        let base = Errors::of(&diagnosis.base);
+        let alone = match &self.drawn.hidden[..] {
+            [] => Vec::new(),
+            [_] => vec![base.fitted],
+            several => (0..several.len())
+                .map(|which| leaves(&self.drawn, which, stop))
+                .collect(),
+        };
+        let leaves_much = |rms: &Option<f64>| rms.is_some_and(|rms| rms > DETECTABLE_COUNTS);
+        Ok(Outcome {
+            base,
+            detectable: alone.iter().all(leaves_much),
+            alone,
+            named: named.collect(),
+            verdict: diagnosis.verdict.name().to_owned(),
+            last: Errors::of(&diagnosis.last),
+            parameters: parameter_errors(&self.drawn, &diagnosis.last)?,
+            ..self
         })
-    }));
-    let outcome = Outcome {
-        seed: set_up.seed,
-        case: case.number,
-        drawn: case.drawn.clone(),
-        base: Errors::default(),
-        detectable: false,
-        named: Vec::new(),
-        verdict: "failed".to_owned(),
-        last: Errors::default(),
-        refits: refits.into_inner(),
-        seconds: began.elapsed().as_secs_f64(),
-        failure: None,
-    };
-    Ok(match diagnosed {
-        Ok(Ok(diagnosis)) => outcome.with(&diagnosis),
-        Ok(Err(error)) => outcome.failed(error.to_string()),
-        // A fault of the diagnosis in one case in a thousand must not lose the others.
-        Err(fault) => outcome.failed(format!("the diagnosis panicked: {}", said(&*fault))),
-    })
+    }
+}
+
+impl Errors {
+    fn of(refit: &Refit) -> Errors {
+        Errors {
+            fitted: finite(refit.rms_counts),
+            held_out: finite(refit.validate_rms_counts),
+        }
+    }
+}
+
+/// Six digits of a finite number.
+fn finite(x: f64) -> Option<f64> {
+    Some(x).filter(|x| x.is_finite()).map(rounded)
 }
 
 /// What a panic said.
@@ -113,81 +181,48 @@ fn said(fault: &(dyn Any + Send)) -> &str {
         .unwrap_or("without a word")
 }
 
-impl Outcome {
-    fn failed(self, reason: String) -> Outcome {
-        Outcome {
-            failure: Some(reason),
-            ..self
-        }
-    }
-
-    fn with(self, diagnosis: &Diagnosis) -> Outcome {
-        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
-        let errors = |refit: &diagnose::Refit| Errors {
-            fitted: finite(refit.rms_counts),
-            held_out: finite(refit.validate_rms_counts),
-        };
-        let named = diagnosis.steps.iter().map(|step| Naming {
-            effect: step.added.name().to_owned(),
-            alike: step
-                .indistinguishable_from
-                .iter()
-                .map(|kind| kind.name().to_owned())
-                .collect(),
-        });
-        Outcome {
-            base: errors(&diagnosis.base),
-            detectable: diagnosis.base.rms_counts > DETECTABLE_COUNTS,
-            named: named.collect(),
-            verdict: diagnosis.verdict.name().to_owned(),
-            last: errors(&diagnosis.last),
-            ..self
-        }
-    }
-
-    /// Whether the first effect named is a hidden one.
-    pub fn right_first(&self) -> bool {
-        let first = self.named.first();
-        first.is_some_and(|naming| self.drawn.names().contains(&naming.effect.as_str()))
-    }
-
-    /// Whether a hidden effect is the first one named, or among those that are said to look like it.
-    pub fn right_in_set(&self) -> bool {
-        self.named
-            .first()
-            .is_some_and(|naming| self.drawn.names().iter().any(|name| naming.covers(name)))
-    }
-
-    /// Whether more than the first effect is named, and the second is no hidden one.
-    pub fn spurious_second(&self) -> bool {
-        self.wrong_names()
-            .any(|name| Some(name) != self.named.first().map(|n| n.effect.as_str()))
-    }
-
-    /// The hidden effects that are named.
-    pub fn right_names(&self) -> usize {
-        let named = |name: &&str| self.named.iter().any(|naming| naming.effect == *name);
-        self.drawn.names().iter().filter(|name| named(name)).count()
-    }
-
-    /// Names that are no hidden effect.
-    pub fn wrong_names(&self) -> impl Iterator<Item = &str> {
-        let hidden = self.drawn.names();
-        let names = self.named.iter().map(|naming| naming.effect.as_str());
-        names.filter(move |name| !hidden.contains(name))
-    }
-
-    /// Names that are no hidden effect, nor a declared look-alike of one.
-    pub fn quite_wrong_names(&self) -> impl Iterator<Item = &str> {
-        let hidden = self.drawn.names();
-        self.wrong_names()
-            .filter(move |name| hidden.iter().all(|truth| hide::acts_otherwise(name, truth)))
-    }
+/// Error of the linear motor with nothing but hidden effect `which`, counts RMS; `None` where that motor
+/// cannot be recorded or fitted.
+fn leaves(drawn: &Drawn, which: usize, stop: &AtomicBool) -> Option<f64> {
+    let hidden = drawn.hidden.get(which)?.clone();
+    let alone = Drawn {
+        hidden: vec![hidden],
+        ..drawn.clone()
+    };
+    let linear = |data: &Data| -> Result<f64, Error> {
+        let options = Options::default();
+        let problem = fit::problem(data, &options)?;
+        let solver = LevenbergMarquardt::default();
+        let found = fit::search(&problem, &solver, &options, stop, &mut |_, _| {});
+        let values = problem.structure.values(&found.x);
+        let candidate = problem.structure.candidate(&values);
+        fit::validate(data, &candidate, options.method)
+    };
+    finite(linear(&alone.data(0).ok()?).ok()?)
 }
 
-impl Naming {
-    /// Whether it says `name`, or that `name` explains the recording as well.
-    pub fn covers(&self, name: &str) -> bool {
-        self.effect == name || self.alike.iter().any(|alike| alike == name)
+/// Errors of the parameters of the effects that are both hidden and in the model.
+fn parameter_errors(drawn: &Drawn, model: &Refit) -> Result<Vec<ParameterError>, Error> {
+    let machine = drawn.motor.machine();
+    let mut rest = &model.parameters[..];
+    let mut errors = Vec::new();
+    let hidden = drawn.hidden()?;
+    for &kind in &model.effects {
+        let Some((found, further)) = rest.split_at_checked(kind.description().parameters.len())
+        else {
+            break;
+        };
+        rest = further;
+        let truth = hidden
+            .iter()
+            .find(|hidden| hidden.name() == kind.name())
+            .and_then(|hidden| truth::parameters(hidden, &machine, drawn.counts_per_rev));
+        if let Some(truth) = truth {
+            errors.extend(truth::errors(kind, found, &truth));
+        }
     }
+    for error in &mut errors {
+        error.percent = rounded(error.percent);
+    }
+    Ok(errors)
 }

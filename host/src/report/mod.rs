@@ -4,4 +4,5 @@ pub mod html;
 pub mod json;
 pub mod paper;
 pub mod plan;
+pub mod prove;
 pub mod text;

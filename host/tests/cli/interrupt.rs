@@ -104,3 +104,16 @@ fn a_stopped_paper_keeps_what_it_has() {
     has(row, &[("parameters", Is::Object)]);
     assert_ne!(row["parameters"], serde_json::json!({}), "{row:#}");
 }
+
+#[test]
+fn a_stopped_proof_counts_the_cases_that_are_done() {
+    let desk = Desk::new();
+    let line = "prove --hidden none --cases 100000 --out p.jsonl --json p.json";
+    let outcome = interrupted(&desk, line);
+    assert!(outcome.stdout.contains("nothing hidden"), "{outcome}");
+    let table = written(&desk, "p.json");
+    assert_eq!(table["interrupted"], true);
+    let done = desk.read("p.jsonl").lines().count() - 1;
+    assert_eq!(table["cases"], done);
+    assert!(done > 0);
+}

@@ -15,6 +15,7 @@ mod main_job;
 mod paper;
 mod pipes;
 mod plan;
+mod prove;
 mod repeatable;
 mod searches;
 mod simulate;

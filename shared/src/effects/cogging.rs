@@ -30,6 +30,7 @@ impl<S: Scalar> Effect<S> for Cogging<S> {
     const NEEDS: Needs = Needs {
         mean: true,
         angle: true,
+        torque: true,
         ..Needs::NOTHING
     };
 

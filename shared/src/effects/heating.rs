@@ -34,6 +34,7 @@ impl<S: Scalar> Effect<S> for Heating<S> {
         mean: true,
         current: true,
         winding: true,
+        lost_torque: true,
         memory: true,
         ..Needs::NOTHING
     };
@@ -49,25 +50,30 @@ impl<S: Scalar> Effect<S> for Heating<S> {
 
     #[inline]
     fn winding(&self, _volts: S, shaft: &Shaft<S>, memory: S) -> Winding<S> {
-        let half = S::from_f64(0.5);
-        let rise = memory + self.change(memory, shaft) * half;
-        let field = rise.times(self.magnets);
+        let rise = self.rise(memory, shaft);
         Winding {
             resistance: rise,
             rate: S::zero(),
-            back_emf: -field,
-            lost_torque: shaft.current * field,
+            back_emf: -rise.times(self.magnets),
         }
     }
 
+    fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+        shaft.current * self.rise(memory, shaft).times(self.magnets)
+    }
+
     fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
-        let half = S::from_f64(0.5);
-        let middle = memory + self.change(memory, shaft) * half;
-        memory + self.change(middle, shaft)
+        memory + self.change(self.rise(memory, shaft), shaft)
     }
 }
 
 impl<S: Scalar> Heating<S> {
+    /// Mean rise over the part.
+    #[inline(always)]
+    fn rise(&self, memory: S, shaft: &Shaft<S>) -> S {
+        memory + self.change(memory, shaft) * S::from_f64(0.5)
+    }
+
     /// Change over the part of a rise that stays near `rise`.
     #[inline(always)]
     fn change(&self, rise: S, shaft: &Shaft<S>) -> S {

@@ -1,6 +1,6 @@
 //! Constant torque on the shaft.
 
-use super::{Description, Effect, Parameter, Place, Shaft};
+use super::{Description, Effect, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -26,6 +26,10 @@ impl<S: Scalar> Effect<S> for LoadTorque<S> {
         exposed_by: "coasting with the bridge open, or holding at rest",
         look_alikes: &["offset_voltage", "asym_coulomb"],
         source: "any text on drives",
+    };
+    const NEEDS: Needs = Needs {
+        torque: true,
+        ..Needs::NOTHING
     };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {

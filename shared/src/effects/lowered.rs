@@ -82,6 +82,16 @@ impl<S: Scalar> Lowered<S> {
             })
     }
 
+    /// Torque that the current should give and does not.
+    #[inline]
+    pub fn lost_torque(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> S {
+        self.each()
+            .zip(memory)
+            .fold(S::zero(), |sum, (effect, memory)| {
+                sum + effect.lost_torque(shaft, *memory)
+            })
+    }
+
     /// Sum of the friction budgets.
     #[inline]
     pub fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {

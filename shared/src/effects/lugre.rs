@@ -1,6 +1,7 @@
 //! LuGre friction: bristles that bend before they slide.
 
 use super::decay::{REACH, decay};
+use super::hump::Hump;
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Stiff};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
@@ -14,11 +15,8 @@ use crate::units::{PerUnit, Quantity};
 #[derive(Clone, Copy, Debug)]
 pub struct Lugre<S: Scalar> {
     torque: S,
-    excess: S,
-    /// Speed at which the Stribeck hump is over.
-    reach: S,
-    /// One over two Stribeck speeds.
-    per_speed: S::Coefficient,
+    /// Deflections beyond one at which slow bristles slide.
+    excess: Hump<S>,
     /// Travel that bends the bristles as far as they go, turns.
     far: S,
     per_deflection: S::Coefficient,
@@ -30,8 +28,7 @@ pub struct Lugre<S: Scalar> {
     softest: S,
 }
 
-/// Slowest Stribeck speed, as a part of the base speed, and least deflection, turns.
-const SLOWEST: f64 = 1e-4;
+/// Least deflection, turns.
 const SHORTEST: f64 = 1e-7;
 
 impl<S: Scalar> Effect<S> for Lugre<S> {
@@ -61,16 +58,13 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         let speed = units.lower(values[2], Quantity::Speed).to_f64();
-        let speed = speed.max(SLOWEST);
         let excess = values[1].to_f64().max(0.0);
         let presliding = units.lower(values[3], Quantity::Angle).to_f64();
         let damping = units.lower(values[4], Quantity::Time).to_f64();
         let deflection = presliding.max(SHORTEST) / (1.0 + excess);
         Lugre {
             torque: units.number(values[0], Quantity::Torque),
-            excess: S::from_f64(excess),
-            reach: S::from_f64(2.0 * libm::sqrt(REACH) * speed),
-            per_speed: S::coefficient(0.5 / speed),
+            excess: Hump::gaussian(excess, speed),
             far: S::from_f64(4.0 * REACH * deflection),
             per_deflection: S::coefficient(1.0 / deflection),
             damping: units.multiplier::<S>(values[4], Quantity::Time),
@@ -126,11 +120,7 @@ impl<S: Scalar> Lugre<S> {
     fn bent(&self, from: S, shaft: &Shaft<S>) -> Bent<S> {
         let one = S::from_f64(1.0);
         let half = S::from_f64(0.5);
-        let hump = shaft.mean_over_speed(|speed| {
-            let slow = speed.abs().min(self.reach).times(self.per_speed);
-            decay(slow * slow)
-        });
-        let steady = one + self.excess * hump;
+        let steady = one + shaft.mean_over_speed(|speed| self.excess.at(speed));
         // A quarter of the deflections travelled, x/4, at most seven: its eighth is a part.
         let quarter = S::coefficient(0.25);
         let travel = shaft.travel.abs().min(self.far).times(quarter);

@@ -34,6 +34,7 @@ mod windage;
 mod decay;
 mod describe;
 mod harmonic;
+mod hump;
 mod lowered;
 mod set;
 mod shaft;
@@ -64,8 +65,12 @@ pub struct Needs {
     pub friction: bool,
     /// It changes the winding or drops voltage at the brushes.
     pub winding: bool,
+    /// It gives a torque.
+    pub torque: bool,
     /// It gives a stiff torque.
     pub stiff: bool,
+    /// It takes a torque from the current.
+    pub lost_torque: bool,
     /// It remembers a number.
     pub memory: bool,
     /// It changes what the encoder sees.
@@ -80,7 +85,9 @@ impl Needs {
         angle: false,
         friction: false,
         winding: false,
+        torque: false,
         stiff: false,
+        lost_torque: false,
         memory: false,
         sensed: false,
     };
@@ -93,7 +100,9 @@ impl Needs {
             angle: self.angle | other.angle,
             friction: self.friction | other.friction,
             winding: self.winding | other.winding,
+            torque: self.torque | other.torque,
             stiff: self.stiff | other.stiff,
+            lost_torque: self.lost_torque | other.lost_torque,
             memory: self.memory | other.memory,
             sensed: self.sensed | other.sensed,
         }
@@ -148,6 +157,10 @@ pub trait Effect<S: Scalar>: Copy {
     /// Torque against positive rotation that rises steeply with the travel of the part.
     fn stiff(&self, _shaft: &Shaft<S>, _memory: S) -> Stiff<S> {
         Stiff::default()
+    }
+    /// Torque that the current should give and does not.
+    fn lost_torque(&self, _shaft: &Shaft<S>, _memory: S) -> S {
+        S::zero()
     }
     /// Friction budget.
     fn friction(&self, _shaft: &Shaft<S>) -> Budget<S> {
@@ -242,6 +255,10 @@ macro_rules! kinds {
             }
             fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
                 match self { $(Any::$kind(effect) => effect.stiff(shaft, memory)),* }
+            }
+            #[inline(always)]
+            fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+                match self { $(Any::$kind(effect) => effect.lost_torque(shaft, memory)),* }
             }
             #[inline(always)]
             fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {

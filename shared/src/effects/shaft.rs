@@ -149,8 +149,6 @@ pub struct Winding<S> {
     pub rate: S,
     /// Extra back-EMF.
     pub back_emf: S,
-    /// Torque that the current should give and does not.
-    pub lost_torque: S,
 }
 
 impl<S: Scalar> Winding<S> {
@@ -161,7 +159,6 @@ impl<S: Scalar> Winding<S> {
             resistance: self.resistance + other.resistance,
             rate: self.rate + other.rate,
             back_emf: self.back_emf + other.back_emf,
-            lost_torque: self.lost_torque + other.lost_torque,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Stribeck friction: static friction above the sliding one.
 
-use super::decay::{REACH, decay};
+use super::hump::Hump;
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Mask, Real, Scalar};
+use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
 /// Sliding friction `Tc` that rises to `Tc + Ts` as the speed falls below about `ws`. The rise is
@@ -11,17 +11,10 @@ use crate::units::{PerUnit, Quantity};
 #[derive(Clone, Copy, Debug)]
 pub struct Stribeck<S: Scalar> {
     sliding: S,
-    excess: S,
-    /// Speeds at which the exponential and the Gaussian are over; zero for one that has no part.
-    reach: [S; 2],
-    /// One over four, and over two, Stribeck speeds.
-    per_speed: [S::Coefficient; 2],
-    exponential: S,
-    gaussian: S,
+    holding: S,
+    exponential: Hump<S>,
+    gaussian: Hump<S>,
 }
-
-/// Slowest Stribeck speed, as a part of the base speed: below it the hump is a static friction.
-const SLOWEST: f64 = 1e-4;
 
 impl<S: Scalar> Effect<S> for Stribeck<S> {
     const DESCRIPTION: Description = Description {
@@ -47,44 +40,24 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
     };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
-        let speed = units
-            .lower(values[2], Quantity::Speed)
-            .max(R::from_f64(SLOWEST))
-            .to_f64();
+        let excess = units.lower(values[1], Quantity::Torque).to_f64();
+        let speed = units.lower(values[2], Quantity::Speed).to_f64();
         let gaussian = (values[3].to_f64() - 1.0).clamp(0.0, 1.0);
-        let over = |share: f64, speeds: f64| {
-            let speeds = if share > 0.0 { speeds } else { 0.0 };
-            S::from_f64(speeds * speed)
-        };
         Stribeck {
             sliding: units.number(values[0], Quantity::Torque),
-            excess: units.number(values[1], Quantity::Torque),
-            reach: [
-                over(1.0 - gaussian, 4.0 * REACH),
-                over(gaussian, 2.0 * libm::sqrt(REACH)),
-            ],
-            per_speed: [4.0, 2.0].map(|n| S::coefficient(1.0 / (n * speed))),
-            exponential: S::from_f64(1.0 - gaussian),
-            gaussian: S::from_f64(gaussian),
+            holding: units.number(values[0] + values[1], Quantity::Torque),
+            exponential: Hump::exponential(excess * (1.0 - gaussian), speed),
+            gaussian: Hump::gaussian(excess * gaussian, speed),
         }
     }
 
     #[inline]
     fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-        let hump = shaft.mean_over_speed(|speed| {
-            let speed = speed.abs();
-            // Most of the time the shaft is faster than that, and nothing has to be computed.
-            let near = |k: usize| {
-                let near = speed.less(self.reach[k]).any();
-                near.then(|| speed.min(self.reach[k]).times(self.per_speed[k]))
-            };
-            let exponential = near(0).map_or(S::zero(), |x| self.exponential * decay(x));
-            let gaussian = near(1).map_or(S::zero(), |x| self.gaussian * decay(x * x));
-            exponential + gaussian
-        });
+        let hump =
+            shaft.mean_over_speed(|speed| self.exponential.at(speed) + self.gaussian.at(speed));
         Budget {
-            moving: self.sliding + self.excess * hump,
-            holding: self.sliding + self.excess,
+            moving: self.sliding + hump,
+            holding: self.holding,
             bias: S::zero(),
         }
     }

@@ -1,6 +1,6 @@
 //! Magnetic saturation of the torque.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
+use super::{Description, Effect, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
@@ -37,7 +37,7 @@ impl<S: Scalar> Effect<S> for TorqueSat<S> {
     const NEEDS: Needs = Needs {
         mean: true,
         current: true,
-        winding: true,
+        lost_torque: true,
         ..Needs::NOTHING
     };
 
@@ -49,20 +49,16 @@ impl<S: Scalar> Effect<S> for TorqueSat<S> {
     }
 
     #[inline]
-    fn winding(&self, _volts: S, shaft: &Shaft<S>, _memory: S) -> Winding<S> {
+    fn lost_torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
         let polynomial = |terms: &[f64], y: S| {
             terms
                 .iter()
                 .fold(S::zero(), |sum, term| sum * y + S::from_f64(*term))
         };
-        let lost_torque = shaft.mean_over_current(|current| {
+        shaft.mean_over_current(|current| {
             let y = (current * current).times(self.square);
             let share = polynomial(&ABOVE, y).part_of(polynomial(&BELOW, y));
             current - current * share
-        });
-        Winding {
-            lost_torque,
-            ..Winding::default()
-        }
+        })
     }
 }

@@ -29,6 +29,7 @@ impl<S: Scalar> Effect<S> for Unbalance<S> {
     const NEEDS: Needs = Needs {
         mean: true,
         angle: true,
+        torque: true,
         ..Needs::NOTHING
     };
 

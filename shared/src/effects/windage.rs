@@ -29,6 +29,7 @@ impl<S: Scalar> Effect<S> for Windage<S> {
     };
     const NEEDS: Needs = Needs {
         mean: true,
+        torque: true,
         ..Needs::NOTHING
     };
 

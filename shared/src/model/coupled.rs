@@ -266,6 +266,7 @@ pub struct MotorAndLoad<'a, S: Scalar> {
 }
 
 impl<S: Scalar> MotorAndLoad<'_, S> {
+    #[inline(always)]
     fn touching(
         &self,
         level: usize,
@@ -319,10 +320,12 @@ fn select<S: Scalar>(mask: S::Mask, a: Increment<S>, b: Increment<S>) -> Increme
 impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
     const COUPLED: bool = true;
 
+    #[inline(always)]
     fn timing(&self, level: usize) -> &Timing<S> {
         &self.coupled.touching[level].timing
     }
 
+    #[inline(always)]
     fn slide(
         &self,
         level: usize,
@@ -346,6 +349,7 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         select(is_zero(side), free, touching)
     }
 
+    #[inline(always)]
     fn settle(
         &self,
         level: usize,
@@ -374,10 +378,12 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         select(is_zero(side), free, touching)
     }
 
+    #[inline(always)]
     fn yields(&self, level: usize, torque: S) -> S {
         torque.times(self.coupled.touching[level].driven[1][5])
     }
 
+    #[inline(always)]
     fn load(&self, from: &Motion<S>, side: S) -> S {
         let joint = &self.coupled.joint;
         let push = joint.push(joint.bend(from.twist, side), from.slip);
@@ -388,11 +394,13 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         S::select(is_zero(side), S::zero(), torque)
     }
 
+    #[inline(always)]
     fn beyond(&self, from: &Motion<S>, side: S) -> S {
         self.coupled.joint.bend(from.twist, side) * side
     }
 
     /// The flanks touch where the twist is beyond the gap and they push; without a gap, always.
+    #[inline(always)]
     fn side(&self, from: &Motion<S>) -> S {
         let joint = &self.coupled.joint;
         if !joint.loose {

@@ -11,11 +11,15 @@ use super::friction::{Forces, direction};
 use super::rung::Timing;
 use super::state::{Motion, State};
 use super::winding::{bends, extra_volts};
-use crate::effects::{Lowered, Shaft};
+use crate::effects::{Budget, Lowered, Shaft};
 use crate::scalar::{Angle, Mask, Scalar};
 
-/// A part is halved if what acts in it, per unit, changes on second thought by more than this.
-const DOUBT: f64 = 0.004;
+/// A part is halved if what is doubtful in it might leave the angle wrong by more than this, counts.
+///
+/// A torque `τ` that acts for a time `h` gives the speed `τ·h/m`, which back-EMF and friction take
+/// away again with the time constant `m/(kb + b)`; meanwhile the shaft turns by `τ·h/(kb + b)`. Per
+/// unit, `kb` is about one.
+const TOLERATED_COUNTS: f64 = 0.1;
 
 /// What acts in a part.
 pub(super) struct Foreseen<S: Scalar> {
@@ -26,6 +30,11 @@ pub(super) struct Foreseen<S: Scalar> {
 }
 
 impl<S: Scalar> Model<S> {
+    /// Doubtful torque times its length, per unit, that needs no shorter parts.
+    pub(super) fn tolerated(counts_per_unit: f64) -> S {
+        S::from_f64(TOLERATED_COUNTS / counts_per_unit)
+    }
+
     /// What acts where nothing depends on the state.
     pub(super) fn constant(effects: &Lowered<S>) -> Forces<S> {
         let rest = Shaft::at(S::zero(), S::zero(), S::zero());
@@ -58,6 +67,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// The mean shaft of a part that began at `start` and brings `by` at `volts` on the winding.
+    #[inline(always)]
     pub(super) fn mean(
         &self,
         start: &Shaft<S>,
@@ -103,23 +113,33 @@ impl<S: Scalar> Model<S> {
         open: bool,
     ) -> Forces<S> {
         let effects = &self.effects;
-        let mut torque = further + effects.torque(shaft, &state.memory);
-        let mut shaft = *shaft;
-        shaft.transmitted = shaft.current + torque;
-        if effects.needs.winding && !open {
-            let lost = effects.winding(volts, &shaft, &state.memory).lost_torque;
-            shaft.transmitted = shaft.transmitted - lost;
-            torque = torque + lost;
+        let needs = effects.needs;
+        let mut torque = further;
+        if needs.torque {
+            torque = torque + effects.torque(shaft, &state.memory);
         }
-        let budget = effects.friction(&shaft);
+        let lost = if needs.lost_torque && !open {
+            effects.lost_torque(shaft, &state.memory)
+        } else {
+            S::zero()
+        };
+        let budget = if needs.friction {
+            effects.friction(&Shaft {
+                transmitted: shaft.current + torque - lost,
+                ..*shaft
+            })
+        } else {
+            Budget::default()
+        };
         Forces {
             volts,
-            torque: torque + budget.bias,
+            torque: torque + lost + budget.bias,
             budget,
         }
     }
 
     /// What acts in a part that begins at `start` with the drive at `volts`.
+    #[inline(always)]
     pub(super) fn foresee<B: Body<S>>(
         &self,
         body: &B,
@@ -130,68 +150,125 @@ impl<S: Scalar> Model<S> {
         open: bool,
     ) -> Foreseen<S> {
         let zero = S::zero();
-        let Lowered { needs, brush, .. } = &self.effects;
-        let timing = body.timing(level);
-        let side = body.side(&state.motion);
-        let slide = |volts: S, torque: S| {
-            let by = body.slide(level, &state.motion, side, volts, torque, open);
-            self.mean(start, &by, volts, timing, open)
+        let effects = &self.effects;
+        let part = Part {
+            model: self,
+            body,
+            level,
+            state,
+            start,
+            side: body.side(&state.motion),
+            volts,
+            open,
         };
-        let winding = |at: &Shaft<S>, free: &Shaft<S>| {
-            let changed = self.effects.winding(volts, at, &state.memory);
-            extra_volts(&changed, brush, volts, free, timing)
-        };
+        let winding = effects.needs.winding && !open;
 
-        // Near the start: the speed alone foresees the angle.
-        let ahead = Shaft {
-            turns: start.turns + start.travel * S::from_f64(0.5),
-            ..*start
-        };
-        let near = self.forces(state, &ahead, volts, zero, open);
-        let pull = start.current - near.torque - body.load(&state.motion, side);
-        let sense = direction(start.speed, pull, &near.budget);
-        let torque = near.torque + sense * near.budget.moving;
-        let mut shaft = slide(volts, torque);
-        let changes = needs.winding && !open;
+        // First thought, from the start of the part.
+        let first = part.forces(&part.ahead(), zero);
+        let torque = first.torque + part.drag(&first);
+        let mut shaft = part.slide(zero, torque);
         let mut extra = zero;
-        if changes {
-            extra = winding(start, &shaft);
-            shaft = slide(volts + extra, torque);
+        if winding {
+            extra = part.extra_volts(start, &shaft);
+            shaft = part.slide(extra, torque);
         }
         let mut stiff = zero;
-        if needs.stiff {
-            stiff = self.effects.stiff(&shaft, &state.memory).from(zero);
-            shaft = slide(volts + extra, torque + stiff);
+        if effects.needs.stiff {
+            stiff = effects.stiff(&shaft, &state.memory).from(zero);
+            shaft = part.slide(extra, torque + stiff);
         }
 
-        // At the mean of that.
+        // Second thought, from the mean shaft of the first.
         let mut doubt = zero;
-        let mut doubtful = zero.less(zero);
-        if changes {
-            let free = Shaft {
-                current: shaft.current - timing.gain * extra,
-                ..shaft
-            };
-            let again = winding(&shaft, &free);
-            shaft.current = free.current + timing.gain * again;
+        let mut bent = zero.less(zero);
+        if winding {
+            let gain = body.timing(level).gain;
+            let current = shaft.current - gain * extra;
+            let again = part.extra_volts(&shaft, &Shaft { current, ..shaft });
+            shaft.current = current + gain * again;
+            bent = bends(&effects.brush, start, &shaft);
             doubt = doubt + (again - extra).abs();
-            doubtful = bends(brush, start, &shaft);
             extra = again;
         }
-        if needs.stiff {
-            let given = self.effects.stiff(&shaft, &state.memory);
+        if effects.needs.stiff {
+            let given = effects.stiff(&shaft, &state.memory);
             let again = given.from(stiff);
             doubt = doubt + (again - stiff).abs() + given.doubt;
             stiff = again;
         }
-        let mut forces = self.forces(state, &shaft, volts, stiff, open);
-        doubt = doubt + (forces.torque - stiff - near.torque).abs();
-        doubt = doubt + (forces.budget.moving - near.budget.moving).abs();
+        let mut forces = part.forces(&shaft, stiff);
+        doubt = doubt + (forces.torque - stiff - first.torque).abs();
+        doubt = doubt + (forces.budget.moving - first.budget.moving).abs();
         forces.volts = volts + extra;
-        let tolerated = S::from_f64(DOUBT);
+        let impulse = doubt.times(body.timing(level).length);
         Foreseen {
             forces,
-            doubtful: doubtful.or(tolerated.less(doubt)),
+            doubtful: bent.or(self.tolerated.less(impulse)),
         }
+    }
+}
+
+/// A part that begins at `start` with the drive at `volts`.
+struct Part<'a, S: Scalar, B> {
+    model: &'a Model<S>,
+    body: &'a B,
+    level: usize,
+    state: &'a State<S>,
+    start: &'a Shaft<S>,
+    side: S,
+    volts: S,
+    open: bool,
+}
+
+impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
+    /// The shaft as the speed at the start alone foresees it.
+    #[inline(always)]
+    fn ahead(&self) -> Shaft<S> {
+        let half = S::from_f64(0.5);
+        Shaft {
+            turns: self.start.turns + self.start.travel * half,
+            ..*self.start
+        }
+    }
+
+    /// Torque of the friction in `forces` as the part begins.
+    #[inline(always)]
+    fn drag(&self, forces: &Forces<S>) -> S {
+        if !self.model.effects.needs.friction {
+            return S::zero();
+        }
+        let load = self.body.load(&self.state.motion, self.side);
+        let pull = self.start.current - forces.torque - load;
+        direction(self.start.speed, pull, &forces.budget) * forces.budget.moving
+    }
+
+    /// What acts at `shaft`, with a torque `further` that is known already.
+    #[inline(always)]
+    fn forces(&self, shaft: &Shaft<S>, further: S) -> Forces<S> {
+        let Part {
+            state, volts, open, ..
+        } = *self;
+        self.model.forces(state, shaft, volts, further, open)
+    }
+
+    /// The mean shaft under a held torque, with `extra` volts on top of those of the drive.
+    #[inline(always)]
+    fn slide(&self, extra: S, torque: S) -> Shaft<S> {
+        let volts = self.volts + extra;
+        let (motion, timing) = (&self.state.motion, self.body.timing(self.level));
+        let by = self
+            .body
+            .slide(self.level, motion, self.side, volts, torque, self.open);
+        self.model.mean(self.start, &by, volts, timing, self.open)
+    }
+
+    /// Volts that the changes of the winding `at` a shaft add to those of the drive, with which alone
+    /// the shaft would be `free`.
+    #[inline(always)]
+    fn extra_volts(&self, at: &Shaft<S>, free: &Shaft<S>) -> S {
+        let effects = &self.model.effects;
+        let changed = effects.winding(self.volts, at, &self.state.memory);
+        let timing = self.body.timing(self.level);
+        extra_volts(&changed, &effects.brush, self.volts, free, timing)
     }
 }

@@ -33,9 +33,6 @@ pub fn is_zero<S: Scalar>(x: S) -> S::Mask {
     x.less(S::zero()).or(S::zero().less(x)).not()
 }
 
-/// Halvings of a step to which a stop or a release of a rigid motor is located.
-pub const FINEST: usize = 5;
-
 /// One piece, taken as if nothing happened within it.
 struct Piece<S: Scalar> {
     /// Where it ends.
@@ -166,13 +163,11 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
     open: bool,
     counts_per_unit: S::Coefficient,
 ) -> S {
-    let finest = if B::COUPLED { RUNGS - 1 } else { FINEST };
-    let mut pieces = Pieces::new(level, finest);
-    let mut now = *motion;
+    let mut pieces = Pieces::new(level, RUNGS - 1);
     let mut travel = S::zero();
     while let Some(level) = pieces.next() {
-        let side = body.side(&now);
-        let mut piece = Piece::take(body, level, &now, side, forces, open);
+        let side = body.side(motion);
+        let mut piece = Piece::take(body, level, motion, side, forces, open);
         let end_side = body.side(&piece.end);
         let contact = B::COUPLED && is_zero(end_side - side).not().any();
         if (piece.eventful() || contact) && pieces.halve() {
@@ -180,21 +175,20 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
         }
         if contact {
             // Flanks part without a jump of the torque, but they touch with one.
-            let touching = Piece::take(body, level, &now, end_side, forces, open);
+            let touching = Piece::take(body, level, motion, end_side, forces, open);
             let beyond = body.beyond(&piece.end, end_side);
-            let share = beyond.part_of(beyond - body.beyond(&now, end_side));
+            let share = beyond.part_of(beyond - body.beyond(motion, end_side));
             let lands = is_zero(side).and(is_zero(end_side).not());
             piece.land(&touching, S::select(lands, share, S::zero()));
         }
         if piece.eventful() {
             piece.settle_speed(body, level, &forces.budget);
         }
-        piece.end.angle = now.angle.advance(piece.turned, counts_per_unit);
-        now = piece.end;
+        piece.end.angle = motion.angle.advance(piece.turned, counts_per_unit);
+        *motion = piece.end;
         travel = travel + piece.turned;
         pieces.pass();
     }
-    *motion = now;
     travel
 }
 

@@ -46,24 +46,20 @@ impl<S: Scalar> Model<S> {
             shaft.current = volts - seen.speed.times(timing.kb) - free.current.times(timing.lag);
             shaft.current_change = free.current;
         }
-        let mut torque = zero;
         let mut extra = zero;
         if effects.needs.winding && !open {
             let changed = effects.winding(volts, &shaft, &state.memory);
             extra = extra_volts(&changed, &effects.brush, volts, &shaft, timing);
             shaft.current = shaft.current + timing.gain * extra;
-            torque = effects.winding(volts, &shaft, &state.memory).lost_torque;
         }
-        torque = torque + effects.torque(&shaft, &state.memory);
+        let forces = self.forces(state, &shaft, volts, zero, open);
+        let mut torque = forces.torque;
         if effects.needs.friction {
+            let budget = &forces.budget;
             let pull = shaft.current - torque;
-            shaft.transmitted = pull;
-            let budget = effects.friction(&shaft);
-            let pull = pull - budget.bias;
             let held = pull.min(budget.holding).max(-budget.holding);
             let drag = budget.moving * seen.speed.signum();
-            let at_rest = friction::is_zero(seen.speed);
-            torque = torque + budget.bias + S::select(at_rest, held, drag);
+            torque = torque + S::select(friction::is_zero(seen.speed), held, drag);
         }
         let by = rung.slide(motion, volts + extra, torque, open);
         if effects.needs.memory {

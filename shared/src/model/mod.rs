@@ -11,7 +11,7 @@
 //!
 //! The voltage jumps at the start of a step, and where the winding is much faster than a step the
 //! current follows at once. What depends on the current then gets its first parts graded: short
-//! after the jump, longer later.
+//! after the jump, longer later; the larger the jump, the shorter the first.
 
 mod body;
 mod coupled;
@@ -80,6 +80,8 @@ pub struct Model<S: Scalar> {
     /// Whole, for the position within a revolution.
     counts_per_rev: u32,
     effects: Lowered<S>,
+    /// Doubtful torque times its length that needs no shorter parts.
+    tolerated: S,
     /// What acts on the shaft, if nothing of it depends on the state.
     constant: Forces<S>,
 }
@@ -91,13 +93,16 @@ struct Stretch<S: Scalar> {
     coupled: Option<Coupled<S>>,
     /// Equal parts.
     parts: u16,
-    /// Halvings of the first part after a jump of the voltage.
+    /// Halvings of the first part after a large jump of the voltage.
     grade: usize,
 }
 
 /// The first part after a jump of the voltage is at most this fraction of the electrical time
 /// constant, if eight rungs suffice for that.
 const FIRST_PART: f64 = 0.25;
+
+/// Largest jump of the voltage, per unit, that needs no graded parts.
+const SMALL_JUMP: f64 = 0.004;
 
 impl<S: Scalar> Model<S> {
     /// Discretises and lowers a plan.
@@ -126,6 +131,7 @@ impl<S: Scalar> Model<S> {
             counts_per_turn: S::coefficient(units.counts_per_rev.to_f64()),
             counts_per_rev: (units.counts_per_rev.to_f64() + 0.5) as u32,
             constant: Self::constant(&effects),
+            tolerated: Self::tolerated(units.counts_per_unit().to_f64()),
             effects,
         })
     }
@@ -177,11 +183,14 @@ impl<S: Scalar> Model<S> {
     /// Holds a command for a stretch of the step.
     fn hold(&self, stretch: &Stretch<S>, state: &mut State<S>, command: S, open: bool) {
         let volts = self.effects.drive(command);
-        let jump = volts - state.volts;
-        let jumps = state.open || jump.less(S::zero()).or(S::zero().less(jump)).any();
+        let jump = (volts - state.volts).abs();
+        let mut grade = match (state.open, open) {
+            (_, true) => 0,
+            (true, false) => stretch.grade,
+            (false, false) => stretch.grade_after(jump),
+        };
         state.volts = volts;
         state.open = open;
-        let mut grade = if jumps && !open { stretch.grade } else { 0 };
         for _ in 0..stretch.parts {
             // An eighth, an eighth, a quarter, a half: all together one part.
             self.move_on(stretch, grade, state, volts, open);
@@ -212,14 +221,28 @@ impl<S: Scalar> Model<S> {
 }
 
 impl<S: Scalar> Stretch<S> {
+    /// Halvings of the first part after a jump of the voltage: one for each doubling beyond the
+    /// largest jump that needs none.
+    #[inline]
+    fn grade_after(&self, jump: S) -> usize {
+        let mut tame = S::from_f64(SMALL_JUMP);
+        let mut grade = 0;
+        while grade < self.grade && tame.less(jump).any() {
+            tame = tame + tame;
+            grade += 1;
+        }
+        grade
+    }
+
     /// A stretch of `length` intervals.
     fn new<R: Real>(plan: &Plan<R>, effects: &Lowered<S>, length: R) -> Result<Self, ModelError> {
         let machine = plan.machine.lower(&plan.units);
         let how = plan.discretisation;
         let needs = effects.needs;
         let coupling = plan.effects.coupling(&plan.units, &machine);
-        // Held voltage and torque need no parts: one exact map does.
-        let straight = !(needs.mean || needs.friction || coupling.is_some());
+        // Held voltage and torque need no parts: one exact map does, and friction's stops are located
+        // wherever they are.
+        let straight = !(needs.mean || coupling.is_some());
         let parts = if straight { 1 } else { plan.substeps.max(1) };
         let step = length / R::from_f64(parts as f64);
         let mut grade = 0;
@@ -231,10 +254,10 @@ impl<S: Scalar> Stretch<S> {
                 grade += 1;
             }
         }
-        let depth = match (needs.mean || coupling.is_some(), needs.friction) {
-            (true, _) => RUNGS - 1,
-            (false, true) => friction::FINEST,
-            (false, false) => 0,
+        let depth = if straight && !needs.friction {
+            0
+        } else {
+            RUNGS - 1
         };
         let (coupled, machine) = match coupling {
             None => (None, machine),

@@ -14,6 +14,7 @@ pub struct Pieces {
 impl Pieces {
     /// A part that is `base` halvings of a step, in one piece as yet; `finest` halvings make the
     /// shortest.
+    #[inline(always)]
     pub fn new(base: usize, finest: usize) -> Self {
         Pieces {
             base,

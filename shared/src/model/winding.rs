@@ -37,12 +37,16 @@ pub fn extra_volts<S: Scalar>(
     let lost = resistance * free.current + back_emf * emf;
     let given = bounded(rate, inductive) - lost - bounded(rate, lost);
     let stiffness = one + gain * (rate + resistance + rate * resistance);
+    let scale = one.part_of(stiffness);
+    if !S::zero().less(brush.drop).any() {
+        return given * scale;
+    }
     // The current without brushes, times the stiffness.
     let current = free.current * stiffness + gain * given;
     let most = brush.drop + rate * brush.drop;
     let part = current.abs().part_of(brush.knee * stiffness + gain * most);
     let drop = most * part * current.signum();
-    (given - drop) * one.part_of(stiffness)
+    (given - drop) * scale
 }
 
 /// Whether the current passes a bend of the brushes' law on its way through the part.
@@ -56,6 +60,9 @@ pub fn bends<S: Scalar>(brush: &Brush<S>, start: &Shaft<S>, mean: &Shaft<S>) -> 
 
 /// The product, kept within half the range of a format that has one.
 fn bounded<S: Scalar>(a: S, b: S) -> S {
+    if S::LIMIT.is_infinite() {
+        return a * b;
+    }
     let sixteenth = S::from_f64(0.0625);
     let limit = S::from_f64(S::LIMIT / 32.0);
     let product = (a * sixteenth) * b;

@@ -9,7 +9,7 @@ use super::{Angle, ErrorValue, Real, Scalar};
 const WRAP: f64 = 4_294_967_296.0;
 
 macro_rules! float_scalar {
-    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sin:path, $cos:path, $bits:expr) => {
+    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:path, $bits:expr) => {
         impl Scalar for $t {
             type Mask = bool;
             type Coefficient = $t;
@@ -38,8 +38,7 @@ macro_rules! float_scalar {
             }
             #[inline]
             fn sin_cos_turns(self) -> (Self, Self) {
-                let radians = self * (core::f64::consts::TAU as $t);
-                ($sin(radians), $cos(radians))
+                $sincos(self * (core::f64::consts::TAU as $t))
             }
             #[inline]
             fn part_of(self, whole: Self) -> Self {
@@ -102,24 +101,14 @@ macro_rules! float_scalar {
     };
 }
 
-float_scalar!(
-    f64,
-    f64,
-    libm::exp,
-    libm::log,
-    libm::sqrt,
-    libm::sin,
-    libm::cos,
-    53
-);
+float_scalar!(f64, f64, libm::exp, libm::log, libm::sqrt, libm::sincos, 53);
 float_scalar!(
     f32,
     SplitAngle,
     libm::expf,
     libm::logf,
     libm::sqrtf,
-    libm::sinf,
-    libm::cosf,
+    libm::sincosf,
     24
 );
 

@@ -1,0 +1,61 @@
+//! Trying earlier terms against their look-alikes: what was named first was judged without the rest.
+
+use super::judge::best;
+use super::refit::Refit;
+use super::workshop::Workshop;
+use rayon::prelude::*;
+use shared::effects::Kind;
+
+/// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
+/// except those that are in `known` already.
+pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refit]) -> Vec<Refit> {
+    let without = without(chosen, place);
+    place
+        .description()
+        .look_alikes
+        .par_iter()
+        .filter_map(|name| {
+            let kind = Kind::by_name(name)?;
+            let mut set = without.effects.clone();
+            set.push(kind);
+            if chosen.effects.contains(&kind)
+                || known.iter().any(|model| same(&model.effects, &set))
+            {
+                return None;
+            }
+            workshop.refit(&workshop.sketch(&without, kind)?).ok()
+        })
+        .collect()
+}
+
+/// Whether two lists hold the same effects.
+pub fn same(a: &[Kind], b: &[Kind]) -> bool {
+    a.len() == b.len() && a.iter().all(|kind| b.contains(kind))
+}
+
+/// The model with the parameters that it has, less one effect.
+fn without(chosen: &Refit, place: Kind) -> Refit {
+    let mut rest = &chosen.parameters[..];
+    let mut refit = chosen.clone();
+    refit.effects.clear();
+    refit.parameters.clear();
+    for &kind in &chosen.effects {
+        let (own, further) = rest.split_at(kind.description().parameters.len());
+        rest = further;
+        if kind != place {
+            refit.effects.push(kind);
+            refit.parameters.extend_from_slice(own);
+        }
+    }
+    refit
+}
+
+/// The best of `chosen` and `others`.
+pub fn better(chosen: &Refit, others: &[Refit]) -> Option<Refit> {
+    let mut all: Vec<Refit> = others.to_vec();
+    all.push(chosen.clone());
+    all.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+    best(&all)
+        .filter(|model| !same(&model.effects, &chosen.effects))
+        .cloned()
+}

@@ -1,0 +1,63 @@
+//! The recordings and how models are run: what every fit of a diagnosis needs.
+
+use super::descent::{Settings, descend};
+use super::motion::Motion;
+use super::refit::Refit;
+use crate::error::Error;
+use crate::fit::{self, Options};
+use crate::problem::Data;
+use crate::problem::simulate::Method;
+
+/// Of the linear motor.
+const BASE: Settings = Settings {
+    evaluations: 80,
+    tolerance: 1e-6,
+    stride: 1,
+    enough: 0.0,
+};
+
+/// The recordings and how models are run.
+pub struct Workshop<'a> {
+    /// Fitted.
+    pub data: &'a Data,
+    /// Never fitted.
+    pub held_out: &'a Data,
+    /// The fitted recording's motion.
+    pub motion: Motion,
+    /// How models are run at first.
+    pub method: Method,
+}
+
+impl<'a> Workshop<'a> {
+    /// Prepares. Models are run with one part to a sample, which [`polish`](Self::polish) refines where it
+    /// matters.
+    pub fn new(data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
+        Workshop {
+            data,
+            held_out,
+            motion: Motion::measured(data),
+            method: Method {
+                substeps: 1,
+                ..options.method
+            },
+        }
+    }
+
+    /// The linear motor.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] where no motor fits even roughly.
+    pub fn base(&self, options: &Options) -> Result<Refit, Error> {
+        let options = Options {
+            effects: Vec::new(),
+            method: self.method,
+            ..options.clone()
+        };
+        let problem = fit::problem(self.data, &options)?;
+        let start = problem.start.clone().unwrap_or_default();
+        let found = descend(&problem, &start, BASE)
+            .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
+        let foreseen = (found.squares / self.data.len() as f64).sqrt();
+        self.conclude(problem.structure, &found, foreseen, self.method)
+    }
+}
