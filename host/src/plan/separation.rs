@@ -30,7 +30,8 @@ pub struct Separation {
     pub truth: usize,
     /// Index of the hypothesis that was fitted to it.
     pub fitted: usize,
-    /// RMS error of the refit above the encoder's own, counts. Infinite before the first refit.
+    /// RMS error of the refit above the encoder's own, counts. Infinite before the first refit, and an
+    /// upper bound after it: the search is local, from a few starts.
     pub counts: f64,
     /// The fitted hypothesis with the values that imitate the truth best so far.
     pub imitation: Hypothesis,
