@@ -19,6 +19,12 @@ pub struct Settings {
     pub stride: usize,
     /// Sum of squares that nothing more is wanted of.
     pub enough: f64,
+    /// Damping of the first step. Where two unknowns do nearly the same, a strong one holds the search back
+    /// from the valley's floor.
+    pub damping: f64,
+    /// Whether the Jacobian is updated between differences. Near the end of a narrow valley an updated one is
+    /// not good enough.
+    pub secant: bool,
 }
 
 /// Where a search ended.
@@ -34,8 +40,8 @@ pub struct Descent {
 
 /// Step of the finite differences, as a share of the cube's side.
 const STEP: f64 = 1e-5;
-/// Damping: at the start, and between which it stays.
-const DAMPING: (f64, f64, f64) = (1e-3, 1e-12, 1e9);
+/// Damping stays between these.
+const DAMPING: (f64, f64) = (1e-12, 1e9);
 
 /// Distance from a wall at which a search that ended there is begun again, as a share of the cube's side.
 const INSIDE: f64 = 0.02;
@@ -87,7 +93,7 @@ impl<'a> Search<'a> {
             evaluations: 1,
             columns: Vec::new(),
             fresh: false,
-            damping: DAMPING.0,
+            damping: settings.damping,
         })
     }
 
@@ -114,10 +120,13 @@ impl<'a> Search<'a> {
                             break;
                         }
                         self.fresh = false;
+                        if !self.settings.secant {
+                            break;
+                        }
                     }
                     Outcome::Refused if self.fresh => {
                         self.damping *= 10.0;
-                        if self.damping > DAMPING.2 {
+                        if self.damping > DAMPING.1 {
                             return;
                         }
                     }
@@ -207,14 +216,16 @@ impl<'a> Search<'a> {
             return Outcome::Refused;
         }
         let residuals = thinned(residuals, self.settings.stride);
-        self.update(&free, &moved, &scale, &residuals);
+        if self.settings.secant {
+            self.update(&free, &moved, &scale, &residuals);
+        }
         if squares >= self.squares {
             return Outcome::Refused;
         }
         let made = 1.0 - squares / self.squares;
         let foreseen = foreseen / whole;
         self.damping = if made > 0.5 * foreseen {
-            (self.damping * 0.1).max(DAMPING.1)
+            (self.damping * 0.1).max(DAMPING.0)
         } else {
             self.damping
         };

@@ -102,8 +102,10 @@ fn sort(refits: &mut [Refit]) {
 
 /// Whether a sketch deserves a full fit, `best` being the best so far.
 fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
-    let foreseen = sketch.foreseen() / all.first().map_or(1.0, Sketch::foreseen).max(FLOOR);
     let Some(best) = best else { return true };
+    let least = all.first().map_or(1.0, Sketch::foreseen);
+    // What is led and what is simulated foresee with different errors: like is compared with like.
+    let foreseen = sketch.foreseen() / least.max(best.foreseen_rms_counts).max(FLOOR);
     let look_alike = best.effects.last().is_some_and(|kind| {
         let names = kind.description().look_alikes;
         sketch

@@ -189,14 +189,20 @@ fn levels(
 
 /// Models of a level whose fit is brought to its end before any more physics is blamed.
 const POLISHED: usize = 2;
+/// A model whose score is so far behind the best is not polished.
+const BEHIND: f64 = 1.0;
 
 /// Polishes the best models of a level that are not at the floor yet.
 fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
     if models.first().is_none_or(|model| model.judged().at_floor()) {
         return;
     }
+    let least = models.first().map_or(0.0, |model| model.judged().score());
     for model in models.iter_mut().take(POLISHED) {
-        // A model that cannot be polished stays as it is.
+        // A model that is far behind, or cannot be polished, stays as it is.
+        if model.judged().score() - least > BEHIND {
+            continue;
+        }
         if let Ok(polished) = workshop.polish(model) {
             *model = polished;
         }

@@ -18,13 +18,17 @@ const FULL: Settings = Settings {
     tolerance: 1e-3,
     stride: 2,
     enough: 0.0,
+    damping: 1e-6,
+    secant: true,
 };
 /// Of one that must converge.
 const LAST: Settings = Settings {
-    evaluations: 150,
-    tolerance: 1e-5,
+    evaluations: 120,
+    tolerance: 1e-4,
     stride: 1,
     enough: 0.0,
+    damping: 1e-9,
+    secant: false,
 };
 /// Of a stage with a short memory.
 const FADE: Settings = Settings {
@@ -32,6 +36,8 @@ const FADE: Settings = Settings {
     tolerance: 1e-2,
     stride: 4,
     enough: f64::INFINITY,
+    damping: 1e-4,
+    secant: true,
 };
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 3] = [0.02, 0.1, 0.5];
@@ -218,7 +224,10 @@ impl Workshop<'_> {
             let change = (rms_counts(self.data, &again) - best.rms_counts).abs().max(
                 (validate(self.held_out, &best.candidate, finer)? - best.validate_rms_counts).abs(),
             );
-            if best.judged().at_floor() || change < STEP_ERROR || finer.substeps > FINEST {
+            if best.judged().at_floor()
+                || change < STEP_ERROR * best.rms_counts.max(1.0)
+                || finer.substeps > FINEST
+            {
                 return Ok(best);
             }
             best.method = finer;
@@ -283,5 +292,6 @@ impl Workshop<'_> {
 const FINER: u16 = 4;
 /// Most parts to a sample.
 const FINEST: u16 = 16;
-/// A finer step that changes the RMS error by less is not worth its time, counts.
+/// A finer step that changes the RMS error by less is not worth its time: counts, or a part of a
+/// larger error.
 const STEP_ERROR: f64 = 0.02;

@@ -16,6 +16,8 @@ const SKETCH: Settings = Settings {
     tolerance: 1e-3,
     stride: 4,
     enough: f64::INFINITY,
+    damping: 1e-4,
+    secant: true,
 };
 
 /// A model that was fitted roughly.

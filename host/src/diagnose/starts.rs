@@ -43,6 +43,17 @@ pub fn starts(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Vec<Vec<f6
     }
 }
 
+/// Effects whose cost has several valleys: a parameter, and the shares of its typical value to start from.
+fn several(kind: Kind) -> Option<&'static [(usize, f64)]> {
+    match kind {
+        Kind::VoltageSat => Some(&[(0, 1.0), (0, 0.7), (0, 0.5)]),
+        Kind::Backlash => Some(&[(2, 1.0), (2, 0.3), (1, 0.4)]),
+        Kind::BrushDrop => Some(&[(1, 1.0), (1, 0.2)]),
+        Kind::Stribeck => Some(&[(2, 1.0), (2, 4.0)]),
+        _ => None,
+    }
+}
+
 /// Bristles slide as dry friction does: their torque starts at what dry friction alone would have. None
 /// where that explains little, since bristles cannot be led and cost much.
 fn friction(workshop: &Workshop<'_>, parent: &Refit, typical: &mut [f64]) -> Vec<Vec<f64>> {

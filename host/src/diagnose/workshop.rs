@@ -4,9 +4,10 @@ use super::descent::{Settings, descend};
 use super::motion::Motion;
 use super::refit::Refit;
 use crate::error::Error;
-use crate::fit::{self, Options};
-use crate::problem::Data;
+use crate::fit::{self, Options, base_for};
 use crate::problem::simulate::Method;
+use crate::problem::{Data, FitProblem, Structure};
+use shared::effects::Kind;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
@@ -14,6 +15,8 @@ const BASE: Settings = Settings {
     tolerance: 1e-6,
     stride: 1,
     enough: 0.0,
+    damping: 1e-9,
+    secant: false,
 };
 
 /// The recordings and how models are run.
@@ -53,11 +56,40 @@ impl<'a> Workshop<'a> {
             method: self.method,
             ..options.clone()
         };
-        let problem = fit::problem(self.data, &options)?;
+        let problem = self.base_problem(&options)?;
         let start = problem.start.clone().unwrap_or_default();
         let found = descend(&problem, &start, BASE)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
         let foreseen = (found.squares / self.data.len() as f64).sqrt();
         self.conclude(problem.structure, &found, foreseen, self.method)
+    }
+
+    /// The linear motor with a start. A strong offset hides the motor from regression: then it is found beside
+    /// one.
+    fn base_problem(&self, options: &Options) -> Result<FitProblem<'_>, Error> {
+        let plain = fit::problem(self.data, options);
+        let Err(error) = plain else { return plain };
+        let beside = Options {
+            effects: vec![Kind::OffsetVoltage],
+            ..options.clone()
+        };
+        let Ok(with_offset) = fit::problem(self.data, &beside) else {
+            return Err(error);
+        };
+        let start = with_offset.start.clone().unwrap_or_default();
+        let values = with_offset.structure.values(&start);
+        let candidate = with_offset.structure.candidate(&values);
+        let speed = with_offset.structure.start_speed;
+        let structure = Structure::around(
+            self.data,
+            base_for(self.data, &[]),
+            &[],
+            &candidate.machine,
+            speed,
+        );
+        let mut problem = self.problem(&structure, self.method);
+        let values = structure.values_of(&candidate.machine, &[], candidate.start_speed);
+        problem.start = Some(structure.coordinates(&values));
+        Ok(problem)
     }
 }

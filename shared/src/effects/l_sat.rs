@@ -18,7 +18,7 @@ impl<S: Scalar> Effect<S> for LSat<S> {
         parameters: &[Parameter::amplitude(
             "falloff",
             Quantity::PerSquareVolt,
-            (0.0, 1.25),
+            (0.0, 4.0),
             1.0,
         )],
         equation: "L = L0/(1 + k*(R*i)^2)",
