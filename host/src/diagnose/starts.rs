@@ -25,6 +25,14 @@ pub fn starts(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Vec<Vec<f6
     if kind == Kind::Lugre {
         return friction(workshop, parent, &mut typical);
     }
+    if let Some(shares) = several(kind) {
+        let at = |&(index, share): &(usize, f64)| {
+            let mut values = typical.clone();
+            values[index] *= share;
+            values
+        };
+        return shares.iter().map(at).collect();
+    }
     match parameters
         .iter()
         .position(|p| p.quantity == Quantity::PerRev)
