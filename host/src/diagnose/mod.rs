@@ -7,17 +7,21 @@
 
 mod descent;
 mod extend;
+pub mod holdout;
 mod judge;
 mod led;
 mod motion;
 mod orders;
 mod refit;
+mod settle;
 mod sketch;
 mod starts;
 mod swap;
 mod workshop;
 
+pub use holdout::HeldOut;
 pub use refit::{Errors, Refit};
+pub use settle::settle;
 
 use crate::error::Error;
 use crate::fit::Options;
@@ -86,6 +90,8 @@ pub struct Diagnosis {
     pub steps: Vec<Step>,
     /// The model with all of them.
     pub last: Refit,
+    /// Models with as many effects as the last one, and those in which one of its effects is another.
+    pub rivals: Vec<Refit>,
     /// The best candidate that was not added, if one reduced the error but not beyond doubt.
     pub not_named: Option<Kind>,
     /// What to do next, in words.
@@ -112,6 +118,7 @@ pub fn diagnose(
         base,
         verdict: Verdict::Complete,
         steps: Vec::new(),
+        rivals: Vec::new(),
         not_named: None,
         advice: Vec::new(),
     };
@@ -264,6 +271,7 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
         before = after.clone();
         diagnosis.last = after;
     }
+    diagnosis.rivals = known;
 }
 
 /// Whether a twentieth of the travel at least goes against the prevailing direction.

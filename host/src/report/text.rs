@@ -40,7 +40,7 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
     }
 }
 
-fn parameter(p: &Parameter, converged: bool) -> String {
+pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
     let value = match (p.std, p.identifiable) {
         (None, _) if !converged => {
             return format!(
@@ -156,7 +156,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
 }
 
 /// A remark, folded to 80 columns behind a dash.
-fn wrapped(note: &str) -> String {
+pub(super) fn wrapped(note: &str) -> String {
     const WIDTH: usize = 78;
     let mut out = String::from("-");
     let mut column = 1;
