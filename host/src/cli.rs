@@ -24,6 +24,7 @@ pub struct Cli {
 
 const EXAMPLES: &str = "Examples:
   servoid demo
+  servoid demo --hide cogging
   servoid simulate --machine gearmotor --hide coulomb --out bench.csv
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
   servoid fit bench.csv --with coulomb
@@ -49,7 +50,7 @@ pub struct Common {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
-    /// The main job on built-in data, in a few seconds
+    /// The main job on built-in data: fit, see it fail, name what is missing, add it
     Demo(DemoArgs),
     /// The virtual bench makes recordings
     Simulate(SimulateArgs),
@@ -76,6 +77,12 @@ pub struct DemoArgs {
     /// Where the page goes
     #[arg(long, default_value = "servoid-demo.html", value_name = "FILE")]
     pub out: PathBuf,
+    /// Hide this in the motor: a name, or name:key=value,key=value as in `simulate`
+    #[arg(long, default_value = "coulomb", value_name = "EFFECT")]
+    pub hide: String,
+    /// Hide something that the seed draws, and reveal it at the end
+    #[arg(long, conflicts_with = "hide")]
+    pub blind: bool,
 }
 
 /// `servoid simulate`.

@@ -2,9 +2,9 @@
 
 use super::motor;
 use crate::cli::DiagnoseArgs;
-use crate::diagnose::{self, HeldOut, holdout};
+use crate::diagnose::{self, HeldOut, holdout, pair, usable};
 use crate::error::Error;
-use crate::fit::Options;
+use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
@@ -18,6 +18,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         data,
         held_out,
         kind,
+        remarks,
     } = &recordings;
     let bar = session.progress(0, "diagnose");
     // How many models will be fitted shows only as they are.
@@ -32,12 +33,21 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let diagnosis = diagnosis?;
     let interrupted = session.stop().load(Ordering::Relaxed);
     let last = diagnose::settle(&diagnosis, data, held_out, &options, session.stop())?;
+    let mut remarks = remarks.clone();
+    if !interrupted {
+        let stop = session.stop();
+        remarks.extend(pair::remarks(
+            &diagnosis, data, held_out, kind, &options, stop,
+        )?);
+    }
+    let findings = diagnose::findings(&diagnosis, data, held_out)?;
     let report = DiagnosisReport {
         data,
         held_out: kind,
         diagnosis: &diagnosis,
         last: &last,
-        remarks: Vec::new(),
+        findings: &findings,
+        remarks,
         seed: session.seed,
         interrupted,
         json: session.json_file(),
@@ -49,6 +59,8 @@ struct Recordings {
     data: Data,
     held_out: Data,
     kind: HeldOut,
+    /// What was seen in them.
+    remarks: Vec<String>,
 }
 
 /// Reads what is fitted and what is held out.
@@ -59,6 +71,7 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
         seed: session.seed,
         ..Options::default()
     };
+    let mut remarks = usable::check(&recording)?;
     let Some(path) = &args.validate else {
         let (first, rest, kind) = holdout::cut(&recording).ok_or_else(|| {
             Error::Failed(format!(
@@ -74,20 +87,39 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
             data: Data::new(&first)?,
             held_out: Data::new(&rest)?,
             kind,
+            remarks,
         };
         return Ok((options, recordings));
     };
     let other = motor::recording(&args.motor, path)?.0;
+    remarks.extend(usable::check(&other)?);
     let copied = other.counts == recording.counts && other.command == recording.command;
     let kind = if copied || is_same_file(path, &args.recording) {
         HeldOut::Nothing
     } else {
         HeldOut::Recording(other.source.clone())
     };
+    if kind == HeldOut::Nothing {
+        remarks.clear();
+        remarks.extend(usable::check(&recording)?);
+        remarks.push(
+            "--validate is the recording itself: nothing is held out, and an effect that only bends itself to this one \
+             recording would not be found out"
+                .to_owned(),
+        );
+    }
+    let (data, held_out) = (Data::new(&recording)?, Data::new(&other)?);
+    for data in [&data, &held_out] {
+        if fit::is_reversed(data, &options) {
+            // The message with its remedy.
+            fit::problem(data, &options)?;
+        }
+    }
     let recordings = Recordings {
-        data: Data::new(&recording)?,
-        held_out: Data::new(&other)?,
+        data,
+        held_out,
         kind,
+        remarks,
     };
     Ok((options, recordings))
 }

@@ -5,20 +5,27 @@
 //! An effect is named only where the held-out error agrees; otherwise the verdict says that
 //! something is missing and that nothing in the catalogue explains it.
 
+pub mod advice;
 mod descent;
+pub mod evidence;
 mod extend;
+mod findings;
 pub mod holdout;
 mod judge;
 mod led;
 mod motion;
 mod orders;
+pub mod pair;
 mod refit;
 mod settle;
 mod sketch;
 mod starts;
 mod swap;
+pub mod usable;
+pub mod whereabouts;
 mod workshop;
 
+pub use findings::{Findings, findings};
 pub use holdout::HeldOut;
 pub use refit::{Errors, Refit};
 pub use settle::settle;
@@ -98,6 +105,14 @@ pub struct Diagnosis {
     pub advice: Vec<String>,
 }
 
+impl Diagnosis {
+    /// Whether the last model explains the fitted recording down to the encoder, and what was held out not.
+    pub fn fits_only_its_own(&self) -> bool {
+        let errors = self.last.judged();
+        errors.fitted < NOISE_COUNTS && errors.held_out >= NOISE_COUNTS
+    }
+}
+
 /// Diagnoses `data`, judging by `held_out`, which is never fitted.
 ///
 /// # Errors
@@ -142,7 +157,7 @@ pub fn diagnose(
                 .to_owned(),
         );
     }
-    advise(&mut diagnosis);
+    advice::advise(&mut diagnosis);
     Ok(diagnosis)
 }
 
@@ -286,34 +301,4 @@ fn moves_both_ways(data: &Data) -> bool {
         }
     }
     forward.min(backward) > 0.05 * (forward + backward)
-}
-
-fn advise(diagnosis: &mut Diagnosis) {
-    for step in &diagnosis.steps {
-        if step.indistinguishable_from.is_empty() {
-            continue;
-        }
-        let names: Vec<&str> = step
-            .indistinguishable_from
-            .iter()
-            .map(|kind| kind.name())
-            .collect();
-        diagnosis.advice.push(format!(
-            "{} and {} explain this recording alike; to separate them: {}",
-            step.added.name(),
-            names.join(", "),
-            step.added.description().exposed_by
-        ));
-    }
-    if diagnosis.verdict == Verdict::Unexplained {
-        diagnosis.advice.push(match diagnosis.not_named {
-            Some(kind) => format!(
-                "{} reduces the error most, but not beyond doubt: residual, not named",
-                kind.name()
-            ),
-            None => {
-                "no effect of the catalogue reduces the error on the held-out recording".to_owned()
-            }
-        });
-    }
 }

@@ -1,6 +1,7 @@
 //! Fitting a model to a recording: start from regression, search, and say what was learnt.
 
 mod filter;
+mod ladder;
 pub mod margins;
 pub mod physical;
 pub mod regression;
@@ -23,7 +24,8 @@ use shared::effects::{Kind, Place};
 use shared::motor::Machine;
 use std::sync::atomic::AtomicBool;
 
-pub use report::{Fit, Parameter};
+pub use ladder::ladder;
+pub use report::{Fit, Parameter, Rung};
 
 /// What to fit, and how.
 #[derive(Clone, Debug)]
@@ -115,13 +117,19 @@ fn check(data: &Data, options: &Options) -> Result<(), Error> {
     }
 }
 
-/// Why no regression gave a machine.
-fn no_motor(data: &Data, options: &Options) -> Error {
+/// Whether the motor is one only with the sign of its angle turned.
+pub fn is_reversed(data: &Data, options: &Options) -> bool {
     let mut reversed = data.clone();
     for count in &mut reversed.counts {
         *count = -*count;
     }
-    let reason = if candidate_problem(&reversed, options, false).is_some() {
+    candidate_problem(data, options, false).is_none()
+        && candidate_problem(&reversed, options, false).is_some()
+}
+
+/// Why no regression gave a machine.
+fn no_motor(data: &Data, options: &Options) -> Error {
+    let reason = if is_reversed(data, options) {
         "the angle falls where the voltage should raise it: the sign of the angle (or of the voltage) is \
          reversed; swap the encoder's channels or negate the column"
     } else if options.method.discretisation == Discretisation::Euler {

@@ -83,8 +83,16 @@ pub struct FitJson {
     converged: bool,
     effective_samples: f64,
     notes: Vec<String>,
+    ladder: Vec<RungJson>,
     interrupted: bool,
     version: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct RungJson {
+    added: Option<&'static str>,
+    rms_counts: Option<f64>,
+    validate_rms_counts: Option<f64>,
 }
 
 impl From<&Fit> for FitJson {
@@ -117,6 +125,13 @@ impl From<&Fit> for FitJson {
             converged: fit.converged,
             effective_samples: fit.effective_samples,
             notes: fit.notes.clone(),
+            ladder: (fit.ladder.iter())
+                .map(|rung| RungJson {
+                    added: rung.added,
+                    rms_counts: finite(rung.rms_counts),
+                    validate_rms_counts: rung.validate_rms_counts.and_then(finite),
+                })
+                .collect(),
             interrupted: fit.interrupted,
             version: env!("CARGO_PKG_VERSION"),
         }

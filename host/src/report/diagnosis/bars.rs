@@ -26,8 +26,8 @@ pub fn counts(rms: f64) -> String {
     }
 }
 
-/// The error ladder: a line for each model with its error where it was fitted, its error on what was held out,
-/// and a bar for the latter.
+/// The error ladder: a line for each model with its error where it was fitted, its error on what was held out
+/// (not a number where nothing was), and a bar for the latter.
 pub fn ladder(rungs: &[(String, f64, f64)]) -> String {
     let errors = rungs.iter().flat_map(|rung| [rung.1, rung.2]);
     let most = errors.filter(|rms| rms.is_finite()).fold(0.0, f64::max);
@@ -36,11 +36,16 @@ pub fn ladder(rungs: &[(String, f64, f64)]) -> String {
         "error ladder", "fitted", "held out"
     );
     for (name, fitted, held_out) in rungs {
+        let shown = if held_out.is_finite() {
+            *held_out
+        } else {
+            *fitted
+        };
         let line = format!(
             "  {name:26}{:>10}{:>11}   {}",
             counts(*fitted),
             counts(*held_out),
-            bar(*held_out, most)
+            bar(shown, most)
         );
         out += line.trim_end();
         out.push('\n');

@@ -1,5 +1,6 @@
 //! `servoid.diagnosis/1`. Keys are only ever added.
 
+use super::whereabouts::{ResidualJson, WhereJson};
 use super::{DiagnosisReport, Role};
 use crate::diagnose::{HeldOut, Refit, Step};
 use crate::report::json::ParameterJson;
@@ -7,7 +8,7 @@ use serde::Serialize;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// A number, or null where there is none.
-fn finite(x: f64) -> Option<f64> {
+pub(super) fn finite(x: f64) -> Option<f64> {
     Some(x).filter(|x| x.is_finite())
 }
 
@@ -25,7 +26,9 @@ pub struct DiagnosisJson {
     not_named: Option<&'static str>,
     advice: Vec<String>,
     next_command: Option<String>,
+    cannot_tell: Vec<String>,
     remarks: Vec<String>,
+    residual: ResidualJson,
     held_out: HeldOutJson,
     models: Vec<ModelJson>,
     supply_v: f64,
@@ -62,6 +65,8 @@ struct StepJson {
     foreseen_rms_counts: Option<f64>,
     tracked: Option<TrackedJson>,
     evidence: String,
+    #[serde(rename = "where")]
+    whereabouts: Option<WhereJson>,
     candidates: Vec<CandidateJson>,
 }
 
@@ -152,7 +157,9 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             not_named: diagnosis.not_named.map(|kind| kind.name()),
             advice: report.advice(),
             next_command: report.next_command(),
+            cannot_tell: report.cannot_tell(),
             remarks: report.remarks.clone(),
+            residual: ResidualJson::from(report.findings),
             held_out: held_out(report.held_out),
             models: report.models().iter().map(model).collect(),
             supply_v: report.data.supply,
@@ -182,6 +189,9 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         foreseen_rms_counts: of(|refit| refit.foreseen_rms_counts),
         tracked: after.and_then(tracked),
         evidence: report.evidence(index),
+        whereabouts: (report.findings.steps.get(index))
+            .and_then(Option::as_ref)
+            .map(WhereJson::from),
         candidates: (step.candidates.iter().zip(&step.p_values))
             .map(|(refit, p_value)| candidate(refit, *p_value))
             .collect(),

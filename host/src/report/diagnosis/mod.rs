@@ -1,15 +1,17 @@
 //! A diagnosis as text and as JSON.
 
-mod bars;
+pub(super) mod bars;
 mod evidence;
 mod json;
 mod text;
 mod verdict;
+mod whereabouts;
 
 pub use json::DiagnosisJson;
 
 use crate::bench::Machine;
-use crate::diagnose::{Diagnosis, HeldOut, Refit, Step, Verdict};
+use crate::diagnose::advice::cannot_tell;
+use crate::diagnose::{Diagnosis, Findings, HeldOut, Refit, Step, Verdict};
 use crate::fit::Fit;
 use crate::plan::Hypothesis;
 use crate::problem::Data;
@@ -27,6 +29,8 @@ pub struct DiagnosisReport<'a> {
     pub diagnosis: &'a Diagnosis,
     /// Its last model, fitted to its end.
     pub last: &'a Fit,
+    /// Where the models fail.
+    pub findings: &'a Findings,
     /// What a user should know about the two recordings.
     pub remarks: Vec<String>,
     /// Seed of everything random.
@@ -120,6 +124,27 @@ impl DiagnosisReport<'_> {
             });
         }
         advice
+    }
+
+    /// What these recordings cannot tell, whatever the verdict.
+    fn cannot_tell(&self) -> Vec<String> {
+        let knows_torque = self.last.parameters.iter().any(|p| p.name == "kt");
+        cannot_tell(self.data, self.held_out, knows_torque)
+    }
+
+    /// Titles of the effects that were added; `None` for none.
+    pub fn names(&self) -> Option<String> {
+        (!self.diagnosis.steps.is_empty()).then(|| self.titles())
+    }
+
+    /// Where the linear motor fails, as a table.
+    pub fn where_text(&self) -> String {
+        let first = self.findings.steps.first().and_then(Option::as_ref);
+        format!(
+            "the linear motor misses the recording by {} counts RMS; where:\n{}",
+            bars::counts(self.diagnosis.base.rms_counts),
+            whereabouts::table(first.unwrap_or(&self.findings.base))
+        )
     }
 
     /// Effects of the last model.

@@ -1,8 +1,9 @@
 //! A diagnosis as text for a terminal of 80 columns.
 
 use super::bars::counts;
+use super::whereabouts::{table, whiteness_text};
 use super::{DiagnosisReport, names};
-use crate::diagnose::{HeldOut, Step};
+use crate::diagnose::{HeldOut, Step, Verdict};
 use crate::report::text::{parameter, wrapped};
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
@@ -30,9 +31,24 @@ impl DiagnosisReport<'_> {
         for index in 0..self.diagnosis.steps.len() {
             self.step(out, index)?;
         }
+        if self.verdict() == Verdict::Unexplained {
+            let (what, found) = if self.diagnosis.fits_only_its_own() {
+                ("on what was held out", &self.findings.held_out)
+            } else {
+                ("on the fitted recording", &self.findings.last)
+            };
+            writeln!(out, "\nwhere the last model fails, {what}")?;
+            out.push_str(&table(found));
+        }
+        let white = whiteness_text(self.findings.last_whiteness.as_ref());
+        writeln!(out, "\n{}", folded(&white, ""))?;
         self.parameters(out)?;
         for remark in &self.remarks {
             out.push_str(&wrapped(remark));
+        }
+        writeln!(out, "\nwhat these recordings cannot tell:")?;
+        for text in self.cannot_tell() {
+            out.push_str(&wrapped(&text));
         }
         let advice = self.advice();
         if !advice.is_empty() {
@@ -135,7 +151,11 @@ impl DiagnosisReport<'_> {
                 )?;
             }
         }
-        say("confidence", &format!("{:.2}", step.confidence))
+        say("confidence", &format!("{:.2}", step.confidence))?;
+        if let Some(found) = self.findings.steps.get(index).and_then(Option::as_ref) {
+            out.push_str(&table(found));
+        }
+        Ok(())
     }
 
     /// Other effects that explain the data as well.

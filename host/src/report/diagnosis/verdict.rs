@@ -2,6 +2,7 @@
 
 use super::bars::counts;
 use super::{DiagnosisReport, names};
+use crate::diagnose::evidence::largest;
 use crate::diagnose::{HeldOut, Verdict};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -28,7 +29,19 @@ impl DiagnosisReport<'_> {
                 counts(fitted),
                 counts(held_out),
                 self.where_held_out(),
-                self.look_alikes_text()
+                self.chaos_text() + &self.look_alikes_text()
+            ),
+            Verdict::Unexplained if diagnosis.fits_only_its_own() => format!(
+                "{} explains the recording that it was fitted to down to the encoder ({} counts RMS), but errs by {} \
+                 counts {}. The two are not of one motor in one state, or the second shows what the first does not{}.",
+                match self.names() {
+                    Some(names) => format!("The linear motor with {names}"),
+                    None => "The linear motor".to_owned(),
+                },
+                counts(fitted),
+                counts(held_out),
+                self.where_held_out(),
+                largest(&self.findings.held_out).map_or(String::new(), |text| format!(": {text}"))
             ),
             Verdict::Unexplained => {
                 let begins = match diagnosis.steps.len() {
@@ -41,10 +54,12 @@ impl DiagnosisReport<'_> {
                 };
                 format!(
                     "{begins} ({} {}), and no effect of the catalogue explains the rest, which is {:.0} times what the \
-                     encoder alone leaves.",
+                     encoder alone leaves.{}",
                     counts(held_out),
                     self.where_held_out(),
-                    fitted.max(held_out) / FLOOR_RMS_COUNTS
+                    fitted.max(held_out) / FLOOR_RMS_COUNTS,
+                    largest(&self.findings.last)
+                        .map_or(String::new(), |text| format!(" Of what is left, {text}."))
                 )
             }
             Verdict::Inconclusive if self.interrupted => format!(
@@ -74,7 +89,7 @@ impl DiagnosisReport<'_> {
     }
 
     /// Titles of the effects that were added.
-    fn titles(&self) -> String {
+    pub(super) fn titles(&self) -> String {
         let title = |kind: Kind| format!("{} ({})", kind.description().title, kind.name());
         let titles: Vec<String> = self
             .diagnosis
@@ -83,6 +98,19 @@ impl DiagnosisReport<'_> {
             .map(|s| title(s.added))
             .collect();
         titles.join(" and ")
+    }
+
+    /// By what a model was judged whose free runs part from the motor at a whim.
+    fn chaos_text(&self) -> String {
+        let tracked = self.diagnosis.last.tracked;
+        tracked.map_or(String::new(), |errors| {
+            format!(
+                " A free run is chaotic here, so the model was judged with errors that are soon forgotten: {} counts \
+                 fitted, {} held out.",
+                counts(errors.fitted),
+                counts(errors.held_out)
+            )
+        })
     }
 
     fn look_alikes_text(&self) -> String {
