@@ -235,29 +235,36 @@ pub fn search(
 /// Error of a fitted model on another recording, whose start angle and speed are its own: RMS in
 /// counts over the whole of it.
 pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
+    let run = |start_speed: f64, start_offset: f64| {
+        let candidate = Candidate {
+            start_speed,
+            start_offset,
+            ..*candidate
+        };
+        let (whole, free) = (Horizon::Whole, StartAngle::Free);
+        errors(data, &candidate, method, &whole, free, Cost::Squared)
+            .map(|errors| rms_counts(data, &errors))
+    };
     // At rest or in motion, whichever the recording agrees with better.
     let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
         * core::f64::consts::TAU;
-    let starts: &[f64] = if may_start_moving(data) {
-        &[0.0, now]
-    } else {
-        &[0.0]
-    };
-    let mut best = f64::INFINITY;
-    for &start_speed in starts {
-        let candidate = Candidate {
-            start_speed,
-            ..*candidate
-        };
-        let errors = errors(
-            data,
-            &candidate,
-            method,
-            &Horizon::Whole,
-            StartAngle::Free,
-            Cost::Squared,
-        )?;
-        best = best.min(rms_counts(data, &errors));
+    let mut best = (run(0.0, 0.0)?, 0.0);
+    if may_start_moving(data) {
+        let moving = run(now, 0.0)?;
+        if moving < best.0 {
+            best = (moving, now);
+        }
     }
-    Ok(best)
+    let (rms, start_speed) = best;
+    if !candidate.needs_angle() || !data.quantised || rms < START_UNNOTICED {
+        return Ok(rms);
+    }
+    Ok(START_OFFSETS.iter().fold(rms, |least, &offset| {
+        run(start_speed, offset).map_or(least, |rms| rms.min(least))
+    }))
 }
+
+/// Errors below this many counts need no better start.
+const START_UNNOTICED: f64 = 0.3;
+/// Places within the first cell that are tried, counts from its middle.
+const START_OFFSETS: [f64; 8] = [-0.4, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.4];
