@@ -120,6 +120,7 @@ fn printed_costs(data: &Data) -> Vec<PrintedCosts> {
                 machine: column.machine(),
                 effects: EffectSet::default(),
                 start_speed: 0.0,
+                start_offset: 0.0,
             };
             let ours = Variant::all()
                 .map(|variant| paper::paper_problem(data, variant, paper::BOX).cost_of(&candidate))

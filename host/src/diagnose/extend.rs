@@ -8,7 +8,7 @@ use shared::effects::{Kind, MAX_EFFECTS};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most refits of one call.
-const MOST_REFITS: usize = 8;
+const MOST_REFITS: usize = 6;
 /// Sketches within this factor of the best are refitted in any case.
 const CLOSE: f64 = 1.5;
 /// Beyond this factor of the best they are not, but for look-alikes of the best.
@@ -48,15 +48,33 @@ pub fn extend(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
-    let mut sketches: Vec<Sketch> = sets(parents)
-        .par_iter()
-        .filter(|_| !stop.load(Ordering::Relaxed))
-        .filter_map(|&(parent, kind)| {
-            let sketch = workshop.sketch(parents[parent], kind);
-            done();
-            sketch
-        })
-        .collect();
+    let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents)
+        .into_iter()
+        .partition(|(_, kind)| *kind != Kind::Lugre);
+    let sketch_all = |sets: &[(usize, Kind)], dry: &[Sketch]| -> Vec<Sketch> {
+        sets.par_iter()
+            .filter(|_| !stop.load(Ordering::Relaxed))
+            .filter_map(|&(parent, kind)| {
+                let sketch = workshop.sketch(parents[parent], kind, dry);
+                done();
+                sketch
+            })
+            .collect()
+    };
+    let mut sketches = sketch_all(&plain, &[]);
+    // Bristles cannot be led and cost much: they are tried where dry friction comes near the best.
+    let least = sketches
+        .iter()
+        .map(Sketch::foreseen)
+        .fold(f64::INFINITY, f64::min);
+    let dry = |sketch: &Sketch| {
+        matches!(sketch.newest(), Some(Kind::Coulomb | Kind::Stribeck))
+            && sketch.foreseen() < NEAR_DRY * least.max(FLOOR)
+    };
+    if sketches.iter().any(dry) {
+        let more = sketch_all(&bristles, &sketches);
+        sketches.extend(more);
+    }
     sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
     refits(workshop, &sketches, stop, done)
 }
@@ -120,5 +138,7 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
     }
 }
 
+/// Dry friction is near the best if what it leaves is within this factor.
+const NEAR_DRY: f64 = 3.0;
 /// Errors that are foreseen below this many counts are as good as each other.
 const FLOOR: f64 = 0.35;

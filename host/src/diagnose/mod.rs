@@ -42,6 +42,8 @@ use workshop::Workshop;
 const MOST_STEPS: usize = 4;
 /// Models of one level that the next one builds on.
 const BEAM: usize = 3;
+/// A model whose score is so far behind the best of its level is not built on.
+const BEAM_WIDTH: f64 = 2.0;
 /// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
 /// whose readings dwell in one part of their cells.
 pub const NOISE_COUNTS: f64 = 0.33;
@@ -188,7 +190,12 @@ fn levels(
     {
         let parents: Vec<&Refit> = match levels.last() {
             None => vec![base],
-            Some(level) => level.models.iter().take(BEAM).collect(),
+            Some(level) => {
+                let near = |model: &&Refit| {
+                    model.judged().score() - level.models[0].judged().score() < BEAM_WIDTH
+                };
+                level.models.iter().take(BEAM).filter(near).collect()
+            }
         };
         let mut models = extend(workshop, &parents, stop, done);
         polish_best(workshop, &mut models);

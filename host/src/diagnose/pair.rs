@@ -41,21 +41,21 @@ pub fn remarks(
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<Vec<String>, Error> {
-    let mut remarks = Vec::new();
     let last = &diagnosis.last;
-    if !last.effects.contains(&Kind::MissedCounts) {
-        let own = scores::whole(data, &last.candidate, last.method)?;
-        remarks.extend(jumps(data, &own));
-        let other = fit::validation_errors(held_out, &last.candidate, last.method)?;
-        remarks.extend(jumps(held_out, &other));
-    }
     let strange = last.validate_rms_counts > STRANGE * last.rms_counts.max(NOISE_COUNTS);
-    if strange && *kind != HeldOut::Nothing {
-        remarks.extend(another_motor(
-            diagnosis, data, held_out, kind, options, stop,
-        ));
+    if strange
+        && *kind != HeldOut::Nothing
+        && let Some(remark) = another_motor(diagnosis, data, held_out, kind, options, stop)
+    {
+        return Ok(vec![remark]);
     }
-    Ok(remarks)
+    if last.effects.contains(&Kind::MissedCounts) {
+        return Ok(Vec::new());
+    }
+    let own = scores::whole(data, &last.candidate, last.method)?;
+    let other = fit::validation_errors(held_out, &last.candidate, last.method)?;
+    let found = [jumps(data, &own), jumps(held_out, &other)];
+    Ok(found.into_iter().flatten().collect())
 }
 
 /// Whether one kind of model explains each recording by itself, with constants that differ.

@@ -40,9 +40,15 @@ const FADE: Settings = Settings {
     secant: true,
 };
 /// How long errors are remembered, stage by stage.
-const MEMORIES_S: [f64; 3] = [0.02, 0.1, 0.5];
+const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
+/// A stage that leaves so many times the error of the one before has lost its way.
+const ASTRAY: f64 = 2.0;
 /// A simulation whose error is so many times the led one's has lost its way.
 const LOST: f64 = 3.0;
+/// The same while they are polished.
+const POLISHED_MEMORY_S: f64 = 0.5;
+/// Tracked scores this near are as good as each other.
+const AS_GOOD: f64 = 0.04;
 /// How long an error is remembered where free runs are chaotic and models are judged nevertheless.
 const JUDGED_MEMORY_S: f64 = 0.1;
 
@@ -77,6 +83,8 @@ pub struct Refit {
     pub candidate: Candidate,
     /// The unknowns.
     pub structure: Structure,
+    /// Where it stands in the unknowns' unit cube.
+    pub x: Vec<f64>,
     /// Values of the effects' parameters, SI.
     pub parameters: Vec<f64>,
     /// RMS error on the fitted recording, open loop, counts.
@@ -109,15 +117,6 @@ impl Refit {
             _ => self.free(),
         }
     }
-
-    /// Point of the unit cube where it stands.
-    pub fn coordinates(&self) -> Vec<f64> {
-        self.structure.coordinates(&self.structure.values_of(
-            &self.candidate.machine,
-            &self.parameters,
-            self.candidate.start_speed,
-        ))
-    }
 }
 
 impl Workshop<'_> {
@@ -126,28 +125,39 @@ impl Workshop<'_> {
     /// # Errors
     /// [`Error::Failed`] where the model cannot run from there.
     pub fn refit(&self, sketch: &Sketch) -> Result<Refit, Error> {
-        // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
-        let lost = sketch.simulated > LOST * sketch.led.max(NOISE_COUNTS);
-        let start = if lost {
-            self.fade(&sketch.structure, &sketch.x)
-        } else {
-            sketch.x.clone()
-        };
         let settings = Settings {
             enough: NOISE_COUNTS * NOISE_COUNTS * self.data.len() as f64,
             ..FULL
         };
-        let found = self.descend(&sketch.structure, &start, settings, self.method)?;
-        let mut refit = self.conclude(
-            sketch.structure.clone(),
-            &found,
-            sketch.foreseen(),
-            self.method,
-        )?;
-        if lost && !refit.free().at_floor() {
-            self.track(&mut refit)?;
+        let foreseen = sketch.foreseen();
+        let fit = |start: &[f64]| {
+            let found = self.descend(&sketch.structure, start, settings, self.method)?;
+            self.conclude(sketch.structure.clone(), &found, foreseen, self.method)
+        };
+        // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
+        if sketch.simulated <= LOST * sketch.led.max(NOISE_COUNTS) {
+            return fit(&sketch.x);
         }
-        Ok(refit)
+        let faded = self.fade(&sketch.structure, &sketch.x);
+        let mut free = fit(&faded)?;
+        if free.free().at_floor() {
+            return Ok(free);
+        }
+        // A free run that is chaotic leads the search astray; then what the observer learnt stands.
+        let stand = Descent {
+            squares: 0.0,
+            evaluations: free.evaluations,
+            x: faded,
+        };
+        let mut faded = self.conclude(sketch.structure.clone(), &stand, foreseen, self.method)?;
+        self.track(&mut free)?;
+        self.track(&mut faded)?;
+        let tracked = |refit: &Refit| refit.tracked.map_or(f64::INFINITY, |errors| errors.score());
+        Ok(if tracked(&free) < tracked(&faded) + AS_GOOD {
+            free
+        } else {
+            faded
+        })
     }
 
     /// Adds the errors that are soon forgotten.
@@ -160,6 +170,7 @@ impl Workshop<'_> {
                 data,
                 &Candidate {
                     start_speed: 0.0,
+                    start_offset: 0.0,
                     ..refit.candidate
                 },
                 refit.method,
@@ -180,14 +191,21 @@ impl Workshop<'_> {
     /// free run only when it is near.
     fn fade(&self, structure: &Structure, x: &[f64]) -> Vec<f64> {
         let mut x = x.to_vec();
+        let mut last = f64::INFINITY;
         for memory_s in MEMORIES_S {
             let problem = FitProblem {
                 horizon: Horizon::Nudged(memory_s),
                 ..self.problem(structure, self.method)
             };
-            if let Some(found) = descend(&problem, &x, FADE) {
-                x = found.x;
+            let Some(found) = descend(&problem, &x, FADE) else {
+                break;
+            };
+            let rms = (found.squares / self.data.len() as f64).sqrt();
+            if rms > ASTRAY * last.max(NOISE_COUNTS) {
+                break;
             }
+            last = rms;
+            x = found.x;
         }
         x
     }
@@ -201,7 +219,16 @@ impl Workshop<'_> {
         let mut best = refit.clone();
         loop {
             let method = best.method;
-            let found = self.descend(&best.structure, &best.coordinates(), LAST, method)?;
+            let problem = FitProblem {
+                horizon: match best.tracked {
+                    Some(_) => Horizon::Nudged(POLISHED_MEMORY_S),
+                    None => Horizon::Whole,
+                },
+                ..self.problem(&best.structure, method)
+            };
+            let Some(found) = descend(&problem, &best.x, LAST) else {
+                return Ok(best);
+            };
             let polished = self.conclude(
                 best.structure.clone(),
                 &found,
@@ -278,6 +305,7 @@ impl Workshop<'_> {
             parameters: structure.effect_values(&values).to_vec(),
             candidate,
             structure,
+            x: found.x.clone(),
             rms_counts: rms_counts(self.data, &whole),
             validate_rms_counts: validate(self.held_out, &candidate, method)?,
             tracked: None,

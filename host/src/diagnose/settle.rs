@@ -7,7 +7,7 @@ use crate::problem::{Data, FitProblem, Horizon, StartAngle};
 use crate::solve::levenberg_marquardt::LevenbergMarquardt;
 use crate::solve::{Found, Objective};
 use shared::cost::Cost;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Evaluations for the end of a fit that stands near its minimum.
 const BUDGET: usize = 400;
@@ -31,7 +31,7 @@ pub fn settle(
         budget: BUDGET,
         ..options.clone()
     };
-    let start = last.coordinates();
+    let start = last.x.clone();
     let problem = FitProblem {
         data,
         structure: last.structure.clone(),
@@ -42,17 +42,19 @@ pub fn settle(
         method: last.method,
         start: Some(start.clone()),
     };
-    let found = if last.tracked.is_some() {
-        Found {
-            cost: problem.cost(&start),
-            x: start,
-            evaluations: 0,
-            curve: Vec::new(),
-            interrupted: false,
-        }
-    } else {
-        let solver = LevenbergMarquardt::default();
-        fit::search(&problem, &solver, &options, stop, &mut |_, _| {})
-    };
+    let stays = last.tracked.is_some() || stop.load(Ordering::Relaxed);
+    let found = (!stays)
+        .then(|| {
+            let solver = LevenbergMarquardt::default();
+            fit::search(&problem, &solver, &options, stop, &mut |_, _| {})
+        })
+        .filter(|found| found.cost.is_finite());
+    let found = found.unwrap_or_else(|| Found {
+        cost: problem.cost(&start),
+        x: start,
+        evaluations: 0,
+        curve: Vec::new(),
+        interrupted: false,
+    });
     Fit::conclude(&problem, "lm", "squared", &found, &options, Some(held_out))
 }

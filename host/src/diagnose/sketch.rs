@@ -12,13 +12,16 @@ use crate::problem::cost::rms_counts;
 use shared::effects::Kind;
 
 const SKETCH: Settings = Settings {
-    evaluations: 60,
-    tolerance: 1e-3,
+    evaluations: 40,
+    tolerance: 5e-3,
     stride: 4,
     enough: f64::INFINITY,
     damping: 1e-4,
     secant: true,
 };
+
+/// An effect that cannot be led, and leaves more than this part of the error from its first start, gets no other.
+const PROMISING: f64 = 0.9;
 
 /// A model that was fitted roughly.
 pub struct Sketch {
@@ -46,7 +49,9 @@ impl Sketch {
 
 impl Workshop<'_> {
     /// The model `parent` with `kind` added.
-    pub fn sketch(&self, parent: &Refit, kind: Kind) -> Option<Sketch> {
+    ///
+    /// `dry` are sketches of dry friction, from which bristles start.
+    pub fn sketch(&self, parent: &Refit, kind: Kind, dry: &[Sketch]) -> Option<Sketch> {
         let mut effects = parent.effects.clone();
         effects.push(kind);
         let structure = Structure::around(
@@ -57,7 +62,7 @@ impl Workshop<'_> {
             parent.structure.start_speed,
         );
         let mut best: Option<Sketch> = None;
-        for start in starts(self, parent, kind) {
+        for start in starts(self, parent, kind, dry) {
             let mut parameters = parent.parameters.clone();
             parameters.extend(start);
             let x = structure.coordinates(&structure.values_of(
@@ -73,6 +78,11 @@ impl Workshop<'_> {
                 .is_none_or(|b| sketch.foreseen() < b.foreseen())
             {
                 best = Some(sketch);
+            }
+            // Further starts are for effects that promise something from the first one, or that do nothing there.
+            let leaves = best.as_ref().map_or(1.0, Sketch::foreseen) / parent.rms_counts;
+            if !follows(kind) && leaves > PROMISING {
+                break;
             }
         }
         best

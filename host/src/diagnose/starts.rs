@@ -2,6 +2,7 @@
 
 use super::orders;
 use super::refit::Refit;
+use super::sketch::Sketch;
 use super::workshop::Workshop;
 use shared::effects::Kind;
 use shared::units::Quantity;
@@ -12,7 +13,12 @@ const LINES: usize = 3;
 const AMPLITUDE: f64 = 0.5;
 
 /// Starts for the parameters of `kind`, SI, beside the model `parent`.
-pub fn starts(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Vec<Vec<f64>> {
+pub fn starts(
+    workshop: &Workshop<'_>,
+    parent: &Refit,
+    kind: Kind,
+    dry: &[Sketch],
+) -> Vec<Vec<f64>> {
     let data = workshop.data;
     let parameters = kind.description().parameters;
     let mut typical: Vec<f64> = parameters
@@ -23,7 +29,7 @@ pub fn starts(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Vec<Vec<f6
         })
         .collect();
     if kind == Kind::Lugre {
-        return friction(workshop, parent, &mut typical);
+        return bristles(parent, &typical, dry);
     }
     if let Some(shares) = several(kind) {
         let at = |&(index, share): &(usize, f64)| {
@@ -62,23 +68,25 @@ fn several(kind: Kind) -> Option<&'static [(usize, f64)]> {
     }
 }
 
-/// Bristles slide as dry friction does: their torque starts at what dry friction alone would have. None
-/// where that explains little, since bristles cannot be led and cost much.
-fn friction(workshop: &Workshop<'_>, parent: &Refit, typical: &mut [f64]) -> Vec<Vec<f64>> {
-    if parent.effects.contains(&Kind::Coulomb) {
-        return Vec::new();
-    }
-    let Some(dry) = workshop.sketch(parent, Kind::Coulomb) else {
-        return Vec::new();
+/// Bristles slide as dry friction does: their torque, and what they hold more at rest, start at what dry
+/// friction alone would have.
+fn bristles(parent: &Refit, typical: &[f64], dry: &[Sketch]) -> Vec<Vec<f64>> {
+    let of_parent = |sketch: &&Sketch| sketch.structure.effects.starts_with(&parent.effects);
+    let best = |kind: Kind| {
+        dry.iter()
+            .filter(of_parent)
+            .find(|sketch| sketch.newest() == Some(kind))
     };
-    if dry.foreseen() > EXPLAINS * parent.rms_counts {
-        return Vec::new();
+    let own = |sketch: &Sketch, count: usize| {
+        let values = sketch.structure.values(&sketch.x);
+        let values = sketch.structure.effect_values(&values);
+        values[values.len().saturating_sub(count)..].to_vec()
+    };
+    let mut starts = Vec::new();
+    if let Some(sketch) = best(Kind::Coulomb) {
+        let mut values = typical.to_vec();
+        values[..1].copy_from_slice(&own(sketch, 1));
+        starts.push(values);
     }
-    let values = dry.structure.values(&dry.x);
-    let torque = dry.structure.effect_values(&values).last().copied();
-    typical[0] = torque.unwrap_or(typical[0]);
-    vec![typical.to_vec()]
+    starts
 }
-
-/// Part of the error that dry friction must at most leave for bristles to be tried.
-const EXPLAINS: f64 = 0.5;

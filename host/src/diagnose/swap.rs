@@ -23,7 +23,7 @@ pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refi
             {
                 return None;
             }
-            workshop.refit(&workshop.sketch(&without, kind)?).ok()
+            workshop.refit(&workshop.sketch(&without, kind, &[])?).ok()
         })
         .collect()
 }

@@ -9,12 +9,13 @@ mod remarks;
 pub mod report;
 pub mod scores;
 pub mod uncertainty;
+mod validate;
 
 use crate::error::Error;
 use crate::input::Known;
-use crate::problem::cost::{Horizon, errors, rms_counts};
+use crate::problem::cost::Horizon;
 use crate::problem::simulate::Method;
-use crate::problem::{Base, Candidate, Data, FitProblem, StartAngle, Structure};
+use crate::problem::{Base, Data, FitProblem, StartAngle, Structure};
 use crate::recording::Drive;
 use crate::solve::nelder_mead::NelderMead;
 use crate::solve::{Evaluator, Found, Objective, Solver};
@@ -26,6 +27,7 @@ use std::sync::atomic::AtomicBool;
 
 pub use ladder::ladder;
 pub use report::{Fit, Parameter, Rung};
+pub use validate::{validate, validation_errors};
 
 /// What to fit, and how.
 #[derive(Clone, Debug)]
@@ -238,66 +240,4 @@ pub fn search(
         polish.search(&mut evaluator, options.seed);
     }
     evaluator.finish()
-}
-
-/// Error of a fitted model on another recording, whose start angle and speed are its own: RMS in
-/// counts over the whole of it.
-pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
-    Ok(rms_counts(
-        data,
-        &validation_errors(data, candidate, method)?,
-    ))
-}
-
-/// Step of the start speed by which its effect is measured, as a part of the fastest.
-const SPEED_STEP: f64 = 0.01;
-
-/// Model minus reading on another recording, as in [`validate`]: from rest or in motion, whichever the
-/// recording agrees with better.
-pub fn validation_errors(
-    data: &Data,
-    candidate: &Candidate,
-    method: Method,
-) -> Result<Vec<f64>, Error> {
-    let run = |start_speed: f64| {
-        let candidate = Candidate {
-            start_speed,
-            ..*candidate
-        };
-        errors(
-            data,
-            &candidate,
-            method,
-            &Horizon::Whole,
-            StartAngle::Free,
-            Cost::Squared,
-        )
-    };
-    let mut best = run(0.0)?;
-    if !may_start_moving(data) {
-        return Ok(best);
-    }
-    let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
-        * core::f64::consts::TAU;
-    let step = SPEED_STEP * data.units.speed;
-    let (here, ahead) = (run(now)?, run(now + step)?);
-    // A few readings tell the speed roughly; the whole recording tells it by least squares, since errors are
-    // nearly linear in it.
-    let centre = data.centre(0) - data.counts[0];
-    let (mut pull, mut square) = (0.0, 0.0);
-    for (here, ahead) in here.iter().zip(&ahead) {
-        let slope = ahead - here;
-        pull -= slope * (here - centre);
-        square += slope * slope;
-    }
-    let mut tried = vec![here];
-    if square > 0.0 && (pull / square).is_finite() {
-        tried.push(run(now + step * pull / square)?);
-    }
-    for other in tried {
-        if rms_counts(data, &other) < rms_counts(data, &best) {
-            best = other;
-        }
-    }
-    Ok(best)
 }

@@ -110,6 +110,7 @@ impl Hypothesis {
             machine: self.machine,
             effects,
             start_speed: 0.0,
+            start_offset: 0.0,
         })
     }
 

@@ -165,12 +165,14 @@ pub fn errors(
         Horizon::Whole => {
             let start = match start_angle {
                 StartAngle::Known => data.counts[0],
-                StartAngle::Free => data.centre(0),
+                StartAngle::Free => data.centre(0) + candidate.start_offset,
             };
             simulation.run(0..data.len(), start, candidate.start_speed, |k, angle| {
                 errors[k] = angle - data.counts[k];
             });
-            if start_angle == StartAngle::Free {
+            // Where effects depend on the angle it is absolute, and a shift would be one freedom too many.
+            let absolute = data.quantised && candidate.needs_angle();
+            if start_angle == StartAngle::Free && !absolute {
                 let centre = data.centre(0) - data.counts[0];
                 let middle = match cost {
                     Cost::Absolute { .. } => median(&errors),

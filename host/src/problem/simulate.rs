@@ -17,6 +17,16 @@ pub struct Candidate {
     pub effects: EffectSet<f64>,
     /// Speed at the first sample, rad/s.
     pub start_speed: f64,
+    /// Angle at the first sample from the middle of its cell, counts. It matters where effects depend on
+    /// the angle; elsewhere the best shift of the whole run does the same.
+    pub start_offset: f64,
+}
+
+impl Candidate {
+    /// Whether an effect depends on the absolute angle.
+    pub fn needs_angle(&self) -> bool {
+        self.effects.iter().any(|(kind, _)| kind.needs().angle)
+    }
 }
 
 /// How a candidate is run.

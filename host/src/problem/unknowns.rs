@@ -91,12 +91,18 @@ pub struct Structure {
     pub effects: Vec<Kind>,
     /// Whether the speed at the first sample is unknown (else the motor starts at rest).
     pub start_speed: bool,
+    /// Whether the place of the start within its cell is.
+    pub start_offset: bool,
     /// The unknowns.
     pub unknowns: Vec<Unknown>,
 }
 
 /// Name of the unknown speed at the first sample.
 pub const START_SPEED: &str = "start_speed";
+/// Name of the unknown place within the first cell.
+pub const START_OFFSET: &str = "start_offset";
+/// How far from the middle of its cell the start is looked for, counts: a little beyond its edges.
+const FARTHEST_START: f64 = 0.7;
 
 impl Structure {
     /// The unknowns with search ranges around `centre`, a first guess at the machine.
@@ -124,6 +130,7 @@ impl Structure {
                 ));
             }
         }
+        let start_offset = data.quantised && effects.iter().any(|kind| kind.needs().angle);
         if start_speed {
             unknowns.push(Unknown::new(
                 START_SPEED,
@@ -132,10 +139,19 @@ impl Structure {
                 Scale::Linear,
             ));
         }
+        if start_offset {
+            unknowns.push(Unknown::new(
+                START_OFFSET,
+                "count",
+                (-FARTHEST_START, FARTHEST_START),
+                Scale::Linear,
+            ));
+        }
         Structure {
             base,
             effects: effects.to_vec(),
             start_speed,
+            start_offset,
             unknowns,
         }
     }
@@ -165,7 +181,8 @@ impl Structure {
 
     /// Those of the values that belong to effects, in the order of the effects.
     pub fn effect_values<'v>(&self, values: &'v [f64]) -> &'v [f64] {
-        &values[base_len(self.base)..values.len() - usize::from(self.start_speed)]
+        let nuisances = usize::from(self.start_speed) + usize::from(self.start_offset);
+        &values[base_len(self.base)..values.len() - nuisances]
     }
 
     /// The model with these values of the unknowns.
@@ -200,15 +217,18 @@ impl Structure {
             let _ = effects.push(kind, own);
             rest = further;
         }
-        let start_speed = if self.start_speed {
-            rest.first().copied().unwrap_or(0.0)
-        } else {
-            0.0
+        let mut nuisances = rest.iter().copied();
+        let mut nuisance = |present: bool| {
+            let value = if present { nuisances.next() } else { None };
+            value.unwrap_or(0.0)
         };
+        let start_speed = nuisance(self.start_speed);
+        let start_offset = nuisance(self.start_offset);
         Candidate {
             machine,
             effects,
             start_speed,
+            start_offset,
         }
     }
 
@@ -240,6 +260,9 @@ impl Structure {
         values.extend_from_slice(effects);
         if self.start_speed {
             values.push(start_speed);
+        }
+        if self.start_offset {
+            values.push(0.0);
         }
         values
     }

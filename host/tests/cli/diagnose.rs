@@ -33,6 +33,8 @@ pub fn is_diagnosis(diagnosis: &Value) {
             ("final", Is::Object),
             ("advice", Is::List),
             ("remarks", Is::List),
+            ("cannot_tell", Is::List),
+            ("residual", Is::Object),
             ("held_out", Is::Object),
             ("models", Is::List),
             ("supply_v", Is::Number),
@@ -73,6 +75,7 @@ pub fn is_diagnosis(diagnosis: &Value) {
                 ("validate_rms_counts", Is::Number),
                 ("foreseen_rms_counts", Is::NumberOrNull),
                 ("evidence", Is::Text),
+                ("where", Is::Object),
                 ("candidates", Is::List),
             ],
         );
@@ -123,6 +126,12 @@ fn a_hidden_friction_is_named_on_the_other_recording() {
     ] {
         assert!(outcome.stdout.contains(word), "{word}\n{outcome}");
     }
+    let why = "residual torque changes sign with speed and does not grow with it";
+    let evidence = diagnosis["steps"][0]["evidence"].as_str().expect("text");
+    assert!(evidence.starts_with(why), "{evidence}");
+    let residual = &diagnosis["residual"];
+    assert_eq!(residual["base_whiteness"]["white"], false);
+    assert_eq!(residual["final_whiteness"]["white"], true);
     let wide = |line: &&str| line.chars().count() > 80;
     assert_eq!(outcome.stdout.lines().find(wide), None, "{outcome}");
 }
@@ -167,4 +176,38 @@ fn the_plan_after_a_diagnosis_separates_what_it_could_not() {
     let plan = desk.json(&format!("{line} --seconds 3"));
     assert_eq!(plan["separable"], true, "{plan:#}");
     assert!(desk.path("next.csv").exists());
+}
+
+#[test]
+fn a_recording_that_never_reverses_is_inconclusive_and_says_what_to_record() {
+    let desk = Desk::new();
+    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
+        desk.done(&format!(
+            "simulate --seconds 2 --excite step --hide coulomb:strength=2 --seed {seed} --out {name}"
+        ));
+    }
+    let diagnosis = desk.json("diagnose rec.csv --validate other.csv");
+    is_diagnosis(&diagnosis);
+    if number(&diagnosis, "base.rms_counts") > 0.33 {
+        assert_eq!(diagnosis["verdict"], "inconclusive", "{diagnosis:#}");
+        let advice = diagnosis["advice"][0].as_str().expect("advice");
+        assert!(advice.contains("never reverses"), "{advice}");
+    }
+}
+
+#[test]
+fn the_ladder_of_a_fit_falls_with_each_effect_in_its_order() {
+    let desk = hidden("coulomb");
+    let line = "fit rec.csv --validate other.csv --with coulomb,cogging";
+    let fit = desk.json(line);
+    let ladder = list(&fit, "ladder");
+    let added: Vec<&Value> = ladder.iter().map(|rung| &rung["added"]).collect();
+    assert_eq!(serde_json::json!(added), serde_json::json!([null, "coulomb", "cogging"]));
+    assert!(number(&ladder[0], "rms_counts") > 50.0);
+    assert!(number(&ladder[1], "validate_rms_counts") < 0.33);
+    assert_eq!(ladder[2]["rms_counts"], fit["rms_counts"]);
+    let text = desk.done(line).stdout;
+    for word in ["error ladder", "linear motor", "+ coulomb", "encoder's own"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
 }

@@ -117,3 +117,19 @@ fn a_stopped_proof_counts_the_cases_that_are_done() {
     assert_eq!(table["cases"], done);
     assert!(done > 0);
 }
+
+#[test]
+fn a_stopped_diagnosis_keeps_its_best_and_does_not_call_it_final() {
+    let desk = Desk::new();
+    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
+        desk.done(&format!(
+            "simulate --excite telegraph --seconds 300 --hide lugre --hide cogging --hide backlash --seed {seed} --out {name}"
+        ));
+    }
+    let outcome = interrupted(&desk, "diagnose rec.csv --validate other.csv --json d.json");
+    assert!(outcome.stdout.contains("error ladder"), "{outcome}");
+    let diagnosis = written(&desk, "d.json");
+    crate::diagnose::is_diagnosis(&diagnosis);
+    assert_eq!(diagnosis["interrupted"], true);
+    assert_ne!(diagnosis["verdict"], "unexplained");
+}

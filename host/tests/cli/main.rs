@@ -9,6 +9,7 @@ mod bad_recordings;
 mod contract;
 mod desk;
 mod diagnose;
+mod diagnose_pairs;
 mod foreign_logs;
 mod interrupt;
 mod known_facts;

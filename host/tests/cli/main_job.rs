@@ -30,6 +30,45 @@ fn the_demo_has_a_usual_name_for_its_page() {
     );
 }
 
+#[test]
+fn the_demo_hides_what_it_is_told_and_finds_it() {
+    let desk = Desk::new();
+    let outcome = desk.done("demo --hide coulomb:strength=2 --out page.html --json demo.json");
+    for word in [
+        "Hidden in it",
+        "coulomb",
+        "error ladder",
+        "the bench knows the truth",
+        "the diagnosis named it",
+        "coulomb.torque",
+    ] {
+        assert!(outcome.stdout.contains(word), "{word}\n{outcome}");
+    }
+    let demo: serde_json::Value = serde_json::from_str(&desk.read("demo.json")).expect("JSON");
+    is_fit(&demo);
+    crate::diagnose::is_diagnosis(&demo["diagnosis"]);
+    assert_eq!(demo["named"], true);
+    for error in demo["parameter_errors"].as_array().expect("a list") {
+        assert!(number(error, "percent") < 0.1, "{error}");
+    }
+    assert!(number(&demo, "gain_error_percent") < 0.01);
+    let page = desk.read("page.html");
+    assert_eq!(page.matches("<svg").count(), 2);
+    assert!(page.contains("The truth"), "the page ends with the truth");
+    desk.refused("demo --hide colomb", 2, &["--hide", "coulomb"]);
+    desk.refused("demo --hide coulomb --blind", 2, &["--hide", "--blind"]);
+}
+
+#[test]
+fn a_blind_demo_reveals_its_secret_at_the_end() {
+    let line = "demo --blind --seed 4 --out page.html";
+    let text = Desk::new().done(line).stdout;
+    let told = text.find("the bench knows the truth: hidden was heating");
+    let told = told.unwrap_or_else(|| panic!("{text}"));
+    assert!(text[..told].contains("something that is told at the end"), "{text}");
+    assert!(!text[..text.find("missing_effects").unwrap_or(0)].contains("heating"));
+}
+
 /// Friction is hidden; the linear motor fails on it, and the model with friction does not.
 #[test]
 fn a_hidden_friction_spoils_the_linear_fit_and_the_named_effect_repairs_it() {

@@ -118,7 +118,7 @@ fn perfect_volts(
     let simulation = Simulation::new(data, complete, method)?;
     simulation.run(
         0..data.len(),
-        data.centre(0),
+        data.centre(0) + complete.start_offset,
         complete.start_speed,
         |k, angle| own.counts[k] = angle.floor(),
     );

@@ -17,11 +17,17 @@ const MOVED: f64 = 2.0;
 /// Fewest samples for a correlation.
 const FEWEST: usize = 100;
 
-/// Largest autocorrelation of an error that is the encoder's alone.
-pub const AUTOCORRELATION_LIMIT: f64 = 0.25;
-/// Largest correlation with the input of an error that is the encoder's alone, in standard deviations of what
-/// independent samples give.
-pub const INPUT_LIMIT: f64 = 6.0;
+/// Mean autocorrelation up to which an error may be the encoder's alone.
+///
+/// The linear motor fitted to 96 recordings of four seconds from the bench's motors with nothing hidden (steps,
+/// telegraph, staircase, reversals, triangle, chirp; 500 to 8000 counts) left a median of -0.003, 0.06 at 90 %,
+/// and 0.41 at most, at steady speeds of nearly whole counts a sample. With friction, cogging, drag or brushes
+/// hidden it was above 0.98, with a delay of 2 ms 0.73.
+pub const AUTOCORRELATION_LIMIT: f64 = 0.5;
+/// Correlation with the input up to which an error may be the encoder's alone, in standard deviations of what
+/// independent samples give. In the same recordings the largest of 21 lags had a median of 0.23, 0.86 at 90 %, and
+/// 2.96 at most: below what noise would give, since a fit leaves nothing that goes with its input.
+pub const INPUT_LIMIT: f64 = 4.0;
 
 /// Correlations of an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
