@@ -99,6 +99,8 @@ struct Directions {
 
 #[derive(Clone, Copy)]
 struct Level {
+    /// Of the slowest bin, which also holds the smear of the moments of reversal.
+    slowest: f64,
     slow: f64,
     mean: f64,
     fast: f64,
@@ -117,7 +119,8 @@ impl Level {
             sum / total.max(1) as f64
         };
         Some(Level {
-            slow: bins[0].mean_v,
+            slowest: bins[0].mean_v,
+            slow: bins[1].mean_v,
             mean: weighted(|bin| bin.mean_v),
             fast: bins[bins.len() - 1].mean_v,
             error: weighted(|bin| bin.error_v) / (bins.len() as f64).sqrt(),
@@ -162,7 +165,8 @@ impl Directions {
             return None;
         }
         let sizes = (f.mean.abs() - b.mean.abs()).abs() / f.mean.abs().max(b.mean.abs());
-        let hump = |level: &Level| level.slow.abs() - level.fast.abs() > LEVEL * level.mean.abs();
+        let hump =
+            |level: &Level| level.slowest.abs() - level.fast.abs() > LEVEL * level.mean.abs();
         let text = if f.even() && b.even() {
             "residual torque changes sign with speed and does not grow with it"
         } else if hump(f) && hump(b) {

@@ -83,3 +83,76 @@ fn rest(recording: &Recording, length: f64) -> Option<f64> {
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Drive;
+
+    /// Ten seconds at 100 Hz that turn all the time but for a rest of `rest` s that begins at `at`.
+    fn recording(at: f64, rest: f64) -> Recording {
+        let time_s: Vec<f64> = (0..1000).map(|k| k as f64 * 0.01).collect();
+        let driven = |t: &f64| *t < at || *t >= at + rest;
+        let mut counts = vec![0.0];
+        for t in &time_s[1..] {
+            let last = counts[counts.len() - 1];
+            counts.push(if driven(t) { last + 3.0 } else { last });
+        }
+        Recording {
+            source: "made up".to_owned(),
+            command: time_s.iter().map(|t| f64::from(driven(t))).collect(),
+            counts,
+            current_a: None,
+            enabled: None,
+            counts_per_rev: 100.0,
+            quantised: true,
+            supply_v: None,
+            drive: Drive::Voltage,
+            time_s,
+        }
+    }
+
+    #[test]
+    fn the_cut_lies_in_a_rest_near_three_quarters_and_loses_no_sample() {
+        for (at, rest, cut_at_rest) in [
+            (7.0, 0.3, true),
+            (8.0, 0.5, true),
+            (3.0, 1.0, false),
+            (7.5, 0.02, false),
+            (20.0, 1.0, false),
+        ] {
+            let whole = recording(at, rest);
+            let (fitted, held_out, kind) = cut(&whole).expect("long enough");
+            assert_eq!(fitted.len() + held_out.len(), whole.len());
+            assert_eq!(
+                [&fitted.counts[..], &held_out.counts[..]].concat(),
+                whole.counts
+            );
+            let HeldOut::End {
+                from_s, at_rest, ..
+            } = kind
+            else {
+                panic!("{kind:?}");
+            };
+            assert_eq!(at_rest, cut_at_rest, "rest of {rest} s at {at} s");
+            if at_rest {
+                assert!(
+                    (at + REST_S..=at + rest + 0.01).contains(&from_s),
+                    "{from_s}"
+                );
+                assert_eq!(held_out.counts[0], fitted.counts[fitted.len() - 1]);
+            } else {
+                assert!((from_s - 7.5).abs() < 0.02, "{from_s}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_too_short_is_not_cut() {
+        let mut short = recording(20.0, 0.0);
+        for t in &mut short.time_s {
+            *t *= 0.05;
+        }
+        assert!(cut(&short).is_none());
+    }
+}

@@ -164,7 +164,15 @@ fn every_verb_tells_the_version_of_the_program() {
     let desk = Desk::new();
     let version = desk.done("--version").stdout;
     assert!(version.starts_with("servoid "), "{version}");
-    for verb in ["fit", "diagnose", "compare", "demo", "simulate", "paper", "completions"] {
+    for verb in [
+        "fit",
+        "diagnose",
+        "compare",
+        "demo",
+        "simulate",
+        "paper",
+        "completions",
+    ] {
         assert_eq!(desk.done(&format!("{verb} --version")).stdout, version);
     }
 }

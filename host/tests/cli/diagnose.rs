@@ -202,7 +202,10 @@ fn the_ladder_of_a_fit_falls_with_each_effect_in_its_order() {
     let fit = desk.json(line);
     let ladder = list(&fit, "ladder");
     let added: Vec<&Value> = ladder.iter().map(|rung| &rung["added"]).collect();
-    assert_eq!(serde_json::json!(added), serde_json::json!([null, "coulomb", "cogging"]));
+    assert_eq!(
+        serde_json::json!(added),
+        serde_json::json!([null, "coulomb", "cogging"])
+    );
     assert!(number(&ladder[0], "rms_counts") > 50.0);
     assert!(number(&ladder[1], "validate_rms_counts") < 0.33);
     assert_eq!(ladder[2]["rms_counts"], fit["rms_counts"]);

@@ -84,7 +84,11 @@ fn missed_counts_are_seen_in_the_held_out_recording() {
     });
     let (diagnosis, text) = remarks(&desk, "missed.csv");
     assert_eq!(diagnosis["verdict"], "unexplained", "{diagnosis:#}");
-    for word in ["missed.csv: the reading jumps 1 time", "-12 counts at 2.00", "misses counts"] {
+    for word in [
+        "missed.csv: the reading jumps 1 time",
+        "-12 counts at 2.00",
+        "misses counts",
+    ] {
         assert!(text.contains(word), "{word}: {text}");
     }
 }
@@ -109,7 +113,11 @@ fn a_stuck_encoder_is_refused_in_either_recording() {
         "diagnose stuck.csv --validate rec.csv",
         "diagnose stuck.csv",
     ] {
-        let says = ["stuck.csv", "encoder is stuck from 0.400 to 2.399 s", "cut that part out"];
+        let says = [
+            "stuck.csv",
+            "encoder is stuck from 0.400 to 2.399 s",
+            "cut that part out",
+        ];
         desk.refused(line, 1, &says);
     }
 }
@@ -122,7 +130,10 @@ fn a_command_that_the_log_cuts_off_is_said() {
     });
     let (diagnosis, text) = remarks(&desk, "clipped.csv");
     assert_eq!(diagnosis["verdict"], "unexplained", "{diagnosis:#}");
-    assert!(text.contains("clipped.csv: the command is cut off at 4.00 V"), "{text}");
+    assert!(
+        text.contains("clipped.csv: the command is cut off at 4.00 V"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -147,7 +158,11 @@ fn a_swapped_sign_is_named_for_either_recording() {
         "diagnose swapped.csv --validate rec.csv",
         "diagnose swapped.csv",
     ] {
-        desk.refused(line, 1, &["swapped.csv", "sign", "swap the encoder's channels"]);
+        desk.refused(
+            line,
+            1,
+            &["swapped.csv", "sign", "swap the encoder's channels"],
+        );
     }
 }
 
@@ -182,7 +197,9 @@ fn the_same_recording_twice_holds_nothing_out() {
         let (diagnosis, text) = remarks(&desk, file);
         assert_eq!(diagnosis["held_out"]["kind"], "nothing");
         assert!(text.contains("nothing is held out"), "{text}");
-        let shown = desk.done(&format!("diagnose rec.csv --validate {file}")).stdout;
+        let shown = desk
+            .done(&format!("diagnose rec.csv --validate {file}"))
+            .stdout;
         assert!(shown.contains("nothing is held out"), "{shown}");
     }
 }

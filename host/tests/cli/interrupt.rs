@@ -123,7 +123,7 @@ fn a_stopped_diagnosis_keeps_its_best_and_does_not_call_it_final() {
     let desk = Desk::new();
     for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
         desk.done(&format!(
-            "simulate --excite telegraph --seconds 300 --hide lugre --hide cogging --hide backlash --seed {seed} --out {name}"
+            "simulate --excite telegraph --seconds 60 --hide lugre --hide cogging --seed {seed} --out {name}"
         ));
     }
     let outcome = interrupted(&desk, "diagnose rec.csv --validate other.csv --json d.json");

@@ -65,7 +65,10 @@ fn a_blind_demo_reveals_its_secret_at_the_end() {
     let text = Desk::new().done(line).stdout;
     let told = text.find("the bench knows the truth: hidden was heating");
     let told = told.unwrap_or_else(|| panic!("{text}"));
-    assert!(text[..told].contains("something that is told at the end"), "{text}");
+    assert!(
+        text[..told].contains("something that is told at the end"),
+        "{text}"
+    );
     assert!(!text[..text.find("missing_effects").unwrap_or(0)].contains("heating"));
 }
 

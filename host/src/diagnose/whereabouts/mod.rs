@@ -145,3 +145,6 @@ fn free_run(data: &Data, candidate: &Candidate, method: Method) -> Result<Vec<Pa
         })
         .collect())
 }
+
+#[cfg(test)]
+mod tests;
