@@ -1,5 +1,6 @@
 //! Models with one effect more: all are sketched, the promising ones refitted.
 
+use super::judge::look_alikes;
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -76,7 +77,39 @@ pub fn extend(
         sketches.extend(more);
     }
     sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
+    again_from_best(workshop, parents, &mut sketches);
     refits(workshop, &sketches, stop, done)
+}
+
+/// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
+/// look-alikes get a second start there, lest they lose for their start alone.
+fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [Sketch]) {
+    let Some(best) = sketches.first() else { return };
+    let Some(kind) = best.newest() else { return };
+    let (least, effects) = (best.foreseen(), best.structure.effects.clone());
+    let values = best.structure.values(&best.x);
+    let machine = best.structure.candidate(&values).machine;
+    let Some(parent) = parents
+        .iter()
+        .find(|parent| effects.starts_with(&parent.effects))
+    else {
+        return;
+    };
+    let mut parent = (*parent).clone();
+    parent.candidate.machine = machine;
+    sketches.par_iter_mut().skip(1).for_each(|sketch| {
+        let Some(newest) = sketch.newest() else {
+            return;
+        };
+        let beside = sketch.structure.effects.starts_with(&parent.effects);
+        if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
+            let again = workshop.sketch(&parent, newest, &[]);
+            if let Some(again) = again.filter(|again| again.foreseen() < sketch.foreseen()) {
+                *sketch = again;
+            }
+        }
+    });
+    sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
 }
 
 fn refits(

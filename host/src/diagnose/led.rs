@@ -19,11 +19,12 @@ pub struct Led<'a> {
 }
 
 /// Whether a led model follows this effect: not where motor and load part ways, where commands are
-/// late, or where bristles bend by less than a sample's travel. Those cost little to simulate in full, or are not helped by being led.
+/// late, or where bristles bend, or the current rises,
+/// within a sample. Those cost little to simulate in full, or are not helped by being led.
 pub fn follows(kind: Kind) -> bool {
     !matches!(
         kind,
-        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre
+        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre | Kind::LSat
     )
 }
 
