@@ -24,9 +24,11 @@ pub struct Cli {
 
 const EXAMPLES: &str = "Examples:
   servoid demo
+  servoid demo --hide cogging
   servoid simulate --machine gearmotor --hide coulomb --out bench.csv
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
   servoid fit bench.csv --with coulomb
+  servoid diagnose bench.csv
   servoid compare bench.csv --seeds 30
 
 Results go to stdout, progress to stderr. Exit code 0: done; 1: the work failed; 2: wrong use.";
@@ -48,12 +50,14 @@ pub struct Common {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
-    /// The main job on built-in data, in a few seconds
+    /// The main job on built-in data: fit, see it fail, name what is missing, add it
     Demo(DemoArgs),
     /// The virtual bench makes recordings
     Simulate(SimulateArgs),
     /// Fits the model to a recording
     Fit(FitArgs),
+    /// Finds where the linear motor fails, names the missing effects and adds them one by one
+    Diagnose(DiagnoseArgs),
     /// Compares search methods at an equal budget over many seeds
     Compare(CompareArgs),
     /// Reproduces the paper: its motor, its step, its bounds, its table beside ours
@@ -73,6 +77,12 @@ pub struct DemoArgs {
     /// Where the page goes
     #[arg(long, default_value = "servoid-demo.html", value_name = "FILE")]
     pub out: PathBuf,
+    /// Hide this in the motor: a name, or name:key=value,key=value as in `simulate`
+    #[arg(long, default_value = "coulomb", value_name = "EFFECT")]
+    pub hide: String,
+    /// Hide something that the seed draws, and reveal it at the end
+    #[arg(long, conflicts_with = "hide")]
+    pub blind: bool,
 }
 
 /// `servoid simulate`.
@@ -259,6 +269,24 @@ pub struct FitArgs {
     #[command(flatten)]
     pub motor: MotorArgs,
 }
+
+/// `servoid diagnose`.
+#[derive(Debug, Args)]
+#[command(after_help = DIAGNOSE_EXAMPLES)]
+pub struct DiagnoseArgs {
+    /// The recording
+    pub recording: PathBuf,
+    /// Another recording of the same motor, never fitted; else the last quarter of the first is held out
+    #[arg(long, value_name = "FILE")]
+    pub validate: Option<PathBuf>,
+    /// The motor.
+    #[command(flatten)]
+    pub motor: MotorArgs,
+}
+
+const DIAGNOSE_EXAMPLES: &str = "Example:
+  servoid diagnose first.csv --validate second.csv --json diagnosis.json
+  servoid simulate --plan --after diagnosis.json --out next.csv";
 
 /// `servoid compare`.
 #[derive(Debug, Args)]

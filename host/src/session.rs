@@ -44,6 +44,11 @@ impl Session {
         (0..count).map(|k| self.seed.wrapping_add(k)).collect()
     }
 
+    /// Where the JSON goes, if it goes to a file.
+    pub fn json_file(&self) -> Option<&Path> {
+        self.json.as_deref().filter(|path| path.as_os_str() != "-")
+    }
+
     /// The flag that Ctrl-C sets.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
@@ -59,7 +64,7 @@ impl Session {
         outputs: &[(&'static str, &Path)],
         inputs: &[(&'static str, &Path)],
     ) -> Result<(), Error> {
-        let json = self.json.as_deref().filter(|path| path.as_os_str() != "-");
+        let json = self.json_file();
         let outputs: Vec<_> = outputs
             .iter()
             .copied()

@@ -25,7 +25,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
 
     let found = search(session, &problem, &args.algorithm, &options)?;
     let cost_kind = args.model.cost.name();
-    let fit = Fit::conclude(
+    let mut fit = Fit::conclude(
         &problem,
         &args.algorithm,
         cost_kind,
@@ -33,6 +33,10 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         &options,
         validation.as_ref(),
     )?;
+    if !options.effects.is_empty() {
+        let stop = session.stop();
+        fit.ladder = fit::ladder(&data, validation.as_ref(), &fit, &options, stop);
+    }
     if let Some(path) = &args.plot {
         let drawing = plot::overlay(&data, &fit.candidate, options.method)?;
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;

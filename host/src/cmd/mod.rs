@@ -3,6 +3,7 @@
 mod compare;
 mod completions;
 mod demo;
+mod diagnose;
 mod fit;
 mod model;
 mod motor;
@@ -27,6 +28,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
     match cli.verb {
         Verb::Demo(args) => demo::run(&session, &args),
         Verb::Simulate(args) => simulate::run(&session, &args),
+        Verb::Diagnose(args) => diagnose::run(&session, &args),
         Verb::Fit(args) => fit::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),

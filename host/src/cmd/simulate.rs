@@ -109,7 +109,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
 }
 
 /// One `--hide`.
-fn hidden(text: &str, machine: &Machine) -> Result<Hidden, Error> {
+pub(super) fn hidden(text: &str, machine: &Machine) -> Result<Hidden, Error> {
     let settings = text.split_once(':').map(|(_, settings)| settings);
     if settings.is_some_and(|settings| settings.trim_matches([',', ' ']).is_empty()) {
         return Err(Error::Usage(format!(
@@ -120,7 +120,7 @@ fn hidden(text: &str, machine: &Machine) -> Result<Hidden, Error> {
 }
 
 /// What the bench refuses because of a flag, under the flag's name.
-fn wrong_flag(error: BenchError) -> Error {
+pub(super) fn wrong_flag(error: BenchError) -> Error {
     match &error {
         BenchError::BadSetting {
             setting,
@@ -242,7 +242,7 @@ fn excitations() -> impl Iterator<Item = &'static str> {
         .chain(Shape::ALL.iter().map(|(name, _)| *name))
 }
 
-fn describe(hidden: &Hidden) -> String {
+pub(super) fn describe(hidden: &Hidden) -> String {
     let parameters: Vec<String> = hidden
         .parameters()
         .map(|(name, value, unit)| format!("{name} = {value:.6} {unit}"))

@@ -5,19 +5,30 @@
 //! An effect is named only where the held-out error agrees; otherwise the verdict says that
 //! something is missing and that nothing in the catalogue explains it.
 
+pub mod advice;
 mod descent;
+pub mod evidence;
 mod extend;
+mod findings;
+pub mod holdout;
 mod judge;
 mod led;
 mod motion;
 mod orders;
+pub mod pair;
 mod refit;
+mod settle;
 mod sketch;
 mod starts;
 mod swap;
+pub mod usable;
+pub mod whereabouts;
 mod workshop;
 
+pub use findings::{Findings, findings};
+pub use holdout::HeldOut;
 pub use refit::{Errors, Refit};
+pub use settle::settle;
 
 use crate::error::Error;
 use crate::fit::Options;
@@ -88,10 +99,20 @@ pub struct Diagnosis {
     pub steps: Vec<Step>,
     /// The model with all of them.
     pub last: Refit,
+    /// Models with as many effects as the last one, and those in which one of its effects is another.
+    pub rivals: Vec<Refit>,
     /// The best candidate that was not added, if one reduced the error but not beyond doubt.
     pub not_named: Option<Kind>,
     /// What to do next, in words.
     pub advice: Vec<String>,
+}
+
+impl Diagnosis {
+    /// Whether the last model explains the fitted recording down to the encoder, and what was held out not.
+    pub fn fits_only_its_own(&self) -> bool {
+        let errors = self.last.judged();
+        errors.fitted < NOISE_COUNTS && errors.held_out >= NOISE_COUNTS
+    }
 }
 
 /// Diagnoses `data`, judging by `held_out`, which is never fitted.
@@ -114,6 +135,7 @@ pub fn diagnose(
         base,
         verdict: Verdict::Complete,
         steps: Vec::new(),
+        rivals: Vec::new(),
         not_named: None,
         advice: Vec::new(),
     };
@@ -137,7 +159,7 @@ pub fn diagnose(
                 .to_owned(),
         );
     }
-    advise(&mut diagnosis);
+    advice::advise(&mut diagnosis);
     Ok(diagnosis)
 }
 
@@ -271,6 +293,7 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
         before = after.clone();
         diagnosis.last = after;
     }
+    diagnosis.rivals = known;
 }
 
 /// Whether a twentieth of the travel at least goes against the prevailing direction.
@@ -285,34 +308,4 @@ fn moves_both_ways(data: &Data) -> bool {
         }
     }
     forward.min(backward) > 0.05 * (forward + backward)
-}
-
-fn advise(diagnosis: &mut Diagnosis) {
-    for step in &diagnosis.steps {
-        if step.indistinguishable_from.is_empty() {
-            continue;
-        }
-        let names: Vec<&str> = step
-            .indistinguishable_from
-            .iter()
-            .map(|kind| kind.name())
-            .collect();
-        diagnosis.advice.push(format!(
-            "{} and {} explain this recording alike; to separate them: {}",
-            step.added.name(),
-            names.join(", "),
-            step.added.description().exposed_by
-        ));
-    }
-    if diagnosis.verdict == Verdict::Unexplained {
-        diagnosis.advice.push(match diagnosis.not_named {
-            Some(kind) => format!(
-                "{} reduces the error most, but not beyond doubt: residual, not named",
-                kind.name()
-            ),
-            None => {
-                "no effect of the catalogue reduces the error on the held-out recording".to_owned()
-            }
-        });
-    }
 }

@@ -1,6 +1,7 @@
 //! Fitting a model to a recording: start from regression, search, and say what was learnt.
 
 mod filter;
+mod ladder;
 pub mod margins;
 pub mod physical;
 pub mod regression;
@@ -23,7 +24,8 @@ use shared::effects::{Kind, Place};
 use shared::motor::Machine;
 use std::sync::atomic::AtomicBool;
 
-pub use report::{Fit, Parameter};
+pub use ladder::ladder;
+pub use report::{Fit, Parameter, Rung};
 
 /// What to fit, and how.
 #[derive(Clone, Debug)]
@@ -115,13 +117,19 @@ fn check(data: &Data, options: &Options) -> Result<(), Error> {
     }
 }
 
-/// Why no regression gave a machine.
-fn no_motor(data: &Data, options: &Options) -> Error {
+/// Whether the motor is one only with the sign of its angle turned.
+pub fn is_reversed(data: &Data, options: &Options) -> bool {
     let mut reversed = data.clone();
     for count in &mut reversed.counts {
         *count = -*count;
     }
-    let reason = if candidate_problem(&reversed, options, false).is_some() {
+    candidate_problem(data, options, false).is_none()
+        && candidate_problem(&reversed, options, false).is_some()
+}
+
+/// Why no regression gave a machine.
+fn no_motor(data: &Data, options: &Options) -> Error {
+    let reason = if is_reversed(data, options) {
         "the angle falls where the voltage should raise it: the sign of the angle (or of the voltage) is \
          reversed; swap the encoder's channels or negate the column"
     } else if options.method.discretisation == Discretisation::Euler {
@@ -235,6 +243,22 @@ pub fn search(
 /// Error of a fitted model on another recording, whose start angle and speed are its own: RMS in
 /// counts over the whole of it.
 pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
+    Ok(rms_counts(
+        data,
+        &validation_errors(data, candidate, method)?,
+    ))
+}
+
+/// Step of the start speed by which its effect is measured, as a part of the fastest.
+const SPEED_STEP: f64 = 0.01;
+
+/// Model minus reading on another recording, as in [`validate`]: from rest or in motion, whichever the
+/// recording agrees with better, and from the best place within the first cell.
+pub fn validation_errors(
+    data: &Data,
+    candidate: &Candidate,
+    method: Method,
+) -> Result<Vec<f64>, Error> {
     let run = |start_speed: f64, start_offset: f64| {
         let candidate = Candidate {
             start_speed,
@@ -243,25 +267,41 @@ pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f6
         };
         let (whole, free) = (Horizon::Whole, StartAngle::Free);
         errors(data, &candidate, method, &whole, free, Cost::Squared)
-            .map(|errors| rms_counts(data, &errors))
     };
-    // At rest or in motion, whichever the recording agrees with better.
-    let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
-        * core::f64::consts::TAU;
-    let mut best = (run(0.0, 0.0)?, 0.0);
+    let mut best = (0.0, run(0.0, 0.0)?);
+    let better = |best: &mut (f64, Vec<f64>), speed: f64, other: Vec<f64>| {
+        if rms_counts(data, &other) < rms_counts(data, &best.1) {
+            *best = (speed, other);
+        }
+    };
     if may_start_moving(data) {
-        let moving = run(now, 0.0)?;
-        if moving < best.0 {
-            best = (moving, now);
+        let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
+            * core::f64::consts::TAU;
+        let step = SPEED_STEP * data.units.speed;
+        let (here, ahead) = (run(now, 0.0)?, run(now + step, 0.0)?);
+        // A few readings tell the speed roughly; the whole recording tells it by least squares, since errors
+        // are nearly linear in it.
+        let centre = data.centre(0) - data.counts[0];
+        let (mut pull, mut square) = (0.0, 0.0);
+        for (here, ahead) in here.iter().zip(&ahead) {
+            let slope = ahead - here;
+            pull -= slope * (here - centre);
+            square += slope * slope;
+        }
+        better(&mut best, now, here);
+        if square > 0.0 && (pull / square).is_finite() {
+            let speed = now + step * pull / square;
+            better(&mut best, speed, run(speed, 0.0)?);
         }
     }
-    let (rms, start_speed) = best;
-    if !candidate.needs_angle() || !data.quantised || rms < START_UNNOTICED {
-        return Ok(rms);
+    let matters = candidate.needs_angle() && data.quantised;
+    if matters && rms_counts(data, &best.1) > START_UNNOTICED {
+        let speed = best.0;
+        for offset in START_OFFSETS {
+            better(&mut best, speed, run(speed, offset)?);
+        }
     }
-    Ok(START_OFFSETS.iter().fold(rms, |least, &offset| {
-        run(start_speed, offset).map_or(least, |rms| rms.min(least))
-    }))
+    Ok(best.1)
 }
 
 /// Errors below this many counts need no better start.

@@ -30,6 +30,17 @@ pub struct Parameter {
     pub identifiable: bool,
 }
 
+/// The error of a model with some of the effects.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// The effect that was added last; `None` for the linear motor.
+    pub added: Option<&'static str>,
+    /// RMS error on the fitted recording, counts.
+    pub rms_counts: f64,
+    /// RMS error on the other recording, counts.
+    pub validate_rms_counts: Option<f64>,
+}
+
 /// A fitted model and what is known of it.
 #[derive(Clone, Debug)]
 pub struct Fit {
@@ -74,6 +85,8 @@ pub struct Fit {
     pub curve: Vec<(usize, f64)>,
     /// Whether the search was stopped by the user.
     pub interrupted: bool,
+    /// Errors of the models that lead to this one, effect by effect; empty where nobody asked.
+    pub ladder: Vec<Rung>,
 }
 
 impl Fit {
@@ -154,6 +167,7 @@ impl Fit {
             notes,
             curve: found.curve.clone(),
             interrupted: found.interrupted,
+            ladder: Vec::new(),
         })
     }
 }

@@ -84,12 +84,10 @@ pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option
 /// the bridge was open too much of the time.
 pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     let time = EQUATION_FILTER_SAMPLES * data.units.interval;
-    let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
-    let command = filtered(data, time, &command, true);
     let (mut wrong, mut driven) = (0.0, 0.0);
     for left in equation_residuals(data, candidate, time) {
         wrong += left.volts.powi(2);
-        driven += command[left.sample].value.powi(2);
+        driven += left.command.powi(2);
     }
     (driven > 0.0).then(|| (wrong / driven).sqrt())
 }
@@ -105,6 +103,8 @@ pub struct EquationResidual {
     pub angle: f64,
     /// Speed, rad/s; as late as the residual.
     pub speed: f64,
+    /// Command, V; as late as the residual.
+    pub command: f64,
 }
 
 /// The volts that the model's equation leaves unexplained along the measured motion, filtered with
@@ -129,6 +129,8 @@ pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<
         })
         .collect();
     let net = filtered(data, time, &net, true);
+    let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
+    let command = filtered(data, time, &command, true);
     let holds = candidate
         .effects
         .iter()
@@ -152,6 +154,7 @@ pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<
                 volts: net[k].value - total * f.rate - second * f.acceleration - third * f.jerk,
                 angle: f.value,
                 speed: f.rate,
+                command: command[k].value,
             });
         }
     }

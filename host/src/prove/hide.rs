@@ -15,6 +15,7 @@ const MIX: (f64, f64) = (0.2, 0.4);
 /// Purposes of the streams of draws.
 const HOW_MANY: u64 = 0x686f_7720_6d61_6e79;
 const DECK: u64 = 0x6465_636b;
+const SURPRISE: u64 = 0x7375_7270_7269_7365;
 
 /// Names of the effects that case `number` hides. The first comes from a deck that is shuffled anew
 /// when it is through, so that all effects come equally often whatever the number of cases.
@@ -51,6 +52,16 @@ pub fn names(set_up: &SetUp, number: u64) -> Vec<&'static str> {
         names.extend(draws.pick(&partners));
     }
     names
+}
+
+/// A random effect in `machine`: a function of nothing but the seed.
+///
+/// # Errors
+/// None, as long as the catalogues agree with each other.
+pub fn surprise(machine: &Machine, seed: u64) -> Result<Hidden, BenchError> {
+    let mut draws = Draws::of(&[seed, SURPRISE]);
+    let names: Vec<&'static str> = CATALOGUE.iter().map(|kind| kind.name).collect();
+    draw(draws.pick(&names).unwrap_or_default(), machine, &mut draws)
 }
 
 /// Whether neither is the other, nor declared to look like it.

@@ -39,6 +39,7 @@ pub use case::{Case, Drawn};
 pub use confusion::Confusion;
 pub use content::{Content, merge, read};
 pub use header::Header;
+pub use hide::surprise;
 pub use interval::{Count, Rate};
 pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;

@@ -1,8 +1,8 @@
 //! JSON of `fit` and `compare`, as the README documents it. Keys are only ever added.
 
 use crate::compare::{Contest, Row, quantile};
-use crate::fit::Fit;
 use crate::fit::margins::{Loop, Margins};
+use crate::fit::{Fit, Parameter};
 use crate::paper::{PRINTED, Printed};
 use crate::report::paper::{Round, Strong, optimum};
 use serde::Serialize;
@@ -26,13 +26,26 @@ impl From<Margins> for MarginsJson {
     }
 }
 
+/// One parameter of a fitted model.
 #[derive(Debug, Serialize)]
-struct ParameterJson {
+pub(super) struct ParameterJson {
     name: String,
     value: f64,
     unit: &'static str,
     std: Option<f64>,
     identifiable: bool,
+}
+
+impl From<&Parameter> for ParameterJson {
+    fn from(p: &Parameter) -> Self {
+        ParameterJson {
+            name: p.name.clone(),
+            value: p.value,
+            unit: p.unit,
+            std: p.std,
+            identifiable: p.identifiable,
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -70,8 +83,16 @@ pub struct FitJson {
     converged: bool,
     effective_samples: f64,
     notes: Vec<String>,
+    ladder: Vec<RungJson>,
     interrupted: bool,
     version: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct RungJson {
+    added: Option<&'static str>,
+    rms_counts: Option<f64>,
+    validate_rms_counts: Option<f64>,
 }
 
 impl From<&Fit> for FitJson {
@@ -94,17 +115,7 @@ impl From<&Fit> for FitJson {
             }),
             equation_error_relative: fit.equation_error,
             effects: fit.effects.clone(),
-            parameters: fit
-                .parameters
-                .iter()
-                .map(|p| ParameterJson {
-                    name: p.name.clone(),
-                    value: p.value,
-                    unit: p.unit,
-                    std: p.std,
-                    identifiable: p.identifiable,
-                })
-                .collect(),
+            parameters: fit.parameters.iter().map(ParameterJson::from).collect(),
             identifiable: IdentifiableJson {
                 gain_rad_s_v: finite(fit.response.gain),
                 a1_s: finite(fit.response.a1),
@@ -114,6 +125,13 @@ impl From<&Fit> for FitJson {
             converged: fit.converged,
             effective_samples: fit.effective_samples,
             notes: fit.notes.clone(),
+            ladder: (fit.ladder.iter())
+                .map(|rung| RungJson {
+                    added: rung.added,
+                    rms_counts: finite(rung.rms_counts),
+                    validate_rms_counts: rung.validate_rms_counts.and_then(finite),
+                })
+                .collect(),
             interrupted: fit.interrupted,
             version: env!("CARGO_PKG_VERSION"),
         }

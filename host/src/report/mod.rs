@@ -1,5 +1,7 @@
 //! One result, one writer a format.
 
+pub mod demo;
+pub mod diagnosis;
 pub mod html;
 pub mod json;
 pub mod paper;

@@ -1,8 +1,9 @@
 //! Results as text for a terminal of 80 columns.
 
+use super::diagnosis::bars;
 use super::json::least_cost;
 use crate::compare::{Row, quantile};
-use crate::fit::{Fit, Parameter};
+use crate::fit::{Fit, Parameter, Rung};
 use crate::problem::Data;
 use crate::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -40,7 +41,7 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
     }
 }
 
-fn parameter(p: &Parameter, converged: bool) -> String {
+pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
     let value = match (p.std, p.identifiable) {
         (None, _) if !converged => {
             return format!(
@@ -105,6 +106,9 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
             "held-out error    {rms:.4} counts RMS on the other recording, never fitted"
         )?;
     }
+    if !fit.ladder.is_empty() {
+        write!(out, "\n{}\n", ladder(&fit.ladder))?;
+    }
     // Beside a good open-loop error, windows would only show how roughly their starts are known.
     let worth_showing = fit.window_asked || fit.rms_counts > WINDOWS_ABOVE_COUNTS;
     if let Some(w) = fit.windowed.as_ref().filter(|_| worth_showing) {
@@ -155,8 +159,27 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     Ok(())
 }
 
+/// Errors as effects were added, and the encoder's own.
+fn ladder(rungs: &[Rung]) -> String {
+    let name = |rung: &Rung| match rung.added {
+        Some(effect) => format!("+ {effect}"),
+        None => "linear motor".to_owned(),
+    };
+    let held_out = |rung: &Rung| rung.validate_rms_counts.unwrap_or(f64::NAN);
+    let mut lines: Vec<_> = (rungs.iter())
+        .map(|rung| (name(rung), rung.rms_counts, held_out(rung)))
+        .collect();
+    let floor = rungs.iter().all(|rung| rung.validate_rms_counts.is_some());
+    lines.push((
+        "encoder's own".to_owned(),
+        FLOOR_RMS_COUNTS,
+        if floor { FLOOR_RMS_COUNTS } else { f64::NAN },
+    ));
+    bars::ladder(&lines)
+}
+
 /// A remark, folded to 80 columns behind a dash.
-fn wrapped(note: &str) -> String {
+pub(super) fn wrapped(note: &str) -> String {
     const WIDTH: usize = 78;
     let mut out = String::from("-");
     let mut column = 1;

@@ -8,6 +8,7 @@ mod bad_outputs;
 mod bad_recordings;
 mod contract;
 mod desk;
+mod diagnose;
 mod foreign_logs;
 mod interrupt;
 mod known_facts;

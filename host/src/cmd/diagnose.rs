@@ -1,0 +1,138 @@
+//! `servoid diagnose`: where the linear motor fails, and what is missing.
+
+use super::motor;
+use crate::cli::DiagnoseArgs;
+use crate::diagnose::{self, HeldOut, holdout, pair, usable};
+use crate::error::Error;
+use crate::fit::{self, Options};
+use crate::output::is_same_file;
+use crate::problem::Data;
+use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use crate::session::Session;
+use std::sync::atomic::Ordering;
+
+pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
+    check_outputs(session, args)?;
+    let (options, recordings) = recordings(session, args)?;
+    let Recordings {
+        data,
+        held_out,
+        kind,
+        remarks,
+    } = &recordings;
+    let bar = session.progress(0, "diagnose");
+    // How many models will be fitted shows only as they are.
+    let done = || {
+        bar.inc(1);
+        if bar.length() <= Some(bar.position()) {
+            bar.inc_length(1);
+        }
+    };
+    let diagnosis = diagnose::diagnose(data, held_out, &options, session.stop(), &done);
+    bar.finish_and_clear();
+    let diagnosis = diagnosis?;
+    let interrupted = session.stop().load(Ordering::Relaxed);
+    let last = diagnose::settle(&diagnosis, data, held_out, &options, session.stop())?;
+    let mut remarks = remarks.clone();
+    if !interrupted {
+        let stop = session.stop();
+        remarks.extend(pair::remarks(
+            &diagnosis, data, held_out, kind, &options, stop,
+        )?);
+    }
+    let findings = diagnose::findings(&diagnosis, data, held_out)?;
+    let report = DiagnosisReport {
+        data,
+        held_out: kind,
+        diagnosis: &diagnosis,
+        last: &last,
+        findings: &findings,
+        remarks,
+        seed: session.seed,
+        interrupted,
+        json: session.json_file(),
+    };
+    session.deliver(&report.text(), &DiagnosisJson::from(&report))
+}
+
+struct Recordings {
+    data: Data,
+    held_out: Data,
+    kind: HeldOut,
+    /// What was seen in them.
+    remarks: Vec<String>,
+}
+
+/// Reads what is fitted and what is held out.
+fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Recordings), Error> {
+    let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
+    let options = Options {
+        known: motor_file.known,
+        seed: session.seed,
+        ..Options::default()
+    };
+    let mut remarks = usable::check(&recording)?;
+    let Some(path) = &args.validate else {
+        let (first, rest, kind) = holdout::cut(&recording).ok_or_else(|| {
+            Error::Failed(format!(
+                "{}: {:.3} s are too short to hold a part of them out; give another recording of the same motor with \
+                 --validate, or record some seconds",
+                recording.source,
+                recording.duration_s()
+            ))
+        })?;
+        first.check_excited()?;
+        rest.check_excited()?;
+        let recordings = Recordings {
+            data: Data::new(&first)?,
+            held_out: Data::new(&rest)?,
+            kind,
+            remarks,
+        };
+        return Ok((options, recordings));
+    };
+    let other = motor::recording(&args.motor, path)?.0;
+    remarks.extend(usable::check(&other)?);
+    let copied = other.counts == recording.counts && other.command == recording.command;
+    let kind = if copied || is_same_file(path, &args.recording) {
+        HeldOut::Nothing
+    } else {
+        HeldOut::Recording(other.source.clone())
+    };
+    if kind == HeldOut::Nothing {
+        remarks.clear();
+        remarks.extend(usable::check(&recording)?);
+        remarks.push(
+            "--validate is the recording itself: nothing is held out, and an effect that only bends itself to this one \
+             recording would not be found out"
+                .to_owned(),
+        );
+    }
+    let (data, held_out) = (Data::new(&recording)?, Data::new(&other)?);
+    for data in [&data, &held_out] {
+        if fit::is_reversed(data, &options) {
+            // The message with its remedy.
+            fit::problem(data, &options)?;
+        }
+    }
+    let recordings = Recordings {
+        data,
+        held_out,
+        kind,
+        remarks,
+    };
+    Ok((options, recordings))
+}
+
+/// The results must not replace what the diagnosis reads.
+fn check_outputs(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
+    let motor = motor::motor_path(&args.motor, &args.recording);
+    let mut inputs = vec![("the recording", args.recording.as_path())];
+    inputs.extend(
+        args.validate
+            .as_deref()
+            .map(|path| ("the --validate recording", path)),
+    );
+    inputs.push(("the motor file", &motor));
+    session.check_outputs(&[], &inputs)
+}

@@ -1,0 +1,47 @@
+//! Where the models of a diagnosis fail, and whether the last one leaves anything but the encoder's steps.
+
+use super::whereabouts::{Whereabouts, Whiteness, whereabouts, whiteness};
+use super::{Diagnosis, Refit, evidence};
+use crate::error::Error;
+use crate::fit::scores;
+use crate::problem::Data;
+
+/// What the drawings show.
+pub struct Findings {
+    /// Of the linear motor.
+    pub base: Whereabouts,
+    /// Of each step's model without the effect that it adds, with its other constants.
+    pub steps: Vec<Option<Whereabouts>>,
+    /// Of the last model.
+    pub last: Whereabouts,
+    /// Of the last model, on what was held out.
+    pub held_out: Whereabouts,
+    /// What is left of the linear motor's error.
+    pub base_whiteness: Option<Whiteness>,
+    /// What is left of the last model's error.
+    pub last_whiteness: Option<Whiteness>,
+}
+
+/// Looks at the fitted recording, and with the last model at what was held out.
+///
+/// # Errors
+/// Where a model cannot run, which it could before.
+pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<Findings, Error> {
+    let complete = &diagnosis.last.candidate;
+    let look = |refit: &Refit| whereabouts(data, &refit.candidate, complete, diagnosis.last.method);
+    let white = |refit: &Refit| -> Result<Option<Whiteness>, Error> {
+        let errors = scores::whole(data, &refit.candidate, refit.method)?;
+        Ok(whiteness(data, &errors))
+    };
+    let steps = 0..diagnosis.steps.len();
+    Ok(Findings {
+        base: look(&diagnosis.base)?,
+        steps: steps
+            .map(|index| evidence::asked_for(diagnosis, index, data))
+            .collect::<Result<_, _>>()?,
+        last: look(&diagnosis.last)?,
+        held_out: whereabouts(held_out, complete, complete, diagnosis.last.method)?,
+        base_whiteness: white(&diagnosis.base)?,
+        last_whiteness: white(&diagnosis.last)?,
+    })
+}

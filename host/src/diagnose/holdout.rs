@@ -1,0 +1,85 @@
+//! What is held out of a fit: another recording, or the end of the only one.
+
+use crate::recording::Recording;
+use std::ops::Range;
+
+/// Part of the recording that is fitted where its end is held out.
+const FITTED_PART: f64 = 0.75;
+/// Parts of the recording between which a rest is looked for, to cut there.
+const REST_BETWEEN: Range<f64> = 0.6..0.9;
+/// How long a rest must have lasted, s.
+const REST_S: f64 = 0.05;
+/// Least length of the part that is held out, s.
+const LEAST_S: f64 = 0.25;
+
+/// What the held-out errors were measured on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HeldOut {
+    /// Another recording.
+    Recording(String),
+    /// The end of the fitted recording.
+    End {
+        /// Where it begins, s after the first sample.
+        from_s: f64,
+        /// Its length, s.
+        seconds: f64,
+        /// Whether the motor stood still there, at zero command. Else the speed at the cut is fitted, and
+        /// commands that were on their way are lost.
+        at_rest: bool,
+    },
+    /// The fitted recording itself: nothing.
+    Nothing,
+}
+
+impl HeldOut {
+    /// Its name in JSON.
+    pub fn name(&self) -> &'static str {
+        match self {
+            HeldOut::Recording(_) => "recording",
+            HeldOut::End { .. } => "end",
+            HeldOut::Nothing => "nothing",
+        }
+    }
+}
+
+/// Cuts the last quarter off, at a rest of the motor near there if it has one: then nothing of the start is
+/// unknown. `None` where too little would be left of it.
+pub fn cut(recording: &Recording) -> Option<(Recording, Recording, HeldOut)> {
+    let length = recording.duration_s();
+    let rest = rest(recording, length);
+    let from_s = rest.unwrap_or(FITTED_PART * length);
+    let (fitted, held_out) = recording.split_at(from_s)?;
+    let seconds = held_out.duration_s();
+    (seconds >= LEAST_S).then_some((
+        fitted,
+        held_out,
+        HeldOut::End {
+            from_s,
+            seconds,
+            at_rest: rest.is_some(),
+        },
+    ))
+}
+
+/// Time after the first sample, s, at which the motor has stood still without a command for a while: of all
+/// such times the one nearest to [`FITTED_PART`].
+fn rest(recording: &Recording, length: f64) -> Option<f64> {
+    let start = *recording.time_s.first()?;
+    let mut busy = start;
+    let mut best: Option<f64> = None;
+    let off = |time: f64| (time - FITTED_PART * length).abs();
+    for k in 1..recording.len() {
+        let now = recording.time_s[k];
+        let closed = recording.enabled.as_ref().is_none_or(|on| on[k - 1]);
+        let driven = closed && recording.command[k - 1] != 0.0;
+        if driven || recording.counts[k] != recording.counts[k - 1] {
+            busy = now;
+        }
+        let time = now - start;
+        let rests = now - busy >= REST_S && REST_BETWEEN.contains(&(time / length));
+        if rests && best.is_none_or(|best| off(time) < off(best)) {
+            best = Some(time);
+        }
+    }
+    best
+}

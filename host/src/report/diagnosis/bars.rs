@@ -1,0 +1,54 @@
+//! Errors as bars, on a logarithmic scale from the encoder's own.
+
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// Widest bar, characters.
+pub const WIDTH: usize = 24;
+
+/// A bar for `rms`, full at `most`, empty at the encoder's floor.
+pub fn bar(rms: f64, most: f64) -> String {
+    let above = |rms: f64| (rms / FLOOR_RMS_COUNTS).ln().max(0.0);
+    let part = above(rms) / above(most).max(f64::MIN_POSITIVE);
+    let length = (part.clamp(0.0, 1.0) * WIDTH as f64).round() as usize;
+    "#".repeat(length)
+}
+
+/// An error with the digits that tell.
+pub fn counts(rms: f64) -> String {
+    if !rms.is_finite() {
+        "-".to_owned()
+    } else if rms < 10.0 {
+        format!("{rms:.3}")
+    } else if rms < 1e5 {
+        format!("{rms:.1}")
+    } else {
+        format!("{rms:.2e}")
+    }
+}
+
+/// The error ladder: a line for each model with its error where it was fitted, its error on what was held out
+/// (not a number where nothing was), and a bar for the latter.
+pub fn ladder(rungs: &[(String, f64, f64)]) -> String {
+    let errors = rungs.iter().flat_map(|rung| [rung.1, rung.2]);
+    let most = errors.filter(|rms| rms.is_finite()).fold(0.0, f64::max);
+    let mut out = format!(
+        "{:28}{:>10}{:>11}   counts RMS, bars logarithmic\n",
+        "error ladder", "fitted", "held out"
+    );
+    for (name, fitted, held_out) in rungs {
+        let shown = if held_out.is_finite() {
+            *held_out
+        } else {
+            *fitted
+        };
+        let line = format!(
+            "  {name:26}{:>10}{:>11}   {}",
+            counts(*fitted),
+            counts(*held_out),
+            bar(shown, most)
+        );
+        out += line.trim_end();
+        out.push('\n');
+    }
+    out
+}

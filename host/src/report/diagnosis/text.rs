@@ -1,0 +1,213 @@
+//! A diagnosis as text for a terminal of 80 columns.
+
+use super::bars::counts;
+use super::whereabouts::{table, whiteness_text};
+use super::{DiagnosisReport, names};
+use crate::diagnose::{HeldOut, Step, Verdict};
+use crate::report::text::{parameter, wrapped};
+use shared::encoder::FLOOR_RMS_COUNTS;
+use std::fmt::Write;
+
+/// Width of the text.
+const WIDTH: usize = 78;
+
+impl DiagnosisReport<'_> {
+    /// As text for a terminal.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        // Writing to a String cannot fail.
+        let _ = self.write(&mut out);
+        out
+    }
+
+    fn write(&self, out: &mut String) -> std::fmt::Result {
+        let end = self.data.time_s.last().copied().unwrap_or(0.0);
+        let samples = self.data.len();
+        writeln!(out, "{}: {samples} samples, {end:.3} s", self.data.source)?;
+        writeln!(out, "{}\n", folded(&self.held_out_text(), ""))?;
+        let verdict = format!("{}: {}", self.verdict().name(), self.verdict_text());
+        writeln!(out, "{}\n", folded(&verdict, ""))?;
+        self.ladder(out)?;
+        for index in 0..self.diagnosis.steps.len() {
+            self.step(out, index)?;
+        }
+        if self.verdict() == Verdict::Unexplained {
+            let (what, found) = if self.diagnosis.fits_only_its_own() {
+                ("on what was held out", &self.findings.held_out)
+            } else {
+                ("on the fitted recording", &self.findings.last)
+            };
+            writeln!(out, "\nwhere the last model fails, {what}")?;
+            out.push_str(&table(found));
+        }
+        let white = whiteness_text(self.findings.last_whiteness.as_ref());
+        writeln!(out, "\n{}", folded(&white, ""))?;
+        self.parameters(out)?;
+        for remark in &self.remarks {
+            out.push_str(&wrapped(remark));
+        }
+        writeln!(out, "\nwhat these recordings cannot tell:")?;
+        for text in self.cannot_tell() {
+            out.push_str(&wrapped(&text));
+        }
+        let advice = self.advice();
+        if !advice.is_empty() {
+            writeln!(out, "\nnext:")?;
+            for advice in advice {
+                out.push_str(&wrapped(&advice));
+            }
+        }
+        Ok(())
+    }
+
+    fn held_out_text(&self) -> String {
+        match self.held_out {
+            HeldOut::Recording(source) => format!("held out, never fitted: {source}"),
+            HeldOut::End {
+                from_s,
+                seconds,
+                at_rest,
+            } => {
+                let at = if *at_rest {
+                    "where the motor stood still"
+                } else {
+                    "while the motor was driven or turning"
+                };
+                format!(
+                    "held out, never fitted: its last {seconds:.3} s, cut off at {from_s:.3} s {at}; another recording \
+                     given with --validate would be a harder test"
+                )
+            }
+            HeldOut::Nothing => {
+                "nothing is held out: --validate is the recording itself, so that the second error is no test"
+                    .to_owned()
+            }
+        }
+    }
+
+    /// Errors from the linear motor to the last model, and the encoder's own.
+    fn ladder(&self, out: &mut String) -> std::fmt::Result {
+        let diagnosis = self.diagnosis;
+        let mut rungs = vec![(
+            "linear motor".to_owned(),
+            diagnosis.base.rms_counts,
+            diagnosis.base.validate_rms_counts,
+        )];
+        for step in &diagnosis.steps {
+            if let Some(after) = step.candidates.first() {
+                let name = format!("+ {}", step.added.name());
+                rungs.push((name, after.rms_counts, after.validate_rms_counts));
+            }
+        }
+        if let Some(last) = rungs.last_mut().filter(|_| !diagnosis.steps.is_empty()) {
+            (last.1, last.2) = self.last_errors();
+        }
+        rungs.push((
+            "encoder's own".to_owned(),
+            FLOOR_RMS_COUNTS,
+            FLOOR_RMS_COUNTS,
+        ));
+        out.push_str(&super::bars::ladder(&rungs));
+        Ok(())
+    }
+
+    fn step(&self, out: &mut String, index: usize) -> std::fmt::Result {
+        let step = &self.diagnosis.steps[index];
+        let description = step.added.description();
+        writeln!(
+            out,
+            "\n{}. {}: {}",
+            index + 1,
+            step.added.name(),
+            description.title
+        )?;
+        let mut say = |name: &str, text: &str| {
+            writeln!(
+                out,
+                "{}",
+                folded(&format!("   {name:12}{text}"), "               ")
+            )
+        };
+        say("equation", description.equation)?;
+        say("why", &self.evidence(index))?;
+        say("look-alikes", &self.company_text(step))?;
+        if let Some(after) = step.candidates.first() {
+            say(
+                "foreseen",
+                &format!(
+                    "{} counts RMS before the refit; {} reached",
+                    counts(after.foreseen_rms_counts),
+                    counts(after.rms_counts)
+                ),
+            )?;
+            if let Some(tracked) = after.tracked {
+                say(
+                    "judged by",
+                    &format!(
+                        "errors that are soon forgotten, since the free run is chaotic: {} fitted, {} held out",
+                        counts(tracked.fitted),
+                        counts(tracked.held_out)
+                    ),
+                )?;
+            }
+        }
+        say("confidence", &format!("{:.2}", step.confidence))?;
+        if let Some(found) = self.findings.steps.get(index).and_then(Option::as_ref) {
+            out.push_str(&table(found));
+        }
+        Ok(())
+    }
+
+    /// Other effects that explain the data as well.
+    fn company_text(&self, step: &Step) -> String {
+        let (alike, refine) = (self.look_alikes(step), self.refinements(step));
+        let mut text = if alike.is_empty() {
+            "nothing else of the catalogue explains these data as well".to_owned()
+        } else {
+            format!(
+                "{} would explain these data as well",
+                names(&alike).join(", ")
+            )
+        };
+        if !refine.is_empty() {
+            text += &format!(
+                "; {} would refine it, and these data do not ask for that",
+                names(&refine).join(" or ")
+            );
+        }
+        text
+    }
+
+    fn parameters(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(
+            out,
+            "\nparameters of the last model, standard error of the last digits in brackets:"
+        )?;
+        for p in &self.last.parameters {
+            out.push_str(&parameter(p, self.last.converged));
+        }
+        Ok(())
+    }
+}
+
+/// Folded to the width, further lines behind `indent`; spaces within the first line's head are kept.
+fn folded(text: &str, indent: &str) -> String {
+    let head = text.len() - text.trim_start().len();
+    let mut out = String::new();
+    let mut line = text[..head].to_owned();
+    for word in text[head..].split(' ') {
+        let long = line.chars().count() + 1 + word.chars().count() > WIDTH;
+        if long && !line.trim().is_empty() {
+            out += line.trim_end();
+            out.push('\n');
+            line = indent.to_owned();
+            line += word;
+        } else {
+            if line.len() > head || !line.trim().is_empty() {
+                line.push(' ');
+            }
+            line += word;
+        }
+    }
+    out + line.trim_end()
+}

@@ -1,0 +1,130 @@
+//! The verdict in the words of a motor engineer.
+
+use super::bars::counts;
+use super::{DiagnosisReport, names};
+use crate::diagnose::evidence::largest;
+use crate::diagnose::{HeldOut, Verdict};
+use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+impl DiagnosisReport<'_> {
+    /// Two sentences.
+    pub(super) fn verdict_text(&self) -> String {
+        let diagnosis = self.diagnosis;
+        let base = counts(diagnosis.base.rms_counts);
+        let (fitted, held_out) = self.last_errors();
+        match self.verdict() {
+            Verdict::Complete => format!(
+                "The linear motor explains this recording down to the encoder: {} counts RMS are left where it was \
+                 fitted and {} {}, and the encoder alone leaves {FLOOR_RMS_COUNTS:.3}. Nothing is missing that these \
+                 data could show.",
+                counts(fitted),
+                counts(held_out),
+                self.where_held_out()
+            ),
+            Verdict::MissingEffects => format!(
+                "The linear motor misses this recording by {base} counts RMS; with {} the error falls to {}, and to {} \
+                 {}, where the encoder alone leaves {FLOOR_RMS_COUNTS:.3}.{}",
+                self.titles(),
+                counts(fitted),
+                counts(held_out),
+                self.where_held_out(),
+                self.chaos_text() + &self.look_alikes_text()
+            ),
+            Verdict::Unexplained if diagnosis.fits_only_its_own() => format!(
+                "{} explains the recording that it was fitted to down to the encoder ({} counts RMS), but errs by {} \
+                 counts {}. The two are not of one motor in one state, or the second shows what the first does not{}.",
+                match self.names() {
+                    Some(names) => format!("The linear motor with {names}"),
+                    None => "The linear motor".to_owned(),
+                },
+                counts(fitted),
+                counts(held_out),
+                self.where_held_out(),
+                largest(&self.findings.held_out).map_or(String::new(), |text| format!(": {text}"))
+            ),
+            Verdict::Unexplained => {
+                let begins = match diagnosis.steps.len() {
+                    0 => format!("The linear motor misses this recording by {base} counts RMS"),
+                    _ => format!(
+                        "With {} the error falls from {base} to {} counts RMS",
+                        self.titles(),
+                        counts(fitted)
+                    ),
+                };
+                format!(
+                    "{begins} ({} {}), and no effect of the catalogue explains the rest, which is {:.0} times what the \
+                     encoder alone leaves.{}",
+                    counts(held_out),
+                    self.where_held_out(),
+                    fitted.max(held_out) / FLOOR_RMS_COUNTS,
+                    largest(&self.findings.last)
+                        .map_or(String::new(), |text| format!(" Of what is left, {text}."))
+                )
+            }
+            Verdict::Inconclusive if self.interrupted => format!(
+                "The work was stopped before all effects were tried: the linear motor misses this recording by {base} \
+                 counts RMS, the best model so far by {}. Run it again to its end for a verdict.",
+                counts(fitted)
+            ),
+            Verdict::Inconclusive => format!(
+                "The linear motor misses this recording by {base} counts RMS, so that something is missing, but this \
+                 recording cannot tell what. See the advice for what to record."
+            ),
+        }
+    }
+
+    /// RMS errors of the last model, counts.
+    pub(super) fn last_errors(&self) -> (f64, f64) {
+        let held_out = self.last.validate_rms_counts.unwrap_or(f64::NAN);
+        (self.last.rms_counts, held_out)
+    }
+
+    fn where_held_out(&self) -> &'static str {
+        match self.held_out {
+            HeldOut::Recording(_) => "on the held-out recording",
+            HeldOut::End { .. } => "on the end that was held out",
+            HeldOut::Nothing => "on the same recording again",
+        }
+    }
+
+    /// Titles of the effects that were added.
+    pub(super) fn titles(&self) -> String {
+        let title = |kind: Kind| format!("{} ({})", kind.description().title, kind.name());
+        let titles: Vec<String> = self
+            .diagnosis
+            .steps
+            .iter()
+            .map(|s| title(s.added))
+            .collect();
+        titles.join(" and ")
+    }
+
+    /// By what a model was judged whose free runs part from the motor at a whim.
+    fn chaos_text(&self) -> String {
+        let tracked = self.diagnosis.last.tracked;
+        tracked.map_or(String::new(), |errors| {
+            format!(
+                " A free run is chaotic here, so the model was judged with errors that are soon forgotten: {} counts \
+                 fitted, {} held out.",
+                counts(errors.fitted),
+                counts(errors.held_out)
+            )
+        })
+    }
+
+    fn look_alikes_text(&self) -> String {
+        let mut text = String::new();
+        for step in &self.diagnosis.steps {
+            let alike = self.look_alikes(step);
+            if !alike.is_empty() {
+                text += &format!(
+                    " In the place of {}, {} would explain these data as well.",
+                    step.added.name(),
+                    names(&alike).join(" or ")
+                );
+            }
+        }
+        text
+    }
+}
