@@ -1,6 +1,7 @@
 //! Models with one effect more: all are sketched, the promising ones refitted.
 
 use super::judge::look_alikes;
+use super::missed;
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -22,11 +23,12 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
     for (index, parent) in parents.iter().enumerate() {
-        if parent.effects.len() >= MAX_EFFECTS {
+        if parent.effects.len() >= MAX_EFFECTS || parent.losses.is_some() {
             continue;
         }
         for &kind in Kind::ALL {
-            if parent.effects.contains(&kind) {
+            // Losses are found, not sketched.
+            if parent.effects.contains(&kind) || kind == Kind::MissedCounts {
                 continue;
             }
             let mut set = parent.effects.clone();
@@ -44,6 +46,34 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
 /// Every model that adds one effect to one of the `parents`, as far as it is promising, best first.
 /// `done` is called after each piece of work.
 pub fn extend(
+    workshop: &Workshop<'_>,
+    parents: &[&Refit],
+    stop: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Vec<Refit> {
+    let mut models: Vec<Refit> = parents
+        .iter()
+        .filter_map(|parent| {
+            let found = missed::found(workshop, parent);
+            done();
+            found
+        })
+        .collect();
+    // Jumps of whole counts that leave the encoder's own error: nothing smooth does the same.
+    if models.iter().all(|model| !model.free().at_floor()) {
+        for parent in parents.iter().filter(|parent| parent.losses.is_some()) {
+            models.extend(missed::beside(workshop, parent, |workshop, bare| {
+                extend(workshop, &[bare], stop, done)
+            }));
+        }
+        models.extend(smooth(workshop, parents, stop, done));
+    }
+    sort(&mut models);
+    models
+}
+
+/// Every model that adds one effect that can be simulated.
+fn smooth(
     workshop: &Workshop<'_>,
     parents: &[&Refit],
     stop: &AtomicBool,

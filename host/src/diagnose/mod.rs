@@ -13,6 +13,7 @@ mod findings;
 pub mod holdout;
 mod judge;
 mod led;
+mod missed;
 mod motion;
 mod orders;
 pub mod pair;
@@ -27,6 +28,7 @@ mod workshop;
 
 pub use findings::{Findings, findings};
 pub use holdout::HeldOut;
+pub use missed::{Loss, Losses};
 pub use refit::{Errors, Refit};
 pub use settle::settle;
 
@@ -232,6 +234,10 @@ fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
         if model.judged().score() - least > BEHIND {
             continue;
         }
+        // A model with losses was polished with them.
+        if model.losses.is_some() {
+            continue;
+        }
         if let Ok(polished) = workshop.polish(model) {
             *model = polished;
         }
@@ -246,7 +252,13 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
     let mut known = last.models.clone();
     if levels.len() > 1 {
         for place in chosen.effects.clone() {
-            let swapped = swap::swaps(workshop, &chosen, place, &known);
+            let swapped = if chosen.losses.is_some() {
+                missed::beside(workshop, &chosen, |workshop, bare| {
+                    swap::swaps(workshop, bare, place, &[])
+                })
+            } else {
+                swap::swaps(workshop, &chosen, place, &known)
+            };
             if let Some(better) = swap::better(&chosen, &swapped) {
                 chosen = better;
             }

@@ -2,6 +2,7 @@
 
 use super::NOISE_COUNTS;
 use super::descent::{Descent, Settings, descend};
+use super::missed::Losses;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
 use crate::error::Error;
@@ -87,6 +88,9 @@ pub struct Refit {
     pub x: Vec<f64>,
     /// Values of the effects' parameters, SI.
     pub parameters: Vec<f64>,
+    /// The counts that were lost, where [`Kind::MissedCounts`] is among the effects: then all errors are
+    /// those with the lost counts put back, and `candidate` and `structure` are without that effect.
+    pub losses: Option<Losses>,
     /// RMS error on the fitted recording, open loop, counts.
     pub rms_counts: f64,
     /// RMS error on the held-out recording, counts.
@@ -306,6 +310,7 @@ impl Workshop<'_> {
             candidate,
             structure,
             x: found.x.clone(),
+            losses: None,
             rms_counts: rms_counts(self.data, &whole),
             validate_rms_counts: validate(self.held_out, &candidate, method)?,
             tracked: None,

@@ -9,13 +9,16 @@ use shared::effects::Kind;
 /// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
 /// except those that are in `known` already.
 pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refit]) -> Vec<Refit> {
+    if !chosen.effects.contains(&place) {
+        return Vec::new();
+    }
     let without = without(chosen, place);
     place
         .description()
         .look_alikes
         .par_iter()
         .filter_map(|name| {
-            let kind = Kind::by_name(name)?;
+            let kind = Kind::by_name(name).filter(|&kind| kind != Kind::MissedCounts)?;
             let mut set = without.effects.clone();
             set.push(kind);
             if chosen.effects.contains(&kind)
