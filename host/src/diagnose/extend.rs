@@ -112,7 +112,7 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
             .newest()
             .is_some_and(|kind| names.contains(&kind.name()))
     });
-    if best.free().at_floor() {
+    if best.ran().at_floor() {
         // The rest is for rivals that may do as well.
         foreseen < CLOSE || (look_alike && foreseen < FAR)
     } else {

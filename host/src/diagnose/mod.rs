@@ -13,11 +13,13 @@ mod motion;
 mod orders;
 mod refit;
 mod sketch;
+mod span;
 mod starts;
 mod swap;
 mod workshop;
 
 pub use refit::{Errors, Refit};
+pub use span::Span;
 
 use crate::error::Error;
 use crate::fit::Options;
@@ -78,6 +80,8 @@ pub struct Step {
 /// A diagnosis.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
+    /// How far models ran on their own, and why.
+    pub span: Span,
     /// The linear motor.
     pub base: Refit,
     /// The verdict.
@@ -103,11 +107,18 @@ pub fn diagnose(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let workshop = Workshop::new(data, held_out, options);
-    let base = workshop.base(options)?;
+    let mut workshop = Workshop::new(data, held_out, options);
+    let mut base = workshop.base(options)?;
+    let span = workshop.span.clone().after(data, &base);
+    if span != workshop.span {
+        workshop = Workshop::over(span, data, held_out, options);
+        base = workshop.base(options)?;
+    }
+    let workshop = workshop;
     let levels = levels(&workshop, &base, stop, done);
     let chosen = levels.iter().rposition(|level| level.believed);
     let mut diagnosis = Diagnosis {
+        span: workshop.span.clone(),
         last: base.clone(),
         base,
         verdict: Verdict::Complete,
@@ -166,7 +177,13 @@ fn levels(
     {
         let parents: Vec<&Refit> = match levels.last() {
             None => vec![base],
-            Some(level) => level.models.iter().take(BEAM).collect(),
+            Some(level) => {
+                let models = level.models.iter();
+                models
+                    .filter(|model| !level.models.iter().any(|m| judge::replaces(m, model)))
+                    .take(BEAM)
+                    .collect()
+            }
         };
         let mut models = extend(workshop, &parents, stop, done);
         polish_best(workshop, &mut models);

@@ -11,6 +11,7 @@ use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure};
 use shared::cost::Cost;
 use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// Of a fit by full simulation.
 const FULL: Settings = Settings {
@@ -39,6 +40,8 @@ const FADE: Settings = Settings {
     damping: 1e-4,
     secant: true,
 };
+/// Room above the floor, for a recording whose readings dwell in one part of their cells.
+const ROOM: f64 = NOISE_COUNTS / FLOOR_RMS_COUNTS;
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 3] = [0.02, 0.1, 0.5];
 /// A simulation whose error is so many times the led one's has lost its way.
@@ -53,17 +56,25 @@ pub struct Errors {
     pub fitted: f64,
     /// On the held-out recording.
     pub held_out: f64,
+    /// What the reading's own noise makes of a right model.
+    pub floor: f64,
 }
 
 impl Errors {
     /// Whether both are the encoder's own.
     pub fn at_floor(&self) -> bool {
-        self.fitted < NOISE_COUNTS && self.held_out < NOISE_COUNTS
+        let noise = self.floor * ROOM;
+        self.fitted < noise && self.held_out < noise
+    }
+
+    /// Mean square error on the held-out recording beyond the reading's own.
+    pub fn excess(&self) -> f64 {
+        (self.held_out.powi(2) - self.floor.powi(2)).max(0.0)
     }
 
     /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.
     pub fn score(&self) -> f64 {
-        let floored = |rms: f64| rms.max(shared::encoder::FLOOR_RMS_COUNTS);
+        let floored = |rms: f64| rms.max(self.floor);
         (floored(self.fitted) * floored(self.held_out)).ln()
     }
 }
@@ -83,6 +94,8 @@ pub struct Refit {
     pub rms_counts: f64,
     /// RMS error on the held-out recording, counts.
     pub validate_rms_counts: f64,
+    /// Errors in windows, each run from the measured state, where whole runs say little.
+    pub windowed: Option<Errors>,
     /// Errors that are soon forgotten, where free runs are chaotic.
     pub tracked: Option<Errors>,
     /// RMS error that was foreseen before the refit, counts.
@@ -99,14 +112,20 @@ impl Refit {
         Errors {
             fitted: self.rms_counts,
             held_out: self.validate_rms_counts,
+            floor: FLOOR_RMS_COUNTS,
         }
     }
 
-    /// The errors that it is judged by: those of the free runs, unless they are chaotic.
+    /// The errors of the runs that were fitted: in windows if there are any.
+    pub fn ran(&self) -> Errors {
+        self.windowed.unwrap_or_else(|| self.free())
+    }
+
+    /// The errors that it is judged by: those of the runs that were fitted, unless they are chaotic.
     pub fn judged(&self) -> Errors {
         match self.tracked {
-            Some(tracked) if !self.free().at_floor() => tracked,
-            _ => self.free(),
+            Some(tracked) if !self.ran().at_floor() => tracked,
+            _ => self.ran(),
         }
     }
 
@@ -127,14 +146,15 @@ impl Workshop<'_> {
     /// [`Error::Failed`] where the model cannot run from there.
     pub fn refit(&self, sketch: &Sketch) -> Result<Refit, Error> {
         // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
-        let lost = sketch.simulated > LOST * sketch.led.max(NOISE_COUNTS);
+        let lost =
+            self.span.window_s.is_none() && sketch.simulated > LOST * sketch.led.max(NOISE_COUNTS);
         let start = if lost {
             self.fade(&sketch.structure, &sketch.x)
         } else {
             sketch.x.clone()
         };
         let settings = Settings {
-            enough: NOISE_COUNTS * NOISE_COUNTS * self.data.len() as f64,
+            enough: (self.floor * ROOM).powi(2) * self.data.len() as f64,
             ..FULL
         };
         let found = self.descend(&sketch.structure, &start, settings, self.method)?;
@@ -144,7 +164,7 @@ impl Workshop<'_> {
             sketch.foreseen(),
             self.method,
         )?;
-        if lost && !refit.free().at_floor() {
+        if lost && !refit.ran().at_floor() {
             self.track(&mut refit)?;
         }
         Ok(refit)
@@ -172,6 +192,7 @@ impl Workshop<'_> {
         refit.tracked = Some(Errors {
             fitted: tracked(self.data)?,
             held_out: tracked(self.held_out)?,
+            floor: FLOOR_RMS_COUNTS,
         });
         Ok(())
     }
@@ -220,12 +241,12 @@ impl Workshop<'_> {
                 substeps: method.substeps * FINER,
                 ..method
             };
-            let again = scores::whole(self.data, &best.candidate, finer)?;
-            let change = (rms_counts(self.data, &again) - best.rms_counts).abs().max(
-                (validate(self.held_out, &best.candidate, finer)? - best.validate_rms_counts).abs(),
-            );
+            let (again, ran) = (self.runs(&best.candidate, finer)?, best.ran());
+            let change = (again.fitted - ran.fitted)
+                .abs()
+                .max((again.held_out - ran.held_out).abs());
             if best.judged().at_floor()
-                || change < STEP_ERROR * best.rms_counts.max(1.0)
+                || change < STEP_ERROR * ran.fitted.max(1.0)
                 || finer.substeps > FINEST
             {
                 return Ok(best);
@@ -245,18 +266,42 @@ impl Workshop<'_> {
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))
     }
 
-    /// The whole recording, run freely.
+    /// The recording, run over the span that was chosen.
     pub(super) fn problem(&self, structure: &Structure, method: Method) -> FitProblem<'_> {
         FitProblem {
             data: self.data,
             structure: structure.clone(),
             cost: Cost::Squared,
             weight: 1.0,
-            horizon: Horizon::Whole,
+            horizon: self.fitted_horizon.clone(),
             start_angle: StartAngle::Free,
             method,
             start: None,
         }
+    }
+
+    /// Errors of a model over the span that was chosen.
+    ///
+    /// # Errors
+    /// As [`refit`](Self::refit).
+    fn runs(&self, candidate: &Candidate, method: Method) -> Result<Errors, Error> {
+        if self.span.window_s.is_none() {
+            return Ok(Errors {
+                fitted: rms_counts(self.data, &scores::whole(self.data, candidate, method)?),
+                held_out: validate(self.held_out, candidate, method)?,
+                floor: self.floor,
+            });
+        }
+        let rms = |data: &Data, horizon: &Horizon| {
+            let cost = Cost::Squared;
+            errors(data, candidate, method, horizon, StartAngle::Free, cost)
+                .map(|errors| rms_counts(data, &errors))
+        };
+        Ok(Errors {
+            fitted: rms(self.data, &self.fitted_horizon)?,
+            held_out: rms(self.held_out, &self.held_out_horizon)?,
+            floor: self.floor,
+        })
     }
 
     /// Scores a model where a search ended.
@@ -272,13 +317,22 @@ impl Workshop<'_> {
     ) -> Result<Refit, Error> {
         let values = structure.values(&found.x);
         let candidate = structure.candidate(&values);
-        let whole = scores::whole(self.data, &candidate, method)?;
+        let windows = self.span.window_s.is_some();
         Ok(Refit {
             effects: structure.effects.clone(),
             parameters: structure.effect_values(&values).to_vec(),
             candidate,
             structure,
-            rms_counts: rms_counts(self.data, &whole),
+            rms_counts: if windows {
+                validate(self.data, &candidate, method)?
+            } else {
+                rms_counts(self.data, &scores::whole(self.data, &candidate, method)?)
+            },
+            windowed: if windows {
+                Some(self.runs(&candidate, method)?)
+            } else {
+                None
+            },
             validate_rms_counts: validate(self.held_out, &candidate, method)?,
             tracked: None,
             foreseen_rms_counts: foreseen,

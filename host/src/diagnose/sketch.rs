@@ -6,9 +6,10 @@ use super::led::{Led, follows};
 use super::refit::Refit;
 use super::starts::starts;
 use super::workshop::Workshop;
-use crate::fit::{base_for, scores};
-use crate::problem::Structure;
-use crate::problem::cost::rms_counts;
+use crate::fit::base_for;
+use crate::problem::cost::{errors, rms_counts};
+use crate::problem::{StartAngle, Structure};
+use shared::cost::Cost;
 use shared::effects::Kind;
 
 const SKETCH: Settings = Settings {
@@ -92,13 +93,21 @@ impl Workshop<'_> {
         let led = Led {
             data: self.data,
             motion: &self.motion,
+            horizon: &self.fitted_horizon,
             structure: structure.clone(),
             method: self.method,
         };
         let found = descend(&led, &x, SKETCH)?;
         let candidate = structure.candidate(&structure.values(&found.x));
-        let simulated = scores::whole(self.data, &candidate, self.method)
-            .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
+        let simulated = errors(
+            self.data,
+            &candidate,
+            self.method,
+            &self.fitted_horizon,
+            StartAngle::Free,
+            Cost::Squared,
+        )
+        .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
         Some(Sketch {
             structure: structure.clone(),
             x: found.x,
