@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most refits of one call.
 const MOST_REFITS: usize = 8;
+/// The same where models run in windows.
+const MOST_IN_WINDOWS: usize = 12;
 /// Sketches within this factor of the best are refitted in any case.
 const CLOSE: f64 = 1.5;
 /// Beyond this factor of the best they are not, but for look-alikes of the best.
@@ -21,7 +23,7 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
     for (index, parent) in parents.iter().enumerate() {
-        if parent.effects.len() >= MAX_EFFECTS {
+        if parent.structure.effects.len() >= MAX_EFFECTS {
             continue;
         }
         for &kind in Kind::ALL {
@@ -67,9 +69,16 @@ fn refits(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
+    // In windows more of them are alike.
+    let windows = workshop.span.window_s.is_some();
+    let most = if windows {
+        MOST_IN_WINDOWS
+    } else {
+        MOST_REFITS
+    };
     let mut refits: Vec<Refit> = Vec::new();
     for chunk in sketches.chunks(AT_A_TIME) {
-        if stop.load(Ordering::Relaxed) || refits.len() >= MOST_REFITS {
+        if stop.load(Ordering::Relaxed) || refits.len() >= most {
             break;
         }
         let best = refits.first();

@@ -14,18 +14,22 @@ mod orders;
 mod refit;
 mod sketch;
 mod span;
+mod spectrum;
 mod starts;
 mod swap;
 mod workshop;
 
+pub use orders::Line;
 pub use refit::{Errors, Refit};
 pub use span::Span;
+pub use spectrum::Spectrum;
 
 use crate::error::Error;
 use crate::fit::Options;
 use crate::problem::Data;
 use extend::extend;
 use shared::effects::Kind;
+use span::moves_both_ways;
 use std::sync::atomic::{AtomicBool, Ordering};
 use workshop::Workshop;
 
@@ -75,6 +79,8 @@ pub struct Step {
     pub candidates: Vec<Refit>,
     /// Chance of so large a gain if the effect were absent, for each candidate.
     pub p_values: Vec<f64>,
+    /// All orders of a cogging torque, of which the model holds the strongest.
+    pub spectrum: Option<Spectrum>,
 }
 
 /// A diagnosis.
@@ -193,7 +199,8 @@ fn levels(
         if best.tracked.is_some() && before.tracked.is_none() {
             let _ = workshop.track(&mut before);
         }
-        let believed = judge::removes(&before, &best);
+        let walled = best.windowed.is_some() && best.at_wall();
+        let believed = judge::removes(&before, &best) && !walled;
         before = best.clone();
         levels.push(Level {
             models,
@@ -244,7 +251,9 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
     let mut before = diagnosis.base.clone();
     for (depth, &added) in chosen.effects.iter().enumerate() {
         let company = judge::company(&chosen, added, &known);
-        if !company.allows(added) {
+        // A motor that never reverses cannot tell any of them apart: they are named as one.
+        let one = workshop.span.window_s.is_some() && !moves_both_ways(workshop.data);
+        if !one && !company.allows(added) {
             diagnosis.not_named = Some(added);
             break;
         }
@@ -277,24 +286,12 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
             confidence: company.confidence(),
             candidates,
             p_values,
+            spectrum: (added == Kind::Cogging)
+                .then(|| spectrum::spectrum(workshop.data, &before.candidate)),
         });
         before = after.clone();
         diagnosis.last = after;
     }
-}
-
-/// Whether a twentieth of the travel at least goes against the prevailing direction.
-fn moves_both_ways(data: &Data) -> bool {
-    let (mut forward, mut backward) = (0.0, 0.0);
-    for pair in data.counts.windows(2) {
-        let step = pair[1] - pair[0];
-        if step > 0.0 {
-            forward += step
-        } else {
-            backward -= step
-        }
-    }
-    forward.min(backward) > 0.05 * (forward + backward)
 }
 
 fn advise(diagnosis: &mut Diagnosis) {

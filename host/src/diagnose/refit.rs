@@ -82,7 +82,7 @@ impl Errors {
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
 pub struct Refit {
-    /// The effects, the newest last.
+    /// The effects, the newest last; one that its structure holds several times stands here once.
     pub effects: Vec<Kind>,
     /// The model.
     pub candidate: Candidate,
@@ -127,6 +127,29 @@ impl Refit {
             Some(tracked) if !self.ran().at_floor() => tracked,
             _ => self.ran(),
         }
+    }
+
+    /// Whether its newest effect is as large as is searched for: then it does another one's work.
+    pub fn at_wall(&self) -> bool {
+        let Some(newest) = self.effects.last() else {
+            return false;
+        };
+        let values = self.structure.values_of(
+            &self.candidate.machine,
+            &self.parameters,
+            self.candidate.start_speed,
+        );
+        let amplitude = |name: &str| {
+            let parameters = newest.description().parameters;
+            name.split_once('.').is_some_and(|(effect, name)| {
+                effect == newest.name() && parameters.iter().any(|p| p.amplitude && p.name == name)
+            })
+        };
+        let unknowns = self.structure.unknowns.iter().zip(&values);
+        unknowns.into_iter().any(|(unknown, &value)| {
+            let x = unknown.coordinate(value);
+            amplitude(&unknown.name) && (x == 1.0 || (x == 0.0 && unknown.range.0 < 0.0))
+        })
     }
 
     /// Point of the unit cube where it stands.
@@ -319,7 +342,7 @@ impl Workshop<'_> {
         let candidate = structure.candidate(&values);
         let windows = self.span.window_s.is_some();
         Ok(Refit {
-            effects: structure.effects.clone(),
+            effects: distinct(&structure.effects),
             parameters: structure.effect_values(&values).to_vec(),
             candidate,
             structure,
@@ -340,6 +363,17 @@ impl Workshop<'_> {
             method,
         })
     }
+}
+
+/// Each effect once, in order.
+fn distinct(effects: &[Kind]) -> Vec<Kind> {
+    let mut distinct: Vec<Kind> = Vec::new();
+    for &kind in effects {
+        if !distinct.contains(&kind) {
+            distinct.push(kind);
+        }
+    }
+    distinct
 }
 
 /// Factor between step sizes that are compared.

@@ -55,7 +55,17 @@ impl Span {
     /// Windows instead of whole runs, where the linear motor run over the whole recording says little.
     pub fn after(self, data: &Data, base: &Refit) -> Self {
         let lost = base.rms_counts / spread(data);
-        if self.window_s.is_some() || lost < LOST {
+        if self.window_s.is_some() {
+            return self;
+        }
+        if !base.free().at_floor() && !moves_both_ways(data) {
+            return Span {
+                window_s: usual(data),
+                reason: "the motor turns one way only: a small change of its friction is never taken back"
+                    .to_owned(),
+            };
+        }
+        if lost < LOST {
             return self;
         }
         Span {
@@ -71,6 +81,20 @@ impl Span {
 
 /// A motor that strays by this part of the motion's spread was not moved by its voltage alone.
 const LOST: f64 = 0.8;
+
+/// Whether a twentieth of the travel at least goes against the prevailing direction.
+pub fn moves_both_ways(data: &Data) -> bool {
+    let (mut forward, mut backward) = (0.0, 0.0);
+    for pair in data.counts.windows(2) {
+        let step = pair[1] - pair[0];
+        if step > 0.0 {
+            forward += step
+        } else {
+            backward -= step
+        }
+    }
+    forward.min(backward) > 0.05 * (forward + backward)
+}
 
 fn usual(data: &Data) -> Option<f64> {
     Some(USUAL_WINDOW_S.max(FEWEST_SAMPLES * data.units.interval))
