@@ -11,6 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most refits of one call.
 const MOST_REFITS: usize = 6;
+/// The same where models run in windows.
+const MOST_IN_WINDOWS: usize = 12;
 /// Sketches within this factor of the best are refitted in any case.
 const CLOSE: f64 = 1.5;
 /// Beyond this factor of the best they are not, but for look-alikes of the best.
@@ -23,7 +25,7 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
     for (index, parent) in parents.iter().enumerate() {
-        if parent.effects.len() >= MAX_EFFECTS || parent.losses.is_some() {
+        if parent.structure.effects.len() >= MAX_EFFECTS || parent.losses.is_some() {
             continue;
         }
         for &kind in Kind::ALL {
@@ -53,6 +55,8 @@ pub fn extend(
 ) -> Vec<Refit> {
     let mut models: Vec<Refit> = parents
         .iter()
+        // In windows a jump is forgotten with the window.
+        .filter(|_| workshop.span.window_s.is_none())
         .filter_map(|parent| {
             let found = missed::found(workshop, parent);
             done();
@@ -148,9 +152,16 @@ fn refits(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
+    // In windows more of them are alike.
+    let windows = workshop.span.window_s.is_some();
+    let most = if windows {
+        MOST_IN_WINDOWS
+    } else {
+        MOST_REFITS
+    };
     let mut refits: Vec<Refit> = Vec::new();
     for chunk in sketches.chunks(AT_A_TIME) {
-        if stop.load(Ordering::Relaxed) || refits.len() >= MOST_REFITS {
+        if stop.load(Ordering::Relaxed) || refits.len() >= most {
             break;
         }
         let best = refits.first();
@@ -193,7 +204,7 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
             .newest()
             .is_some_and(|kind| names.contains(&kind.name()))
     });
-    if best.free().at_floor() {
+    if best.ran().at_floor() {
         // The rest is for rivals that may do as well.
         foreseen < CLOSE || (look_alike && foreseen < FAR)
     } else {

@@ -42,11 +42,15 @@ fn without(chosen: &Refit, place: Kind) -> Refit {
     let mut refit = chosen.clone();
     refit.effects.clear();
     refit.parameters.clear();
-    for &kind in &chosen.effects {
+    refit.structure.effects.clear();
+    for &kind in &chosen.structure.effects {
         let (own, further) = rest.split_at(kind.description().parameters.len());
         rest = further;
         if kind != place {
-            refit.effects.push(kind);
+            if !refit.effects.contains(&kind) {
+                refit.effects.push(kind);
+            }
+            refit.structure.effects.push(kind);
             refit.parameters.extend_from_slice(own);
         }
     }

@@ -45,7 +45,7 @@ fn truth(lossless: &Data, with_losses: &Data) -> Vec<Loss> {
 /// What is found in two recordings of the machine, by the linear motor.
 fn losses(data: &Data, held_out: &Data) -> Option<(Losses, f64)> {
     let options = Options::default();
-    let workshop = Workshop::new(data, held_out, &options);
+    let mut workshop = Workshop::new(data, held_out, &options);
     let base = workshop.base(&options).unwrap();
     if base.free().at_floor() {
         return None;

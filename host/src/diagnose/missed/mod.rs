@@ -305,6 +305,10 @@ impl Repaired {
             data: &self.data,
             held_out: &self.held_out,
             motion: Motion::measured(&self.data),
+            span: of.span.clone(),
+            fitted_horizon: of.fitted_horizon.clone(),
+            held_out_horizon: of.held_out_horizon.clone(),
+            floor: of.floor,
             method: of.method,
         }
     }
