@@ -1,5 +1,7 @@
 //! Models with one effect more: all are sketched, the promising ones refitted.
 
+use super::judge::look_alikes;
+use super::missed;
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -9,6 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most refits of one call.
 const MOST_REFITS: usize = 6;
+/// The same where models run in windows.
+const MOST_IN_WINDOWS: usize = 12;
 /// Sketches within this factor of the best are refitted in any case.
 const CLOSE: f64 = 1.5;
 /// Beyond this factor of the best they are not, but for look-alikes of the best.
@@ -21,11 +25,12 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
     for (index, parent) in parents.iter().enumerate() {
-        if parent.effects.len() >= MAX_EFFECTS {
+        if parent.structure.effects.len() >= MAX_EFFECTS || parent.losses.is_some() {
             continue;
         }
         for &kind in Kind::ALL {
-            if parent.effects.contains(&kind) {
+            // Losses are found, not sketched.
+            if parent.effects.contains(&kind) || kind == Kind::MissedCounts {
                 continue;
             }
             let mut set = parent.effects.clone();
@@ -43,6 +48,36 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
 /// Every model that adds one effect to one of the `parents`, as far as it is promising, best first.
 /// `done` is called after each piece of work.
 pub fn extend(
+    workshop: &Workshop<'_>,
+    parents: &[&Refit],
+    stop: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Vec<Refit> {
+    let mut models: Vec<Refit> = parents
+        .iter()
+        // In windows a jump is forgotten with the window.
+        .filter(|_| workshop.span.window_s.is_none())
+        .filter_map(|parent| {
+            let found = missed::found(workshop, parent);
+            done();
+            found
+        })
+        .collect();
+    // Jumps of whole counts that leave the encoder's own error: nothing smooth does the same.
+    if models.iter().all(|model| !model.free().at_floor()) {
+        for parent in parents.iter().filter(|parent| parent.losses.is_some()) {
+            models.extend(missed::beside(workshop, parent, |workshop, bare| {
+                extend(workshop, &[bare], stop, done)
+            }));
+        }
+        models.extend(smooth(workshop, parents, stop, done));
+    }
+    sort(&mut models);
+    models
+}
+
+/// Every model that adds one effect that can be simulated.
+fn smooth(
     workshop: &Workshop<'_>,
     parents: &[&Refit],
     stop: &AtomicBool,
@@ -76,7 +111,39 @@ pub fn extend(
         sketches.extend(more);
     }
     sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
+    again_from_best(workshop, parents, &mut sketches);
     refits(workshop, &sketches, stop, done)
+}
+
+/// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
+/// look-alikes get a second start there, lest they lose for their start alone.
+fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [Sketch]) {
+    let Some(best) = sketches.first() else { return };
+    let Some(kind) = best.newest() else { return };
+    let (least, effects) = (best.foreseen(), best.structure.effects.clone());
+    let values = best.structure.values(&best.x);
+    let machine = best.structure.candidate(&values).machine;
+    let Some(parent) = parents
+        .iter()
+        .find(|parent| effects.starts_with(&parent.effects))
+    else {
+        return;
+    };
+    let mut parent = (*parent).clone();
+    parent.candidate.machine = machine;
+    sketches.par_iter_mut().skip(1).for_each(|sketch| {
+        let Some(newest) = sketch.newest() else {
+            return;
+        };
+        let beside = sketch.structure.effects.starts_with(&parent.effects);
+        if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
+            let again = workshop.sketch(&parent, newest, &[]);
+            if let Some(again) = again.filter(|again| again.foreseen() < sketch.foreseen()) {
+                *sketch = again;
+            }
+        }
+    });
+    sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
 }
 
 fn refits(
@@ -85,9 +152,16 @@ fn refits(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
+    // In windows more of them are alike.
+    let windows = workshop.span.window_s.is_some();
+    let most = if windows {
+        MOST_IN_WINDOWS
+    } else {
+        MOST_REFITS
+    };
     let mut refits: Vec<Refit> = Vec::new();
     for chunk in sketches.chunks(AT_A_TIME) {
-        if stop.load(Ordering::Relaxed) || refits.len() >= MOST_REFITS {
+        if stop.load(Ordering::Relaxed) || refits.len() >= most {
             break;
         }
         let best = refits.first();
@@ -130,7 +204,7 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
             .newest()
             .is_some_and(|kind| names.contains(&kind.name()))
     });
-    if best.free().at_floor() {
+    if best.ran().at_floor() {
         // The rest is for rivals that may do as well.
         foreseen < CLOSE || (look_alike && foreseen < FAR)
     } else {

@@ -19,10 +19,35 @@ const MOST_ALIKE: usize = 4;
 /// The best of some models that are sorted by score: the simplest of those that are as good as the first.
 pub fn best(models: &[Refit]) -> Option<&Refit> {
     let least = models.first()?.judged().score();
-    models
+    let best = models
         .iter()
         .take_while(|model| model.judged().score() - least < AS_GOOD)
-        .min_by_key(|model| model.parameters.len())
+        .min_by_key(|model| model.parameters.len())?;
+    Some(models.iter().fold(
+        best,
+        |best, model| {
+            if replaces(model, best) { model } else { best }
+        },
+    ))
+}
+
+/// Whether a simpler model will do in the place of another that has a look-alike of one of its effects. Errors
+/// in windows are far above the reading's own, and any further parameter lowers them a little: there the other
+/// must remove as much of the simpler one's excess as a further effect would have to.
+pub fn replaces(simpler: &Refit, other: &Refit) -> bool {
+    simpler.windowed.is_some()
+        && simpler.parameters.len() < other.parameters.len()
+        && akin(simpler, other)
+        && !removes(simpler, other)
+}
+
+/// Whether two models differ in one effect only, and there by look-alikes.
+fn akin(a: &Refit, b: &Refit) -> bool {
+    let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
+    match (own.next(), own.next()) {
+        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alikes(place, kind)),
+        _ => false,
+    }
 }
 
 /// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.
@@ -31,15 +56,10 @@ pub fn removes(before: &Refit, after: &Refit) -> bool {
     let (old, new) = if before.tracked.is_some() && after.tracked.is_some() {
         (before.judged(), after.judged())
     } else {
-        (before.free(), after.free())
+        (before.ran(), after.ran())
     };
-    let removed = 1.0 - excess(new.held_out) / excess(old.held_out);
+    let removed = 1.0 - new.excess() / old.excess();
     removed > MUST_REMOVE && new.fitted < old.fitted
-}
-
-/// Mean square error beyond the encoder's own.
-fn excess(rms: f64) -> f64 {
-    (rms * rms - 1.0 / 12.0).max(0.0)
 }
 
 /// Whether two effects are known to look alike.
@@ -112,7 +132,7 @@ fn instead(chosen: &Refit, place: Kind, other: &Refit) -> Option<Kind> {
 /// samples as the reading changes, since a motor at rest says the same thing a thousand times.
 pub fn p_value(data: &Data, before: &Refit, after: &Refit) -> f64 {
     let samples = data.transitions() as f64;
-    let statistic = 2.0 * samples * (before.rms_counts / after.rms_counts).ln();
+    let statistic = 2.0 * samples * (before.ran().fitted / after.ran().fitted).ln();
     let added = after
         .structure
         .dim()

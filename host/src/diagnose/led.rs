@@ -2,7 +2,7 @@
 
 use super::motion::Motion;
 use crate::problem::simulate::{Candidate, Method, Simulation};
-use crate::problem::{Data, Structure};
+use crate::problem::{Data, Horizon, Structure};
 use crate::solve::Objective;
 use shared::effects::Kind;
 
@@ -12,6 +12,8 @@ pub struct Led<'a> {
     pub data: &'a Data,
     /// Its motion.
     pub motion: &'a Motion,
+    /// How far the model is led before it is set back to the measured state.
+    pub horizon: &'a Horizon,
     /// The unknowns.
     pub structure: Structure,
     /// How the model is run.
@@ -19,11 +21,12 @@ pub struct Led<'a> {
 }
 
 /// Whether a led model follows this effect: not where motor and load part ways, where commands are
-/// late, or where bristles bend by less than a sample's travel. Those cost little to simulate in full, or are not helped by being led.
+/// late, or where bristles bend, or the current rises,
+/// within a sample. Those cost little to simulate in full, or are not helped by being led.
 pub fn follows(kind: Kind) -> bool {
     !matches!(
         kind,
-        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre
+        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre | Kind::LSat
     )
 }
 
@@ -36,8 +39,19 @@ impl Led<'_> {
             ..self.method
         };
         let simulation = Simulation::new(self.data, candidate, method).ok()?;
-        let mut errors =
-            simulation.led(&self.motion.seen, &self.motion.turns, candidate.start_speed);
+        let (seen, turns) = (&self.motion.seen, &self.motion.turns);
+        if let Horizon::Windows(windows) = self.horizon {
+            let mut errors = Vec::with_capacity(self.data.len());
+            for window in windows {
+                errors.extend(simulation.led(window.range.clone(), seen, turns, window.speed));
+            }
+            let centre = self.data.centre(0) - self.data.counts[0];
+            for error in &mut errors {
+                *error -= centre;
+            }
+            return errors.iter().all(|e| e.is_finite()).then_some(errors);
+        }
+        let mut errors = simulation.led(0..self.data.len(), seen, turns, candidate.start_speed);
         let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
         for error in &mut errors {
             *error -= mean;

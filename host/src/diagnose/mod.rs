@@ -13,12 +13,15 @@ mod findings;
 pub mod holdout;
 mod judge;
 mod led;
+mod missed;
 mod motion;
 mod orders;
 pub mod pair;
 mod refit;
 mod settle;
 mod sketch;
+mod span;
+mod spectrum;
 mod starts;
 mod swap;
 pub mod usable;
@@ -27,14 +30,19 @@ mod workshop;
 
 pub use findings::{Findings, findings};
 pub use holdout::HeldOut;
+pub use missed::{Loss, Losses};
+pub use orders::Line;
 pub use refit::{Errors, Refit};
 pub use settle::settle;
+pub use span::Span;
+pub use spectrum::Spectrum;
 
 use crate::error::Error;
 use crate::fit::Options;
 use crate::problem::Data;
 use extend::extend;
 use shared::effects::Kind;
+use span::moves_both_ways;
 use std::sync::atomic::{AtomicBool, Ordering};
 use workshop::Workshop;
 
@@ -86,11 +94,15 @@ pub struct Step {
     pub candidates: Vec<Refit>,
     /// Chance of so large a gain if the effect were absent, for each candidate.
     pub p_values: Vec<f64>,
+    /// All orders of a cogging torque, of which the model holds the strongest.
+    pub spectrum: Option<Spectrum>,
 }
 
 /// A diagnosis.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
+    /// How far models ran on their own, and why.
+    pub span: Span,
     /// The linear motor.
     pub base: Refit,
     /// The verdict.
@@ -126,11 +138,18 @@ pub fn diagnose(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let workshop = Workshop::new(data, held_out, options);
-    let base = workshop.base(options)?;
+    let mut workshop = Workshop::new(data, held_out, options);
+    let mut base = workshop.base(options)?;
+    let span = workshop.span.clone().after(data, &base);
+    if span != workshop.span {
+        workshop = Workshop::over(span, data, held_out, options);
+        base = workshop.base(options)?;
+    }
+    let workshop = workshop;
     let levels = levels(&workshop, &base, stop, done);
     let chosen = levels.iter().rposition(|level| level.believed);
     let mut diagnosis = Diagnosis {
+        span: workshop.span.clone(),
         last: base.clone(),
         base,
         verdict: Verdict::Complete,
@@ -193,8 +212,9 @@ fn levels(
             Some(level) => {
                 let near = |model: &&Refit| {
                     model.judged().score() - level.models[0].judged().score() < BEAM_WIDTH
+                        && !level.models.iter().any(|m| judge::replaces(m, model))
                 };
-                level.models.iter().take(BEAM).filter(near).collect()
+                level.models.iter().filter(near).take(BEAM).collect()
             }
         };
         let mut models = extend(workshop, &parents, stop, done);
@@ -205,7 +225,8 @@ fn levels(
         if best.tracked.is_some() && before.tracked.is_none() {
             let _ = workshop.track(&mut before);
         }
-        let believed = judge::removes(&before, &best);
+        let walled = best.windowed.is_some() && best.at_wall();
+        let believed = judge::removes(&before, &best) && !walled;
         before = best.clone();
         levels.push(Level {
             models,
@@ -232,6 +253,10 @@ fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
         if model.judged().score() - least > BEHIND {
             continue;
         }
+        // A model with losses was polished with them.
+        if model.losses.is_some() {
+            continue;
+        }
         if let Ok(polished) = workshop.polish(model) {
             *model = polished;
         }
@@ -246,7 +271,13 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
     let mut known = last.models.clone();
     if levels.len() > 1 {
         for place in chosen.effects.clone() {
-            let swapped = swap::swaps(workshop, &chosen, place, &known);
+            let swapped = if chosen.losses.is_some() {
+                missed::beside(workshop, &chosen, |workshop, bare| {
+                    swap::swaps(workshop, bare, place, &[])
+                })
+            } else {
+                swap::swaps(workshop, &chosen, place, &known)
+            };
             if let Some(better) = swap::better(&chosen, &swapped) {
                 chosen = better;
             }
@@ -256,7 +287,9 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
     let mut before = diagnosis.base.clone();
     for (depth, &added) in chosen.effects.iter().enumerate() {
         let company = judge::company(&chosen, added, &known);
-        if !company.allows(added) {
+        // A motor that never reverses cannot tell any of them apart: they are named as one.
+        let one = workshop.span.window_s.is_some() && !moves_both_ways(workshop.data);
+        if !one && !company.allows(added) {
             diagnosis.not_named = Some(added);
             break;
         }
@@ -289,23 +322,11 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
             confidence: company.confidence(),
             candidates,
             p_values,
+            spectrum: (added == Kind::Cogging)
+                .then(|| spectrum::spectrum(workshop.data, &before.candidate)),
         });
         before = after.clone();
         diagnosis.last = after;
     }
     diagnosis.rivals = known;
-}
-
-/// Whether a twentieth of the travel at least goes against the prevailing direction.
-fn moves_both_ways(data: &Data) -> bool {
-    let (mut forward, mut backward) = (0.0, 0.0);
-    for pair in data.counts.windows(2) {
-        let step = pair[1] - pair[0];
-        if step > 0.0 {
-            forward += step
-        } else {
-            backward -= step
-        }
-    }
-    forward.min(backward) > 0.05 * (forward + backward)
 }

@@ -9,7 +9,7 @@ use crate::problem::{Candidate, Data};
 /// Highest order that is looked for.
 pub const HIGHEST: usize = 128;
 /// Filter time of the equation's residual, sample intervals.
-const FILTER_SAMPLES: f64 = 3.0;
+pub const FILTER_SAMPLES: f64 = 3.0;
 /// A line is taken where it turns by less than this many radians within the filter's time; faster ones
 /// are worn away by it.
 const FASTEST: f64 = 0.35;
@@ -17,7 +17,7 @@ const FASTEST: f64 = 0.35;
 const FEWEST: f64 = 200.0;
 
 /// A line of the spectrum.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// Waves a revolution.
     pub order: usize,
@@ -29,15 +29,33 @@ pub struct Line {
     pub explains: f64,
 }
 
+impl Line {
+    /// Amplitude, V.
+    pub fn amplitude(&self) -> f64 {
+        self.cosine.hypot(self.sine)
+    }
+
+    /// Angle of the shaft, rad, at which the first wave is highest, as a part of the wave: `atan2(sine,
+    /// cosine)`.
+    pub fn phase(&self) -> f64 {
+        self.sine.atan2(self.cosine)
+    }
+}
+
 /// The strongest lines in what the model's equation leaves unexplained, strongest first.
 pub fn lines(data: &Data, candidate: &Candidate) -> Vec<Line> {
     let time = FILTER_SAMPLES * data.units.interval;
     let residuals = equation_residuals(data, candidate, time);
     let residuals = without_friction(residuals);
+    lines_of(data, &residuals, time)
+}
+
+/// The lines of residuals that were filtered with `time` (s), strongest first.
+pub fn lines_of(data: &Data, residuals: &[EquationResidual], time: f64) -> Vec<Line> {
     // Positions within the revolution, not since the start.
     let first = data.centre(0) / data.units.counts_per_rev * core::f64::consts::TAU;
     let mut sums = vec![[0.0f64; 4]; HIGHEST + 1];
-    for r in &residuals {
+    for r in residuals {
         let (sine, cosine) = (r.angle + first).sin_cos();
         let (mut c, mut s) = (1.0, 0.0);
         let reach = FASTEST / (r.speed.abs() * time).max(1e-9);

@@ -2,6 +2,7 @@
 
 use super::NOISE_COUNTS;
 use super::descent::{Descent, Settings, descend};
+use super::missed::Losses;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
 use crate::error::Error;
@@ -11,6 +12,7 @@ use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure};
 use shared::cost::Cost;
 use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// Of a fit by full simulation.
 const FULL: Settings = Settings {
@@ -39,6 +41,8 @@ const FADE: Settings = Settings {
     damping: 1e-4,
     secant: true,
 };
+/// Room above the floor, for a recording whose readings dwell in one part of their cells.
+const ROOM: f64 = NOISE_COUNTS / FLOOR_RMS_COUNTS;
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 /// A stage that leaves so many times the error of the one before has lost its way.
@@ -59,17 +63,25 @@ pub struct Errors {
     pub fitted: f64,
     /// On the held-out recording.
     pub held_out: f64,
+    /// What the reading's own noise makes of a right model.
+    pub floor: f64,
 }
 
 impl Errors {
     /// Whether both are the encoder's own.
     pub fn at_floor(&self) -> bool {
-        self.fitted < NOISE_COUNTS && self.held_out < NOISE_COUNTS
+        let noise = self.floor * ROOM;
+        self.fitted < noise && self.held_out < noise
+    }
+
+    /// Mean square error on the held-out recording beyond the reading's own.
+    pub fn excess(&self) -> f64 {
+        (self.held_out.powi(2) - self.floor.powi(2)).max(0.0)
     }
 
     /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.
     pub fn score(&self) -> f64 {
-        let floored = |rms: f64| rms.max(shared::encoder::FLOOR_RMS_COUNTS);
+        let floored = |rms: f64| rms.max(self.floor);
         (floored(self.fitted) * floored(self.held_out)).ln()
     }
 }
@@ -77,7 +89,7 @@ impl Errors {
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
 pub struct Refit {
-    /// The effects, the newest last.
+    /// The effects, the newest last; one that its structure holds several times stands here once.
     pub effects: Vec<Kind>,
     /// The model.
     pub candidate: Candidate,
@@ -87,10 +99,15 @@ pub struct Refit {
     pub x: Vec<f64>,
     /// Values of the effects' parameters, SI.
     pub parameters: Vec<f64>,
+    /// The counts that were lost, where [`Kind::MissedCounts`] is among the effects: then all errors are
+    /// those with the lost counts put back, and `candidate` and `structure` are without that effect.
+    pub losses: Option<Losses>,
     /// RMS error on the fitted recording, open loop, counts.
     pub rms_counts: f64,
     /// RMS error on the held-out recording, counts.
     pub validate_rms_counts: f64,
+    /// Errors in windows, each run from the measured state, where whole runs say little.
+    pub windowed: Option<Errors>,
     /// Errors that are soon forgotten, where free runs are chaotic.
     pub tracked: Option<Errors>,
     /// RMS error that was foreseen before the refit, counts.
@@ -107,15 +124,44 @@ impl Refit {
         Errors {
             fitted: self.rms_counts,
             held_out: self.validate_rms_counts,
+            floor: FLOOR_RMS_COUNTS,
         }
     }
 
-    /// The errors that it is judged by: those of the free runs, unless they are chaotic.
+    /// The errors of the runs that were fitted: in windows if there are any.
+    pub fn ran(&self) -> Errors {
+        self.windowed.unwrap_or_else(|| self.free())
+    }
+
+    /// The errors that it is judged by: those of the runs that were fitted, unless they are chaotic.
     pub fn judged(&self) -> Errors {
         match self.tracked {
-            Some(tracked) if !self.free().at_floor() => tracked,
-            _ => self.free(),
+            Some(tracked) if !self.ran().at_floor() => tracked,
+            _ => self.ran(),
         }
+    }
+
+    /// Whether its newest effect is as large as is searched for: then it does another one's work.
+    pub fn at_wall(&self) -> bool {
+        let Some(newest) = self.effects.last() else {
+            return false;
+        };
+        let values = self.structure.values_of(
+            &self.candidate.machine,
+            &self.parameters,
+            self.candidate.start_speed,
+        );
+        let amplitude = |name: &str| {
+            let parameters = newest.description().parameters;
+            name.split_once('.').is_some_and(|(effect, name)| {
+                effect == newest.name() && parameters.iter().any(|p| p.amplitude && p.name == name)
+            })
+        };
+        let unknowns = self.structure.unknowns.iter().zip(&values);
+        unknowns.into_iter().any(|(unknown, &value)| {
+            let x = unknown.coordinate(value);
+            amplitude(&unknown.name) && (x == 1.0 || (x == 0.0 && unknown.range.0 < 0.0))
+        })
     }
 }
 
@@ -126,7 +172,7 @@ impl Workshop<'_> {
     /// [`Error::Failed`] where the model cannot run from there.
     pub fn refit(&self, sketch: &Sketch) -> Result<Refit, Error> {
         let settings = Settings {
-            enough: NOISE_COUNTS * NOISE_COUNTS * self.data.len() as f64,
+            enough: (self.floor * ROOM).powi(2) * self.data.len() as f64,
             ..FULL
         };
         let foreseen = sketch.foreseen();
@@ -135,12 +181,12 @@ impl Workshop<'_> {
             self.conclude(sketch.structure.clone(), &found, foreseen, self.method)
         };
         // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
-        if sketch.simulated <= LOST * sketch.led.max(NOISE_COUNTS) {
+        if self.span.window_s.is_some() || sketch.simulated <= LOST * sketch.led.max(NOISE_COUNTS) {
             return fit(&sketch.x);
         }
         let faded = self.fade(&sketch.structure, &sketch.x);
         let mut free = fit(&faded)?;
-        if free.free().at_floor() {
+        if free.ran().at_floor() {
             return Ok(free);
         }
         // A free run that is chaotic leads the search astray; then what the observer learnt stands.
@@ -183,6 +229,7 @@ impl Workshop<'_> {
         refit.tracked = Some(Errors {
             fitted: tracked(self.data)?,
             held_out: tracked(self.held_out)?,
+            floor: FLOOR_RMS_COUNTS,
         });
         Ok(())
     }
@@ -222,7 +269,7 @@ impl Workshop<'_> {
             let problem = FitProblem {
                 horizon: match best.tracked {
                     Some(_) => Horizon::Nudged(POLISHED_MEMORY_S),
-                    None => Horizon::Whole,
+                    None => self.fitted_horizon.clone(),
                 },
                 ..self.problem(&best.structure, method)
             };
@@ -247,12 +294,12 @@ impl Workshop<'_> {
                 substeps: method.substeps * FINER,
                 ..method
             };
-            let again = scores::whole(self.data, &best.candidate, finer)?;
-            let change = (rms_counts(self.data, &again) - best.rms_counts).abs().max(
-                (validate(self.held_out, &best.candidate, finer)? - best.validate_rms_counts).abs(),
-            );
+            let (again, ran) = (self.runs(&best.candidate, finer)?, best.ran());
+            let change = (again.fitted - ran.fitted)
+                .abs()
+                .max((again.held_out - ran.held_out).abs());
             if best.judged().at_floor()
-                || change < STEP_ERROR * best.rms_counts.max(1.0)
+                || change < STEP_ERROR * ran.fitted.max(1.0)
                 || finer.substeps > FINEST
             {
                 return Ok(best);
@@ -272,18 +319,42 @@ impl Workshop<'_> {
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))
     }
 
-    /// The whole recording, run freely.
+    /// The recording, run over the span that was chosen.
     pub(super) fn problem(&self, structure: &Structure, method: Method) -> FitProblem<'_> {
         FitProblem {
             data: self.data,
             structure: structure.clone(),
             cost: Cost::Squared,
             weight: 1.0,
-            horizon: Horizon::Whole,
+            horizon: self.fitted_horizon.clone(),
             start_angle: StartAngle::Free,
             method,
             start: None,
         }
+    }
+
+    /// Errors of a model over the span that was chosen.
+    ///
+    /// # Errors
+    /// As [`refit`](Self::refit).
+    fn runs(&self, candidate: &Candidate, method: Method) -> Result<Errors, Error> {
+        if self.span.window_s.is_none() {
+            return Ok(Errors {
+                fitted: rms_counts(self.data, &scores::whole(self.data, candidate, method)?),
+                held_out: validate(self.held_out, candidate, method)?,
+                floor: self.floor,
+            });
+        }
+        let rms = |data: &Data, horizon: &Horizon| {
+            let cost = Cost::Squared;
+            errors(data, candidate, method, horizon, StartAngle::Free, cost)
+                .map(|errors| rms_counts(data, &errors))
+        };
+        Ok(Errors {
+            fitted: rms(self.data, &self.fitted_horizon)?,
+            held_out: rms(self.held_out, &self.held_out_horizon)?,
+            floor: self.floor,
+        })
     }
 
     /// Scores a model where a search ended.
@@ -299,14 +370,24 @@ impl Workshop<'_> {
     ) -> Result<Refit, Error> {
         let values = structure.values(&found.x);
         let candidate = structure.candidate(&values);
-        let whole = scores::whole(self.data, &candidate, method)?;
+        let windows = self.span.window_s.is_some();
         Ok(Refit {
-            effects: structure.effects.clone(),
+            effects: distinct(&structure.effects),
             parameters: structure.effect_values(&values).to_vec(),
             candidate,
             structure,
             x: found.x.clone(),
-            rms_counts: rms_counts(self.data, &whole),
+            losses: None,
+            rms_counts: if windows {
+                validate(self.data, &candidate, method)?
+            } else {
+                rms_counts(self.data, &scores::whole(self.data, &candidate, method)?)
+            },
+            windowed: if windows {
+                Some(self.runs(&candidate, method)?)
+            } else {
+                None
+            },
             validate_rms_counts: validate(self.held_out, &candidate, method)?,
             tracked: None,
             foreseen_rms_counts: foreseen,
@@ -314,6 +395,17 @@ impl Workshop<'_> {
             method,
         })
     }
+}
+
+/// Each effect once, in order.
+fn distinct(effects: &[Kind]) -> Vec<Kind> {
+    let mut distinct: Vec<Kind> = Vec::new();
+    for &kind in effects {
+        if !distinct.contains(&kind) {
+            distinct.push(kind);
+        }
+    }
+    distinct
 }
 
 /// Factor between step sizes that are compared.

@@ -1,19 +1,21 @@
 //! The model that a diagnosis ends with, fitted to its end: parameters with intervals.
 
-use super::Diagnosis;
+use super::{Diagnosis, Refit};
 use crate::error::Error;
-use crate::fit::{self, Fit, Options};
+use crate::fit::{self, Fit, Options, Parameter};
 use crate::problem::{Data, FitProblem, Horizon, StartAngle};
 use crate::solve::levenberg_marquardt::LevenbergMarquardt;
 use crate::solve::{Found, Objective};
 use shared::cost::Cost;
+use shared::effects::Kind;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Evaluations for the end of a fit that stands near its minimum.
 const BUDGET: usize = 400;
 
-/// Fits the last model to its end and says what is known of its parameters. A model whose free runs are
-/// chaotic stays where it is: its cost has no smooth floor to go down to.
+/// Fits the last model to its end and says what is known of its parameters. A model that is not judged by its
+/// free run over the readings as they are (in windows, with a short memory, with lost counts put back) stays
+/// where it is: the free run's cost has no smooth floor to go down to.
 ///
 /// # Errors
 /// Where the model cannot run, which it could before.
@@ -42,7 +44,9 @@ pub fn settle(
         method: last.method,
         start: Some(start.clone()),
     };
-    let stays = last.tracked.is_some() || stop.load(Ordering::Relaxed);
+    let judged_otherwise =
+        last.tracked.is_some() || last.windowed.is_some() || last.losses.is_some();
+    let stays = judged_otherwise || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {
             let solver = LevenbergMarquardt::default();
@@ -56,5 +60,31 @@ pub fn settle(
         curve: Vec::new(),
         interrupted: false,
     });
-    Fit::conclude(&problem, "lm", "squared", &found, &options, Some(held_out))
+    let mut fit = Fit::conclude(&problem, "lm", "squared", &found, &options, Some(held_out))?;
+    if last.losses.is_some() {
+        with_losses(&mut fit, last);
+    }
+    Ok(fit)
+}
+
+/// Errors with the lost counts put back, and the parameters of the loss, whose errors are not known.
+fn with_losses(fit: &mut Fit, last: &Refit) {
+    fit.rms_counts = last.rms_counts;
+    fit.validate_rms_counts = Some(last.validate_rms_counts);
+    fit.effects = last.effects.iter().map(|kind| kind.name()).collect();
+    let mut values = last.parameters.iter();
+    for kind in &last.effects {
+        for parameter in kind.description().parameters {
+            let Some(&value) = values.next() else { return };
+            if *kind == Kind::MissedCounts {
+                fit.parameters.push(Parameter {
+                    name: format!("{}.{}", kind.name(), parameter.name),
+                    value,
+                    unit: parameter.quantity.unit(),
+                    std: None,
+                    identifiable: false,
+                });
+            }
+        }
+    }
 }

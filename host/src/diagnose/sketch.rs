@@ -4,13 +4,19 @@
 use super::descent::{Settings, descend};
 use super::led::{Led, follows};
 use super::refit::Refit;
+use super::spectrum::spectrum;
 use super::starts::starts;
 use super::workshop::Workshop;
-use crate::fit::{base_for, scores};
-use crate::problem::Structure;
-use crate::problem::cost::rms_counts;
-use shared::effects::Kind;
+use crate::fit::base_for;
+use crate::problem::cost::{errors, rms_counts};
+use crate::problem::unknowns::Scale;
+use crate::problem::{StartAngle, Structure};
+use shared::cost::Cost;
+use shared::effects::{Kind, MAX_EFFECTS};
+use shared::units::Quantity;
 
+/// Most orders of a cogging torque in a model.
+const MOST_ORDERS: usize = 5;
 const SKETCH: Settings = Settings {
     evaluations: 40,
     tolerance: 5e-3,
@@ -52,17 +58,26 @@ impl Workshop<'_> {
     ///
     /// `dry` are sketches of dry friction, from which bristles start.
     pub fn sketch(&self, parent: &Refit, kind: Kind, dry: &[Sketch]) -> Option<Sketch> {
-        let mut effects = parent.effects.clone();
-        effects.push(kind);
-        let structure = Structure::around(
+        let mut effects = parent.structure.effects.clone();
+        let starts = match self.orders(parent, kind) {
+            Some(orders) => vec![orders],
+            None => starts(self, parent, kind, dry),
+        };
+        let own = kind.description().parameters.len();
+        let times = starts.first()?.len().div_ceil(own);
+        effects.extend(std::iter::repeat_n(kind, times));
+        let mut structure = Structure::around(
             self.data,
             base_for(self.data, &effects),
             &effects,
             &parent.candidate.machine,
             parent.structure.start_speed,
         );
+        if self.span.window_s.is_some() {
+            widen(&mut structure, self.data.supply);
+        }
         let mut best: Option<Sketch> = None;
-        for start in starts(self, parent, kind, dry) {
+        for start in starts {
             let mut parameters = parent.parameters.clone();
             parameters.extend(start);
             let x = structure.coordinates(&structure.values_of(
@@ -88,6 +103,22 @@ impl Workshop<'_> {
         best
     }
 
+    /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
+    /// strongest order alone may leave more than it explains.
+    fn orders(&self, parent: &Refit, kind: Kind) -> Option<Vec<f64>> {
+        if kind != Kind::Cogging || self.span.window_s.is_none() {
+            return None;
+        }
+        let room = MAX_EFFECTS - parent.structure.effects.len();
+        let lines = spectrum(self.data, &parent.candidate).lines;
+        let values = lines
+            .iter()
+            .filter(|line| line.order > 1)
+            .take(room.min(MOST_ORDERS))
+            .flat_map(|line| [line.cosine, line.sine, line.order as f64]);
+        Some(values.collect()).filter(|values: &Vec<f64>| !values.is_empty())
+    }
+
     fn sketch_from(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
         let samples = self.data.len() as f64;
         if !structure.effects.iter().all(|&kind| follows(kind)) {
@@ -102,18 +133,41 @@ impl Workshop<'_> {
         let led = Led {
             data: self.data,
             motion: &self.motion,
+            horizon: &self.fitted_horizon,
             structure: structure.clone(),
             method: self.method,
         };
         let found = descend(&led, &x, SKETCH)?;
         let candidate = structure.candidate(&structure.values(&found.x));
-        let simulated = scores::whole(self.data, &candidate, self.method)
-            .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
+        let simulated = errors(
+            self.data,
+            &candidate,
+            self.method,
+            &self.fitted_horizon,
+            StartAngle::Free,
+            Cost::Squared,
+        )
+        .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
         Some(Sketch {
             structure: structure.clone(),
             x: found.x,
             led: (found.squares / samples).sqrt(),
             simulated,
         })
+    }
+}
+
+/// A motor under a controller may carry whatever it can hold: torques and voltages are searched for up to the
+/// supply.
+fn widen(structure: &mut Structure, supply: f64) {
+    let volts = Quantity::Torque.unit();
+    for unknown in &mut structure.unknowns {
+        let (low, high) = unknown.range;
+        if unknown.unit == volts && unknown.scale == Scale::Linear {
+            unknown.range = (
+                if low < 0.0 { low.min(-supply) } else { low },
+                high.max(supply),
+            );
+        }
     }
 }

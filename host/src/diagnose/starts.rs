@@ -21,7 +21,7 @@ pub fn starts(
 ) -> Vec<Vec<f64>> {
     let data = workshop.data;
     let parameters = kind.description().parameters;
-    let mut typical: Vec<f64> = parameters
+    let typical: Vec<f64> = parameters
         .iter()
         .map(|p| {
             let share = if p.amplitude { AMPLITUDE } else { 1.0 };

@@ -9,13 +9,16 @@ use shared::effects::Kind;
 /// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
 /// except those that are in `known` already.
 pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refit]) -> Vec<Refit> {
+    if !chosen.effects.contains(&place) {
+        return Vec::new();
+    }
     let without = without(chosen, place);
     place
         .description()
         .look_alikes
         .par_iter()
         .filter_map(|name| {
-            let kind = Kind::by_name(name)?;
+            let kind = Kind::by_name(name).filter(|&kind| kind != Kind::MissedCounts)?;
             let mut set = without.effects.clone();
             set.push(kind);
             if chosen.effects.contains(&kind)
@@ -39,11 +42,15 @@ fn without(chosen: &Refit, place: Kind) -> Refit {
     let mut refit = chosen.clone();
     refit.effects.clear();
     refit.parameters.clear();
-    for &kind in &chosen.effects {
+    refit.structure.effects.clear();
+    for &kind in &chosen.structure.effects {
         let (own, further) = rest.split_at(kind.description().parameters.len());
         rest = further;
         if kind != place {
-            refit.effects.push(kind);
+            if !refit.effects.contains(&kind) {
+                refit.effects.push(kind);
+            }
+            refit.structure.effects.push(kind);
             refit.parameters.extend_from_slice(own);
         }
     }

@@ -3,11 +3,13 @@
 use super::descent::{Settings, descend};
 use super::motion::Motion;
 use super::refit::Refit;
+use super::span::{Span, floor_counts};
 use crate::error::Error;
-use crate::fit::{self, Options, base_for};
+use crate::fit::{self, Options, SPEED_HALF_WIDTH, base_for};
 use crate::problem::simulate::Method;
-use crate::problem::{Data, FitProblem, Structure};
+use crate::problem::{Data, FitProblem, Horizon, Structure};
 use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
@@ -27,6 +29,14 @@ pub struct Workshop<'a> {
     pub held_out: &'a Data,
     /// The fitted recording's motion.
     pub motion: Motion,
+    /// How far models run on their own.
+    pub span: Span,
+    /// The same for the fitted recording,
+    pub fitted_horizon: Horizon,
+    /// and for the other.
+    pub held_out_horizon: Horizon,
+    /// RMS error that the reading's own noise makes of a right model, counts.
+    pub floor: f64,
     /// How models are run at first.
     pub method: Method,
 }
@@ -35,7 +45,20 @@ impl<'a> Workshop<'a> {
     /// Prepares. Models are run with one part to a sample, which [`polish`](Self::polish) refines where it
     /// matters.
     pub fn new(data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
+        Workshop::over(Span::of(data, options), data, held_out, options)
+    }
+
+    /// Prepares for runs over a span.
+    pub fn over(span: Span, data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
+        let horizon = |data| match span.window_s {
+            Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
+            None => Horizon::Whole,
+        };
         Workshop {
+            fitted_horizon: horizon(data),
+            held_out_horizon: horizon(held_out),
+            span,
+            floor: FLOOR_RMS_COUNTS,
             data,
             held_out,
             motion: Motion::measured(data),
@@ -50,9 +73,10 @@ impl<'a> Workshop<'a> {
     ///
     /// # Errors
     /// [`Error::Failed`] where no motor fits even roughly.
-    pub fn base(&self, options: &Options) -> Result<Refit, Error> {
+    pub fn base(&mut self, options: &Options) -> Result<Refit, Error> {
         let options = Options {
             effects: Vec::new(),
+            window_s: self.span.window_s,
             method: self.method,
             ..options.clone()
         };
@@ -61,7 +85,16 @@ impl<'a> Workshop<'a> {
         let found = descend(&problem, &start, BASE)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
         let foreseen = (found.squares / self.data.len() as f64).sqrt();
-        self.conclude(problem.structure, &found, foreseen, self.method)
+        let structure = problem.structure;
+        let mut base = self.conclude(structure, &found, foreseen, self.method)?;
+        let machine = &base.candidate.machine;
+        let fitted = floor_counts(self.data, &self.fitted_horizon, machine);
+        let held_out = floor_counts(self.held_out, &self.held_out_horizon, machine);
+        self.floor = fitted.max(held_out);
+        if let Some(windowed) = &mut base.windowed {
+            windowed.floor = self.floor;
+        }
+        Ok(base)
     }
 
     /// The linear motor with a start. A strong offset hides the motor from regression: then it is found beside

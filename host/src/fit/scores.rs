@@ -105,6 +105,22 @@ pub struct EquationResidual {
     pub speed: f64,
     /// Command, V; as late as the residual.
     pub command: f64,
+    /// Acceleration, rad/s²; as late as the residual.
+    pub acceleration: f64,
+}
+
+/// Speed at a sample, counts/s, over as many samples to both sides as the restart of a window takes.
+fn speed(data: &Data, k: usize) -> f64 {
+    let from = k.saturating_sub(SPEED_HALF_WIDTH);
+    let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
+    let time = data.time_s[to] - data.time_s[from];
+    (data.counts[to] - data.counts[from]) / time.max(f64::MIN_POSITIVE)
+}
+
+/// A sampled signal through the filter of [`equation_residuals`].
+pub fn filtered_values(data: &Data, time: f64, signal: &[f64]) -> Vec<f64> {
+    let filtered = filtered(data, time, signal, false);
+    filtered.iter().map(|f| f.value).collect()
 }
 
 /// The volts that the model's equation leaves unexplained along the measured motion, filtered with
@@ -120,11 +136,15 @@ pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<
     let net: Vec<f64> = (0..data.len())
         .map(|k| {
             let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
-            let shaft = Shaft::at(turns, motion[k].rate / data.units.speed, 0.0);
+            // As it is now: what passes the filter below must not be late before.
+            let speed = speed(data, k) * radians;
+            let drive = lowered.drive(data.command[k]);
+            let current = drive - candidate.machine.kb * speed / data.units.volts;
+            let mut shaft = Shaft::at(turns, speed / data.units.speed, current);
+            let torque = lowered.torque(&shaft, &Default::default());
+            shaft.transmitted = current + torque;
             let budget = lowered.friction(&shaft);
             let friction = budget.moving * shaft.speed.signum() + budget.bias;
-            let drive = lowered.drive(data.command[k]);
-            let torque = lowered.torque(&shaft, &Default::default());
             (drive - torque - friction) * data.units.volts
         })
         .collect();
@@ -155,6 +175,7 @@ pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<
                 angle: f.value,
                 speed: f.rate,
                 command: command[k].value,
+                acceleration: f.acceleration,
             });
         }
     }

@@ -125,11 +125,18 @@ impl<'a> Simulation<'a> {
             .collect()
     }
 
-    /// Runs led along a measured motion, one entry of `seen` an interval and of `turns` a sample, from
-    /// the first reading and a speed in rad/s. Gives model minus reading in counts.
-    pub fn led(&self, seen: &[Seen<f64>], turns: &[f64], speed: f64) -> Vec<f64> {
-        let mut state = self.start(0, self.data.centre(0), speed);
-        (0..self.data.len())
+    /// Runs over `range` led along a measured motion, one entry of `seen` an interval and of `turns` a
+    /// sample of the recording, from the range's first reading and a speed in rad/s. Gives model minus
+    /// reading in counts.
+    pub fn led(
+        &self,
+        range: Range<usize>,
+        seen: &[Seen<f64>],
+        turns: &[f64],
+        speed: f64,
+    ) -> Vec<f64> {
+        let mut state = self.start(range.start, self.data.centre(range.start), speed);
+        range
             .map(|k| {
                 let model = self.model(k);
                 let error = model.reading_at(&state, turns[k]) - self.data.counts[k];

@@ -2,7 +2,7 @@
 
 use super::whereabouts::{ResidualJson, WhereJson};
 use super::{DiagnosisReport, Role};
-use crate::diagnose::{HeldOut, Refit, Step};
+use crate::diagnose::{Errors, HeldOut, Refit, Step};
 use crate::report::json::ParameterJson;
 use serde::Serialize;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -30,6 +30,8 @@ pub struct DiagnosisJson {
     remarks: Vec<String>,
     residual: ResidualJson,
     held_out: HeldOutJson,
+    window_s: Option<f64>,
+    window_reason: Option<String>,
     models: Vec<ModelJson>,
     supply_v: f64,
     no_load_rad_s: Option<f64>,
@@ -49,7 +51,7 @@ struct BaseJson {
 }
 
 #[derive(Debug, Serialize)]
-struct TrackedJson {
+struct ErrorsJson {
     rms_counts: Option<f64>,
     validate_rms_counts: Option<f64>,
 }
@@ -63,7 +65,8 @@ struct StepJson {
     rms_counts: Option<f64>,
     validate_rms_counts: Option<f64>,
     foreseen_rms_counts: Option<f64>,
-    tracked: Option<TrackedJson>,
+    tracked: Option<ErrorsJson>,
+    windowed: Option<ErrorsJson>,
     evidence: String,
     #[serde(rename = "where")]
     whereabouts: Option<WhereJson>,
@@ -77,7 +80,8 @@ struct CandidateJson {
     rms_counts: Option<f64>,
     validate_rms_counts: Option<f64>,
     foreseen_rms_counts: Option<f64>,
-    tracked: Option<TrackedJson>,
+    tracked: Option<ErrorsJson>,
+    windowed: Option<ErrorsJson>,
     p_value: Option<f64>,
     evaluations: usize,
 }
@@ -161,6 +165,8 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             remarks: report.remarks.clone(),
             residual: ResidualJson::from(report.findings),
             held_out: held_out(report.held_out),
+            window_s: diagnosis.span.window_s.and_then(finite),
+            window_reason: (diagnosis.span.window_s).map(|_| diagnosis.span.reason.clone()),
             models: report.models().iter().map(model).collect(),
             supply_v: report.data.supply,
             no_load_rad_s: finite(no_load),
@@ -187,7 +193,8 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         rms_counts: of(|refit| refit.rms_counts),
         validate_rms_counts: of(|refit| refit.validate_rms_counts),
         foreseen_rms_counts: of(|refit| refit.foreseen_rms_counts),
-        tracked: after.and_then(tracked),
+        tracked: after.and_then(|refit| refit.tracked).map(errors),
+        windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
         whereabouts: (report.findings.steps.get(index))
             .and_then(Option::as_ref)
@@ -206,17 +213,18 @@ fn candidate(refit: &Refit, p_value: f64) -> CandidateJson {
         rms_counts: finite(refit.rms_counts),
         validate_rms_counts: finite(refit.validate_rms_counts),
         foreseen_rms_counts: finite(refit.foreseen_rms_counts),
-        tracked: tracked(refit),
+        tracked: refit.tracked.map(errors),
+        windowed: refit.windowed.map(errors),
         p_value: finite(p_value),
         evaluations: refit.evaluations,
     }
 }
 
-fn tracked(refit: &Refit) -> Option<TrackedJson> {
-    refit.tracked.map(|errors| TrackedJson {
+fn errors(errors: Errors) -> ErrorsJson {
+    ErrorsJson {
         rms_counts: finite(errors.fitted),
         validate_rms_counts: finite(errors.held_out),
-    })
+    }
 }
 
 fn held_out(held_out: &HeldOut) -> HeldOutJson {

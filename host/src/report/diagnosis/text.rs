@@ -140,6 +140,16 @@ impl DiagnosisReport<'_> {
                     counts(after.rms_counts)
                 ),
             )?;
+            if let Some(windowed) = after.windowed {
+                say(
+                    "judged by",
+                    &format!(
+                        "errors in windows run from the measured state: {} fitted, {} held out",
+                        counts(windowed.fitted),
+                        counts(windowed.held_out)
+                    ),
+                )?;
+            }
             if let Some(tracked) = after.tracked {
                 say(
                     "judged by",

@@ -100,17 +100,29 @@ impl DiagnosisReport<'_> {
         titles.join(" and ")
     }
 
-    /// By what a model was judged whose free runs part from the motor at a whim.
+    /// By what the model was judged where free runs over the whole recording say little.
     fn chaos_text(&self) -> String {
-        let tracked = self.diagnosis.last.tracked;
-        tracked.map_or(String::new(), |errors| {
-            format!(
-                " A free run is chaotic here, so the model was judged with errors that are soon forgotten: {} counts \
-                 fitted, {} held out.",
-                counts(errors.fitted),
-                counts(errors.held_out)
-            )
-        })
+        let last = &self.diagnosis.last;
+        let (why, errors) = match (&self.diagnosis.span.window_s, last.windowed, last.tracked) {
+            (Some(seconds), Some(windowed), _) => (
+                format!(
+                    "The model was judged in windows of {seconds:.3} s, since {}",
+                    self.diagnosis.span.reason
+                ),
+                windowed,
+            ),
+            (_, _, Some(tracked)) if !last.free().at_floor() => (
+                "A free run is chaotic here, so the model was judged with errors that are soon forgotten"
+                    .to_owned(),
+                tracked,
+            ),
+            _ => return String::new(),
+        };
+        format!(
+            " {why}: {} counts fitted, {} held out.",
+            counts(errors.fitted),
+            counts(errors.held_out)
+        )
     }
 
     fn look_alikes_text(&self) -> String {
