@@ -45,7 +45,7 @@ pub fn rounded(y: &[f64], columns: &[Vec<f64>], losses: Vec<Loss>) -> Vec<Loss> 
     };
     let solution = cholesky.solve(&right);
     let squares = y.iter().map(|v| v * v).sum::<f64>() - right.dot(&solution);
-    if !(squares < RIGHT * RIGHT * samples as f64) {
+    if squares.is_nan() || squares >= RIGHT * RIGHT * samples as f64 {
         return losses;
     }
     let heights = solution.iter().skip(smooth);

@@ -90,7 +90,7 @@ mod tests {
             let mut draws: Generator = rng::seeded(seed);
             let mut truth = Vec::new();
             let mut level = rng::uniform::<f64>(&mut draws);
-            let up = |k: usize| k / 500 % 2 == 0;
+            let up = |k: usize| (k / 500).is_multiple_of(2);
             let y: Vec<f64> = (0..5000)
                 .map(|k| {
                     // Now and then two close to each other.
