@@ -1,7 +1,8 @@
 //! The host side of servoid: recordings in, models and verdicts out.
 //!
 //! The flow, which is also the order to read the modules in:
-//! `recording → units → model (motor + effects + encoder) → cost → optimiser → fit → residual → report`.
+//! `recording → units → model (motor + effects + encoder) → cost → optimiser → fit → residual →
+//! diagnosis → report`.
 #![forbid(unsafe_code)]
 
 pub mod bench;
