@@ -113,3 +113,25 @@ fn true_parameters_leave_the_encoders_own_error_for_every_effect_on_every_machin
         }
     }
 }
+
+/// Shapes of the Stribeck hump, from Tustin's exponential to the Gaussian.
+const EXPONENTS: [f64; 5] = [1.0, 1.2, 1.5, 1.8, 2.0];
+
+#[test]
+fn every_shape_of_the_stribeck_hump_leaves_the_encoders_own_error_on_every_machine() {
+    for name in PRESETS {
+        let machine = Machine::preset(name).expect("a preset");
+        for exponent in EXPONENTS {
+            let mut hidden = Hidden::typical("stribeck", &machine).expect("in the catalogue");
+            hidden.set("exponent", exponent).expect("in its range");
+            let hidden = vec![hidden];
+            let run = record(machine, hidden.clone(), &COMMISSIONING);
+            for (substeps, limits) in [(COARSE, COARSE_LIMITS), (FINE, LIMITS)] {
+                let error = rms(&machine, &hidden, &run, substeps);
+                let case = format!("{name} with exponent {exponent} at {substeps} substeps");
+                println!("{case}: {error:.4} counts RMS");
+                assert!(limits.contains(&error), "{case}: {error} counts RMS");
+            }
+        }
+    }
+}

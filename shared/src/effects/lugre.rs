@@ -57,14 +57,14 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
     };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
-        let speed = units.lower(values[2], Quantity::Speed).to_f64();
+        let speed = units.lower(values[2], Quantity::Speed);
         let excess = values[1].to_f64().max(0.0);
         let presliding = units.lower(values[3], Quantity::Angle).to_f64();
         let damping = units.lower(values[4], Quantity::Time).to_f64();
         let deflection = presliding.max(SHORTEST) / (1.0 + excess);
         Lugre {
             torque: units.number(values[0], Quantity::Torque),
-            excess: Hump::gaussian(excess, speed),
+            excess: Hump::new(R::from_f64(excess), speed, R::from_f64(2.0)),
             far: S::from_f64(4.0 * REACH * deflection),
             per_deflection: S::coefficient(1.0 / deflection),
             damping: units.multiplier::<S>(values[4], Quantity::Time),

@@ -31,6 +31,7 @@ mod unbalance;
 mod voltage_sat;
 mod windage;
 
+mod chebyshev;
 mod decay;
 mod describe;
 mod harmonic;

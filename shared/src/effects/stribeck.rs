@@ -5,15 +5,13 @@ use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
 
-/// Sliding friction `Tc` that rises to `Tc + Ts` as the speed falls below about `ws`. The rise is
-/// exponential (Tustin, exponent 1), Gaussian (Armstrong-Hélouvry, exponent 2), or a mixture of the
-/// two in proportion to where the exponent lies between.
+/// Sliding friction `Tc` that rises to `Tc + Ts` as the speed falls below about `ws`. The exponent is
+/// the shape of the rise: exponential with 1 (Tustin), Gaussian with 2 (Armstrong-Hélouvry).
 #[derive(Clone, Copy, Debug)]
 pub struct Stribeck<S: Scalar> {
     sliding: S,
     holding: S,
-    exponential: Hump<S>,
-    gaussian: Hump<S>,
+    excess: Hump<S>,
 }
 
 impl<S: Scalar> Effect<S> for Stribeck<S> {
@@ -27,7 +25,7 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
             Parameter::shape("speed", Quantity::Speed, (0.001, 0.3), 0.03),
             Parameter::shape("exponent", Quantity::Ratio, (1.0, 2.0), 2.0),
         ],
-        equation: "T = (Tc + Ts*((2-d)*exp(-|w|/ws) + (d-1)*exp(-(w/ws)^2)))*sgn(w); |T| <= Tc + Ts at rest",
+        equation: "T = (Tc + Ts*exp(-|w/ws|^d))*sgn(w); |T| <= Tc + Ts at rest",
         signature: "hump of the residual torque near zero speed, of both signs; late starts, sudden stops",
         exposed_by: "a slow triangle of small amplitude, or creeping both ways",
         look_alikes: &["coulomb", "lugre", "dead_zone"],
@@ -40,23 +38,20 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
     };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
-        let excess = units.lower(values[1], Quantity::Torque).to_f64();
-        let speed = units.lower(values[2], Quantity::Speed).to_f64();
-        let gaussian = (values[3].to_f64() - 1.0).clamp(0.0, 1.0);
+        let excess = units.lower(values[1], Quantity::Torque);
+        let speed = units.lower(values[2], Quantity::Speed);
         Stribeck {
             sliding: units.number(values[0], Quantity::Torque),
             holding: units.number(values[0] + values[1], Quantity::Torque),
-            exponential: Hump::exponential(excess * (1.0 - gaussian), speed),
-            gaussian: Hump::gaussian(excess * gaussian, speed),
+            excess: Hump::new(excess, speed, values[3]),
         }
     }
 
     #[inline]
     fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-        let hump =
-            shaft.mean_over_speed(|speed| self.exponential.at(speed) + self.gaussian.at(speed));
+        let excess = shaft.mean_over_speed(|speed| self.excess.at(speed));
         Budget {
-            moving: self.sliding + hump,
+            moving: self.sliding + excess,
             holding: self.holding,
             bias: S::zero(),
         }
