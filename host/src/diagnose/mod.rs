@@ -23,6 +23,7 @@ mod sketch;
 mod span;
 mod spectrum;
 mod starts;
+pub mod steady;
 mod swap;
 pub mod usable;
 pub mod whereabouts;

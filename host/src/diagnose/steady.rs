@@ -1,0 +1,243 @@
+//! A motor's steady speed against its voltage: no recording in time, and still enough to see a constant drop.
+//! Whether friction, the brushes or the power stage take it, such a curve cannot say.
+
+use super::Verdict;
+use shared::effects::Kind;
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+use std::path::Path;
+
+/// Fewest points for a line with a constant and an error left to judge it by.
+const FEWEST: usize = 5;
+/// A drop is believed if so large a gain has at most this chance without one.
+const BELIEVED: f64 = 1e-3;
+
+/// Why a curve cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum SteadyError {
+    /// The file cannot be read as CSV.
+    #[error("{file}: {fault}; a curve has a header row voltage_V,speed_rad_s and numbers below it")]
+    Csv {
+        /// The file.
+        file: String,
+        /// What the reader says, with the line.
+        fault: csv::Error,
+    },
+    /// A column is missing.
+    #[error("{file}: there is no column {column}; a steady curve needs voltage_V and speed_rad_s")]
+    Column {
+        /// The file.
+        file: String,
+        /// The column.
+        column: &'static str,
+    },
+    /// A cell is no finite number.
+    #[error("{file}:{line}: {column} is not a finite number; correct it or remove the row")]
+    Number {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: &'static str,
+    },
+    /// Too few points.
+    #[error("{points} points of a turning motor are too few; measure at least {FEWEST} voltages")]
+    Few {
+        /// Points with a speed.
+        points: usize,
+    },
+    /// The speed does not grow with the voltage.
+    #[error(
+        "the speed does not grow with the voltage: check the columns, their signs and their order"
+    )]
+    NoMotor,
+}
+
+/// Steady speeds of an unloaded motor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyCurve {
+    /// Voltage, V, and steady speed, rad/s.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// `V = b·ω + c·sign ω`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteadyFit {
+    /// `b`, V·s/rad: back-EMF constant and viscous friction together.
+    pub slope: f64,
+    /// `c`, V.
+    pub drop_v: f64,
+    /// RMS error as a part of the voltage's RMS.
+    pub relative: f64,
+    squares: f64,
+}
+
+/// What a steady curve says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyDiagnosis {
+    /// Without a drop.
+    pub linear: SteadyFit,
+    /// With one.
+    pub with_drop: SteadyFit,
+    /// Chance of so large a gain without a drop, by the F test.
+    pub p_value: f64,
+    /// [`Verdict::Complete`] where no drop is seen, else [`Verdict::Inconclusive`].
+    pub verdict: Verdict,
+    /// Effects that make such a drop, none before the other.
+    pub indistinguishable: Vec<Kind>,
+    /// What to record next.
+    pub advice: Option<&'static str>,
+}
+
+impl SteadyCurve {
+    /// Reads the columns `voltage_V` and `speed_rad_s`, whatever their case.
+    ///
+    /// # Errors
+    /// See [`SteadyError`].
+    pub fn read(path: &Path) -> Result<Self, SteadyError> {
+        const COLUMNS: [&str; 2] = ["voltage_V", "speed_rad_s"];
+        let file = path.display().to_string();
+        let csv_fault = |fault| SteadyError::Csv {
+            file: file.clone(),
+            fault,
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .map_err(csv_fault)?;
+        let header = reader.headers().map_err(csv_fault)?.clone();
+        let place = |column: &'static str| {
+            let found = header
+                .iter()
+                .position(|name| name.eq_ignore_ascii_case(column));
+            let file = file.clone();
+            found.ok_or(SteadyError::Column { file, column })
+        };
+        let places = [place(COLUMNS[0])?, place(COLUMNS[1])?];
+        let mut points = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(csv_fault)?;
+            let number = |index: usize| {
+                let cell = record.get(places[index]).and_then(|cell| cell.parse().ok());
+                cell.filter(|value: &f64| value.is_finite())
+                    .ok_or_else(|| SteadyError::Number {
+                        file: file.clone(),
+                        line: record.position().map_or(0, csv::Position::line),
+                        column: COLUMNS[index],
+                    })
+            };
+            points.push((number(0)?, number(1)?));
+        }
+        Ok(SteadyCurve { points })
+    }
+
+    /// Fits the curve without and with a drop. Points at rest say nothing of either.
+    ///
+    /// # Errors
+    /// [`SteadyError::Few`], [`SteadyError::NoMotor`].
+    pub fn diagnose(&self) -> Result<SteadyDiagnosis, SteadyError> {
+        let turning: Vec<(f64, f64)> = self.points.iter().copied().filter(|p| p.1 != 0.0).collect();
+        if turning.len() < FEWEST {
+            return Err(SteadyError::Few {
+                points: turning.len(),
+            });
+        }
+        let (linear, with_drop) = fits(&turning).ok_or(SteadyError::NoMotor)?;
+        let freedom = (turning.len() - 2) as f64;
+        let gain = (linear.squares - with_drop.squares).max(0.0);
+        let ratio = gain / (with_drop.squares / freedom).max(f64::MIN_POSITIVE);
+        let p_value = FisherSnedecor::new(1.0, freedom).map_or(1.0, |law| law.sf(ratio));
+        let mut diagnosis = SteadyDiagnosis {
+            linear,
+            with_drop,
+            p_value,
+            verdict: Verdict::Complete,
+            indistinguishable: Vec::new(),
+            advice: None,
+        };
+        if p_value < BELIEVED {
+            diagnosis.verdict = Verdict::Inconclusive;
+            diagnosis.indistinguishable = vec![Kind::Coulomb, Kind::BrushDrop, Kind::DeadZone];
+            let one_way = turning.iter().all(|p| p.1 > 0.0) || turning.iter().all(|p| p.1 < 0.0);
+            if one_way {
+                diagnosis
+                    .indistinguishable
+                    .extend([Kind::OffsetVoltage, Kind::LoadTorque]);
+            }
+            diagnosis.advice = Some(
+                "a constant part of the voltage is lost: record voltage and angle in time, with steps of both \
+                 signs and coasting with the bridge open, to say where",
+            );
+        }
+        Ok(diagnosis)
+    }
+}
+
+/// Least squares without and with a drop; `None` where the slope is not positive.
+fn fits(points: &[(f64, f64)]) -> Option<(SteadyFit, SteadyFit)> {
+    let n = points.len() as f64;
+    let sum = |f: &dyn Fn(f64, f64) -> f64| points.iter().map(|&(v, w)| f(v, w)).sum::<f64>();
+    // Of speeds and voltages turned to the positive side.
+    let (ww, wv) = (sum(&|_, w| w * w), sum(&|v, w| w * v));
+    let (w, v) = (sum(&|_, w| w.abs()), sum(&|v, w| v * w.signum()));
+    let fit = |slope: f64, drop_v: f64| {
+        let squares = sum(&|v, w| (v - slope * w - drop_v * w.signum()).powi(2));
+        SteadyFit {
+            slope,
+            drop_v,
+            relative: (squares / sum(&|v, _| v * v)).sqrt(),
+            squares,
+        }
+    };
+    let slope = (wv - w * v / n) / (ww - w * w / n);
+    let fits = (fit(wv / ww, 0.0), fit(slope, (v - slope * w) / n));
+    (fits.0.slope > 0.0 && slope > 0.0 && slope.is_finite()).then_some(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_line_is_complete_and_a_drop_is_not_named() {
+        for (slope, drop_v) in [(0.5, 0.0), (0.5, 0.2), (2.0, 0.0), (0.05, 1.0)] {
+            for signs in [&[1.0][..], &[1.0, -1.0]] {
+                let points = signs.iter().flat_map(|sign| {
+                    (1..=8).map(move |k| {
+                        // Reading errors with no trend.
+                        let error = 1e-3 * f64::from([1, -1, -1, 1, 1, -1, -1, 1][k - 1]);
+                        let speed = k as f64;
+                        (sign * (slope * speed + drop_v + error), sign * speed)
+                    })
+                });
+                let curve = SteadyCurve {
+                    points: points.collect(),
+                };
+                let diagnosis = curve.diagnose().unwrap();
+                assert!((diagnosis.with_drop.drop_v - drop_v).abs() < 2e-3);
+                if drop_v == 0.0 {
+                    assert_eq!(diagnosis.verdict, Verdict::Complete);
+                } else {
+                    assert_eq!(diagnosis.verdict, Verdict::Inconclusive);
+                    assert!(diagnosis.indistinguishable.len() >= 3);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn curves_that_say_nothing_are_refused() {
+        let still = SteadyCurve {
+            points: vec![(1.0, 0.0); 9],
+        };
+        assert!(matches!(
+            still.diagnose(),
+            Err(SteadyError::Few { points: 0 })
+        ));
+        let backward = SteadyCurve {
+            points: (1..9).map(|k| (f64::from(k), -f64::from(k))).collect(),
+        };
+        assert!(matches!(backward.diagnose(), Err(SteadyError::NoMotor)));
+    }
+}
