@@ -87,9 +87,11 @@ impl Whereabouts {
         self.maps.iter().find(|map| map.against == against)
     }
 
-    /// The quantity that explains most, if any explains more than chance would.
+    /// The quantity that explains most, if any explains more than chance would. None where a perfect model
+    /// would leave as much: what the drawing's own filter smears goes with something, too.
     pub fn most(&self) -> Option<&Map> {
-        self.maps.first().filter(|map| map.beyond_chance)
+        let left = self.volts_rms > NOTICEABLE * self.perfect_volts_rms;
+        self.maps.first().filter(|map| left && map.beyond_chance)
     }
 
     /// The part of the recording in which the free run is worst.
@@ -98,6 +100,9 @@ impl Whereabouts {
         parts.max_by(|a, b| a.rms_counts.total_cmp(&b.rms_counts))
     }
 }
+
+/// A residual is noticed if it is so many times a perfect model's.
+const NOTICEABLE: f64 = 1.25;
 
 fn rms(residuals: &[EquationResidual]) -> f64 {
     let sum: f64 = residuals.iter().map(|r| r.volts * r.volts).sum();
