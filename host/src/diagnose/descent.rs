@@ -192,17 +192,18 @@ impl<'a> Search<'a> {
         for (i, scale) in scale.iter().enumerate() {
             damped[(i, i)] += self.damping * scale;
         }
-        let Some(cholesky) = damped.cholesky() else {
+        let pull = DVector::from_iterator(free.len(), free.iter().map(|&i| -gradient[i]));
+        let room: Vec<(f64, f64)> = free
+            .iter()
+            .map(|&i| (-self.x[i], 1.0 - self.x[i]))
+            .collect();
+        let Some(moved) = within(&damped, &pull, &room) else {
             return Outcome::Nowhere;
         };
-        let pull = DVector::from_iterator(free.len(), free.iter().map(|&i| -gradient[i]));
-        let step = cholesky.solve(&pull);
         let mut to = self.x.clone();
-        for (&i, step) in free.iter().zip(step.iter()) {
+        for (&i, step) in free.iter().zip(moved.iter()) {
             to[i] = (to[i] + step).clamp(0.0, 1.0);
         }
-        let moved: Vec<f64> = free.iter().map(|&i| to[i] - self.x[i]).collect();
-        let moved = DVector::from_vec(moved);
         let foreseen = 2.0 * moved.dot(&pull) - moved.dot(&(&normal * &moved));
         let whole = dot(&self.residuals, &self.residuals).max(f64::MIN_POSITIVE);
         if moved.iter().all(|m| *m == 0.0) {
@@ -258,6 +259,36 @@ impl<'a> Search<'a> {
                 *slope += missed * share;
             }
         }
+    }
+}
+
+/// The step that solves `matrix · step = pull` within the `room` of each coordinate. One that would leave it
+/// goes to the wall, and the others are solved for again beside it: merely cut off, a step along a valley
+/// that slants across a wall would climb the valley's side.
+fn within(matrix: &DMatrix<f64>, pull: &DVector<f64>, room: &[(f64, f64)]) -> Option<DVector<f64>> {
+    let mut step = DVector::zeros(pull.len());
+    let mut free: Vec<usize> = (0..pull.len()).collect();
+    loop {
+        let walled = pull - matrix * &step;
+        let rest = DVector::from_iterator(free.len(), free.iter().map(|&i| walled[i]));
+        let part = DMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])]);
+        let solved = part.cholesky()?.solve(&rest);
+        let outside = |&i: &usize, &s: &f64| s < room[i].0 || s > room[i].1;
+        if !free.iter().zip(solved.iter()).any(|(i, s)| outside(i, s)) {
+            for (&i, s) in free.iter().zip(solved.iter()) {
+                step[i] = *s;
+            }
+            return Some(step);
+        }
+        let mut inside = Vec::with_capacity(free.len());
+        for (&i, s) in free.iter().zip(solved.iter()) {
+            if outside(&i, s) {
+                step[i] = s.clamp(room[i].0, room[i].1);
+            } else {
+                inside.push(i);
+            }
+        }
+        free = inside;
     }
 }
 

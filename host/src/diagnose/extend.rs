@@ -76,16 +76,17 @@ pub fn extend(
     models
 }
 
-/// Every model that adds one effect that can be simulated.
+/// Every model that adds one effect that can be simulated. Bristles cost much: they, and what builds on them,
+/// are tried where nothing else leaves the encoder's own error.
 fn smooth(
     workshop: &Workshop<'_>,
     parents: &[&Refit],
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
-    let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents)
-        .into_iter()
-        .partition(|(_, kind)| *kind != Kind::Lugre);
+    let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents).into_iter().partition(|(at, kind)| {
+        *kind != Kind::Lugre && !parents[*at].effects.contains(&Kind::Lugre)
+    });
     let sketch_all = |sets: &[(usize, Kind)], dry: &[Sketch]| -> Vec<Sketch> {
         sets.par_iter()
             .filter(|_| !stop.load(Ordering::Relaxed))
@@ -97,22 +98,43 @@ fn smooth(
             .collect()
     };
     let mut sketches = sketch_all(&plain, &[]);
-    // Bristles cannot be led and cost much: they are tried where dry friction comes near the best.
-    let least = sketches
-        .iter()
-        .map(Sketch::foreseen)
-        .fold(f64::INFINITY, f64::min);
+    sort_sketches(&mut sketches);
+    again_from_best(workshop, parents, &mut sketches);
+    let mut models = refits(workshop, &sketches, Vec::new(), stop, done);
+    // Beside other effects, dry friction is tried against bristles at the end.
+    let first = parents.iter().all(|parent| parent.effects.is_empty());
+    let explained = models.first().is_some_and(|model| {
+        let ran = model.ran();
+        ran.at_floor() && !(first && ran.fitted.max(ran.held_out) > EXACT * workshop.floor)
+    });
+    if explained || bristles.is_empty() {
+        return models;
+    }
+    // Bristles cannot be led: they start from dry friction, where that comes near the best.
+    let least = least(&sketches);
     let dry = |sketch: &Sketch| {
         matches!(sketch.newest(), Some(Kind::Coulomb | Kind::Stribeck))
             && sketch.foreseen() < NEAR_DRY * least.max(FLOOR)
     };
-    if sketches.iter().any(dry) {
-        let more = sketch_all(&bristles, &sketches);
-        sketches.extend(more);
-    }
+    let near_dry = sketches.iter().any(dry);
+    let bristles: Vec<_> = bristles
+        .into_iter()
+        .filter(|(_, kind)| *kind != Kind::Lugre || near_dry)
+        .collect();
+    let mut more = sketch_all(&bristles, &sketches);
+    sort_sketches(&mut more);
+    models = refits(workshop, &more, models, stop, done);
+    models
+}
+
+/// Best first.
+fn sort_sketches(sketches: &mut [Sketch]) {
     sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
-    again_from_best(workshop, parents, &mut sketches);
-    refits(workshop, &sketches, stop, done)
+}
+
+/// What the best of them foresees.
+fn least(sketches: &[Sketch]) -> f64 {
+    sketches.first().map_or(f64::INFINITY, Sketch::foreseen)
 }
 
 /// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
@@ -143,12 +165,14 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
             }
         }
     });
-    sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
+    sort_sketches(sketches);
 }
 
+/// Full fits of promising sketches beside the models that were `made` before, best first.
 fn refits(
     workshop: &Workshop<'_>,
     sketches: &[Sketch],
+    made: Vec<Refit>,
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
@@ -159,9 +183,10 @@ fn refits(
     } else {
         MOST_REFITS
     };
-    let mut refits: Vec<Refit> = Vec::new();
+    let before = made.len();
+    let mut refits = made;
     for chunk in sketches.chunks(AT_A_TIME) {
-        if stop.load(Ordering::Relaxed) || refits.len() >= most {
+        if stop.load(Ordering::Relaxed) || refits.len() >= before + most {
             break;
         }
         let best = refits.first();
@@ -178,7 +203,7 @@ fn refits(
         sort(&mut refits);
     }
     if refits.iter().any(|refit| refit.tracked.is_some()) {
-        for refit in &mut refits {
+        for refit in refits.iter_mut().filter(|refit| refit.tracked.is_none()) {
             // A model that cannot be tracked keeps the errors of its free runs.
             let _ = workshop.track(refit);
         }
@@ -214,5 +239,8 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
 
 /// Dry friction is near the best if what it leaves is within this factor.
 const NEAR_DRY: f64 = 3.0;
+/// Errors within this factor of the floor leave nothing to explain: five standard deviations of what a recording
+/// of some thousand readings has.
+const EXACT: f64 = 1.02;
 /// Errors that are foreseen below this many counts are as good as each other.
 const FLOOR: f64 = 0.35;

@@ -7,6 +7,7 @@
 
 pub mod advice;
 mod descent;
+mod duel;
 pub mod evidence;
 mod extend;
 mod findings;
@@ -15,6 +16,7 @@ mod judge;
 mod led;
 mod missed;
 mod motion;
+mod needless;
 mod orders;
 pub mod pair;
 mod refit;
@@ -53,6 +55,8 @@ const MOST_STEPS: usize = 4;
 const BEAM: usize = 3;
 /// A model whose score is so far behind the best of its level is not built on.
 const BEAM_WIDTH: f64 = 2.0;
+/// A constant that lowers the linear motor's error to this part shows that the motor is another.
+const STEADIED: f64 = 0.2;
 /// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
 /// whose readings dwell in one part of their cells.
 pub const NOISE_COUNTS: f64 = 0.33;
@@ -141,13 +145,31 @@ pub fn diagnose(
 ) -> Result<Diagnosis, Error> {
     let mut workshop = Workshop::new(data, held_out, options);
     let mut base = workshop.base(options)?;
-    let span = workshop.span.clone().after(data, &base);
+    let steadied = (!base.free().at_floor())
+        .then(|| workshop.steadied(options))
+        .flatten();
+    let left = steadied.map_or(f64::INFINITY, |(_, rms)| rms);
+    let span = workshop.span.clone().after(data, &base, left);
     if span != workshop.span {
         workshop = Workshop::over(span, data, held_out, options);
         base = workshop.base(options)?;
     }
     let workshop = workshop;
-    let levels = levels(&workshop, &base, stop, done);
+    // Where the motor has another gain beside a constant, that is where the search for effects starts.
+    let mut anchored = base.clone();
+    if let Some((machine, _)) = steadied.filter(|(_, rms)| *rms < STEADIED * base.rms_counts) {
+        anchored.candidate.machine = machine;
+    }
+    let mut levels = levels(&workshop, &anchored, stop, done);
+    // A search that ended early looks like missing physics: the linear motor is fitted again from where the
+    // best model has it.
+    if let Some(again) = levels
+        .first()
+        .and_then(|level| workshop.base_again(&base, &level.best.candidate.machine))
+    {
+        base = again;
+        levels = self::levels(&workshop, &base, stop, done);
+    }
     let chosen = levels.iter().rposition(|level| level.believed);
     let mut diagnosis = Diagnosis {
         span: workshop.span.clone(),
@@ -219,6 +241,7 @@ fn levels(
             }
         };
         let mut models = extend(workshop, &parents, stop, done);
+        duel::duel(workshop, &mut models);
         polish_best(workshop, &mut models);
         let Some(best) = judge::best(&models).cloned() else {
             break;
@@ -271,6 +294,7 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
     let mut chosen = last.best.clone();
     let mut known = last.models.clone();
     if levels.len() > 1 {
+        chosen = needless::spared(workshop, chosen, &mut known);
         for place in chosen.effects.clone() {
             let swapped = if chosen.losses.is_some() {
                 missed::beside(workshop, &chosen, |workshop, bare| {
@@ -284,6 +308,7 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
             }
             known.extend(swapped);
         }
+        chosen = needless::spared(workshop, chosen, &mut known);
     }
     let mut before = diagnosis.base.clone();
     for (depth, &added) in chosen.effects.iter().enumerate() {
@@ -299,12 +324,14 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
             .get(depth)
             .map(|level| &level.models[..])
             .unwrap_or_default();
+        let fitted = |model: &&Refit| swap::same(&model.effects, prefix);
         let after = if depth + 1 == chosen.effects.len() {
-            Some(&chosen)
+            Some(chosen.clone())
         } else {
-            list.iter().find(|model| swap::same(&model.effects, prefix))
+            let made = list.iter().chain(&known).find(fitted).cloned();
+            made.or_else(|| needless::begun(workshop, &chosen, depth + 1))
         };
-        let Some(after) = after.or(list.first()).cloned() else {
+        let Some(after) = after.or(list.first().cloned()) else {
             break;
         };
         let mut candidates = vec![after.clone()];

@@ -1,6 +1,7 @@
 //! A model with one effect more, fitted roughly: led along the measured motion where that is possible. It
 //! foresees what the effect can explain, and is where the full fit starts.
 
+use super::NOISE_COUNTS;
 use super::descent::{Settings, descend};
 use super::led::{Led, follows};
 use super::refit::Refit;
@@ -29,6 +30,9 @@ const SKETCH: Settings = Settings {
 /// An effect that cannot be led, and leaves more than this part of the error from its first start, gets no other.
 const PROMISING: f64 = 0.9;
 
+/// A sketch that leaves more than this factor of what another model leaves does not rival it.
+const FAR: f64 = 4.0;
+
 /// A model that was fitted roughly.
 pub struct Sketch {
     /// The unknowns, with the newest effect last.
@@ -42,9 +46,25 @@ pub struct Sketch {
 }
 
 impl Sketch {
+    /// A model that is not fitted roughly, but stands where a full fit may start.
+    pub fn at(structure: Structure, x: Vec<f64>) -> Self {
+        Sketch {
+            structure,
+            x,
+            led: f64::INFINITY,
+            simulated: f64::INFINITY,
+        }
+    }
+
     /// The effect that was added.
     pub fn newest(&self) -> Option<Kind> {
         self.structure.effects.last().copied()
+    }
+
+    /// Whether a full fit may come near what `chosen` leaves, which may have been foreseen as badly.
+    pub fn rivals(&self, chosen: &Refit) -> bool {
+        let left = chosen.ran().fitted.max(chosen.foreseen_rms_counts);
+        self.foreseen() < FAR * left.max(NOISE_COUNTS)
     }
 
     /// RMS error that a full fit is expected to reach, counts.
@@ -119,7 +139,8 @@ impl Workshop<'_> {
         Some(values.collect()).filter(|values: &Vec<f64>| !values.is_empty())
     }
 
-    fn sketch_from(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
+    /// The same model, fitted roughly from `x`.
+    pub(super) fn sketch_from(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
         let samples = self.data.len() as f64;
         if !structure.effects.iter().all(|&kind| follows(kind)) {
             let found = descend(&self.problem(structure, self.method), &x, SKETCH)?;
@@ -138,22 +159,25 @@ impl Workshop<'_> {
             method: self.method,
         };
         let found = descend(&led, &x, SKETCH)?;
-        let candidate = structure.candidate(&structure.values(&found.x));
-        let simulated = errors(
+        let mut sketch = Sketch::at(structure.clone(), found.x);
+        sketch.led = (found.squares / samples).sqrt();
+        sketch.simulated = self.leaves(&sketch);
+        Some(sketch)
+    }
+
+    /// RMS error of a free run from where a sketch stands, counts.
+    pub(super) fn leaves(&self, sketch: &Sketch) -> f64 {
+        errors(
             self.data,
-            &candidate,
+            &sketch
+                .structure
+                .candidate(&sketch.structure.values(&sketch.x)),
             self.method,
             &self.fitted_horizon,
             StartAngle::Free,
             Cost::Squared,
         )
-        .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors));
-        Some(Sketch {
-            structure: structure.clone(),
-            x: found.x,
-            led: (found.squares / samples).sqrt(),
-            simulated,
-        })
+        .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors))
     }
 }
 

@@ -52,9 +52,10 @@ impl Span {
         )
     }
 
-    /// Windows instead of whole runs, where the linear motor run over the whole recording says little.
-    pub fn after(self, data: &Data, base: &Refit) -> Self {
-        let lost = base.rms_counts / spread(data);
+    /// Windows instead of whole runs, where the linear motor run over the whole recording says little, even
+    /// beside a constant that drives it: then it leaves `steadied` counts RMS.
+    pub fn after(self, data: &Data, base: &Refit, steadied: f64) -> Self {
+        let lost = base.rms_counts.min(steadied) / spread(data);
         if self.window_s.is_some() {
             return self;
         }
@@ -72,14 +73,14 @@ impl Span {
             window_s: usual(data),
             reason: format!(
                 "over the whole recording the linear motor strays by {:.0} % of the motion: a controller or a \
-                 load moved it more than the voltage alone",
+                 changing load moved it more than the voltage alone",
                 100.0 * lost
             ),
         }
     }
 }
 
-/// A motor that strays by this part of the motion's spread was not moved by its voltage alone.
+/// A motor that strays by this part of the motion's spread was not moved by its voltage and a constant alone.
 const LOST: f64 = 0.8;
 
 /// Whether a twentieth of the travel at least goes against the prevailing direction.

@@ -61,7 +61,7 @@ pub fn starts(
 fn several(kind: Kind) -> Option<&'static [(usize, f64)]> {
     match kind {
         Kind::VoltageSat => Some(&[(0, 1.0), (0, 0.7), (0, 0.5)]),
-        Kind::Backlash => Some(&[(2, 1.0), (2, 0.3), (1, 0.4)]),
+        Kind::Backlash => Some(&[(2, 1.0), (2, 0.3), (1, 0.4), (1, 1.75)]),
         Kind::BrushDrop => Some(&[(1, 1.0), (1, 0.2)]),
         Kind::Stribeck => Some(&[(2, 1.0), (2, 4.0)]),
         _ => None,

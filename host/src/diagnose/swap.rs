@@ -26,7 +26,10 @@ pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refi
             {
                 return None;
             }
-            workshop.refit(&workshop.sketch(&without, kind, &[])?).ok()
+            let sketch = workshop.sketch(&without, kind, &[])?;
+            sketch
+                .rivals(chosen)
+                .then(|| workshop.refit(&sketch).ok())?
         })
         .collect()
 }
@@ -37,7 +40,7 @@ pub fn same(a: &[Kind], b: &[Kind]) -> bool {
 }
 
 /// The model with the parameters that it has, less one effect.
-fn without(chosen: &Refit, place: Kind) -> Refit {
+pub fn without(chosen: &Refit, place: Kind) -> Refit {
     let mut rest = &chosen.parameters[..];
     let mut refit = chosen.clone();
     refit.effects.clear();

@@ -1,15 +1,17 @@
 //! The recordings and how models are run: what every fit of a diagnosis needs.
 
-use super::descent::{Settings, descend};
+use super::descent::{Descent, Settings, descend};
 use super::motion::Motion;
 use super::refit::Refit;
 use super::span::{Span, floor_counts};
 use crate::error::Error;
-use crate::fit::{self, Options, SPEED_HALF_WIDTH, base_for};
+use crate::fit::{self, Options, SPEED_HALF_WIDTH, base_for, scores};
+use crate::problem::cost::rms_counts;
 use crate::problem::simulate::Method;
-use crate::problem::{Data, FitProblem, Horizon, Structure};
+use crate::problem::{Candidate, Data, FitProblem, Horizon, Structure};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
+use shared::motor::Machine;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
@@ -20,6 +22,9 @@ const BASE: Settings = Settings {
     damping: 1e-9,
     secant: false,
 };
+
+/// A second fit of the linear motor counts if its score is better by this.
+const BETTER: f64 = 0.1;
 
 /// The recordings and how models are run.
 pub struct Workshop<'a> {
@@ -84,9 +89,8 @@ impl<'a> Workshop<'a> {
         let start = problem.start.clone().unwrap_or_default();
         let found = descend(&problem, &start, BASE)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
-        let foreseen = (found.squares / self.data.len() as f64).sqrt();
         let structure = problem.structure;
-        let mut base = self.conclude(structure, &found, foreseen, self.method)?;
+        let mut base = self.concluded_base(structure, &found)?;
         let machine = &base.candidate.machine;
         let fitted = floor_counts(self.data, &self.fitted_horizon, machine);
         let held_out = floor_counts(self.held_out, &self.held_out_horizon, machine);
@@ -97,21 +101,32 @@ impl<'a> Workshop<'a> {
         Ok(base)
     }
 
+    /// The linear motor, fitted again from `machine`, if that is better than `base` by more than what an effect
+    /// would have to lead by.
+    pub fn base_again(&self, base: &Refit, machine: &Machine<f64>) -> Option<Refit> {
+        let (kind, speed) = (base.structure.base, base.structure.start_speed);
+        let structure = Structure::around(self.data, kind, &[], machine, speed);
+        let start = structure.values_of(machine, &[], base.candidate.start_speed);
+        let start = structure.coordinates(&start);
+        let found = descend(&self.problem(&structure, self.method), &start, BASE)?;
+        let again = self.concluded_base(structure, &found).ok()?;
+        (again.judged().score() < base.judged().score() - BETTER).then_some(again)
+    }
+
+    fn concluded_base(&self, structure: Structure, found: &Descent) -> Result<Refit, Error> {
+        let foreseen = (found.squares / self.data.len() as f64).sqrt();
+        self.conclude(structure, found, foreseen, self.method)
+    }
+
     /// The linear motor with a start. A strong offset hides the motor from regression: then it is found beside
     /// one.
     fn base_problem(&self, options: &Options) -> Result<FitProblem<'_>, Error> {
         let plain = fit::problem(self.data, options);
         let Err(error) = plain else { return plain };
-        let beside = Options {
-            effects: vec![Kind::OffsetVoltage],
-            ..options.clone()
-        };
-        let Ok(with_offset) = fit::problem(self.data, &beside) else {
+        let Ok(with_offset) = self.beside_offset(options) else {
             return Err(error);
         };
-        let start = with_offset.start.clone().unwrap_or_default();
-        let values = with_offset.structure.values(&start);
-        let candidate = with_offset.structure.candidate(&values);
+        let candidate = candidate_of(&with_offset);
         let speed = with_offset.structure.start_speed;
         let structure = Structure::around(
             self.data,
@@ -125,4 +140,34 @@ impl<'a> Workshop<'a> {
         problem.start = Some(structure.coordinates(&values));
         Ok(problem)
     }
+
+    /// The linear motor beside a constant that drives it, with its start.
+    fn beside_offset(&self, options: &Options) -> Result<FitProblem<'_>, Error> {
+        let beside = Options {
+            effects: vec![Kind::OffsetVoltage],
+            ..options.clone()
+        };
+        fit::problem(self.data, &beside)
+    }
+
+    /// The linear motor as regression sees it beside a constant that drives it, and its RMS error over the
+    /// whole recording, counts. A strong load bends a fit without it by orders of magnitude.
+    pub fn steadied(&self, options: &Options) -> Option<(Machine<f64>, f64)> {
+        let options = Options {
+            window_s: None,
+            method: self.method,
+            ..options.clone()
+        };
+        let candidate = candidate_of(&self.beside_offset(&options).ok()?);
+        let errors = scores::whole(self.data, &candidate, self.method).ok()?;
+        Some((candidate.machine, rms_counts(self.data, &errors)))
+    }
+}
+
+/// The model that a problem starts from.
+fn candidate_of(problem: &FitProblem<'_>) -> Candidate {
+    let start = problem.start.as_deref().unwrap_or_default();
+    problem
+        .structure
+        .candidate(&problem.structure.values(start))
 }

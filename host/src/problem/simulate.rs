@@ -47,9 +47,13 @@ impl Default for Method {
     }
 }
 
+/// Intervals before a start that its current is taken from.
+const MEMORY: usize = 64;
+
 /// The models of one candidate, one for each length of interval in the data.
 pub struct Simulation<'a> {
     data: &'a Data,
+    machine: Machine<f64>,
     models: Vec<Model<f64>>,
 }
 
@@ -70,7 +74,11 @@ impl<'a> Simulation<'a> {
                 })
             })
             .collect::<Result<_, _>>()?;
-        Ok(Simulation { data, models })
+        Ok(Simulation {
+            data,
+            machine: candidate.machine,
+            models,
+        })
     }
 
     /// Runs over the samples of `range` from an angle in counts and a speed in rad/s; calls `each`
@@ -157,19 +165,38 @@ impl<'a> Simulation<'a> {
 
     /// State at sample `k`, where the encoder saw `angle` counts.
     fn start(&self, k: usize, angle: f64, speed: f64) -> State<f64> {
-        // The current starts at zero: what it really was dies out within the electrical time constant.
         let mut state = State::at(angle, speed / self.data.units.speed);
         let Some(last) = self.data.len().checked_sub(1) else {
             return state;
         };
         let error = self.model(k.min(last)).reading(&state) - angle;
         state.motion.angle = angle - error;
+        state.motion.current = self.current_before(k, speed);
         // Commands given before may be on their way still.
         for k in k.saturating_sub(MAX_DELAY)..k {
             let (command, open) = (self.data.command[k], self.data.is_open(k));
             self.model(k).recall(&mut state, command, open);
         }
         state
+    }
+
+    /// Per-unit current at sample `k` that the commands before it leave in the winding at a speed in rad/s. In a
+    /// motor that was driven it is no more zero than the speed.
+    fn current_before(&self, k: usize, speed: f64) -> f64 {
+        let Machine { kb, electrical, .. } = self.machine;
+        let volts = self.data.units.volts;
+        let mut current = 0.0;
+        for j in k.saturating_sub(MEMORY)..k {
+            if self.data.is_open(j) {
+                current = 0.0;
+                continue;
+            }
+            let steady = self.data.command[j] - kb * speed / volts;
+            let interval = self.data.time_s[j + 1] - self.data.time_s[j];
+            current +=
+                (steady - current) * -(-interval / electrical.max(f64::MIN_POSITIVE)).exp_m1();
+        }
+        current
     }
 
     /// Current at each sample as the voltage across the resistance, V, from rest at `angle` counts.

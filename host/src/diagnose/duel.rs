@@ -1,0 +1,94 @@
+//! A search that ended early looks like missing physics. So near winners are each begun once more from where
+//! the other one stands, before one of them is believed.
+
+use super::judge::look_alikes;
+use super::refit::Refit;
+use super::sketch::Sketch;
+use super::workshop::Workshop;
+use rayon::prelude::*;
+use shared::effects::Kind;
+
+/// A rival whose score is so far behind the best is begun once more.
+const NEAR: f64 = 1.2;
+/// One that gained more than this by it is taken.
+const GAINED: f64 = 0.01;
+/// Rivals that are begun once more.
+const RIVALS: usize = 2;
+
+/// Lets the look-alikes among the first of some models, sorted by score, start from each other's machine and
+/// common parameters, and sorts again. True if any of them gained by it.
+pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) -> bool {
+    let Some(best) = models.first().cloned() else {
+        return false;
+    };
+    let near = |model: &Refit| model.judged().score() - best.judged().score() < NEAR;
+    let alike = |model: &Refit| match (model.effects.split_last(), best.effects.split_last()) {
+        (Some((&own, rest)), Some((&other, others))) => rest == others && look_alikes(own, other),
+        _ => false,
+    };
+    let places: Vec<usize> = (1..models.len())
+        .filter(|&i| near(&models[i]) && alike(&models[i]))
+        .take(RIVALS)
+        .collect();
+    let Some(&first) = places.first() else {
+        return false;
+    };
+    let mut pairs: Vec<(usize, usize)> = places.iter().map(|&i| (i, 0)).collect();
+    if !best.judged().at_floor() {
+        pairs.push((0, first));
+    }
+    let again: Vec<(usize, Refit)> = pairs
+        .par_iter()
+        .filter_map(|&(own, other)| {
+            let refit = from_there(workshop, &models[own], &models[other])?;
+            let gained = models[own].judged().score() - refit.judged().score();
+            (gained > GAINED).then_some((own, refit))
+        })
+        .collect();
+    let gained = !again.is_empty();
+    for (place, refit) in again {
+        models[place] = refit;
+    }
+    models.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+    gained
+}
+
+/// `model`, fitted again from the machine of `other` and those parameters that both know.
+fn from_there(workshop: &Workshop<'_>, model: &Refit, other: &Refit) -> Option<Refit> {
+    let named = |refit: &Refit| -> Vec<(Kind, &'static str)> {
+        let kinds = refit.structure.effects.iter();
+        kinds
+            .flat_map(|&kind| {
+                kind.description()
+                    .parameters
+                    .iter()
+                    .map(move |p| (kind, p.name))
+            })
+            .collect()
+    };
+    let theirs = named(other);
+    let parameters: Vec<f64> = named(model)
+        .iter()
+        .zip(&model.parameters)
+        .map(|(&(kind, name), &own)| {
+            let place = theirs
+                .iter()
+                .position(|&(k, n)| n == name && (k == kind || !model.effects.contains(&k)));
+            place.map_or(own, |place| other.parameters[place])
+        })
+        .collect();
+    let structure = model.structure.clone();
+    let candidate = &other.candidate;
+    let x = structure.coordinates(&structure.values_of(
+        &candidate.machine,
+        &parameters,
+        candidate.start_speed,
+    ));
+    let mut refit = workshop.refit(&Sketch::at(structure, x)).ok()?;
+    refit.foreseen_rms_counts = model.foreseen_rms_counts;
+    if model.tracked.is_some() && refit.tracked.is_none() {
+        workshop.track(&mut refit).ok()?;
+    }
+    refit.evaluations += model.evaluations;
+    Some(refit)
+}
