@@ -1,9 +1,10 @@
 //! Models with one effect more: all are sketched, the promising ones refitted.
 
-use super::judge::look_alikes;
+use super::judge::{look_alikes, removes};
 use super::missed;
 use super::refit::Refit;
 use super::sketch::Sketch;
+use super::swap::swapped;
 use super::workshop::Workshop;
 use rayon::prelude::*;
 use shared::effects::{Kind, MAX_EFFECTS};
@@ -72,12 +73,12 @@ pub fn extend(
         }
         models.extend(smooth(workshop, parents, stop, done));
     }
-    sort(&mut models);
+    sort(workshop, &mut models);
     models
 }
 
 /// Every model that adds one effect that can be simulated. Bristles cost much: they, and what builds on them,
-/// are tried where nothing else leaves the encoder's own error.
+/// are tried where nothing else will do.
 fn smooth(
     workshop: &Workshop<'_>,
     parents: &[&Refit],
@@ -105,9 +106,17 @@ fn smooth(
     let first = parents.iter().all(|parent| parent.effects.is_empty());
     let explained = models.first().is_some_and(|model| {
         let ran = model.ran();
-        ran.at_floor() && !(first && ran.fitted.max(ran.held_out) > EXACT * workshop.floor)
+        if first {
+            ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * workshop.floor
+        } else {
+            parents.iter().all(|parent| removes(parent, model))
+        }
     });
     if explained || bristles.is_empty() {
+        if !first {
+            models.extend(bristled(workshop, &models));
+            sort(workshop, &mut models);
+        }
         return models;
     }
     // Bristles cannot be led: they start from dry friction, where that comes near the best.
@@ -125,6 +134,15 @@ fn smooth(
     sort_sketches(&mut more);
     models = refits(workshop, &more, models, stop, done);
     models
+}
+
+/// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
+/// explain.
+fn bristled(workshop: &Workshop<'_>, models: &[Refit]) -> Option<Refit> {
+    let best = models.first().filter(|model| !model.ran().at_floor())?;
+    let dry = |kind: &&Kind| matches!(kind, Kind::Coulomb | Kind::Stribeck);
+    let place = *best.effects.iter().find(dry)?;
+    swapped(workshop, best, place, Kind::Lugre, models)
 }
 
 /// Best first.
@@ -200,20 +218,19 @@ fn refits(
             })
             .collect();
         refits.extend(made);
-        sort(&mut refits);
+        sort(workshop, &mut refits);
     }
+    refits
+}
+
+/// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
+fn sort(workshop: &Workshop<'_>, refits: &mut [Refit]) {
     if refits.iter().any(|refit| refit.tracked.is_some()) {
         for refit in refits.iter_mut().filter(|refit| refit.tracked.is_none()) {
             // A model that cannot be tracked keeps the errors of its free runs.
             let _ = workshop.track(refit);
         }
-        sort(&mut refits);
     }
-    refits
-}
-
-/// Best first.
-fn sort(refits: &mut [Refit]) {
     refits.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
 }
 

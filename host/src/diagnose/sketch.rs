@@ -27,6 +27,8 @@ const SKETCH: Settings = Settings {
     secant: true,
 };
 
+/// Starts that are left after a glance at all of them.
+const GLANCED: usize = 2;
 /// An effect that cannot be led, and leaves more than this part of the error from its first start, gets no other.
 const PROMISING: f64 = 0.9;
 
@@ -96,16 +98,30 @@ impl Workshop<'_> {
         if self.span.window_s.is_some() {
             widen(&mut structure, self.data.supply);
         }
+        let mut begun: Vec<Sketch> = starts
+            .into_iter()
+            .map(|start| {
+                let mut parameters = parent.parameters.clone();
+                parameters.extend(start);
+                let x = structure.coordinates(&structure.values_of(
+                    &parent.candidate.machine,
+                    &parameters,
+                    parent.candidate.start_speed,
+                ));
+                Sketch::at(structure.clone(), x)
+            })
+            .collect();
+        // Where every fit is a simulation, a glance at each start shows which of them is worth one.
+        if !follows(kind) && begun.len() > 1 {
+            for sketch in &mut begun {
+                sketch.simulated = self.leaves(sketch);
+            }
+            begun.sort_by(|a, b| a.simulated.total_cmp(&b.simulated));
+            begun.truncate(GLANCED);
+        }
         let mut best: Option<Sketch> = None;
-        for start in starts {
-            let mut parameters = parent.parameters.clone();
-            parameters.extend(start);
-            let x = structure.coordinates(&structure.values_of(
-                &parent.candidate.machine,
-                &parameters,
-                parent.candidate.start_speed,
-            ));
-            let Some(sketch) = self.sketch_from(&structure, x) else {
+        for start in begun {
+            let Some(sketch) = self.sketch_from(&structure, start.x) else {
                 continue;
             };
             if best

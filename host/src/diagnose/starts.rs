@@ -31,13 +31,18 @@ pub fn starts(
     if kind == Kind::Lugre {
         return bristles(parent, &typical, dry);
     }
-    if let Some(shares) = several(kind) {
-        let at = |&(index, share): &(usize, f64)| {
-            let mut values = typical.clone();
-            values[index] *= share;
-            values
-        };
-        return shares.iter().map(at).collect();
+    if let Some(axes) = several(kind) {
+        return axes.iter().fold(vec![typical], |starts, &(index, shares)| {
+            let along = |start: &Vec<f64>| -> Vec<Vec<f64>> {
+                let at = |&share: &f64| {
+                    let mut values = start.clone();
+                    values[index] *= share;
+                    values
+                };
+                shares.iter().map(at).collect()
+            };
+            starts.iter().flat_map(along).collect()
+        });
     }
     match parameters
         .iter()
@@ -57,13 +62,14 @@ pub fn starts(
     }
 }
 
-/// Effects whose cost has several valleys: a parameter, and the shares of its typical value to start from.
-fn several(kind: Kind) -> Option<&'static [(usize, f64)]> {
+/// Effects whose cost has several valleys: parameters, each with the shares of its typical value to start from.
+fn several(kind: Kind) -> Option<&'static [(usize, &'static [f64])]> {
     match kind {
-        Kind::VoltageSat => Some(&[(0, 1.0), (0, 0.7), (0, 0.5)]),
-        Kind::Backlash => Some(&[(2, 1.0), (2, 0.3), (1, 0.4), (1, 1.75)]),
-        Kind::BrushDrop => Some(&[(1, 1.0), (1, 0.2)]),
-        Kind::Stribeck => Some(&[(2, 1.0), (2, 4.0)]),
+        Kind::VoltageSat => Some(&[(0, &[1.0, 0.7, 0.5])]),
+        Kind::Backlash => Some(&[(0, &[1.0, 0.4]), (1, &[1.0, 0.4, 1.75]), (2, &[1.0, 0.3])]),
+        Kind::Compliance => Some(&[(0, &[1.0, 2.0, 0.5, 0.25]), (1, &[1.0, 0.4, 1.75])]),
+        Kind::BrushDrop => Some(&[(1, &[1.0, 0.2])]),
+        Kind::Stribeck => Some(&[(2, &[1.0, 4.0])]),
         _ => None,
     }
 }

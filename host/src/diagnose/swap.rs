@@ -2,6 +2,7 @@
 
 use super::judge::best;
 use super::refit::Refit;
+use super::sketch::Sketch;
 use super::workshop::Workshop;
 use rayon::prelude::*;
 use shared::effects::Kind;
@@ -9,29 +10,40 @@ use shared::effects::Kind;
 /// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
 /// except those that are in `known` already.
 pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refit]) -> Vec<Refit> {
-    if !chosen.effects.contains(&place) {
-        return Vec::new();
-    }
-    let without = without(chosen, place);
     place
         .description()
         .look_alikes
         .par_iter()
-        .filter_map(|name| {
-            let kind = Kind::by_name(name).filter(|&kind| kind != Kind::MissedCounts)?;
-            let mut set = without.effects.clone();
-            set.push(kind);
-            if chosen.effects.contains(&kind)
-                || known.iter().any(|model| same(&model.effects, &set))
-            {
-                return None;
-            }
-            let sketch = workshop.sketch(&without, kind, &[])?;
-            sketch
-                .rivals(chosen)
-                .then(|| workshop.refit(&sketch).ok())?
-        })
+        .filter_map(|name| Kind::by_name(name))
+        .filter(|&kind| kind != Kind::MissedCounts)
+        .filter_map(|kind| swapped(workshop, chosen, place, kind, known))
         .collect()
+}
+
+/// The model in which `place` is replaced by `kind`; `None` where it is no rival, or known.
+pub fn swapped(
+    workshop: &Workshop<'_>,
+    chosen: &Refit,
+    place: Kind,
+    kind: Kind,
+    known: &[Refit],
+) -> Option<Refit> {
+    if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
+        return None;
+    }
+    let without = without(chosen, place);
+    let mut set = without.effects.clone();
+    set.push(kind);
+    if known.iter().any(|model| same(&model.effects, &set)) {
+        return None;
+    }
+    // Bristles start from dry friction.
+    let dry = (kind == Kind::Lugre).then(|| workshop.sketch(&without, Kind::Coulomb, &[]));
+    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
+    let sketch = workshop.sketch(&without, kind, &dry)?;
+    sketch
+        .rivals(chosen)
+        .then(|| workshop.refit(&sketch).ok())?
 }
 
 /// Whether two lists hold the same effects.
