@@ -98,10 +98,25 @@ fn smooth(
             })
             .collect()
     };
-    let mut sketches = sketch_all(&plain, &[]);
+    let mut sketches: Vec<Sketch> = Vec::new();
+    let mut models: Vec<Refit> = Vec::new();
+    // The best parent first: where it is half of the truth, the others need not be tried.
+    for parent in 0..parents.len() {
+        let own: Vec<_> = plain
+            .iter()
+            .copied()
+            .filter(|(at, _)| *at == parent)
+            .collect();
+        let mut more = sketch_all(&own, &[]);
+        sort_sketches(&mut more);
+        again_from_best(workshop, parents, &mut more);
+        models = refits(workshop, &more, models, stop, done);
+        sketches.extend(more);
+        if models.first().is_some_and(|model| model.ran().at_floor()) {
+            break;
+        }
+    }
     sort_sketches(&mut sketches);
-    again_from_best(workshop, parents, &mut sketches);
-    let mut models = refits(workshop, &sketches, Vec::new(), stop, done);
     // Beside other effects, dry friction is tried against bristles at the end.
     let first = parents.iter().all(|parent| parent.effects.is_empty());
     let explained = models.first().is_some_and(|model| {
