@@ -274,7 +274,7 @@ pub struct FitArgs {
 #[derive(Debug, Args)]
 #[command(after_help = DIAGNOSE_EXAMPLES)]
 pub struct DiagnoseArgs {
-    /// The recording
+    /// The recording, or a CSV of steady speeds: voltage_V and speed_rad_s alone
     pub recording: PathBuf,
     /// Another recording of the same motor, never fitted; else the last quarter of the first is held out
     #[arg(long, value_name = "FILE")]

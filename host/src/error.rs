@@ -1,6 +1,7 @@
 //! Everything that can go wrong, and the exit code that says so.
 
 use crate::bench::BenchError;
+use crate::diagnose::steady::SteadyError;
 use crate::input::{MotorFileError, ReadError};
 use crate::output::WriteError;
 use crate::prove::StoreError;
@@ -31,6 +32,9 @@ pub enum Error {
     /// A file of finished cases cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// A curve of steady speeds that cannot be read or used.
+    #[error(transparent)]
+    Steady(#[from] SteadyError),
     /// The work was done as far as it goes, and it does not go far enough.
     #[error("{0}")]
     Failed(String),

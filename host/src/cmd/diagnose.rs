@@ -2,17 +2,21 @@
 
 use super::motor;
 use crate::cli::DiagnoseArgs;
+use crate::diagnose::steady::SteadyCurve;
 use crate::diagnose::{self, HeldOut, holdout, pair, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
-use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport, SteadyJson, SteadyReport};
 use crate::session::Session;
 use std::sync::atomic::Ordering;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     check_outputs(session, args)?;
+    if SteadyCurve::is_in(&args.recording) {
+        return steady(session, args);
+    }
     let (options, recordings) = recordings(session, args)?;
     let Recordings {
         data,
@@ -53,6 +57,25 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         json: session.json_file(),
     };
     session.deliver(&report.text(), &DiagnosisJson::from(&report))
+}
+
+/// A curve of steady speeds in the place of a recording.
+fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
+    if args.validate.is_some() {
+        return Err(Error::Usage(format!(
+            "--validate: {} is a curve of steady speeds, which is diagnosed on its own; leave --validate away",
+            args.recording.display()
+        )));
+    }
+    let curve = SteadyCurve::read(&args.recording)?;
+    let diagnosis = curve.diagnose()?;
+    let report = SteadyReport {
+        source: &args.recording.display().to_string(),
+        curve: &curve,
+        diagnosis: &diagnosis,
+        seed: session.seed,
+    };
+    session.deliver(&report.text(), &SteadyJson::from(&report))
 }
 
 struct Recordings {

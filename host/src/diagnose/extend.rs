@@ -143,7 +143,7 @@ fn smooth(
     let near_dry = sketches.iter().any(dry);
     let bristles: Vec<_> = bristles
         .into_iter()
-        .filter(|(_, kind)| *kind != Kind::Lugre || near_dry)
+        .filter(|(parent, kind)| *kind != Kind::Lugre || (*parent == 0 && near_dry))
         .collect();
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);

@@ -193,7 +193,9 @@ pub fn diagnose(
     } else {
         diagnosis.verdict = Verdict::Unexplained;
     }
-    if diagnosis.verdict != Verdict::Complete && !moves_both_ways(data) {
+    // In windows a one-sided run may look complete that is not.
+    let complete = diagnosis.verdict == Verdict::Complete && diagnosis.last.free().at_floor();
+    if !complete && !moves_both_ways(data) {
         diagnosis.verdict = Verdict::Inconclusive;
         diagnosis.advice.push(
             "the motor never reverses in this recording: friction, an offset and a load look alike; \

@@ -6,8 +6,12 @@ use shared::effects::Kind;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use std::path::Path;
 
+/// Columns of a curve.
+const COLUMNS: [&str; 2] = ["voltage_V", "speed_rad_s"];
 /// Fewest points for a line with a constant and an error left to judge it by.
 const FEWEST: usize = 5;
+/// An error above this part of the voltage is no straight line.
+const CROOKED: f64 = 0.05;
 /// A drop is believed if so large a gain has at most this chance without one.
 const BELIEVED: f64 = 1e-3;
 
@@ -81,7 +85,8 @@ pub struct SteadyDiagnosis {
     pub with_drop: SteadyFit,
     /// Chance of so large a gain without a drop, by the F test.
     pub p_value: f64,
-    /// [`Verdict::Complete`] where no drop is seen, else [`Verdict::Inconclusive`].
+    /// [`Verdict::Complete`] where no drop is seen, [`Verdict::Inconclusive`] where one is, and
+    /// [`Verdict::Unexplained`] where the curve is not straight.
     pub verdict: Verdict,
     /// Effects that make such a drop, none before the other.
     pub indistinguishable: Vec<Kind>,
@@ -90,12 +95,30 @@ pub struct SteadyDiagnosis {
 }
 
 impl SteadyCurve {
+    /// Whether a file holds such a curve and no recording in time: its header names a voltage and a speed,
+    /// and no other column.
+    pub fn is_in(path: &Path) -> bool {
+        let reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_path(path);
+        let Ok(mut reader) = reader else { return false };
+        let Ok(header) = reader.headers() else {
+            return false;
+        };
+        let is = |name: &str| {
+            COLUMNS
+                .iter()
+                .any(|column| name.eq_ignore_ascii_case(column))
+        };
+        header.len() == COLUMNS.len() && header.iter().all(is) && header.get(0) != header.get(1)
+    }
+
     /// Reads the columns `voltage_V` and `speed_rad_s`, whatever their case.
     ///
     /// # Errors
     /// See [`SteadyError`].
     pub fn read(path: &Path) -> Result<Self, SteadyError> {
-        const COLUMNS: [&str; 2] = ["voltage_V", "speed_rad_s"];
         let file = path.display().to_string();
         let csv_fault = |fault| SteadyError::Csv {
             file: file.clone(),
@@ -156,7 +179,13 @@ impl SteadyCurve {
             indistinguishable: Vec::new(),
             advice: None,
         };
-        if p_value < BELIEVED {
+        if with_drop.relative > CROOKED || (p_value < BELIEVED && with_drop.drop_v < 0.0) {
+            diagnosis.verdict = Verdict::Unexplained;
+            diagnosis.advice = Some(
+                "the curve bends: check that the voltage column is what the motor really got (a driver with a dead \
+                 zone or a curve of its own, or a supply that gives way), and fit each straight part by itself",
+            );
+        } else if p_value < BELIEVED {
             diagnosis.verdict = Verdict::Inconclusive;
             diagnosis.indistinguishable = vec![Kind::Coulomb, Kind::BrushDrop, Kind::DeadZone];
             let one_way = turning.iter().all(|p| p.1 > 0.0) || turning.iter().all(|p| p.1 < 0.0);
@@ -224,6 +253,17 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_bent_curve_is_unexplained() {
+        let saturated = |k: i32| (f64::from(k), (0.4 * f64::from(k)).tanh());
+        let curve = SteadyCurve {
+            points: (-9..10).map(saturated).collect(),
+        };
+        let diagnosis = curve.diagnose().unwrap();
+        assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{diagnosis:?}");
+        assert!(diagnosis.indistinguishable.is_empty());
     }
 
     #[test]

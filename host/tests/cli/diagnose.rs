@@ -214,3 +214,50 @@ fn the_ladder_of_a_fit_falls_with_each_effect_in_its_order() {
         assert!(text.contains(word), "{word}: {text}");
     }
 }
+
+#[test]
+fn a_curve_of_steady_speeds_shows_a_drop_that_no_one_effect_is_named_for() {
+    let desk = Desk::new();
+    let row = |k: i32| {
+        let speed = f64::from(k);
+        // Reading errors with no trend.
+        let volts = 0.5 * speed + 0.2 + 1e-3 * f64::from([1, -1, -1, 1][k as usize % 4]);
+        format!("{volts},{speed}\n")
+    };
+    let rows: String = (1..=12).map(row).collect();
+    desk.write("curve.csv", format!("voltage_V,speed_rad_s\n{rows}"));
+    let outcome = desk.done("diagnose curve.csv");
+    assert!(
+        outcome.stdout.contains("inconclusive"),
+        "{}",
+        outcome.stdout
+    );
+    let json = desk.json("diagnose curve.csv");
+    assert_eq!(json["schema"], "servoid.diagnosis/1");
+    assert_eq!(json["verdict"], "inconclusive");
+    assert_eq!(json["steps"], serde_json::json!([]));
+    let drop = json["steady"]["with_drop"]["drop_v"].as_f64();
+    assert!((drop.expect("a drop") - 0.2).abs() < 2e-3, "{json:#}");
+    assert!(!json["advice"].as_array().expect("a list").is_empty());
+    let refusals: [(&str, &[&str]); 4] = [
+        ("voltage_V,speed_rad_s\n", &["too few"]),
+        (
+            "voltage_V,speed_rad_s\n1,x\n",
+            &["curve.csv:2", "speed_rad_s"],
+        ),
+        ("voltage_V,speed_rad_s\n1,NaN\n", &["finite"]),
+        (
+            "voltage_V,speed_rad_s\n1,-1\n2,-2\n3,-3\n4,-4\n5,-5\n",
+            &["does not grow"],
+        ),
+    ];
+    for (content, says) in refusals {
+        desk.write("curve.csv", content);
+        desk.refused("diagnose curve.csv", 1, says);
+    }
+    desk.refused(
+        "diagnose curve.csv --validate curve.csv",
+        2,
+        &["--validate"],
+    );
+}

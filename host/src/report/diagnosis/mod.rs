@@ -3,11 +3,13 @@
 pub(super) mod bars;
 mod evidence;
 mod json;
+mod steady;
 mod text;
 mod verdict;
 mod whereabouts;
 
 pub use json::DiagnosisJson;
+pub use steady::{SteadyJson, SteadyReport};
 
 use crate::bench::Machine;
 use crate::diagnose::advice::cannot_tell;

@@ -201,7 +201,7 @@ impl DiagnosisReport<'_> {
 }
 
 /// Folded to the width, further lines behind `indent`; spaces within the first line's head are kept.
-fn folded(text: &str, indent: &str) -> String {
+pub(super) fn folded(text: &str, indent: &str) -> String {
     let head = text.len() - text.trim_start().len();
     let mut out = String::new();
     let mut line = text[..head].to_owned();
