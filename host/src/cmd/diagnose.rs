@@ -70,7 +70,6 @@ fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let curve = SteadyCurve::read(&args.recording)?;
     let diagnosis = curve.diagnose()?;
     let report = SteadyReport {
-        source: &args.recording.display().to_string(),
         curve: &curve,
         diagnosis: &diagnosis,
         seed: session.seed,

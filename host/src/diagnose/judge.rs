@@ -88,7 +88,9 @@ pub fn company(chosen: &Refit, place: Kind, others: &[Refit]) -> Company {
         };
         let behind = other.judged().score() - chosen.judged().score();
         if behind < ALIKE {
-            company.alike.push(instead);
+            if !company.alike.contains(&instead) {
+                company.alike.push(instead);
+            }
         } else if !look_alikes(place, instead) {
             company.lead = company.lead.min(behind);
         }
@@ -138,5 +140,7 @@ pub fn p_value(data: &Data, before: &Refit, after: &Refit) -> f64 {
         .dim()
         .saturating_sub(before.structure.dim())
         .max(1);
-    ChiSquared::new(added as f64).map_or(1.0, |law| law.sf(statistic.max(0.0)))
+    let law = ChiSquared::new(added as f64).ok();
+    let law = law.filter(|_| statistic.is_finite());
+    law.map_or(1.0, |law| law.sf(statistic.max(0.0)))
 }

@@ -37,7 +37,7 @@ pub use missed::{Loss, Losses};
 pub use orders::Line;
 pub use refit::{Errors, Refit};
 pub use settle::settle;
-pub use span::Span;
+pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
 
 use crate::error::Error;
@@ -45,7 +45,6 @@ use crate::fit::Options;
 use crate::problem::Data;
 use extend::extend;
 use shared::effects::Kind;
-use span::moves_both_ways;
 use std::sync::atomic::{AtomicBool, Ordering};
 use workshop::Workshop;
 
@@ -193,13 +192,14 @@ pub fn diagnose(
     } else {
         diagnosis.verdict = Verdict::Unexplained;
     }
-    // In windows a one-sided run may look complete that is not.
-    let complete = diagnosis.verdict == Verdict::Complete && diagnosis.last.free().at_floor();
-    if !complete && !moves_both_ways(data) {
-        diagnosis.verdict = Verdict::Inconclusive;
+    if !moves_both_ways(data) {
+        // In windows a one-sided run may look complete that is not.
+        if diagnosis.verdict != Verdict::Complete || !diagnosis.last.free().at_floor() {
+            diagnosis.verdict = Verdict::Inconclusive;
+        }
         diagnosis.advice.push(
-            "the motor never reverses in this recording: friction, an offset and a load look alike; \
-             record steps of both signs, or a slow triangle through zero"
+            "the motor never reverses in this recording: friction, an offset and a load look alike, and may pass for \
+             another gain; record steps of both signs, or a slow triangle through zero"
                 .to_owned(),
         );
     }

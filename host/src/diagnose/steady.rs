@@ -45,21 +45,31 @@ pub enum SteadyError {
         column: &'static str,
     },
     /// Too few points.
-    #[error("{points} points of a turning motor are too few; measure at least {FEWEST} voltages")]
+    #[error(
+        "{file}: {points} points of a turning motor are too few; measure at least {FEWEST} voltages"
+    )]
     Few {
+        /// The file.
+        file: String,
         /// Points with a speed.
         points: usize,
     },
     /// The speed does not grow with the voltage.
     #[error(
-        "the speed does not grow with the voltage: check the columns, their signs and their order"
+        "{file}: the speed does not grow with the voltage, or either is beyond all reason: check the columns, their \
+         signs, their order and their units"
     )]
-    NoMotor,
+    NoMotor {
+        /// The file.
+        file: String,
+    },
 }
 
 /// Steady speeds of an unloaded motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyCurve {
+    /// Where they came from.
+    pub source: String,
     /// Voltage, V, and steady speed, rad/s.
     pub points: Vec<(f64, f64)>,
 }
@@ -152,7 +162,10 @@ impl SteadyCurve {
             };
             points.push((number(0)?, number(1)?));
         }
-        Ok(SteadyCurve { points })
+        Ok(SteadyCurve {
+            source: file,
+            points,
+        })
     }
 
     /// Fits the curve without and with a drop. Points at rest say nothing of either.
@@ -163,14 +176,19 @@ impl SteadyCurve {
         let turning: Vec<(f64, f64)> = self.points.iter().copied().filter(|p| p.1 != 0.0).collect();
         if turning.len() < FEWEST {
             return Err(SteadyError::Few {
+                file: self.source.clone(),
                 points: turning.len(),
             });
         }
-        let (linear, with_drop) = fits(&turning).ok_or(SteadyError::NoMotor)?;
+        let (linear, with_drop) = fits(&turning).ok_or_else(|| SteadyError::NoMotor {
+            file: self.source.clone(),
+        })?;
         let freedom = (turning.len() - 2) as f64;
         let gain = (linear.squares - with_drop.squares).max(0.0);
         let ratio = gain / (with_drop.squares / freedom).max(f64::MIN_POSITIVE);
-        let p_value = FisherSnedecor::new(1.0, freedom).map_or(1.0, |law| law.sf(ratio));
+        let law = FisherSnedecor::new(1.0, freedom).ok();
+        let law = law.filter(|_| ratio.is_finite());
+        let p_value = law.map_or(1.0, |law| law.sf(ratio));
         let mut diagnosis = SteadyDiagnosis {
             linear,
             with_drop,
@@ -241,6 +259,7 @@ mod tests {
                     })
                 });
                 let curve = SteadyCurve {
+                    source: "test".to_owned(),
                     points: points.collect(),
                 };
                 let diagnosis = curve.diagnose().unwrap();
@@ -259,6 +278,7 @@ mod tests {
     fn a_bent_curve_is_unexplained() {
         let saturated = |k: i32| (f64::from(k), (0.4 * f64::from(k)).tanh());
         let curve = SteadyCurve {
+            source: "test".to_owned(),
             points: (-9..10).map(saturated).collect(),
         };
         let diagnosis = curve.diagnose().unwrap();
@@ -269,15 +289,20 @@ mod tests {
     #[test]
     fn curves_that_say_nothing_are_refused() {
         let still = SteadyCurve {
+            source: "test".to_owned(),
             points: vec![(1.0, 0.0); 9],
         };
         assert!(matches!(
             still.diagnose(),
-            Err(SteadyError::Few { points: 0 })
+            Err(SteadyError::Few { points: 0, .. })
         ));
         let backward = SteadyCurve {
+            source: "test".to_owned(),
             points: (1..9).map(|k| (f64::from(k), -f64::from(k))).collect(),
         };
-        assert!(matches!(backward.diagnose(), Err(SteadyError::NoMotor)));
+        assert!(matches!(
+            backward.diagnose(),
+            Err(SteadyError::NoMotor { .. })
+        ));
     }
 }

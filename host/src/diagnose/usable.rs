@@ -13,16 +13,20 @@ const DRIVEN_S: f64 = 0.05;
 const STRONG: f64 = 0.5;
 /// Commands may exceed the stated supply by this part.
 const ABOVE_SUPPLY: f64 = 0.02;
+/// Commands of so many times the supply are in another unit.
+const OTHER_UNIT: f64 = 50.0;
 /// A top is flat where the same largest command stands for so many samples, and it is cut off if it is reached
 /// smoothly: from within this part of it.
 const FLAT: (usize, f64) = (3, 0.2);
+/// Most levels of a command that is stepped on purpose.
+const LEVELS: usize = 16;
 /// Cut-off tops that cannot be chance.
 const TOPS: usize = 4;
 
 /// Remarks on a recording.
 ///
 /// # Errors
-/// [`Error::Failed`] where its encoder was stuck.
+/// [`Error::Failed`] where its encoder was stuck, or its commands are in another unit.
 pub fn check(recording: &Recording) -> Result<Vec<String>, Error> {
     let mut remarks = Vec::new();
     if let Some((from, to, volts)) = stuck(recording) {
@@ -47,6 +51,13 @@ pub fn check(recording: &Recording) -> Result<Vec<String>, Error> {
         .filter(|_| recording.drive == Drive::Voltage)
         && largest > supply * (1.0 + ABOVE_SUPPLY)
     {
+        if largest > supply * OTHER_UNIT {
+            return Err(Error::Failed(format!(
+                "{}: commands reach {largest:.3e} V and supply_v is {supply:.2} V: that is another unit (mV?) or another \
+                 motor's file; scale the column to V, or correct supply_v",
+                recording.source
+            )));
+        }
         remarks.push(format!(
             "{}: commands reach {largest:.2} V and supply_v is {supply:.2} V: the bridge clips them; log what it can \
              give, or correct supply_v",
@@ -54,7 +65,7 @@ pub fn check(recording: &Recording) -> Result<Vec<String>, Error> {
         ));
     }
     let tops = cut_tops(recording, largest);
-    if tops >= TOPS {
+    if tops >= TOPS && !few_levels(recording) {
         remarks.push(format!(
             "{}: the command is cut off at {largest:.2} {}, {tops} times: if the motor saw more than the log says, the \
              model is fed wrong; log the command behind its limits and before the log's own",
@@ -120,6 +131,20 @@ fn longest_s(recording: &Recording, samples: impl Iterator<Item = usize>) -> f64
         run = Some((from, k));
     }
     longest
+}
+
+/// Whether the command is made of a few levels, as a telegraph is: its largest is no limit.
+fn few_levels(recording: &Recording) -> bool {
+    let mut levels: Vec<f64> = Vec::new();
+    for &command in &recording.command {
+        if !levels.contains(&command) {
+            levels.push(command);
+        }
+        if levels.len() > LEVELS {
+            return false;
+        }
+    }
+    true
 }
 
 /// How many times the command runs smoothly into its largest value and stays there.

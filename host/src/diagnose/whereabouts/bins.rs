@@ -132,7 +132,10 @@ impl Map {
             .max(explained)
             .max(f64::MIN_POSITIVE);
         let ratio = explained / used / (within / n / (effective - used)).max(f64::MIN_POSITIVE);
-        let chance = FisherSnedecor::new(used, effective - used).map_or(1.0, |law| law.sf(ratio));
+        let law = FisherSnedecor::new(used, effective - used).ok();
+        // Volts beyond all numbers have no chance that could be told.
+        let law = law.filter(|_| ratio.is_finite());
+        let chance = law.map_or(1.0, |law| law.sf(ratio));
         let per_sample = (within / n).sqrt();
         Some(Map {
             against,

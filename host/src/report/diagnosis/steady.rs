@@ -9,8 +9,6 @@ use std::fmt::Write;
 
 /// A curve, its diagnosis and where it came from.
 pub struct SteadyReport<'a> {
-    /// The file.
-    pub source: &'a str,
     /// The curve.
     pub curve: &'a SteadyCurve,
     /// What it says.
@@ -50,7 +48,7 @@ impl SteadyReport<'_> {
         let _ = writeln!(
             out,
             "{}: {} points of steady speed against voltage\n",
-            self.source,
+            self.curve.source,
             self.curve.points.len()
         );
         let verdict = format!("{}: {}", self.diagnosis.verdict.name(), self.summary());
@@ -157,7 +155,7 @@ impl From<&SteadyReport<'_>> for SteadyJson {
                 p_value: diagnosis.p_value,
                 indistinguishable: report.names(),
             },
-            recording: report.source.to_owned(),
+            recording: report.curve.source.clone(),
             seed: report.seed,
             interrupted: false,
             version: env!("CARGO_PKG_VERSION"),

@@ -3,7 +3,7 @@
 use super::bars::counts;
 use super::{DiagnosisReport, names};
 use crate::diagnose::evidence::largest;
-use crate::diagnose::{HeldOut, Verdict};
+use crate::diagnose::{HeldOut, Verdict, moves_both_ways};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -14,14 +14,20 @@ impl DiagnosisReport<'_> {
         let base = counts(diagnosis.base.rms_counts);
         let (fitted, held_out) = self.last_errors();
         match self.verdict() {
-            Verdict::Complete => format!(
-                "The linear motor explains this recording down to the encoder: {} counts RMS are left where it was \
+            Verdict::Complete => {
+                format!(
+                    "The linear motor explains this recording down to the encoder: {} counts RMS are left where it was \
                  fitted and {} {}, and the encoder alone leaves {FLOOR_RMS_COUNTS:.3}. Nothing is missing that these \
                  data could show.",
-                counts(fitted),
-                counts(held_out),
-                self.where_held_out()
-            ),
+                    counts(fitted),
+                    counts(held_out),
+                    self.where_held_out()
+                ) + if moves_both_ways(self.data) {
+                    ""
+                } else {
+                    " But the motor never reverses in it: friction, an offset or a load would pass for another gain."
+                }
+            }
             Verdict::MissingEffects => format!(
                 "The linear motor misses this recording by {base} counts RMS; with {} the error falls to {}, and to {} \
                  {}, where the encoder alone leaves {FLOOR_RMS_COUNTS:.3}.{}",
