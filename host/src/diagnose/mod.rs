@@ -167,7 +167,7 @@ pub fn diagnose(
         .and_then(|level| workshop.base_again(&base, &level.best.candidate.machine))
     {
         base = again;
-        levels = self::levels(&workshop, &base, stop, done);
+        levels.clear();
     }
     let chosen = levels.iter().rposition(|level| level.believed);
     let mut diagnosis = Diagnosis {

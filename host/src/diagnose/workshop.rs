@@ -23,9 +23,6 @@ const BASE: Settings = Settings {
     secant: false,
 };
 
-/// A second fit of the linear motor counts if its score is better by this.
-const BETTER: f64 = 0.1;
-
 /// The recordings and how models are run.
 pub struct Workshop<'a> {
     /// Fitted.
@@ -101,8 +98,7 @@ impl<'a> Workshop<'a> {
         Ok(base)
     }
 
-    /// The linear motor, fitted again from `machine`, if that is better than `base` by more than what an effect
-    /// would have to lead by.
+    /// The linear motor, fitted again from `machine`, if that explains the recording down to the encoder after all.
     pub fn base_again(&self, base: &Refit, machine: &Machine<f64>) -> Option<Refit> {
         let (kind, speed) = (base.structure.base, base.structure.start_speed);
         let structure = Structure::around(self.data, kind, &[], machine, speed);
@@ -110,7 +106,7 @@ impl<'a> Workshop<'a> {
         let start = structure.coordinates(&start);
         let found = descend(&self.problem(&structure, self.method), &start, BASE)?;
         let again = self.concluded_base(structure, &found).ok()?;
-        (again.judged().score() < base.judged().score() - BETTER).then_some(again)
+        again.judged().at_floor().then_some(again)
     }
 
     fn concluded_base(&self, structure: Structure, found: &Descent) -> Result<Refit, Error> {
