@@ -7,6 +7,7 @@
 
 use crate::solve::Objective;
 use nalgebra::{DMatrix, DVector};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -50,12 +51,19 @@ const BETTER: f64 = 0.02;
 
 /// Descends from `start`; `None` where the model cannot run there. A search that ends at a wall is begun
 /// once more from a little inside: a coordinate that was driven there early may have no slope back.
-pub fn descend(objective: &dyn Objective, start: &[f64], settings: Settings) -> Option<Descent> {
-    let mut best = Search::new(objective, start, settings)?.run();
+///
+/// Where `stop` is set the search ends with what it has.
+pub fn descend(
+    objective: &dyn Objective,
+    start: &[f64],
+    settings: Settings,
+    stop: &AtomicBool,
+) -> Option<Descent> {
+    let mut best = Search::new(objective, start, settings, stop)?.run();
     let inside = |x: &f64| x.clamp(INSIDE, 1.0 - INSIDE);
     if best.squares > settings.enough && best.x.iter().any(|x| *x == 0.0 || *x == 1.0) {
         let start: Vec<f64> = best.x.iter().map(inside).collect();
-        if let Some(search) = Search::new(objective, &start, settings) {
+        if let Some(search) = Search::new(objective, &start, settings, stop) {
             let again = search.run();
             let evaluations = best.evaluations + again.evaluations;
             if again.squares < best.squares * (1.0 - BETTER) {
@@ -70,6 +78,7 @@ pub fn descend(objective: &dyn Objective, start: &[f64], settings: Settings) -> 
 struct Search<'a> {
     objective: &'a dyn Objective,
     settings: Settings,
+    stop: &'a AtomicBool,
     x: Vec<f64>,
     residuals: Vec<f64>,
     squares: f64,
@@ -81,12 +90,18 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(objective: &'a dyn Objective, start: &[f64], settings: Settings) -> Option<Self> {
+    fn new(
+        objective: &'a dyn Objective,
+        start: &[f64],
+        settings: Settings,
+        stop: &'a AtomicBool,
+    ) -> Option<Self> {
         let x: Vec<f64> = start.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         let (residuals, squares) = objective.residuals_and_cost(&x)?;
         squares.is_finite().then(|| Search {
             objective,
             settings,
+            stop,
             residuals: thinned(residuals, settings.stride),
             x,
             squares,
@@ -134,7 +149,9 @@ impl<'a> Search<'a> {
                     Outcome::Nowhere if self.fresh => return,
                     Outcome::Nowhere => break,
                 }
-                if self.evaluations >= self.settings.evaluations {
+                if self.evaluations >= self.settings.evaluations
+                    || self.stop.load(Ordering::Relaxed)
+                {
                     return;
                 }
             }
@@ -148,6 +165,9 @@ impl<'a> Search<'a> {
         }
         self.columns.clear();
         for axis in 0..self.x.len() {
+            if self.stop.load(Ordering::Relaxed) {
+                return false;
+            }
             let mut moved = self.x.clone();
             let step = if moved[axis] + STEP > 1.0 {
                 -STEP
@@ -324,4 +344,108 @@ fn thinned(values: Vec<f64>, stride: usize) -> Vec<f64> {
         return values;
     }
     values.into_iter().step_by(stride).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shared::rng;
+
+    /// Residuals that are linear in the unknowns, two of which do nearly the same.
+    struct Slanted {
+        columns: Vec<Vec<f64>>,
+        target: Vec<f64>,
+    }
+
+    const UNKNOWNS: usize = 4;
+    const ROWS: usize = 24;
+
+    impl Slanted {
+        fn draw(seed: u64) -> Self {
+            let mut generator = rng::seeded(seed);
+            let mut draw = || 2.0 * rng::uniform::<f64>(&mut generator) - 1.0;
+            let mut columns: Vec<Vec<f64>> = (0..UNKNOWNS)
+                .map(|_| (0..ROWS).map(|_| draw()).collect())
+                .collect();
+            columns[1] = columns[0]
+                .iter()
+                .zip(&columns[1])
+                .map(|(same, own)| same + 0.02 * own)
+                .collect();
+            // The minimum without walls lies inside for some unknowns and beyond a wall for others.
+            let free: Vec<f64> = (0..UNKNOWNS).map(|_| 0.5 + 1.5 * draw()).collect();
+            let target = (0..ROWS)
+                .map(|row| {
+                    let model: f64 = (0..UNKNOWNS).map(|i| columns[i][row] * free[i]).sum();
+                    model + 0.1 * draw()
+                })
+                .collect();
+            Slanted { columns, target }
+        }
+
+        /// The least sum of squares within the cube, by going down one unknown at a time for very long.
+        fn least(&self) -> f64 {
+            let mut x = [0.5; UNKNOWNS];
+            for _ in 0..200_000 {
+                for i in 0..UNKNOWNS {
+                    let residuals = self.residuals(&x);
+                    let step =
+                        dot(&self.columns[i], &residuals) / dot(&self.columns[i], &self.columns[i]);
+                    x[i] = (x[i] - step).clamp(0.0, 1.0);
+                }
+            }
+            let residuals = self.residuals(&x);
+            dot(&residuals, &residuals)
+        }
+
+        fn residuals(&self, x: &[f64]) -> Vec<f64> {
+            let model =
+                |row: usize| -> f64 { (0..UNKNOWNS).map(|i| self.columns[i][row] * x[i]).sum() };
+            (0..ROWS).map(|row| model(row) - self.target[row]).collect()
+        }
+    }
+
+    impl Objective for Slanted {
+        fn dim(&self) -> usize {
+            UNKNOWNS
+        }
+
+        fn cost(&self, x: &[f64]) -> f64 {
+            let residuals = self.residuals(x);
+            dot(&residuals, &residuals)
+        }
+
+        fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
+            Some((self.residuals(x), self.cost(x)))
+        }
+    }
+
+    /// A step that is merely cut off at a wall climbs the side of a valley that slants across it.
+    #[test]
+    fn a_valley_that_slants_across_a_wall_is_followed_to_its_lowest_point_within() {
+        let settings = Settings {
+            evaluations: 400,
+            tolerance: 1e-9,
+            stride: 1,
+            enough: 0.0,
+            damping: 1e-9,
+            secant: false,
+        };
+        let stop = AtomicBool::new(false);
+        for seed in 0..40 {
+            let problem = Slanted::draw(seed);
+            let found = descend(&problem, &[0.5; UNKNOWNS], settings, &stop).unwrap();
+            let least = problem.least();
+            assert!(
+                found.squares < least * 1.001 + 1e-9,
+                "seed {seed}: {} at {:?}, {least} is there",
+                found.squares,
+                found.x
+            );
+            assert!(
+                found.x.iter().all(|x| (0.0..=1.0).contains(x)),
+                "seed {seed}"
+            );
+        }
+    }
 }

@@ -142,7 +142,7 @@ pub fn diagnose(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let mut workshop = Workshop::new(data, held_out, options);
+    let mut workshop = Workshop::new(data, held_out, options, stop);
     let mut base = workshop.base(options)?;
     let steadied = (!base.free().at_floor())
         .then(|| workshop.steadied(options))
@@ -150,7 +150,7 @@ pub fn diagnose(
     let left = steadied.map_or(f64::INFINITY, |(_, rms)| rms);
     let span = workshop.span.clone().after(data, &base, left);
     if span != workshop.span {
-        workshop = Workshop::over(span, data, held_out, options);
+        workshop = Workshop::over(span, data, held_out, options, stop);
         base = workshop.base(options)?;
     }
     let workshop = workshop;

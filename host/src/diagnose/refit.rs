@@ -244,7 +244,7 @@ impl Workshop<'_> {
                 horizon: Horizon::Nudged(memory_s),
                 ..self.problem(structure, self.method)
             };
-            let Some(found) = descend(&problem, &x, FADE) else {
+            let Some(found) = descend(&problem, &x, FADE, self.stop) else {
                 break;
             };
             let rms = (found.squares / self.data.len() as f64).sqrt();
@@ -273,7 +273,7 @@ impl Workshop<'_> {
                 },
                 ..self.problem(&best.structure, method)
             };
-            let Some(found) = descend(&problem, &best.x, LAST) else {
+            let Some(found) = descend(&problem, &best.x, LAST, self.stop) else {
                 return Ok(best);
             };
             let polished = self.conclude(
@@ -315,7 +315,7 @@ impl Workshop<'_> {
         settings: Settings,
         method: Method,
     ) -> Result<Descent, Error> {
-        descend(&self.problem(structure, method), start, settings)
+        descend(&self.problem(structure, method), start, settings, self.stop)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))
     }
 

@@ -159,7 +159,7 @@ impl Workshop<'_> {
     pub(super) fn sketch_from(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
         let samples = self.data.len() as f64;
         if !structure.effects.iter().all(|&kind| follows(kind)) {
-            let found = descend(&self.problem(structure, self.method), &x, SKETCH)?;
+            let found = descend(&self.problem(structure, self.method), &x, SKETCH, self.stop)?;
             return Some(Sketch {
                 structure: structure.clone(),
                 x: found.x,
@@ -174,7 +174,7 @@ impl Workshop<'_> {
             structure: structure.clone(),
             method: self.method,
         };
-        let found = descend(&led, &x, SKETCH)?;
+        let found = descend(&led, &x, SKETCH, self.stop)?;
         let mut sketch = Sketch::at(structure.clone(), found.x);
         sketch.led = (found.squares / samples).sqrt();
         sketch.simulated = self.leaves(&sketch);

@@ -12,6 +12,7 @@ use crate::problem::{Candidate, Data, FitProblem, Horizon, Structure};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use shared::motor::Machine;
+use std::sync::atomic::AtomicBool;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
@@ -41,17 +42,30 @@ pub struct Workshop<'a> {
     pub floor: f64,
     /// How models are run at first.
     pub method: Method,
+    /// Set where the user wants no more.
+    pub stop: &'a AtomicBool,
 }
 
 impl<'a> Workshop<'a> {
     /// Prepares. Models are run with one part to a sample, which [`polish`](Self::polish) refines where it
     /// matters.
-    pub fn new(data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
-        Workshop::over(Span::of(data, options), data, held_out, options)
+    pub fn new(
+        data: &'a Data,
+        held_out: &'a Data,
+        options: &Options,
+        stop: &'a AtomicBool,
+    ) -> Self {
+        Workshop::over(Span::of(data, options), data, held_out, options, stop)
     }
 
     /// Prepares for runs over a span.
-    pub fn over(span: Span, data: &'a Data, held_out: &'a Data, options: &Options) -> Self {
+    pub fn over(
+        span: Span,
+        data: &'a Data,
+        held_out: &'a Data,
+        options: &Options,
+        stop: &'a AtomicBool,
+    ) -> Self {
         let horizon = |data| match span.window_s {
             Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
             None => Horizon::Whole,
@@ -68,6 +82,7 @@ impl<'a> Workshop<'a> {
                 substeps: 1,
                 ..options.method
             },
+            stop,
         }
     }
 
@@ -84,7 +99,7 @@ impl<'a> Workshop<'a> {
         };
         let problem = self.base_problem(&options)?;
         let start = problem.start.clone().unwrap_or_default();
-        let found = descend(&problem, &start, BASE)
+        let found = descend(&problem, &start, BASE, self.stop)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
         let structure = problem.structure;
         let mut base = self.concluded_base(structure, &found)?;
@@ -104,7 +119,12 @@ impl<'a> Workshop<'a> {
         let structure = Structure::around(self.data, kind, &[], machine, speed);
         let start = structure.values_of(machine, &[], base.candidate.start_speed);
         let start = structure.coordinates(&start);
-        let found = descend(&self.problem(&structure, self.method), &start, BASE)?;
+        let found = descend(
+            &self.problem(&structure, self.method),
+            &start,
+            BASE,
+            self.stop,
+        )?;
         let again = self.concluded_base(structure, &found).ok()?;
         again.judged().at_floor().then_some(again)
     }

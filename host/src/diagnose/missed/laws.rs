@@ -8,6 +8,7 @@ use crate::fit::Options;
 use crate::problem::Data;
 use shared::effects::Kind;
 use shared::excite::{COMMISSIONING, commands};
+use std::sync::atomic::AtomicBool;
 
 const INTERVAL_S: f64 = 1e-3;
 
@@ -45,7 +46,8 @@ fn truth(lossless: &Data, with_losses: &Data) -> Vec<Loss> {
 /// What is found in two recordings of the machine, by the linear motor.
 fn losses(data: &Data, held_out: &Data) -> Option<(Losses, f64)> {
     let options = Options::default();
-    let mut workshop = Workshop::new(data, held_out, &options);
+    let stop = AtomicBool::new(false);
+    let mut workshop = Workshop::new(data, held_out, &options, &stop);
     let base = workshop.base(&options).unwrap();
     if base.free().at_floor() {
         return None;

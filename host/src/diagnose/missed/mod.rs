@@ -178,7 +178,13 @@ fn settled(
             break;
         }
         let data = repaired(workshop.data, &losses);
-        x = descend(&problem(&data, structure, parent.method), &x, FIT)?.x;
+        x = descend(
+            &problem(&data, structure, parent.method),
+            &x,
+            FIT,
+            workshop.stop,
+        )?
+        .x;
     }
     Some((losses, x))
 }
@@ -300,7 +306,7 @@ impl Repaired {
         }
     }
 
-    fn workshop(&self, of: &Workshop<'_>) -> Workshop<'_> {
+    fn workshop<'a>(&'a self, of: &Workshop<'a>) -> Workshop<'a> {
         Workshop {
             data: &self.data,
             held_out: &self.held_out,
@@ -310,6 +316,7 @@ impl Repaired {
             held_out_horizon: of.held_out_horizon.clone(),
             floor: of.floor,
             method: of.method,
+            stop: of.stop,
         }
     }
 }
