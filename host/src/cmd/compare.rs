@@ -14,14 +14,7 @@ use crate::solve;
 
 pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
-    let motor_path = motor::motor_path(&args.motor, &args.recording);
-    session.check_outputs(
-        plot.as_slice(),
-        &[
-            ("the recording", &args.recording),
-            ("the motor file", &motor_path),
-        ],
-    )?;
+    motor::check_outputs(session, plot.as_slice(), &args.motor, &args.recording, None)?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
     let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;

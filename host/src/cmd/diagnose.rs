@@ -13,7 +13,13 @@ use crate::session::Session;
 use std::sync::atomic::Ordering;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
-    check_outputs(session, args)?;
+    motor::check_outputs(
+        session,
+        &[],
+        &args.motor,
+        &args.recording,
+        args.validate.as_deref(),
+    )?;
     if SteadyCurve::is_in(&args.recording) {
         return steady(session, args);
     }
@@ -144,17 +150,4 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
         remarks,
     };
     Ok((options, recordings))
-}
-
-/// The results must not replace what the diagnosis reads.
-fn check_outputs(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
-    let motor = motor::motor_path(&args.motor, &args.recording);
-    let mut inputs = vec![("the recording", args.recording.as_path())];
-    inputs.extend(
-        args.validate
-            .as_deref()
-            .map(|path| ("the --validate recording", path)),
-    );
-    inputs.push(("the motor file", &motor));
-    session.check_outputs(&[], &inputs)
 }

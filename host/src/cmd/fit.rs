@@ -12,7 +12,14 @@ use crate::report;
 use crate::session::Session;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
-    check_outputs(session, args)?;
+    let plot = args.plot.as_deref().map(|path| ("--plot", path));
+    motor::check_outputs(
+        session,
+        plot.as_slice(),
+        &args.motor,
+        &args.recording,
+        args.validate.as_deref(),
+    )?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
     let validation = match &args.validate {
@@ -46,18 +53,4 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         &report::text::fit(&fit, &data),
         &report::json::FitJson::from(&fit),
     )
-}
-
-/// The results must not replace what the fit reads.
-fn check_outputs(session: &Session, args: &FitArgs) -> Result<(), Error> {
-    let plot = args.plot.as_deref().map(|path| ("--plot", path));
-    let motor = motor::motor_path(&args.motor, &args.recording);
-    let mut inputs = vec![("the recording", args.recording.as_path())];
-    inputs.extend(
-        args.validate
-            .as_deref()
-            .map(|path| ("the --validate recording", path)),
-    );
-    inputs.push(("the motor file", &motor));
-    session.check_outputs(plot.as_slice(), &inputs)
 }

@@ -4,7 +4,23 @@ use crate::cli::MotorArgs;
 use crate::error::Error;
 use crate::input::{MotorFile, read_recording};
 use crate::recording::{Drive, Recording};
+use crate::session::Session;
 use std::path::{Path, PathBuf};
+
+/// Checks that the `outputs` of a verb, and its JSON, replace nothing that it reads.
+pub(super) fn check_outputs(
+    session: &Session,
+    outputs: &[(&'static str, &Path)],
+    args: &MotorArgs,
+    recording: &Path,
+    validate: Option<&Path>,
+) -> Result<(), Error> {
+    let motor = motor_path(args, recording);
+    let mut inputs = vec![("the recording", recording)];
+    inputs.extend(validate.map(|path| ("the --validate recording", path)));
+    inputs.push(("the motor file", &motor));
+    session.check_outputs(outputs, &inputs)
+}
 
 /// What is known of the motor that made `recording`.
 pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile, Error> {
@@ -50,7 +66,7 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
 }
 
 /// The motor file of a recording, whether or not there is one.
-pub(super) fn motor_path(args: &MotorArgs, recording: &Path) -> PathBuf {
+fn motor_path(args: &MotorArgs, recording: &Path) -> PathBuf {
     args.motor
         .clone()
         .unwrap_or_else(|| recording.with_file_name("motor.toml"))

@@ -16,10 +16,10 @@ const GAINED: f64 = 0.01;
 const RIVALS: usize = 2;
 
 /// Lets the look-alikes among the first of some models, sorted by score, start from each other's machine and
-/// common parameters, and sorts again. True if any of them gained by it.
-pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) -> bool {
+/// common parameters, and sorts again.
+pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
     let Some(best) = models.first().cloned() else {
-        return false;
+        return;
     };
     let near = |model: &Refit| model.judged().score() - best.judged().score() < NEAR;
     let alike = |model: &Refit| match (model.effects.split_last(), best.effects.split_last()) {
@@ -31,7 +31,7 @@ pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) -> bool {
         .take(RIVALS)
         .collect();
     let Some(&first) = places.first() else {
-        return false;
+        return;
     };
     let mut pairs: Vec<(usize, usize)> = places.iter().map(|&i| (i, 0)).collect();
     if !best.judged().at_floor() {
@@ -45,12 +45,10 @@ pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) -> bool {
             (gained > GAINED).then_some((own, refit))
         })
         .collect();
-    let gained = !again.is_empty();
     for (place, refit) in again {
         models[place] = refit;
     }
-    models.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
-    gained
+    models.sort_by(Refit::by_score);
 }
 
 /// `model`, fitted again from the machine of `other` and those parameters that both know.
@@ -77,14 +75,8 @@ fn from_there(workshop: &Workshop<'_>, model: &Refit, other: &Refit) -> Option<R
             place.map_or(own, |place| other.parameters[place])
         })
         .collect();
-    let structure = model.structure.clone();
-    let candidate = &other.candidate;
-    let x = structure.coordinates(&structure.values_of(
-        &candidate.machine,
-        &parameters,
-        candidate.start_speed,
-    ));
-    let mut refit = workshop.refit(&Sketch::at(structure, x)).ok()?;
+    let start = Sketch::standing(model.structure.clone(), &other.candidate, &parameters);
+    let mut refit = workshop.refit(&start).ok()?;
     refit.foreseen_rms_counts = model.foreseen_rms_counts;
     if model.tracked.is_some() && refit.tracked.is_none() {
         workshop.track(&mut refit).ok()?;

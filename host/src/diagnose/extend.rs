@@ -135,7 +135,7 @@ fn smooth(
         return models;
     }
     // Bristles cannot be led: they start from dry friction, where that comes near the best.
-    let least = least(&sketches);
+    let least = sketches.first().map_or(f64::INFINITY, Sketch::foreseen);
     let dry = |sketch: &Sketch| {
         matches!(sketch.newest(), Some(Kind::Coulomb | Kind::Stribeck))
             && sketch.foreseen() < NEAR_DRY * least.max(FLOOR)
@@ -147,8 +147,7 @@ fn smooth(
         .collect();
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);
-    models = refits(workshop, &more, models, stop, done);
-    models
+    refits(workshop, &more, models, stop, done)
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
@@ -163,11 +162,6 @@ fn bristled(workshop: &Workshop<'_>, models: &[Refit]) -> Option<Refit> {
 /// Best first.
 fn sort_sketches(sketches: &mut [Sketch]) {
     sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
-}
-
-/// What the best of them foresees.
-fn least(sketches: &[Sketch]) -> f64 {
-    sketches.first().map_or(f64::INFINITY, Sketch::foreseen)
 }
 
 /// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
@@ -246,7 +240,7 @@ fn sort(workshop: &Workshop<'_>, refits: &mut [Refit]) {
             let _ = workshop.track(refit);
         }
     }
-    refits.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+    refits.sort_by(Refit::by_score);
 }
 
 /// Whether a sketch deserves a full fit, `best` being the best so far.

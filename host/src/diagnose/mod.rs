@@ -287,7 +287,7 @@ fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
             *model = polished;
         }
     }
-    models.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+    models.sort_by(Refit::by_score);
 }
 
 /// Swaps earlier terms with their look-alikes, and writes down the steps to the model that was chosen.

@@ -26,7 +26,7 @@ pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
             .flat_map(|&place| lessened(workshop, &chosen, place))
             .inspect(|model| known.push(model.clone()))
             .filter(|simpler| !removes(simpler, &chosen))
-            .min_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+            .min_by(Refit::by_score);
         match simpler {
             Some(simpler) => chosen = simpler,
             None => break,
@@ -54,13 +54,11 @@ pub fn begun(workshop: &Workshop<'_>, chosen: &Refit, depth: usize) -> Option<Re
     }
     let drop = |rest: Refit, &place: &Kind| without(&rest, place);
     let rest = chosen.effects[depth..].iter().fold(chosen.clone(), drop);
-    let (structure, x) = restarted(workshop, &rest);
-    workshop.refit(&Sketch::at(structure, x)).ok()
+    workshop.refit(&restarted(workshop, &rest)).ok()
 }
 
 fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
-    let (structure, x) = restarted(workshop, &without(chosen, place));
-    let mut sketch = Sketch::at(structure, x);
+    let mut sketch = restarted(workshop, &without(chosen, place));
     sketch.simulated = workshop.leaves(&sketch);
     if !sketch.rivals(chosen) {
         sketch = workshop.sketch_from(&sketch.structure, sketch.x)?;
@@ -79,17 +77,14 @@ fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Optio
     Some(refit)
 }
 
-/// A model that has lost effects: its unknowns, and where it stands in them.
-fn restarted(workshop: &Workshop<'_>, rest: &Refit) -> (Structure, Vec<f64>) {
-    let machine = &rest.candidate.machine;
+/// A model that has lost effects, where it stands.
+fn restarted(workshop: &Workshop<'_>, rest: &Refit) -> Sketch {
     let structure = Structure::around(
         workshop.data,
         base_for(workshop.data, &rest.structure.effects),
         &rest.structure.effects,
-        machine,
+        &rest.candidate.machine,
         rest.structure.start_speed,
     );
-    let values = structure.values_of(machine, &rest.parameters, rest.candidate.start_speed);
-    let x = structure.coordinates(&values);
-    (structure, x)
+    Sketch::standing(structure, &rest.candidate, &rest.parameters)
 }

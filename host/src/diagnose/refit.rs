@@ -13,6 +13,7 @@ use crate::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure
 use shared::cost::Cost;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
+use std::cmp::Ordering;
 
 /// Of a fit by full simulation.
 const FULL: Settings = Settings {
@@ -139,6 +140,11 @@ impl Refit {
             Some(tracked) if !self.ran().at_floor() => tracked,
             _ => self.ran(),
         }
+    }
+
+    /// Order by what they are judged by, best first.
+    pub fn by_score(&self, other: &Refit) -> Ordering {
+        self.judged().score().total_cmp(&other.judged().score())
     }
 
     /// Whether its newest effect is as large as is searched for: then it does another one's work.

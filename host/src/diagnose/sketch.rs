@@ -11,7 +11,7 @@ use super::workshop::Workshop;
 use crate::fit::base_for;
 use crate::problem::cost::{errors, rms_counts};
 use crate::problem::unknowns::Scale;
-use crate::problem::{StartAngle, Structure};
+use crate::problem::{Candidate, StartAngle, Structure};
 use shared::cost::Cost;
 use shared::effects::{Kind, MAX_EFFECTS};
 use shared::units::Quantity;
@@ -48,8 +48,16 @@ pub struct Sketch {
 }
 
 impl Sketch {
-    /// A model that is not fitted roughly, but stands where a full fit may start.
-    pub fn at(structure: Structure, x: Vec<f64>) -> Self {
+    /// A model that is not fitted roughly, but stands where a full fit may start: at the machine and the start
+    /// of `there`, with these parameters of its effects.
+    pub fn standing(structure: Structure, there: &Candidate, parameters: &[f64]) -> Self {
+        let values = structure.values_of(&there.machine, parameters, there.start_speed);
+        let x = structure.coordinates(&values);
+        Sketch::at(structure, x)
+    }
+
+    /// The same at a point of the unknowns' unit cube.
+    fn at(structure: Structure, x: Vec<f64>) -> Self {
         Sketch {
             structure,
             x,
@@ -103,12 +111,7 @@ impl Workshop<'_> {
             .map(|start| {
                 let mut parameters = parent.parameters.clone();
                 parameters.extend(start);
-                let x = structure.coordinates(&structure.values_of(
-                    &parent.candidate.machine,
-                    &parameters,
-                    parent.candidate.start_speed,
-                ));
-                Sketch::at(structure.clone(), x)
+                Sketch::standing(structure.clone(), &parent.candidate, &parameters)
             })
             .collect();
         // Where every fit is a simulation, a glance at each start shows which of them is worth one.

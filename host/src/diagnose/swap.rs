@@ -76,7 +76,7 @@ pub fn without(chosen: &Refit, place: Kind) -> Refit {
 pub fn better(chosen: &Refit, others: &[Refit]) -> Option<Refit> {
     let mut all: Vec<Refit> = others.to_vec();
     all.push(chosen.clone());
-    all.sort_by(|a, b| a.judged().score().total_cmp(&b.judged().score()));
+    all.sort_by(Refit::by_score);
     best(&all)
         .filter(|model| !same(&model.effects, &chosen.effects))
         .cloned()

@@ -57,6 +57,20 @@ pub fn parameter<'a>(fit: &'a Value, name: &str) -> &'a Value {
         .unwrap_or_else(|| panic!("no parameter `{name}` in {fit:#}"))
 }
 
+/// A fitted parameter, with its uncertainty.
+pub fn is_parameter(parameter: &Value) {
+    has(
+        parameter,
+        &[
+            ("name", Is::Text),
+            ("value", Is::Number),
+            ("unit", Is::Text),
+            ("std", Is::NumberOrNull),
+            ("identifiable", Is::Flag),
+        ],
+    );
+}
+
 /// `servoid.fit/1` of a motor driven by a voltage.
 pub fn is_fit(fit: &Value) {
     assert_eq!(fit["schema"], "servoid.fit/1");
@@ -76,16 +90,7 @@ pub fn is_fit(fit: &Value) {
         ],
     );
     for parameter in list(fit, "parameters") {
-        has(
-            parameter,
-            &[
-                ("name", Is::Text),
-                ("value", Is::Number),
-                ("unit", Is::Text),
-                ("std", Is::NumberOrNull),
-                ("identifiable", Is::Flag),
-            ],
-        );
+        is_parameter(parameter);
         // What is undetermined cannot be called determined.
         assert!(
             !(parameter["std"].is_null() && parameter["identifiable"] == true),

@@ -1,6 +1,6 @@
 //! `servoid diagnose`: from a recording to the name of what is missing, and on to the next recording.
 
-use crate::contract::{Is, has, list, number};
+use crate::contract::{Is, has, is_parameter, list, number};
 use crate::desk::Desk;
 use serde_json::Value;
 
@@ -53,16 +53,7 @@ pub fn is_diagnosis(diagnosis: &Value) {
     has(&diagnosis["base"], &errors);
     has(&diagnosis["final"], &errors);
     for parameter in list(&diagnosis["final"], "parameters") {
-        has(
-            parameter,
-            &[
-                ("name", Is::Text),
-                ("value", Is::Number),
-                ("unit", Is::Text),
-                ("std", Is::NumberOrNull),
-                ("identifiable", Is::Flag),
-            ],
-        );
+        is_parameter(parameter);
     }
     for step in list(diagnosis, "steps") {
         has(
