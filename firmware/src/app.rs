@@ -82,6 +82,10 @@ mod tests {
     }
 
     impl Board for Toy {
+        const NAME: &'static str = "toy";
+        const PERIOD_US: u32 = 1000;
+        const SLICE: u32 = 1000;
+
         fn drive(&mut self, duty: i16) {
             self.duty = Some(duty);
         }
@@ -103,6 +107,18 @@ mod tests {
                 Some((period, fault)) if period == self.periods => Err(fault),
                 _ => Ok(()),
             }
+        }
+
+        fn receive(&mut self) -> Option<u8> {
+            None
+        }
+
+        fn send(&mut self, bytes: &[u8]) -> usize {
+            bytes.len()
+        }
+
+        fn entropy(&mut self) -> u32 {
+            0
         }
     }
 

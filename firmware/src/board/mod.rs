@@ -1,0 +1,55 @@
+//! The few things that a board must do. Everything above this trait runs on any board, and on none.
+//!
+//! A board keeps its own electrical limits (shoot-through, dead time, over-current); it does not know the motor, and
+//! nothing above it names a pin. To add one, write a file here and a `main` of a few lines in `src/bin`.
+
+use crate::phase::Fault;
+
+/// An H bridge, a quadrature encoder, a control period and a link to the host.
+pub trait Board {
+    /// Name of the board, as the host shows it.
+    const NAME: &'static str;
+    /// Length of a control period, µs.
+    const PERIOD_US: u32;
+    /// Samples of a model that fit into what a control period leaves free, with a margin of two.
+    const SLICE: u32;
+    /// Whether [`current_ma`](Self::current_ma) measures.
+    const SENSES_CURRENT: bool = false;
+
+    /// Applies `duty` to the winding until the next call, in Q15 of the supply voltage: `duty / 32768` of it, from
+    /// `-32768` (full reverse) to `32767` (one step below full forward). Zero puts zero volts across the winding, which
+    /// brakes the motor; for no drive at all see [`coast`](Self::coast).
+    fn drive(&mut self, duty: i16);
+
+    /// Opens the bridge: no current path, the motor coasts. The state after reset and after every fault, so it must
+    /// work at any time, any number of times, and cannot fail.
+    fn coast(&mut self);
+
+    /// The encoder's position in counts, floor-quantised and cumulative, from wherever it started. It wraps around at
+    /// the ends of `i32`: only differences taken with `wrapping_sub` mean anything. A board whose timer is 16 bits wide
+    /// extends it here.
+    fn count(&mut self) -> i32;
+
+    /// Armature current in mA, positive as it flows when a positive duty drives a motor at rest; zero without a sensor.
+    fn current_ma(&mut self) -> i32 {
+        0
+    }
+
+    /// Waits for the end of the control period. The duty takes effect, and the count is read, right after it.
+    ///
+    /// # Errors
+    ///
+    /// [`Fault::Overrun`] if that end had already passed, so that the last duty lasted longer than a period;
+    /// [`Fault::Bridge`] if the bridge's own protection switched it off.
+    fn tick(&mut self) -> Result<(), Fault>;
+
+    /// Takes a byte that the host has sent, if there is one. Never waits.
+    fn receive(&mut self) -> Option<u8>;
+
+    /// Hands bytes to the link, as many as it takes without waiting; returns how many that were.
+    fn send(&mut self, bytes: &[u8]) -> usize;
+
+    /// A number that differs from one power-up to the next as well as the board can make it (noise of an ADC, a cycle
+    /// counter, a unique identity): it seeds the nonces of the arming command.
+    fn entropy(&mut self) -> u32;
+}
