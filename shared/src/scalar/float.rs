@@ -21,6 +21,10 @@ macro_rules! float_scalar {
                 x as $t
             }
             #[inline(always)]
+            fn from_q15(duty: i16) -> Self {
+                duty as $t * (1.0 / 32_768.0)
+            }
+            #[inline(always)]
             fn coefficient(x: f64) -> Self {
                 x as $t
             }
