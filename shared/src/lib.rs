@@ -30,3 +30,4 @@ pub mod rng;
 pub mod scalar;
 pub mod trace;
 pub mod units;
+pub mod wire;
