@@ -308,7 +308,8 @@ fn every_fault_ends_a_run_with_the_bridge_open_and_its_cause_reported() {
 
 #[test]
 fn limits_end_a_run() {
-    let cases: [(Fault, fn(&mut Limits)); 5] = [
+    type Change = fn(&mut Limits);
+    let cases: [(Fault, Change); 5] = [
         (Fault::Overtravel, |limits| limits.travel = 900),
         (Fault::Overspeed, |limits| limits.speed = 60),
         (Fault::TimeUp, |limits| limits.time = 2_500),

@@ -57,7 +57,8 @@ impl Arithmetic for Fixed {
     const FORMAT: Format = Format::Fixed;
 }
 
-/// What a phase does with its periods.
+/// What a phase does with its periods; one after another in the same room.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug)]
 enum Work<S: Scalar> {
     /// Nothing.

@@ -3,6 +3,13 @@
 //! A board keeps its own electrical limits (shoot-through, dead time, over-current); it does not know the motor, and
 //! nothing above it names a pin. To add one, write a file here and a `main` of a few lines in `src/bin`.
 
+#[cfg(any(feature = "emulated", not(target_os = "none")))]
+pub mod lockstep;
+#[cfg(not(target_os = "none"))]
+pub mod pc;
+#[cfg(all(target_os = "none", feature = "emulated"))]
+pub mod qemu;
+
 use crate::phase::Fault;
 
 /// An H bridge, a quadrature encoder, a control period and a link to the host.

@@ -75,7 +75,8 @@ const SWARM: PsoSettings = PsoSettings {
     fastest: 1.0,
 };
 
-/// The search, of either method.
+/// The search, of either method. There is no heap to put the larger one on.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
 enum Search {
     Pso(Pso<f32, POPULATION, MOST>),
@@ -106,7 +107,8 @@ impl Search {
     }
 }
 
-/// Where the fit is.
+/// Where the fit is; one stage after another in the same room.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
 enum Stage<S: Scalar> {
     Search(Search),
