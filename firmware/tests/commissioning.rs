@@ -78,7 +78,7 @@ impl Board for Rig {
 }
 
 struct Host<S: firmware::app::Arithmetic> {
-    app: App<Rig, S, 2000>,
+    app: App<'static, Rig, S, 2000>,
     bench: Rc<RefCell<Bench>>,
     inbox: Deframer,
     heard: Vec<ToHost>,
@@ -97,7 +97,7 @@ impl<S: firmware::app::Arithmetic> Host<S> {
             shared: bench.clone(),
         };
         Host {
-            app: App::new(rig),
+            app: App::new(rig, Box::leak(Box::default())),
             bench,
             inbox: Deframer::default(),
             heard: Vec::new(),

@@ -44,7 +44,7 @@ const REPEAT_US: u32 = 500_000;
 const PROGRESS_US: u32 = 200_000;
 
 /// A number format that a device can fit in.
-pub trait Arithmetic: Scalar {
+pub trait Arithmetic: Scalar + 'static {
     /// As the host is told.
     const FORMAT: Format;
 }
@@ -57,10 +57,9 @@ impl Arithmetic for Fixed {
     const FORMAT: Format = Format::Fixed;
 }
 
-/// What a phase does with its periods; one after another in the same room.
-#[allow(clippy::large_enum_variant)]
+/// What a phase does with its periods.
 #[derive(Debug)]
-enum Work<S: Scalar> {
+enum Work {
     /// Nothing.
     Rest,
     /// Brakes until the shaft has not moved for a while; counts the periods since it did, and all.
@@ -68,24 +67,53 @@ enum Work<S: Scalar> {
     /// Plays a script.
     Play { script: Script, batch: Batch },
     /// Fits.
-    Fit(Option<Fit<S>>),
+    Fit,
+}
+
+/// The large part of the application's memory, apart so that a `static` can hold it from the start: an application that is
+/// moved once stands on the stack once more.
+#[derive(Debug)]
+pub struct Memory<S: Scalar, const N: usize> {
+    log: Log<N>,
+    fit: Option<Fit<S>>,
+    predicted: Option<Evaluation<S>>,
+    plan: Plan,
+    inbox: Deframer,
+    outbox: Outbox,
+}
+
+impl<S: Scalar, const N: usize> Memory<S, N> {
+    /// Empty.
+    pub const fn new() -> Self {
+        Memory {
+            log: Log::new(),
+            fit: None,
+            predicted: None,
+            plan: Plan::new(),
+            inbox: Deframer::new(),
+            outbox: Outbox::new(),
+        }
+    }
+}
+
+impl<S: Scalar, const N: usize> Default for Memory<S, N> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 /// A board that is taken through the phases, fitting in `S` what its log of `N` periods holds.
 #[derive(Debug)]
-pub struct App<B, S: Scalar, const N: usize> {
+pub struct App<'m, B, S: Scalar, const N: usize> {
     board: B,
+    memory: &'m mut Memory<S, N>,
     phase: Phase,
-    work: Work<S>,
-    inbox: Deframer,
-    outbox: Outbox,
+    work: Work,
     nonces: rng::Generator,
     boot: u32,
     armed: Option<(u32, u32)>,
-    plan: Plan,
     job: Option<Job>,
     guard: Option<Guard>,
-    log: Log<N>,
     /// Duty held during the period that ends next.
     duty: i16,
     count: i32,
@@ -95,7 +123,6 @@ pub struct App<B, S: Scalar, const N: usize> {
     silence: u32,
     repeat: u32,
     report: Report,
-    predicted: Option<Evaluation<S>>,
     failure: Option<Tripped>,
     /// Stage and period in which the failure came.
     failed_in: (Phase, u32),
@@ -109,26 +136,23 @@ const NO_REPORT: Report = Report {
     verified: None,
 };
 
-impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
+impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// Takes the board over, opens its bridge and waits in [`Phase::Idle`].
-    pub fn new(mut board: B) -> Self {
+    pub fn new(mut board: B, memory: &'m mut Memory<S, N>) -> Self {
         board.coast();
         let count = board.count();
         let mut nonces = rng::seeded(u64::from(board.entropy()));
         let boot = nonces.next_u32();
         let mut app = Self {
             board,
+            memory,
             phase: Phase::Idle,
             work: Work::Rest,
-            inbox: Deframer::default(),
-            outbox: Outbox::new(),
             nonces,
             boot,
             armed: None,
-            plan: Plan::new(),
             job: None,
             guard: None,
-            log: Log::new(),
             duty: OPEN,
             count,
             begun_at: count,
@@ -136,7 +160,6 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
             silence: 0,
             repeat: 0,
             report: NO_REPORT,
-            predicted: None,
             failure: None,
             failed_in: (Phase::Idle, 0),
         };
@@ -169,7 +192,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
             self.duty = OPEN;
             self.rest();
         }
-        self.outbox.flush(|bytes| self.board.send(bytes));
+        let (outbox, board) = (&mut self.memory.outbox, &mut self.board);
+        outbox.flush(|bytes| board.send(bytes));
     }
 
     /// Gives up because of `fault`: opens the bridge, and has the fault to report.
@@ -209,7 +233,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
             let Some(byte) = self.board.receive() else {
                 return;
             };
-            if let Some(message) = self.inbox.push(byte) {
+            if let Some(message) = self.memory.inbox.push(byte) {
                 self.silence = 0;
                 self.obey(message);
             }
@@ -238,10 +262,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
             }
             ToDevice::Plan { first, segments } => {
                 if first == 0 && self.phase == Phase::Idle {
-                    self.plan.clear();
+                    self.memory.plan.clear();
                 }
-                let follows = usize::from(first) == self.plan.len() && self.phase == Phase::Idle;
-                if !follows || self.plan.extend_from_slice(&segments).is_err() {
+                let follows =
+                    usize::from(first) == self.memory.plan.len() && self.phase == Phase::Idle;
+                if !follows || self.memory.plan.extend_from_slice(&segments).is_err() {
                     self.refuse(Refusal::BadPlan);
                 }
             }
@@ -268,11 +293,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
             boot: self.boot,
             stage: self.phase.stage(),
         };
-        self.outbox.post(&ToHost::About(about));
+        self.memory.outbox.post(&ToHost::About(about));
     }
 
     fn refuse(&mut self, refusal: Refusal) {
-        self.outbox.post(&ToHost::Refused(refusal));
+        self.memory.outbox.post(&ToHost::Refused(refusal));
     }
 
     fn arm(&mut self) {
@@ -282,11 +307,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
         let nonce = self.nonces.next_u32();
         let periods = Self::periods(ARMED_US);
         self.armed = Some((nonce, self.at.wrapping_add(periods)));
-        self.outbox.post(&ToHost::Armed { nonce, periods });
+        self.memory.outbox.post(&ToHost::Armed { nonce, periods });
     }
 
     fn resend(&mut self, first: u32) {
-        let trace = self.log.trace();
+        let trace = self.memory.log.trace();
         let rows = trace.iter().enumerate().skip(first as usize);
         let mut batch = Batch::resumed(first);
         for (_, (duty, step)) in rows {
@@ -296,12 +321,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
                 current_ma: 0,
             };
             if let Some(rows) = batch.push(row) {
-                self.outbox.post(&ToHost::Rows(rows));
+                self.memory.outbox.post(&ToHost::Rows(rows));
                 return;
             }
         }
         if let Some(rows) = batch.take() {
-            self.outbox.post(&ToHost::Rows(rows));
+            self.memory.outbox.post(&ToHost::Rows(rows));
         }
     }
 
@@ -322,15 +347,15 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
         if !fits || !sane {
             return Err(Refusal::BadJob);
         }
-        if job.kind == Kind::Play && self.plan.is_empty() {
+        if job.kind == Kind::Play && self.memory.plan.is_empty() {
             return Err(Refusal::BadPlan);
         }
         self.at = 0;
         self.begun_at = self.count;
-        self.log.clear();
+        self.memory.log.clear();
         self.report = NO_REPORT;
         self.failure = None;
-        self.predicted = None;
+        self.memory.predicted = None;
         self.guard = Some(Guard::new(job.limits, B::PERIOD_US, self.count));
         self.job = Some(job);
         if let Ok(phase) = self.phase.after(Event::Start) {
@@ -360,11 +385,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
             }
             (Bridge::Driven, _, Some(_)) => Work::Brake { still: 0, all: 0 },
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
-                let fit = Fit::new(&self.log.trace(), job.fit);
-                if fit.is_none() {
+                self.memory.predicted = None;
+                self.memory.fit = Fit::new(&self.memory.log.trace(), job.fit);
+                if self.memory.fit.is_none() {
                     return self.fail(Fault::NothingToFit);
                 }
-                Work::Fit(fit)
+                Work::Fit
             }
             (_, Phase::Fit, _) => return self.done(),
             _ => Work::Rest,
@@ -375,7 +401,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
                 at: self.at,
                 length: Self::length(phase, &job),
             };
-            self.outbox.post(&stage);
+            self.memory.outbox.post(&stage);
         }
         self.repeat = u32::MAX;
     }
@@ -462,7 +488,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
         let Work::Play { script, .. } = &mut self.work else {
             return;
         };
-        match script.next(&self.plan) {
+        match script.next(&self.memory.plan) {
             Some(duty) => {
                 let limit = job.limits.duty;
                 let duty = if duty == OPEN {
@@ -497,9 +523,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
         let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let duty = self.duty;
         if self.phase == Phase::Record {
-            self.log.push(duty, step);
+            self.memory.log.push(duty, step);
         }
-        if let (Phase::Verify, Some(predicted)) = (self.phase, &mut self.predicted) {
+        if let (Phase::Verify, Some(predicted)) = (self.phase, &mut self.memory.predicted) {
             predicted.step(duty, step);
             if let Some(verified) = &mut self.report.verified {
                 verified.periods += 1;
@@ -513,7 +539,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
                 current_ma,
             };
             if let Some(rows) = batch.push(row) {
-                self.outbox.post(&ToHost::Rows(rows));
+                self.memory.outbox.post(&ToHost::Rows(rows));
             }
         }
     }
@@ -522,7 +548,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
         if let Work::Play { batch, .. } = &mut self.work
             && let Some(rows) = batch.take()
         {
-            self.outbox.post(&ToHost::Rows(rows));
+            self.memory.outbox.post(&ToHost::Rows(rows));
         }
     }
 
@@ -551,12 +577,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
     }
 
     fn predict(&mut self) {
-        self.predicted = None;
+        self.memory.predicted = None;
         let Work::Play { .. } = self.work else {
             return;
         };
         if let Some(model) = self.fitted() {
-            self.predicted = Some(Evaluation::new(model, f32::INFINITY));
+            self.memory.predicted = Some(Evaluation::new(model, f32::INFINITY));
             self.report.verified = Some(Verified {
                 mean_square: 0.0,
                 periods: 0,
@@ -567,13 +593,15 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
     /// The fitted motor, built once more from the log: the fit itself is gone, its room is needed.
     fn fitted(&self) -> Option<shared::model::Rigid<S>> {
         let (job, outcome) = (self.job?, self.report.outcome.as_ref()?);
-        shared::fit::Space::around(&self.log.trace(), &job.fit)?
+        shared::fit::Space::around(&self.memory.log.trace(), &job.fit)?
             .model_of(outcome)
             .ok()
     }
 
     fn verified(&mut self, job: &Job) {
-        if let (Some(predicted), Some(verified)) = (&self.predicted, &mut self.report.verified) {
+        if let (Some(predicted), Some(verified)) =
+            (&self.memory.predicted, &mut self.report.verified)
+        {
             verified.mean_square = predicted.mean_square(verified.periods);
             let within = job.verify_within as f32 * 0.01;
             if within > 0.0 && verified.mean_square > within * within {
@@ -591,33 +619,41 @@ impl<B: Board, S: Arithmetic, const N: usize> App<B, S, N> {
 
     /// A period with the bridge open.
     fn rest(&mut self) {
-        match (&mut self.work, self.phase) {
-            (Work::Fit(Some(fit)), Phase::Fit) => {
-                let outcome = fit.work(&self.log.trace(), B::SLICE);
-                if let Some(outcome) = outcome {
-                    return self.fitted_to(outcome);
-                }
-                let (done, of) = fit.progress();
-                let least = fit.least();
-                if self.repeat >= Self::periods(PROGRESS_US) {
-                    self.repeat = 0;
-                    self.outbox.post(&ToHost::Fitting { done, of, least });
-                }
-            }
+        match (&self.work, self.phase) {
+            (Work::Fit, Phase::Fit) => self.fit(),
             (_, Phase::Report(outcome)) if self.repeat >= Self::periods(REPEAT_US) => {
                 self.repeat = 0;
                 let message = match outcome {
                     Ok(()) => ToHost::Report(self.report.clone()),
                     Err(fault) => ToHost::Failed(self.failed(fault)),
                 };
-                self.outbox.post(&message);
+                self.memory.outbox.post(&message);
             }
             _ => {}
         }
     }
 
+    fn fit(&mut self) {
+        let Memory {
+            log, fit, outbox, ..
+        } = &mut *self.memory;
+        let Some(fit) = fit else {
+            return self.fail(Fault::NothingToFit);
+        };
+        if let Some(outcome) = fit.work(&log.trace(), B::SLICE) {
+            return self.fitted_to(outcome);
+        }
+        if self.repeat >= Self::periods(PROGRESS_US) {
+            self.repeat = 0;
+            let (done, of) = fit.progress();
+            let least = fit.least();
+            outbox.post(&ToHost::Fitting { done, of, least });
+        }
+    }
+
     fn fitted_to(&mut self, outcome: Outcome) {
         self.report.outcome = Some(outcome);
+        self.memory.fit = None;
         // The host may have been silent while nothing moved; the next phase drives.
         self.silence = 0;
         self.done();

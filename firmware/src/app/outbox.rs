@@ -15,7 +15,7 @@ pub struct Outbox {
 
 impl Outbox {
     /// Empty.
-    pub fn new() -> Self {
+    pub const fn new() -> Self {
         Outbox {
             bytes: Deque::new(),
             refused: 0,

@@ -8,11 +8,15 @@
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let board = firmware::board::qemu::Qemu::start();
-    let mut app = firmware::app::App::<_, f32, 2000>::new(board);
+    let mut app = firmware::app::App::new(board, MEMORY.take());
     loop {
         app.period();
     }
 }
+
+#[cfg(target_os = "none")]
+static MEMORY: static_cell::ConstStaticCell<firmware::app::Memory<f32, 2000>> =
+    static_cell::ConstStaticCell::new(firmware::app::Memory::new());
 
 #[cfg(target_os = "none")]
 #[panic_handler]
@@ -34,7 +38,8 @@ fn main() {
         eprintln!("emulated: {link}, {plant}: {error}");
         std::process::exit(1);
     });
-    let mut app = firmware::app::App::<_, f32, 2000>::new(board);
+    let mut memory = firmware::app::Memory::<f32, 2000>::new();
+    let mut app = firmware::app::App::new(board, &mut memory);
     loop {
         app.period();
     }

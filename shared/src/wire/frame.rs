@@ -30,6 +30,13 @@ pub struct Deframer {
 
 impl Default for Deframer {
     fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Deframer {
+    /// At the start of a frame.
+    pub const fn new() -> Self {
         Deframer {
             buffer: [0; LONGEST_FRAME],
             len: 0,
@@ -37,9 +44,7 @@ impl Default for Deframer {
             dropped: 0,
         }
     }
-}
 
-impl Deframer {
     /// Takes a byte; gives the message that it completes.
     pub fn push<T: DeserializeOwned>(&mut self, byte: u8) -> Option<T> {
         if byte != 0 {
