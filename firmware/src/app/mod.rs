@@ -167,6 +167,11 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         app
     }
 
+    /// The board.
+    pub fn board(&self) -> &B {
+        &self.board
+    }
+
     /// The phase that the device is in.
     pub fn phase(&self) -> Phase {
         self.phase

@@ -8,15 +8,15 @@
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let board = firmware::board::qemu::Qemu::start();
-    let mut app = firmware::app::App::new(board, MEMORY.take());
+    let mut app = firmware::app::App::new(board, MEMORY.init_with(firmware::app::Memory::new));
     loop {
         app.period();
     }
 }
 
 #[cfg(target_os = "none")]
-static MEMORY: static_cell::ConstStaticCell<firmware::app::Memory<f32, 2000>> =
-    static_cell::ConstStaticCell::new(firmware::app::Memory::new());
+static MEMORY: static_cell::StaticCell<firmware::app::Memory<f32, 2000>> =
+    static_cell::StaticCell::new();
 
 #[cfg(target_os = "none")]
 #[panic_handler]
@@ -40,7 +40,7 @@ fn main() {
     });
     let mut memory = firmware::app::Memory::<f32, 2000>::new();
     let mut app = firmware::app::App::new(board, &mut memory);
-    loop {
+    while !app.board().is_gone() {
         app.period();
     }
 }

@@ -19,6 +19,7 @@ pub struct Pc {
     duty: Option<i16>,
     reading: Reading,
     answer: Answer,
+    gone: bool,
 }
 
 impl Pc {
@@ -40,7 +41,13 @@ impl Pc {
             duty: None,
             reading: Reading::default(),
             answer: Answer::default(),
+            gone: false,
         })
+    }
+
+    /// Whether the plant has gone, and with it the reason to be.
+    pub fn is_gone(&self) -> bool {
+        self.gone
     }
 
     fn exchange(&mut self) -> io::Result<()> {
@@ -103,11 +110,12 @@ impl Board for Pc {
     }
 
     fn tick(&mut self) -> Result<(), Fault> {
-        if self.exchange().is_err() {
-            // The plant is gone, and with it the reason to be.
-            std::process::exit(0);
+        self.gone |= self.exchange().is_err();
+        if self.gone {
+            Err(Fault::Bridge)
+        } else {
+            Ok(())
         }
-        Ok(())
     }
 
     fn receive(&mut self) -> Option<u8> {

@@ -1,6 +1,6 @@
 //! The firmware without hardware: its image in QEMU, or the same program natively, with the virtual bench as its motor.
 
-use super::lockstep::serve;
+use super::lockstep::plant;
 use super::{DeviceError, Port};
 use crate::bench::Bench;
 use std::fs::File;
@@ -8,8 +8,6 @@ use std::io::Read;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::mpsc;
-use std::thread;
 use std::time::{Duration, Instant};
 
 /// Time that an image may take to start.
@@ -63,11 +61,8 @@ impl Emulation {
     pub fn start(image: &Image, bench: Bench, pace: f64) -> Result<Self, DeviceError> {
         let failed =
             |what: &str, error: std::io::Error| DeviceError::Emulation(format!("{what}: {error}"));
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))
-            .map_err(|e| failed("no port for the plant", e))?;
-        let plant = listener
-            .local_addr()
-            .map_err(|e| failed("no port for the plant", e))?;
+        let (plant, arrived) =
+            plant(bench, pace).map_err(|e| failed("no port for the plant", e))?;
         // Free now, and with luck still free when the image listens there in a moment.
         let free =
             TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| listener.local_addr());
@@ -109,19 +104,9 @@ impl Emulation {
             )),
             Image::Native(path) => failed(&path.display().to_string(), error),
         })?;
-        let (sender, receiver) = mpsc::channel();
-        thread::spawn(move || {
-            if let Ok((stream, _)) = listener.accept() {
-                let _ = stream.set_nodelay(true);
-                let _ = sender.send(());
-                if let Err(error) = serve(&bench, stream, pace) {
-                    eprintln!("the virtual bench gave up: {error}");
-                }
-            }
-        });
         let begun = Instant::now();
         loop {
-            if receiver.recv_timeout(Duration::from_millis(20)).is_ok() {
+            if arrived.recv_timeout(Duration::from_millis(20)).is_ok() {
                 break;
             }
             let ended = child.try_wait().ok().flatten();

@@ -8,18 +8,37 @@
 use crate::bench::{Bench, BenchError, DriveSample, Reading};
 use shared::trace::{DUTY, OPEN};
 use std::io::{self, Read, Write};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::sync::mpsc;
+use std::thread;
 use std::time::{Duration, Instant};
+
+/// Waits at a port of its own for a board, and is its plant until that goes; says when it has come.
+///
+/// # Errors
+/// What the system says.
+pub fn plant(bench: Bench, pace: f64) -> io::Result<(SocketAddr, mpsc::Receiver<()>)> {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+    let address = listener.local_addr()?;
+    let (sender, arrived) = mpsc::channel();
+    thread::spawn(move || {
+        if let Ok((stream, _)) = listener.accept() {
+            let _ = stream.set_nodelay(true);
+            let _ = sender.send(());
+            if let Err(error) = serve(&bench, stream, pace) {
+                eprintln!("the virtual bench gave up: {error}");
+            }
+        }
+    });
+    Ok((address, arrived))
+}
 
 /// Runs the bench behind a stream until that ends. Time passes at most `pace` times as fast as on a real bench, so that
 /// what a host does in real time is in time.
 ///
 /// # Errors
 /// What the bench refuses.
-pub(super) fn serve(
-    bench: &Bench,
-    mut stream: impl Read + Write,
-    pace: f64,
-) -> Result<(), BenchError> {
+fn serve(bench: &Bench, mut stream: impl Read + Write, pace: f64) -> Result<(), BenchError> {
     let mut clock = Clock::new(pace);
     let mut first = true;
     bench.follow(|reading| {

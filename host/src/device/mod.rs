@@ -30,6 +30,7 @@ pub use conversation::Conversation;
 pub use emulation::{Emulation, Image};
 pub use error::DeviceError;
 pub use folder::{Folder, Saved, SavedOutcome};
+pub use lockstep::plant;
 pub use order::{Order, segments};
 pub use port::{Link, Port, serial_ports};
 pub use replay::{Replayed, replay};
