@@ -3,6 +3,25 @@
 //! A board keeps its own electrical limits (shoot-through, dead time, over-current); it does not know the motor, and
 //! nothing above it names a pin. To add one, write a file here and a `main` of a few lines in `src/bin`.
 
+pub mod entropy;
+pub mod half_bridges;
+#[cfg(all(target_os = "none", feature = "cortex-m"))]
+mod link;
+#[cfg(all(target_os = "none", feature = "cortex-m"))]
+mod period;
+#[cfg(all(target_os = "none", feature = "stm32"))]
+mod stm32;
+#[cfg(all(target_os = "none", feature = "stm32f427"))]
+mod stm32f4;
+#[cfg(all(target_os = "none", feature = "stm32f427"))]
+pub mod stm32f427;
+
+#[cfg(all(target_os = "none", feature = "stm32"))]
+pub use stm32::open_bridge;
+/// The board that this build is for.
+#[cfg(all(target_os = "none", feature = "stm32f427"))]
+pub use stm32f427::Stm32f427 as Fitted;
+
 use crate::phase::Fault;
 
 /// An H bridge, a quadrature encoder, a control period and a link to the host.
