@@ -11,16 +11,31 @@ mod link;
 mod period;
 #[cfg(all(target_os = "none", feature = "stm32"))]
 mod stm32;
-#[cfg(all(target_os = "none", feature = "stm32f427"))]
+#[cfg(all(
+    target_os = "none",
+    any(feature = "stm32f405", feature = "stm32f427", feature = "stm32f446")
+))]
 mod stm32f4;
+#[cfg(all(target_os = "none", feature = "stm32f405"))]
+pub mod stm32f405;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]
 pub mod stm32f427;
+#[cfg(all(target_os = "none", feature = "stm32f446"))]
+pub mod stm32f446;
+#[cfg(all(target_os = "none", feature = "stm32g431"))]
+pub mod stm32g431;
 
 #[cfg(all(target_os = "none", feature = "stm32"))]
 pub use stm32::open_bridge;
-/// The board that this build is for.
+// The board that this build is for.
+#[cfg(all(target_os = "none", feature = "stm32f405"))]
+pub use stm32f405::Stm32f405 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]
 pub use stm32f427::Stm32f427 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32f446"))]
+pub use stm32f446::Stm32f446 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32g431"))]
+pub use stm32g431::Stm32g431 as Fitted;
 
 use crate::phase::Fault;
 

@@ -40,6 +40,8 @@ pub struct Connections {
     enable: Output<'static>,
     adc: Adc<'static, ADC1>,
     current: Peri<'static, PC0>,
+    /// The reading at zero current, with its fraction in 64ths.
+    zero: i32,
 }
 
 impl Stm32f427 {
@@ -61,12 +63,22 @@ impl Stm32f427 {
         )
         .expect("the clock suits the link's speed");
         let adc = Adc::new(p.ADC1);
-        let wiring = Connections {
+        let mut wiring = Connections {
             enable,
             adc,
             current: p.PC0,
+            zero: 0,
         };
+        // The bridge is open: no current flows.
+        wiring.zero = (0..64).map(|_| wiring.reading()).sum();
         Stm32::new(bridge, encoder, uart, wiring)
+    }
+}
+
+impl Connections {
+    fn reading(&mut self) -> i32 {
+        let time = SampleTime::CYCLES15;
+        self.adc.blocking_read(&mut self.current, time).into()
     }
 }
 
@@ -81,15 +93,11 @@ impl Wiring for Connections {
     }
 
     fn noise(&mut self) -> u16 {
-        self.adc
-            .blocking_read(&mut self.current, SampleTime::CYCLES3)
+        self.reading() as u16
     }
 
     fn current_ma(&mut self) -> i32 {
-        let reading = self
-            .adc
-            .blocking_read(&mut self.current, SampleTime::CYCLES15);
         // 3300 mV is 4096 steps; 100 mV is 1 A.
-        (i32::from(reading) - 2048) * 33_000 / 4096
+        (self.reading() * 64 - self.zero) * 33_000 / (64 * 4096)
     }
 }
