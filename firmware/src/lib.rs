@@ -16,6 +16,6 @@
 pub mod app;
 pub mod board;
 pub mod bringup;
-#[cfg(all(target_os = "none", feature = "stm32"))]
+#[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
 mod halt;
 pub mod phase;

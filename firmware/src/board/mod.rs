@@ -9,6 +9,8 @@ pub mod half_bridges;
 mod link;
 #[cfg(all(target_os = "none", feature = "cortex-m"))]
 mod period;
+#[cfg(all(target_os = "none", feature = "rp2040"))]
+pub mod rp2040;
 #[cfg(all(target_os = "none", feature = "stm32"))]
 mod stm32;
 #[cfg(all(
@@ -25,9 +27,13 @@ pub mod stm32f446;
 #[cfg(all(target_os = "none", feature = "stm32g431"))]
 pub mod stm32g431;
 
+#[cfg(all(target_os = "none", feature = "rp2040"))]
+pub use rp2040::open_bridge;
 #[cfg(all(target_os = "none", feature = "stm32"))]
 pub use stm32::open_bridge;
 // The board that this build is for.
+#[cfg(all(target_os = "none", feature = "rp2040"))]
+pub use rp2040::Rp2040 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f405"))]
 pub use stm32f405::Stm32f405 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]
