@@ -10,11 +10,9 @@ fn main() {
     let has = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
     let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
     if has("STM32") {
-        println!("cargo:rustc-link-arg-bins=-T{here}/memory/stm32/check.x");
+        println!("cargo:rustc-link-arg-bins=-T{here}/memory/stm32/chip.x");
     }
     if has("RP2040") {
-        // Where the second stage of the boot loader goes; embassy-rp brings both.
-        println!("cargo:rustc-link-arg-bins=-Tlink-rp.x");
-        println!("cargo:rustc-link-arg-bins=-T{here}/memory/rp2040/check.x");
+        println!("cargo:rustc-link-arg-bins=-T{here}/memory/rp2040/chip.x");
     }
 }
