@@ -4,6 +4,7 @@ use std::env;
 
 fn main() {
     println!("cargo:rerun-if-changed=memory");
+    println!("cargo:rerun-if-changed=../memory.x");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }

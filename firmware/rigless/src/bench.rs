@@ -5,13 +5,14 @@ use std::io::{BufWriter, Write};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use rigless::emulator::{Driver, Host, Stop};
+use rigless::emulator::{Driver, Error, Host, Stop};
 use rigless::session::Session;
 use rigless::time::VirtualNanos;
 
 use crate::faults::{Faults, begun};
 use crate::plant::{Motor, State, Terminal};
 use crate::rig::Rig;
+use crate::stack;
 
 /// How the bench is set up.
 #[derive(Debug)]
@@ -30,6 +31,8 @@ pub struct Settings {
     pub pace: f64,
     /// What is wrong.
     pub faults: Faults,
+    /// Whether to count the stack that is used.
+    pub measure_stack: bool,
 }
 
 /// The motor, the encoder's disc and the clock on the wall.
@@ -44,6 +47,7 @@ pub struct Bench {
     /// The last stop, ns.
     last: u64,
     started: Instant,
+    stack: Option<Result<u64, Error>>,
     log: Option<BufWriter<File>>,
 }
 
@@ -68,6 +72,7 @@ impl Bench {
             restarts: usize::MAX,
             last: 0,
             started: Instant::now(),
+            stack: None,
             log,
         }
     }
@@ -85,6 +90,25 @@ impl Bench {
     /// Time since the first instruction, as the clock on the wall has it.
     pub fn elapsed(&self) -> Duration {
         self.started.elapsed()
+    }
+
+    /// Bytes of stack that the image had used by the end, if they were counted.
+    pub fn stack(&self) -> Result<Option<u64>, &Error> {
+        self.stack
+            .as_ref()
+            .map(|used| used.as_ref().copied())
+            .transpose()
+    }
+
+    /// Paints the stack before the first instruction, looks at it after the last.
+    fn watch_stack(&mut self, at: VirtualNanos, host: &mut dyn Host) {
+        if self.settings.measure_stack {
+            if self.last == 0 {
+                self.stack = stack::paint(host).err().map(Err);
+            } else if at.0 >= self.settings.end_ns && self.stack.is_none() {
+                self.stack = Some(stack::used(host));
+            }
+        }
     }
 
     fn turn(&mut self, rig: &mut Rig, at: VirtualNanos) {
@@ -190,6 +214,7 @@ impl Driver<Rig> for Bench {
             session.board_mut().drive_encoder(at, self.lines());
             session.board_mut().drive_fault(at, self.fault_shown);
         }
+        self.watch_stack(at, host);
         let reset = self.settings.faults.reset_at;
         let before = self.last as f64 * 1e-9;
         self.turn(session.board_mut(), at);

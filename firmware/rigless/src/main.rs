@@ -5,6 +5,7 @@ mod bench;
 mod faults;
 mod plant;
 mod rig;
+mod stack;
 
 use std::error::Error;
 use std::fs::File;
@@ -39,6 +40,9 @@ struct Cli {
     /// Time between two looks at the bridge and two moves of the encoder, µs.
     #[arg(long, value_name = "MICROSECONDS", default_value_t = 50)]
     step_us: u64,
+    /// Counts the stack that the image has used by the end.
+    #[arg(long)]
+    stack: bool,
     /// Writes the motor's course to this CSV file, a line a millisecond.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
@@ -107,6 +111,7 @@ impl Cli {
                 f64::INFINITY
             },
             faults: self.faults.clone(),
+            measure_stack: self.stack,
         }
     }
 }
@@ -117,9 +122,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("link: 127.0.0.1:{}", link.port()?);
     let log = cli.log.as_ref().map(File::create).transpose()?;
     let settings = cli.settings();
-    let first = VirtualNanos(settings.step_ns);
     let bench = Bench::new(settings, log);
-    let session = Session::new(Box::new(Rig::new(link)?), 0, first)?;
+    // The first stop comes before the image has done anything.
+    let session = Session::new(Box::new(Rig::new(link)?), 0, VirtualNanos(1))?;
     let images = [Image::read(&cli.image, None)?];
     let mut start = Start::new(&images);
     start.semihosting = true;
@@ -137,6 +142,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         bench.state().speed
     );
     println!("restarts {}", session.resets().len());
+    match bench.stack() {
+        Ok(Some(bytes)) => println!("stack {bytes} bytes"),
+        Ok(None) => {}
+        Err(error) => println!("stack unknown: {error}"),
+    }
     for gap in session.unmapped() {
         println!("the emulator has nothing at: {gap}");
     }

@@ -61,6 +61,7 @@ impl Rp2040 {
         let p = embassy_rp::init(Default::default());
         let enable = Output::new(p.PIN_18, Level::Low);
         let mut carrier = pwm::Config::default();
+        carrier.enable = false;
         carrier.phase_correct = true;
         carrier.top = FULL - 1;
         let pwm = Pwm::new_output_ab(p.PWM_SLICE0, p.PIN_16, p.PIN_17, carrier.clone());
@@ -96,6 +97,9 @@ impl Rp2040 {
             period: Period::new(core.SYST, CORE_HZ / 1_000_000 * PERIOD_US),
             entropy,
         };
+        // The carrier begins with the control period: a new duty, of both legs at once, takes effect when it has come down
+        // again, 50 µs after the period's start, every time.
+        board.carrier.enable = true;
         board.coast();
         board
     }
