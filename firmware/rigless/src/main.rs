@@ -130,7 +130,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     start.semihosting = true;
     let finished = emulator::run(session, &start, bench)?;
     let (session, bench) = (&finished.session, &finished.driver);
-    let at = finished.stop.map_or(0.0, |stop| stop.at.0 as f64 * 1e-9);
+    let (at, instructions) = finished.stop.map_or((0.0, 0), |stop| {
+        (stop.at.0 as f64 * 1e-9, stop.instruction_count)
+    });
     let elapsed = bench.elapsed().as_secs_f64();
     println!(
         "virtual time {at:.3} s in {elapsed:.3} s: {:.2} times real time",
@@ -141,6 +143,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         bench.count(),
         bench.state().speed
     );
+    println!("instructions {instructions}");
     println!("restarts {}", session.resets().len());
     match bench.stack() {
         Ok(Some(bytes)) => println!("stack {bytes} bytes"),

@@ -42,7 +42,8 @@ pub trait Wiring {
     /// A reading of the ADC whose last bits are noise.
     fn noise(&mut self) -> u16;
 
-    /// Whether the driver chip reports a fault on a line that is not the timer's break input.
+    /// Whether the driver chip reports a fault on a line that is not the timer's break input. Asked while it drives: a
+    /// driver that is asleep or wakes up may call that a fault.
     fn reports_fault(&mut self) -> bool {
         false
     }
@@ -185,7 +186,7 @@ impl Bridge {
         pac::TIM1.cnt().write(|w| w.set_cnt(self.legs.full / 5));
     }
 
-    /// Whether the break input has switched the outputs off since they were switched on.
+    /// Whether it should drive, and the break input has switched the outputs off.
     fn tripped(&self) -> bool {
         self.driven && !self.timer.get_moe()
     }
@@ -288,7 +289,7 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn tick(&mut self) -> Result<(), Fault> {
         self.period.end()?;
-        if self.bridge.tripped() || self.wiring.reports_fault() {
+        if self.bridge.tripped() || (self.bridge.driven && self.wiring.reports_fault()) {
             return Err(Fault::Bridge);
         }
         Ok(())
