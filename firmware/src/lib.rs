@@ -5,13 +5,16 @@
 //! - [`phase`]: the phases of a self-identification and the rule that leads from one to the next
 //! - [`guard`]: limits, stall and runaway: says when a run must end
 //! - [`app`]: applies all that to a board, one control period at a time, and talks to the host
+//! - [`bringup`]: another program for the same boards, for their first power-up
 #![cfg_attr(target_os = "none", no_std)]
-// Unsafe code is for registers only, in the files of the boards that have them.
-#![cfg_attr(target_os = "none", deny(unsafe_code))]
+// Unsafe code is only on a microcontroller: registers of boards without a HAL, and the macros that bind interrupts.
 #![cfg_attr(not(target_os = "none"), forbid(unsafe_code))]
 
 pub mod app;
 pub mod board;
+pub mod bringup;
 pub mod guard;
+#[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
+mod halt;
 pub mod phase;
 pub mod plant;

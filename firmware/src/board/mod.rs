@@ -3,12 +3,51 @@
 //! A board keeps its own electrical limits (shoot-through, dead time, over-current); it does not know the motor, and
 //! nothing above it names a pin. To add one, write a file here and a `main` of a few lines in `src/bin`.
 
+pub mod entropy;
+pub mod half_bridges;
+#[cfg(all(target_os = "none", feature = "cortex-m"))]
+mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]
 pub mod lockstep;
 #[cfg(not(target_os = "none"))]
 pub mod pc;
+#[cfg(all(target_os = "none", feature = "cortex-m"))]
+mod period;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod qemu;
+#[cfg(all(target_os = "none", feature = "rp2040"))]
+pub mod rp2040;
+#[cfg(all(target_os = "none", feature = "stm32"))]
+mod stm32;
+#[cfg(all(
+    target_os = "none",
+    any(feature = "stm32f405", feature = "stm32f427", feature = "stm32f446")
+))]
+mod stm32f4;
+#[cfg(all(target_os = "none", feature = "stm32f405"))]
+pub mod stm32f405;
+#[cfg(all(target_os = "none", feature = "stm32f427"))]
+pub mod stm32f427;
+#[cfg(all(target_os = "none", feature = "stm32f446"))]
+pub mod stm32f446;
+#[cfg(all(target_os = "none", feature = "stm32g431"))]
+pub mod stm32g431;
+
+#[cfg(all(target_os = "none", feature = "rp2040"))]
+pub use rp2040::open_bridge;
+#[cfg(all(target_os = "none", feature = "stm32"))]
+pub use stm32::open_bridge;
+// The board that this build is for.
+#[cfg(all(target_os = "none", feature = "rp2040"))]
+pub use rp2040::Rp2040 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32f405"))]
+pub use stm32f405::Stm32f405 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32f427"))]
+pub use stm32f427::Stm32f427 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32f446"))]
+pub use stm32f446::Stm32f446 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32g431"))]
+pub use stm32g431::Stm32g431 as Fitted;
 
 use crate::phase::Fault;
 

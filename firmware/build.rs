@@ -1,0 +1,19 @@
+//! Tells the linker of a microcontroller's image what its chip needs, and lets it refuse another chip's memory map.
+
+use std::env;
+
+fn main() {
+    println!("cargo:rerun-if-changed=memory");
+    println!("cargo:rerun-if-changed=../memory.x");
+    if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
+        return;
+    }
+    let has = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
+    let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
+    if has("STM32") {
+        println!("cargo:rustc-link-arg-bins=-T{here}/memory/stm32/chip.x");
+    }
+    if has("RP2040") {
+        println!("cargo:rustc-link-arg-bins=-T{here}/memory/rp2040/chip.x");
+    }
+}

@@ -1,0 +1,32 @@
+//! What can be wrong with the bench, and from when on.
+
+use clap::Args;
+
+/// Faults, each with the virtual time in seconds at which it begins.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Faults")]
+pub struct Faults {
+    /// The encoder's lines are swapped: it counts the other way.
+    #[arg(long)]
+    pub encoder_reversed: bool,
+    /// The encoder stops counting.
+    #[arg(long, value_name = "SECONDS")]
+    pub encoder_stuck_at: Option<f64>,
+    /// The rotor is locked.
+    #[arg(long, value_name = "SECONDS")]
+    pub rotor_locked_at: Option<f64>,
+    /// The current sensor reads the top of its range.
+    #[arg(long, value_name = "SECONDS")]
+    pub over_current_at: Option<f64>,
+    /// The bridge's driver reports a fault, for a millisecond.
+    #[arg(long, value_name = "SECONDS")]
+    pub bridge_fault_at: Option<f64>,
+    /// The microcontroller's reset pin is pulled.
+    #[arg(long, value_name = "SECONDS")]
+    pub reset_at: Option<f64>,
+}
+
+/// Whether a fault that begins at `at` has begun by `now`, s.
+pub fn begun(at: Option<f64>, now: f64) -> bool {
+    at.is_some_and(|at| now >= at)
+}

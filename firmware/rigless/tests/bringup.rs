@@ -1,0 +1,217 @@
+//! The bring-up image on the bench: what its terminal says is what the motor does.
+//!
+//! `scripts/rig test` builds the image and names it in `SERVOID_BRINGUP`.
+
+use std::env;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+/// A running bench and the terminal on its serial port.
+struct Bench {
+    process: Child,
+    output: BufReader<ChildStdout>,
+    terminal: BufReader<TcpStream>,
+}
+
+/// What the image prints ten times a second.
+#[derive(Debug, Clone, PartialEq)]
+struct Line {
+    count: i64,
+    current_ma: i64,
+    duty: i64,
+    state: String,
+}
+
+impl Bench {
+    /// A bench that runs for `seconds`, as fast as the test follows but not faster than ten times real time, so that keys
+    /// arrive while there is still time.
+    fn start(seconds: f64, flags: &[&str]) -> Self {
+        let image = env::var("SERVOID_BRINGUP")
+            .expect("SERVOID_BRINGUP names the image: run scripts/rig test");
+        let mut process = Command::new(env!("CARGO_BIN_EXE_servoid-rigless"))
+            .arg(image)
+            .args(["--for", &seconds.to_string(), "--pace", "4"])
+            .args(flags)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut output = BufReader::new(process.stdout.take().unwrap());
+        let mut first = String::new();
+        output.read_line(&mut first).unwrap();
+        let address = first
+            .trim()
+            .strip_prefix("link: ")
+            .expect("the first line names the port");
+        let terminal = BufReader::new(TcpStream::connect(address).unwrap());
+        Self {
+            process,
+            output,
+            terminal,
+        }
+    }
+
+    fn press(&mut self, keys: &str) {
+        self.terminal.get_mut().write_all(keys.as_bytes()).unwrap();
+    }
+
+    /// The next whole line, or `None` when the bench has ended.
+    fn line(&mut self) -> Option<Line> {
+        loop {
+            let mut text = String::new();
+            if self.terminal.read_line(&mut text).ok()? == 0 {
+                return None;
+            }
+            let words: Vec<&str> = text.split_whitespace().collect();
+            if let [
+                "count",
+                count,
+                "current",
+                current,
+                "mA",
+                "duty",
+                duty,
+                ref state @ ..,
+            ] = words[..]
+            {
+                return Some(Line {
+                    count: count.parse().unwrap(),
+                    current_ma: current.parse().unwrap(),
+                    duty: duty.parse().unwrap(),
+                    state: state.join(" "),
+                });
+            }
+        }
+    }
+
+    fn lines(&mut self) -> Vec<Line> {
+        std::iter::from_fn(|| self.line()).collect()
+    }
+
+    /// The motor's own count at the end, and how often the microcontroller was reset.
+    fn end(mut self) -> (i64, i64) {
+        let mut report = String::new();
+        self.output.read_to_string(&mut report).unwrap();
+        assert!(self.process.wait().unwrap().success(), "{report}");
+        assert!(
+            !report.contains("the emulator"),
+            "a gap in the emulator: {report}"
+        );
+        let number = |name: &str| -> i64 {
+            let line = report
+                .lines()
+                .find_map(|line| line.strip_prefix(name))
+                .unwrap();
+            line.split_whitespace().next().unwrap().parse().unwrap()
+        };
+        (number("count "), number("restarts "))
+    }
+}
+
+#[test]
+fn the_printed_count_is_the_motors_and_it_coasts_without_keys() {
+    let mut bench = Bench::start(4.0, &[]);
+    bench.press("+++++");
+    let lines = bench.lines();
+    let (count, restarts) = bench.end();
+    assert_eq!(restarts, 0);
+    let driven: Vec<_> = lines.iter().filter(|line| line.duty != 0).collect();
+    assert!(
+        (4..=6).contains(&driven.len()),
+        "driven for half a second: {lines:?}"
+    );
+    assert!(
+        driven
+            .iter()
+            .all(|line| line.duty == 5 * 512 && line.state == "ok"),
+        "{lines:?}"
+    );
+    assert!(count > 1000, "it turned forward: {count}");
+    assert_eq!(lines.last().unwrap().count, count);
+    assert_eq!(lines.last().unwrap().duty, 0);
+}
+
+#[test]
+fn reverse_runs_backwards_through_zero() {
+    let mut bench = Bench::start(3.0, &[]);
+    bench.press("--------");
+    let lines = bench.lines();
+    let (count, _) = bench.end();
+    assert!(count < -1000, "{count}");
+    assert_eq!(lines.last().unwrap().count, count);
+}
+
+#[test]
+fn the_sensor_shows_the_current_of_a_locked_rotor() {
+    let mut bench = Bench::start(2.0, &["--rotor-locked-at", "0"]);
+    bench.press("++++");
+    let lines = bench.lines();
+    let (count, _) = bench.end();
+    assert_eq!(count, 0);
+    // 24 V through 1.2 ohm, a sixteenth of it.
+    let expected = 24.0 / 1.2 / 16.0 * 1000.0;
+    let driven: Vec<_> = lines.iter().filter(|line| line.duty == 2048).collect();
+    assert!(driven.len() >= 3, "{lines:?}");
+    for line in driven {
+        assert!(
+            (line.current_ma as f64 - expected).abs() < 30.0,
+            "{line:?} instead of {expected} mA"
+        );
+    }
+}
+
+#[test]
+fn a_fault_of_the_bridge_opens_it_until_the_next_key() {
+    let mut bench = Bench::start(3.0, &["--bridge-fault-at", "1.0"]);
+    let mut lines = Vec::new();
+    while lines.last().is_none_or(|line: &Line| line.state == "ok") {
+        bench.press("+");
+        lines.push(bench.line().expect("the fault comes after a second"));
+    }
+    let faulted = lines.last().unwrap();
+    assert_eq!((faulted.duty, faulted.state.as_str()), (0, "BRIDGE FAULT"));
+    bench.press("+");
+    let after = bench.lines();
+    assert!(
+        after.iter().any(|line| line.duty > 0 && line.state == "ok"),
+        "{after:?}"
+    );
+    bench.end();
+}
+
+#[test]
+fn a_reset_while_it_drives_leaves_the_bridge_open() {
+    let mut bench = Bench::start(2.0, &["--reset-at", "0.3"]);
+    bench.press("++++");
+    let lines = bench.lines();
+    let (count, restarts) = bench.end();
+    assert_eq!(restarts, 1);
+    let driven = lines.iter().filter(|line| line.duty != 0).count();
+    assert!(
+        (1..=3).contains(&driven),
+        "not driven after the reset: {lines:?}"
+    );
+    let last = lines.last().unwrap().count;
+    assert!(
+        last < count,
+        "the count began anew: {last}, the motor's is {count}"
+    );
+}
+
+#[test]
+fn a_reversed_or_stuck_encoder_is_seen_by_the_image() {
+    for (flags, expected) in [
+        (&["--encoder-reversed"][..], -1),
+        (&["--encoder-stuck-at", "0"][..], 0),
+    ] {
+        let mut bench = Bench::start(2.0, flags);
+        bench.press("+++++");
+        let lines = bench.lines();
+        bench.end();
+        assert_eq!(
+            lines.last().unwrap().count.signum(),
+            expected,
+            "{flags:?}: {lines:?}"
+        );
+    }
+}

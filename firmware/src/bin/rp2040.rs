@@ -1,0 +1,20 @@
+//! The application on a Raspberry Pi Pico; see `firmware::board::rp2040` for what is connected where.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let board = firmware::board::rp2040::Rp2040::start();
+    let mut app = firmware::app::App::new(board, MEMORY.init_with(firmware::app::Memory::new));
+    loop {
+        app.period();
+    }
+}
+
+#[cfg(target_os = "none")]
+static MEMORY: static_cell::StaticCell<firmware::app::Memory<shared::scalar::Fixed, 1000>> =
+    static_cell::StaticCell::new();
+
+/// There is nothing to run on a PC: `scripts/boards` builds the image.
+#[cfg(not(target_os = "none"))]
+fn main() {}

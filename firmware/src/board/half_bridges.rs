@@ -1,0 +1,108 @@
+//! What two half bridges must be told so that the winding between them sees a duty.
+//!
+//! Both legs switch, around a common half of the supply: leg A is high for the part `a / full` of a carrier period, leg B
+//! for `b / full`, centred on each other, and the winding sees the difference. Zero duty is then two equal waves and no
+//! voltage, the current's ripple has twice the carrier's frequency, and a small duty is the difference of two long
+//! pulses. If one leg stood still instead, a duty shorter than the dead time would vanish, and with it the motor's
+//! answer to small voltages, which is what an identification looks at.
+
+/// Two half bridges with one carrier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HalfBridges {
+    /// Compare value of a leg that is high all the time.
+    pub full: u16,
+    /// Compare steps of a carrier period in which a leg must be low, to recharge the bootstrap capacitor of its high
+    /// side; zero for drivers with a charge pump. Costs as much of the largest duty, and nothing below it.
+    pub refresh: u16,
+}
+
+impl HalfBridges {
+    /// Compare values of the legs A and B for `duty` (Q15 of the supply). Their difference is the duty to the nearest
+    /// step, or the largest one that leaves each leg its time to recharge.
+    pub fn compares(self, duty: i16) -> (u16, u16) {
+        let full = i32::from(self.full);
+        let longest = full - i32::from(self.refresh);
+        let difference = ((i32::from(duty) * full + (1 << 14)) >> 15).clamp(-longest, longest);
+        let high = ((full + difference.abs() + 1) / 2).min(longest);
+        let low = high - difference.abs();
+        let (a, b) = if difference >= 0 {
+            (high, low)
+        } else {
+            (low, high)
+        };
+        (a as u16, b as u16)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BRIDGES: [HalfBridges; 4] = [
+        HalfBridges {
+            full: 4200,
+            refresh: 0,
+        },
+        HalfBridges {
+            full: 4250,
+            refresh: 85,
+        },
+        HalfBridges {
+            full: 3125,
+            refresh: 63,
+        },
+        HalfBridges {
+            full: 1,
+            refresh: 0,
+        },
+    ];
+
+    #[test]
+    fn the_winding_sees_the_duty_to_half_a_step_unless_a_leg_must_recharge() {
+        for bridge in BRIDGES {
+            let longest = i32::from(bridge.full - bridge.refresh);
+            for duty in i16::MIN..=i16::MAX {
+                let (a, b) = bridge.compares(duty);
+                let wanted = f64::from(duty) / 32768.0 * f64::from(bridge.full);
+                let seen = i32::from(a) - i32::from(b);
+                assert!(
+                    (f64::from(seen) - wanted).abs() <= 0.5
+                        || (seen.abs() == longest && wanted.abs() > f64::from(longest)),
+                    "{bridge:?} gives {seen} steps for duty {duty}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn each_leg_is_low_for_its_recharge_and_the_legs_are_centred_on_half_the_supply() {
+        for bridge in BRIDGES {
+            for duty in i16::MIN..=i16::MAX {
+                let (a, b) = bridge.compares(duty);
+                assert!(
+                    a.max(b) <= bridge.full - bridge.refresh,
+                    "{bridge:?} duty {duty}"
+                );
+                let off_centre = i32::from(a) + i32::from(b) - i32::from(bridge.full);
+                assert!(
+                    (-i32::from(bridge.refresh)..=1).contains(&off_centre),
+                    "{bridge:?} duty {duty}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn forward_and_reverse_mirror_each_other_and_zero_brakes() {
+        for bridge in BRIDGES {
+            let (a, b) = bridge.compares(0);
+            assert_eq!(a, b);
+            for duty in 1..=i16::MAX {
+                let (a, b) = bridge.compares(duty);
+                let (c, d) = bridge.compares(-duty);
+                let rounds_up = i32::from(a) - i32::from(b) - (i32::from(d) - i32::from(c));
+                assert!((0..=1).contains(&rounds_up), "{bridge:?} duty {duty}");
+            }
+        }
+    }
+}

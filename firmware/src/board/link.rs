@@ -1,0 +1,49 @@
+//! The link of the boards whose serial port has a driver of the async kind, used without an executor.
+
+use core::slice;
+use core::task::Poll;
+
+use embassy_futures::poll_once;
+use embedded_io_async::{Read, Write};
+
+/// Speed of the link, baud: the fastest of the usual ones, which every adapter and debugger offers.
+pub const BAUD: u32 = 921_600;
+/// Bytes that wait to be sent. At this speed the line empties 92 of them in a millisecond.
+pub const SEND_BUFFER: usize = 512;
+/// Bytes that wait to be received: what comes in two milliseconds, and some.
+pub const RECEIVE_BUFFER: usize = 256;
+
+/// A serial port with a buffer each way, filled and emptied by its interrupt.
+#[derive(Debug)]
+pub struct Link<U> {
+    uart: U,
+}
+
+impl<U: Read + Write> Link<U> {
+    /// The link over `uart`.
+    pub fn new(uart: U) -> Self {
+        Self { uart }
+    }
+
+    /// See [`Board::receive`](super::Board::receive). A byte that came damaged is lost: what frames the bytes finds out.
+    pub fn receive(&mut self) -> Option<u8> {
+        let mut byte = 0;
+        match poll_once(self.uart.read(slice::from_mut(&mut byte))) {
+            Poll::Ready(Ok(1)) => Some(byte),
+            _ => None,
+        }
+    }
+
+    /// See [`Board::send`](super::Board::send). Byte by byte, because a driver takes all of a slice or none of it.
+    pub fn send(&mut self, bytes: &[u8]) -> usize {
+        bytes
+            .iter()
+            .take_while(|&byte| {
+                matches!(
+                    poll_once(self.uart.write(slice::from_ref(byte))),
+                    Poll::Ready(Ok(1))
+                )
+            })
+            .count()
+    }
+}
