@@ -7,7 +7,8 @@
 //! ```
 //!
 //! `+` and `-` change the duty by a 64th of the supply, at most to a quarter, and drive with it for half a second;
-//! any other key opens the bridge. Without keys the motor coasts.
+//! any other key opens the bridge. Without keys the motor coasts. After a fault it coasts, and keys do nothing until the
+//! fault has been printed.
 
 use core::fmt::{self, Write};
 
@@ -32,6 +33,8 @@ pub struct Bringup<B> {
     left: u32,
     until_line: u32,
     fault: Option<Fault>,
+    /// Whether the fault has been printed.
+    told: bool,
     line: Line,
 }
 
@@ -48,6 +51,7 @@ impl<B: Board> Bringup<B> {
             left: 0,
             until_line: Self::LINE,
             fault: None,
+            told: false,
             line: Line::default(),
         }
     }
@@ -65,6 +69,7 @@ impl<B: Board> Bringup<B> {
         }
         if let Err(fault) = self.board.tick() {
             self.fault = Some(fault);
+            self.told = false;
             self.coast();
         }
         let count = self.board.count();
@@ -78,6 +83,10 @@ impl<B: Board> Bringup<B> {
     }
 
     fn press(&mut self, key: u8) {
+        if self.fault.is_some() && !self.told {
+            // Whoever pressed it does not know yet.
+            return;
+        }
         self.fault = None;
         self.left = Self::HOLD;
         match key {
@@ -94,6 +103,7 @@ impl<B: Board> Bringup<B> {
     }
 
     fn print(&mut self, count: i32) {
+        self.told = true;
         let current = self.board.current_ma();
         self.line = Line::default();
         // A line that does not fit is cut: its longest form has room.
@@ -243,7 +253,12 @@ mod tests {
         });
         run(&mut bringup, "+", 1);
         assert_eq!(bringup.board.duty, None);
-        run(&mut bringup, "", 150);
+        run(&mut bringup, &"+".repeat(90), 90);
+        assert_eq!(
+            bringup.board.duty, None,
+            "nobody has been told of the fault"
+        );
+        run(&mut bringup, "", 50);
         let text = String::from_utf8(bringup.board.text.clone()).unwrap();
         let last = text.lines().last().unwrap();
         assert_eq!(last, "count 0 current 0 mA duty 0 BRIDGE FAULT");

@@ -59,10 +59,7 @@ impl Bench {
     pub fn new(settings: Settings, log: Option<File>) -> Self {
         let mut log = log.map(BufWriter::new);
         if let Some(log) = &mut log {
-            let _ = writeln!(
-                log,
-                "time_s,duty,current_a,speed_rad_s,angle_rad,count,timer"
-            );
+            let _ = writeln!(log, "time_s,duty,current_a,speed_rad_s,angle_rad,count");
         }
         Self {
             settings,
@@ -132,7 +129,7 @@ impl Bench {
         self.show_fault(rig, at, now);
         self.show_count(rig, at, now);
         if at.0 / MS != self.last / MS {
-            self.write(rig, at, duty);
+            self.write(at, duty);
             self.keep_pace(at);
         }
         self.last = at.0;
@@ -150,8 +147,9 @@ impl Bench {
 
     /// Turns the encoder's disc to where the rotor is, edge by edge: the timer must see each of them.
     fn show_count(&mut self, rig: &mut Rig, at: VirtualNanos, now: f64) {
-        let faults = &self.settings.faults;
-        if begun(faults.encoder_stuck_at, now) {
+        // Even without an edge: the image may only now have connected the pins.
+        rig.drive_encoder(at, self.lines());
+        if begun(self.settings.faults.encoder_stuck_at, now) {
             return;
         }
         let counts =
@@ -177,7 +175,7 @@ impl Bench {
         }
     }
 
-    fn write(&mut self, rig: &mut Rig, at: VirtualNanos, duty: Option<f64>) {
+    fn write(&mut self, at: VirtualNanos, duty: Option<f64>) {
         let Some(log) = &mut self.log else { return };
         let State {
             current,
@@ -185,11 +183,10 @@ impl Bench {
             angle,
         } = self.state;
         let duty = duty.map_or(String::from("open"), |duty| format!("{duty:.6}"));
-        let timer = rig.hardware_count(at);
         let time = at.0 as f64 * 1e-9;
         let _ = writeln!(
             log,
-            "{time:.3},{duty},{current:.6},{speed:.6},{angle:.8},{},{timer}",
+            "{time:.3},{duty},{current:.6},{speed:.6},{angle:.8},{}",
             self.shown
         );
     }
@@ -211,7 +208,6 @@ impl Driver<Rig> for Bench {
         if session.resets().len() != self.restarts {
             // Out of reset the models have forgotten what their pins show; the bench has not.
             self.restarts = session.resets().len();
-            session.board_mut().drive_encoder(at, self.lines());
             session.board_mut().drive_fault(at, self.fault_shown);
         }
         self.watch_stack(at, host);

@@ -6,6 +6,7 @@ mod faults;
 mod plant;
 mod rig;
 mod stack;
+mod wiring;
 
 use std::error::Error;
 use std::fs::File;
@@ -21,12 +22,16 @@ use rigless::time::VirtualNanos;
 use bench::{Bench, Settings};
 use plant::Motor;
 use rig::Rig;
+use wiring::Model;
 
 /// Runs an unmodified STM32F427 image against a motor.
 #[derive(Debug, Parser)]
 struct Cli {
     /// The image, an ELF file.
     image: PathBuf,
+    /// The board that it is for.
+    #[arg(long, value_enum, default_value_t = Model::Stm32f427)]
+    board: Model,
     /// TCP port on the loopback interface that is the board's serial port; 0 for any free one, which is printed.
     #[arg(long, default_value_t = 0)]
     port: u16,
@@ -124,11 +129,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = cli.settings();
     let bench = Bench::new(settings, log);
     // The first stop comes before the image has done anything.
-    let session = Session::new(Box::new(Rig::new(link)?), 0, VirtualNanos(1))?;
+    let session = Session::new(
+        Box::new(Rig::new(cli.board.wiring(), link)?),
+        0,
+        VirtualNanos(1),
+    )?;
     let images = [Image::read(&cli.image, None)?];
     let mut start = Start::new(&images);
     start.semihosting = true;
-    let finished = emulator::run(session, &start, bench)?;
+    let mut finished = emulator::run(session, &start, bench)?;
+    let unconnected = finished.session.board_mut().unconnected();
     let (session, bench) = (&finished.session, &finished.driver);
     let (at, instructions) = finished.stop.map_or((0.0, 0), |stop| {
         (stop.at.0 as f64 * 1e-9, stop.instruction_count)
@@ -149,6 +159,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok(Some(bytes)) => println!("stack {bytes} bytes"),
         Ok(None) => {}
         Err(error) => println!("stack unknown: {error}"),
+    }
+    for pin in unconnected {
+        println!("the image has not connected {pin} as the board needs it");
     }
     for gap in session.unmapped() {
         println!("the emulator has nothing at: {gap}");

@@ -1,5 +1,4 @@
-//! The board around the microcontroller, as `firmware/src/board/stm32f427.rs` describes it: what each pin means, read and
-//! driven through the emulator's models of the peripherals.
+//! The board around the microcontroller: its pins, read and driven through the emulator's models of the peripherals.
 
 use std::num::{NonZeroU32, NonZeroU64};
 
@@ -14,40 +13,33 @@ use rigless::soc::stm32f427::peripherals::adc;
 use rigless::soc::stm32f427::peripherals::gpio::{Gpio, Pin};
 use rigless::time::VirtualNanos;
 
-/// TIM1 among the advanced timers, TIM3 among the others, USART2, ADC1, port E: their places in the emulator's lists.
+use crate::wiring::{FaultLine, PinAt, Wiring};
+
 const TIM1: usize = 0;
-const TIM3: usize = 1;
-const USART2: usize = 1;
 const ADC1: usize = 0;
-const PORT_E: usize = 4;
-/// High and low side of both legs, and the alternate function that hands them to TIM1.
-const LEG_PINS: [u8; 4] = [8, 9, 10, 11];
-const TIM1_FUNCTION: u8 = 1;
-const ENABLE_PIN: u8 = 7;
 const CRYSTAL_HZ: u64 = 8_000_000;
-/// The current sensor is on channel 10: 1650 mV at zero, 100 mV/A.
-const CURRENT_CHANNEL: u8 = 10;
 
 /// The board.
 #[derive(Debug)]
 pub struct Rig {
     mcu: Stm32f427,
+    wiring: Wiring,
 }
 
 rigless::snapshot::store!(Rig {
     values: [],
     parts: [mcu],
-    built: []
+    built: [wiring]
 });
 
 impl Rig {
     /// The board, out of reset, its serial port connected to `link`.
-    pub fn new(link: TcpPeer) -> Result<Self, rigless::soc::Error> {
+    pub fn new(wiring: Wiring, link: TcpPeer) -> Result<Self, rigless::soc::Error> {
         let mut mcu = Stm32f427::new()?;
         mcu.rcc.attach_crystals(CRYSTAL_HZ, Crystal::NONE.0);
         mcu.set_supply(3300);
-        mcu.usart[USART2].attach(link);
-        Ok(Self { mcu })
+        mcu.usart[wiring.serial_port].attach(link);
+        Ok(Self { mcu, wiring })
     }
 
     /// The part of the supply that the firmware asks for across the winding, or `None` while the bridge is open: the
@@ -64,48 +56,80 @@ impl Rig {
         let steps = timer.get(tim1::Register::Arr) + u64::from(!centred);
         let high = |register| timer.get(register).min(steps) as f64 / steps as f64;
         let duty = high(tim1::Register::Ccr1) - high(tim1::Register::Ccr2);
-        let (port, pins) = self.mcu.port(PORT_E);
-        let wired = LEG_PINS
-            .iter()
-            .all(|&pin| Gpio::function(at(pin), pins) == Some(TIM1_FUNCTION));
-        (wired && port.level(at(ENABLE_PIN), pins) == Level::High).then_some(duty)
+        let enabled = self.level(self.wiring.enable) == Level::High;
+        (enabled && self.connected(self.wiring.legs)).then_some(duty)
     }
 
     /// Puts the encoder's lines A and B to these levels.
     pub fn drive_encoder(&mut self, at: VirtualNanos, lines: [bool; 2]) {
+        if !self.connected(self.wiring.encoder) {
+            return;
+        }
         for (number, level) in [(1, lines[0]), (2, lines[1])] {
             let channel = Channel::new(number).expect("a timer has four channels");
-            self.mcu.drive_timer(at, TIM3, |timer, registers, context| {
-                timer.drive_input(channel, Level::from(level), registers, context);
-            });
+            let timer = self.wiring.encoder_timer;
+            self.mcu
+                .drive_timer(at, timer, |timer, registers, context| {
+                    timer.drive_input(channel, Level::from(level), registers, context);
+                });
         }
-    }
-
-    /// The encoder timer's counter.
-    pub fn hardware_count(&mut self, at: VirtualNanos) -> u16 {
-        let base = rigless::soc::stm32f427::generated::TIM3.base;
-        let value = Operate::read(&mut self.mcu, at, base + 0x24, rigless::soc::Width::W32);
-        value.map_or(0, |value| value as u16)
     }
 
     /// Lets the bridge's driver report a fault, or none.
     pub fn drive_fault(&mut self, at: VirtualNanos, fault: bool) {
-        self.mcu
-            .drive_advanced_timer(at, TIM1, |timer, registers, context| {
-                timer.drive_break(Level::from(!fault), registers, context);
-            });
+        let level = Level::from(!fault);
+        match self.wiring.fault {
+            FaultLine::Break(_) => {
+                self.mcu
+                    .drive_advanced_timer(at, TIM1, |timer, registers, context| {
+                        timer.drive_break(level, registers, context);
+                    })
+            }
+            FaultLine::Read(line) => {
+                self.mcu
+                    .drive_port(at, line.port, |port, registers, context| {
+                        port.drive(number(line), Some(level), registers, context);
+                    })
+            }
+        }
     }
 
-    /// Lets the current sensor show `amperes`, or the top of its range.
+    /// Lets the current sensor, if there is one, show `amperes`, or the end of its range.
     pub fn sense(&mut self, amperes: f64) {
-        let millivolts = (1650.0 + 100.0 * amperes).clamp(0.0, 3300.0);
-        let channel = adc::Channel::new(CURRENT_CHANNEL).expect("an input on a pin");
-        self.mcu.adc[ADC1].set_input(channel, millivolts.round() as u32);
+        if let Some(channel) = self.wiring.current {
+            let millivolts = (1650.0 + 100.0 * amperes).clamp(0.0, 3300.0);
+            let channel = adc::Channel::new(channel).expect("an input on a pin");
+            self.mcu.adc[ADC1].set_input(channel, millivolts.round() as u32);
+        }
+    }
+
+    /// Pins that the firmware has not connected to the peripheral that the board needs there.
+    pub fn unconnected(&mut self) -> Vec<String> {
+        let w = self.wiring;
+        let mut pins = [&w.legs[..], &w.encoder, &w.link].concat();
+        if let FaultLine::Break(pin) = w.fault {
+            pins.push(pin);
+        }
+        pins.retain(|&pin| !self.connected([pin]));
+        let name = |pin: PinAt| format!("P{}{}", char::from(b'A' + pin.port as u8), pin.pin);
+        pins.into_iter().map(name).collect()
+    }
+
+    fn connected<const N: usize>(&mut self, pins: [PinAt; N]) -> bool {
+        pins.into_iter().all(|pin| {
+            let (_, registers) = self.mcu.port(pin.port);
+            Gpio::function(number(pin), registers) == Some(pin.function)
+        })
+    }
+
+    fn level(&mut self, pin: PinAt) -> Level {
+        let (port, registers) = self.mcu.port(pin.port);
+        port.level(number(pin), registers)
     }
 }
 
-fn at(pin: u8) -> Pin {
-    Pin::new(pin).expect("a port has sixteen pins")
+fn number(pin: PinAt) -> Pin {
+    Pin::new(pin.pin).expect("a port has sixteen pins")
 }
 
 impl Board for Rig {
