@@ -4,6 +4,8 @@
 //! the call returns that leaves such a phase, not a period later. A phase that drives begins by braking until the shaft
 //! rests, so that what is recorded begins at rest.
 //!
+//! Functions that are called from many places are kept out of line: inlined everywhere, they would double the image.
+//!
 //! Each period: wait for its end, read, look ([`Guard`]), keep and send the row, drive; or, with the bridge open, fit a
 //! slice. Nothing waits but [`Board::tick`].
 
@@ -210,6 +212,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         });
     }
 
+    #[inline(never)]
     fn trip(&mut self, tripped: Tripped) {
         if !matches!(self.phase, Phase::Report(Err(_))) {
             self.failure = Some(tripped);
@@ -245,6 +248,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
+    #[inline(never)]
     fn obey(&mut self, message: ToDevice) {
         match message {
             ToDevice::Hello => {
@@ -286,6 +290,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
+    #[inline(never)]
     fn introduce(&mut self) {
         let about = About {
             version: VERSION,
@@ -301,10 +306,12 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.memory.outbox.post(&ToHost::About(about));
     }
 
+    #[inline(never)]
     fn refuse(&mut self, refusal: Refusal) {
         self.memory.outbox.post(&ToHost::Refused(refusal));
     }
 
+    #[inline(never)]
     fn arm(&mut self) {
         if self.phase != Phase::Idle {
             return self.refuse(Refusal::Busy);
@@ -315,6 +322,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.memory.outbox.post(&ToHost::Armed { nonce, periods });
     }
 
+    #[inline(never)]
     fn resend(&mut self, first: u32) {
         let trace = self.memory.log.trace();
         let rows = trace.iter().enumerate().skip(first as usize);
@@ -337,6 +345,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     // --- a run ---
 
+    #[inline(never)]
     fn start(&mut self, nonce: u32, job: Job) -> Result<(), Refusal> {
         if self.phase != Phase::Idle {
             return Err(Refusal::Busy);
@@ -370,6 +379,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     /// Goes on to the next phase that has something to do.
+    #[inline(never)]
     fn done(&mut self) {
         self.send_rows();
         if let Ok(next) = self.phase.after(Event::Done) {
@@ -549,6 +559,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
+    #[inline(never)]
     fn send_rows(&mut self) {
         if let Work::Play { batch, .. } = &mut self.work
             && let Some(rows) = batch.take()
@@ -581,6 +592,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         true
     }
 
+    #[inline(never)]
     fn predict(&mut self) {
         self.memory.predicted = None;
         let Work::Play { .. } = self.work else {
@@ -638,6 +650,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
+    #[inline(never)]
     fn fit(&mut self) {
         let Memory {
             log, fit, outbox, ..
@@ -664,6 +677,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.done();
     }
 
+    #[inline(never)]
     fn failed(&self, fault: Fault) -> Failure {
         let (phase, at) = self.failed_in;
         let tripped = self.failure.unwrap_or(Tripped {

@@ -1,21 +1,29 @@
 //! Frames: where a message begins and ends, and whether it came through whole.
 
-use crc::{CRC_32_ISO_HDLC, Crc};
-use postcard::ser_flavors::crc::CrcModifier;
-use postcard::ser_flavors::{Cobs, Slice};
+use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Longest frame, with its zero byte.
 pub const LONGEST_FRAME: usize = 320;
 
-static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+/// Bytes of the check at the end of a message.
+const CHECK: usize = 4;
+
+/// Without a table, which would take a kilobyte of a microcontroller's flash.
+static CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 /// The frame of a message, ended by a zero byte; `None` if the buffer is too short.
 pub fn encode<'a, T: Serialize>(message: &T, buffer: &'a mut [u8]) -> Option<&'a [u8]> {
-    let cobs = Cobs::try_new(Slice::new(buffer)).ok()?;
-    let framed = postcard::serialize_with_flavor(message, CrcModifier::new(cobs, CRC.digest()));
-    framed.ok().map(|frame| &*frame)
+    let mut plain = [0; LONGEST_FRAME];
+    let len = postcard::to_slice(message, &mut plain).ok()?.len();
+    let check = CRC.checksum(plain.get(..len)?).to_le_bytes();
+    plain.get_mut(len..len + CHECK)?.copy_from_slice(&check);
+    let mut encoder = cobs::CobsEncoder::new(buffer);
+    encoder.push(plain.get(..len + CHECK)?).ok()?;
+    let end = encoder.finalize();
+    *buffer.get_mut(end)? = 0;
+    buffer.get(..=end)
 }
 
 /// Puts bytes together to frames.
@@ -78,5 +86,7 @@ impl Deframer {
 
 fn decode<T: DeserializeOwned>(frame: &mut [u8]) -> Option<T> {
     let len = cobs::decode_in_place(frame).ok()?;
-    postcard::from_bytes_crc32(frame.get(..len)?, CRC.digest()).ok()
+    let (plain, check) = frame.get(..len)?.split_last_chunk::<CHECK>()?;
+    let whole = CRC.checksum(plain) == u32::from_le_bytes(*check);
+    whole.then(|| postcard::from_bytes(plain).ok()).flatten()
 }
