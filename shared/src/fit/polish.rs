@@ -63,10 +63,9 @@ impl Curvature {
     }
 }
 
-/// The centre and two displaced models, and the sums of what they differ by.
-#[derive(Clone, Copy, Debug)]
-struct Trio<S: Scalar> {
-    runs: [Evaluation<S>; 3],
+/// What the centre and two displaced models differ by, summed up along the trace.
+#[derive(Clone, Copy, Debug, Default)]
+struct Differences {
     at: usize,
     /// Of the error and of both differences.
     sums: [f64; 3],
@@ -74,13 +73,19 @@ struct Trio<S: Scalar> {
     products: [f64; 6],
 }
 
-impl<S: Scalar> Trio<S> {
-    fn run(&mut self, trace: &Trace<'_>, samples: u32) -> u32 {
+impl Differences {
+    /// Runs the models side by side for a while; returns how many periods they ran in all.
+    fn run<S: Scalar>(
+        &mut self,
+        runs: &mut [Option<Evaluation<S>>; 3],
+        trace: &Trace<'_>,
+        samples: u32,
+    ) -> u32 {
         let to = (self.at + samples as usize / 3 + 1).min(trace.len());
         let from = self.at;
         for k in from..to {
             let mut errors = [0.0; 3];
-            for (run, error) in self.runs.iter_mut().zip(&mut errors) {
+            for (run, error) in runs.iter_mut().flatten().zip(&mut errors) {
                 run.step(trace.duties[k], trace.steps[k]);
                 *error = run.error().to_f64();
             }
@@ -107,11 +112,16 @@ impl<S: Scalar> Trio<S> {
     }
 }
 
+/// What comes next. Models are not part of it: they are built where they stay, since a device has no room to hand them on.
 #[derive(Clone, Copy, Debug)]
-enum Work<S: Scalar> {
-    /// The pair of axes that is displaced.
-    Pair(usize, usize, Option<Trio<S>>),
-    Trial(Option<Evaluation<S>>),
+enum Work {
+    /// Build the models of a pair of axes.
+    Displace(usize, usize),
+    /// Run them.
+    Run(usize, usize),
+    /// Build the trial, and run it.
+    Build,
+    Try,
     Done,
 }
 
@@ -130,7 +140,9 @@ pub struct Polish<S: Scalar> {
     promised: f64,
     rounds: u32,
     evaluations: u32,
-    work: Work<S>,
+    work: Work,
+    runs: [Option<Evaluation<S>>; 3],
+    differences: Differences,
 }
 
 impl<S: Scalar> Polish<S> {
@@ -148,7 +160,9 @@ impl<S: Scalar> Polish<S> {
             promised: 0.0,
             rounds: 0,
             evaluations: 0,
-            work: Work::Pair(0, 1, None),
+            work: Work::Displace(0, 1),
+            runs: [None; 3],
+            differences: Differences::default(),
         }
     }
 
@@ -175,38 +189,58 @@ impl<S: Scalar> Polish<S> {
 
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
     pub fn work(&mut self, space: &Space, trace: &Trace<'_>, samples: u32) -> u32 {
-        match &mut self.work {
+        match self.work {
             Work::Done => samples,
-            Work::Pair(_, _, Some(trio)) if trio.at < trace.len() => trio.run(trace, samples),
-            Work::Trial(Some(trial)) if trial.result().is_none() => trial.run(trace, samples),
-            Work::Pair(a, b, Some(trio)) => {
-                let (a, b, products) = (*a, *b, trio.products());
+            Work::Displace(a, b) => {
+                let points = [self.centre, self.displaced(a).0, self.displaced(b).0];
+                let mut built = true;
+                for (k, x) in points.iter().enumerate() {
+                    built &= self.build(k, space, x, f32::INFINITY);
+                }
+                self.differences = Differences::default();
+                self.work = if built { Work::Run(a, b) } else { Work::Done };
+                3 * super::BUILD
+            }
+            Work::Run(_, _) if self.differences.at < trace.len() => {
+                self.differences.run(&mut self.runs, trace, samples)
+            }
+            Work::Run(a, b) => {
+                let products = self.differences.products();
                 self.evaluations += 3;
                 self.take(space, a, b, products, trace.len());
                 1
             }
-            Work::Pair(a, b, None) => {
-                let (a, b) = (*a, *b);
-                self.work = match self.trio(space, a, b) {
-                    Some(trio) => Work::Pair(a, b, Some(trio)),
-                    None => Work::Done,
-                };
-                3 * super::BUILD
-            }
-            Work::Trial(Some(trial)) => {
-                let cost = trial.result().unwrap_or(f32::INFINITY);
-                self.evaluations += 1;
-                self.judge(space, cost);
-                1
-            }
-            Work::Trial(None) => {
-                match space.model::<S>(&self.trial) {
-                    Ok(model) => self.work = Work::Trial(Some(Evaluation::new(model, self.cost))),
-                    Err(_) => self.judge(space, f32::INFINITY),
+            Work::Build => {
+                let (trial, bound) = (self.trial, self.cost);
+                self.work = Work::Try;
+                if !self.build(0, space, &trial, bound) {
+                    self.judge(space, f32::INFINITY);
                 }
                 super::BUILD
             }
+            Work::Try => {
+                let Some(trial) = &mut self.runs[0] else {
+                    self.work = Work::Done;
+                    return 1;
+                };
+                if let Some(cost) = trial.result() {
+                    self.evaluations += 1;
+                    self.judge(space, cost);
+                    return 1;
+                }
+                trial.run(trace, samples)
+            }
         }
+    }
+
+    /// Puts the motor at `x` in place `k`; says whether there is one.
+    #[inline(never)]
+    fn build(&mut self, k: usize, space: &Space, x: &Point, bound: f32) -> bool {
+        self.runs[k] = space
+            .model::<S>(x)
+            .ok()
+            .map(|model| Evaluation::new(model, bound));
+        self.runs[k].is_some()
     }
 
     /// The centre moved along `axis`, away from a wall if there is one.
@@ -217,23 +251,6 @@ impl<S: Scalar> Polish<S> {
         x[axis] += reach;
         // What f32 made of it.
         (x, x[axis] - self.centre[axis])
-    }
-
-    fn trio(&self, space: &Space, a: usize, b: usize) -> Option<Trio<S>> {
-        let run = |x: &Point| {
-            let model = space.model::<S>(x).ok()?;
-            Some(Evaluation::new(model, f32::INFINITY))
-        };
-        Some(Trio {
-            runs: [
-                run(&self.centre)?,
-                run(&self.displaced(a).0)?,
-                run(&self.displaced(b).0)?,
-            ],
-            at: 0,
-            sums: [0.0; 3],
-            products: [0.0; 6],
-        })
     }
 
     /// Enters a pair into the normal equations, or tries better displacements.
@@ -260,7 +277,7 @@ impl<S: Scalar> Polish<S> {
             }
             if unfit {
                 self.tries += 1;
-                self.work = Work::Pair(a, b, None);
+                self.work = Work::Displace(a, b);
                 return;
             }
         }
@@ -277,9 +294,9 @@ impl<S: Scalar> Polish<S> {
         normal.matrix[a][b] = ab / (ha * hb);
         normal.matrix[b][a] = normal.matrix[a][b];
         self.work = if b + 1 < space.dim() {
-            Work::Pair(a, b + 1, None)
+            Work::Displace(a, b + 1)
         } else if a + 2 < space.dim() {
-            Work::Pair(a + 1, a + 2, None)
+            Work::Displace(a + 1, a + 2)
         } else {
             self.aim(space)
         };
@@ -296,7 +313,7 @@ impl<S: Scalar> Polish<S> {
             self.rounds += 1;
             self.damping = (self.damping * 0.1).max(LEAST_DAMPING);
             self.work = if worthwhile && self.rounds < ROUNDS {
-                Work::Pair(0, 1, None)
+                Work::Displace(0, 1)
             } else {
                 Work::Done
             };
@@ -308,7 +325,7 @@ impl<S: Scalar> Polish<S> {
 
     /// Sets the trial to where the normal equations lead, damped as much as it takes. Where that is beyond a wall, the step
     /// ends at the wall and the others are solved for again beside it: merely cut off, it would climb the valley's side.
-    fn aim(&mut self, space: &Space) -> Work<S> {
+    fn aim(&mut self, space: &Space) -> Work {
         let n = space.dim();
         let matrix = &self.normal.matrix;
         let mut free = [true; MOST];
@@ -358,7 +375,7 @@ impl<S: Scalar> Polish<S> {
             return if self.trial == self.centre {
                 Work::Done
             } else {
-                Work::Trial(None)
+                Work::Build
             };
         }
         Work::Done
