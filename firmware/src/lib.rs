@@ -5,6 +5,7 @@
 //! - [`phase`]: the phases of a self-identification and the rule that leads from one to the next
 //! - [`guard`]: limits, stall and runaway: says when a run must end
 //! - [`app`]: applies all that to a board, one control period at a time, and talks to the host
+//! - [`proof`]: what the PC and a microcontroller must compute alike
 //! - [`bringup`]: another program for the same boards, for their first power-up
 #![cfg_attr(target_os = "none", no_std)]
 // Unsafe code is only on a microcontroller: registers of boards without a HAL, and the macros that bind interrupts.
@@ -18,3 +19,4 @@ pub mod guard;
 mod halt;
 pub mod phase;
 pub mod plant;
+pub mod proof;

@@ -97,7 +97,7 @@ impl<S: Scalar> Memory<S> {
     }
 }
 
-#[cfg(target_os = "none")]
+#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "emulated")))]
 impl<S: Scalar> Memory<S> {
     /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
     #[inline(never)]
