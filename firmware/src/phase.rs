@@ -10,6 +10,9 @@
 //! so there is no path on which a fault leaves the motor driven.
 
 use core::fmt;
+use shared::wire::Stage;
+
+pub use shared::wire::Fault;
 
 /// What the device is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,9 +21,9 @@ pub enum Phase {
     Idle,
     /// Drives in small growing steps until the shaft moves, which settles the amplitude of the excitation.
     Probe,
-    /// Plays the excitation until its transient from standstill has died out; nothing is logged.
+    /// Plays the long excitation, which is streamed to the host and not kept.
     Excite,
-    /// Plays the excitation on, and logs the duty and the count of every period.
+    /// Plays a short one from standstill, and keeps the duty and the count of every period.
     Record,
     /// Fits the model to the log; the bridge is open and the motor coasts.
     Fit,
@@ -37,25 +40,6 @@ pub enum Event {
     Start,
     /// The phase has done its work.
     Done,
-}
-
-/// Why a self-identification was given up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
-    /// The user or the host asked to stop.
-    Stopped,
-    /// The host fell silent.
-    LinkLost,
-    /// A control period took longer than it may.
-    Overrun,
-    /// The bridge's own protection switched it off: over-current, over-temperature or undervoltage.
-    Bridge,
-    /// The shaft did not move although the drive was at its limit.
-    Stall,
-    /// The shaft left the travel that it was allowed.
-    Overtravel,
-    /// The model did not predict the recording that it had not seen.
-    NotVerified,
 }
 
 /// Whether the bridge may drive the motor.
@@ -106,22 +90,6 @@ impl Phase {
     }
 }
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Fault::Stopped => "stopped on request",
-            Fault::LinkLost => "the host fell silent: check the cable, then start again",
-            Fault::Overrun => "a control period took too long: choose a longer period",
-            Fault::Bridge => "the bridge's protection switched it off: check the supply and the motor's leads",
-            Fault::Stall => "the shaft did not move at full drive: free it, check the motor's and the encoder's leads",
-            Fault::Overtravel => "the shaft left its allowed travel: allow more, or ask for a smaller amplitude",
-            Fault::NotVerified => "the model did not predict a fresh recording: diagnose the recording on the host",
-        })
-    }
-}
-
-impl core::error::Error for Fault {}
-
 /// An event that has no meaning in the phase in which it came.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Refused {
@@ -129,6 +97,22 @@ pub struct Refused {
     pub phase: Phase,
     /// The event that was refused.
     pub event: Event,
+}
+
+impl Phase {
+    /// As the host is told.
+    #[must_use]
+    pub fn stage(self) -> Stage {
+        match self {
+            Phase::Idle => Stage::Idle,
+            Phase::Probe => Stage::Probe,
+            Phase::Excite => Stage::Excite,
+            Phase::Record => Stage::Record,
+            Phase::Fit => Stage::Fit,
+            Phase::Verify => Stage::Verify,
+            Phase::Report(_) => Stage::Report,
+        }
+    }
 }
 
 impl fmt::Display for Refused {
@@ -154,15 +138,7 @@ impl core::error::Error for Refused {}
 mod tests {
     use super::*;
 
-    const FAULTS: [Fault; 7] = [
-        Fault::Stopped,
-        Fault::LinkLost,
-        Fault::Overrun,
-        Fault::Bridge,
-        Fault::Stall,
-        Fault::Overtravel,
-        Fault::NotVerified,
-    ];
+    const FAULTS: [Fault; 13] = Fault::ALL;
 
     /// Every phase that can be reached from idle, found by trying everything: a new phase cannot be forgotten here.
     fn reachable() -> Vec<Phase> {

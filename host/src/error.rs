@@ -1,6 +1,7 @@
 //! Everything that can go wrong, and the exit code that says so.
 
 use crate::bench::BenchError;
+use crate::device::DeviceError;
 use crate::diagnose::steady::SteadyError;
 use crate::input::{MotorFileError, ReadError};
 use crate::output::WriteError;
@@ -35,6 +36,9 @@ pub enum Error {
     /// A curve of steady speeds that cannot be read or used.
     #[error(transparent)]
     Steady(#[from] SteadyError),
+    /// A device, or the link to it.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
     /// The work was done as far as it goes, and it does not go far enough.
     #[error("{0}")]
     Failed(String),
@@ -44,7 +48,7 @@ impl Error {
     /// Exit code: 2 for wrong use, 1 for work that failed.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Usage(_) => 2,
+            Error::Usage(_) | Error::Device(DeviceError::Address(_) | DeviceError::Order(_)) => 2,
             _ => 1,
         }
     }

@@ -9,6 +9,7 @@ pub mod bench;
 pub mod cli;
 pub mod cmd;
 pub mod compare;
+pub mod device;
 pub mod diagnose;
 pub mod error;
 pub mod fit;

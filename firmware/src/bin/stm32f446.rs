@@ -4,11 +4,16 @@
 #[cfg(target_os = "none")]
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    let mut app = firmware::app::App::new(firmware::board::stm32f446::Stm32f446::start());
+    let board = firmware::board::stm32f446::Stm32f446::start();
+    let mut app = firmware::app::App::new(board, MEMORY.init_with(firmware::app::Memory::new));
     loop {
-        app.period(0);
+        app.period();
     }
 }
+
+#[cfg(target_os = "none")]
+static MEMORY: static_cell::StaticCell<firmware::app::Memory<f32, 2000>> =
+    static_cell::StaticCell::new();
 
 /// There is nothing to run on a PC: `scripts/boards` builds the image.
 #[cfg(not(target_os = "none"))]

@@ -7,8 +7,14 @@ pub mod entropy;
 pub mod half_bridges;
 #[cfg(all(target_os = "none", feature = "cortex-m"))]
 mod link;
+#[cfg(any(feature = "emulated", not(target_os = "none")))]
+pub mod lockstep;
+#[cfg(not(target_os = "none"))]
+pub mod pc;
 #[cfg(all(target_os = "none", feature = "cortex-m"))]
 mod period;
+#[cfg(all(target_os = "none", feature = "emulated"))]
+pub mod qemu;
 #[cfg(all(target_os = "none", feature = "rp2040"))]
 pub mod rp2040;
 #[cfg(all(target_os = "none", feature = "stm32"))]

@@ -58,5 +58,5 @@ pub use coupling::Coupling;
 pub use error::BenchError;
 pub use hidden::Hidden;
 pub use machine::{Machine, PRESETS};
-pub use run::{Amplifier, Bench, Run};
+pub use run::{Amplifier, Bench, Reading, Run};
 pub use timeline::DriveSample;

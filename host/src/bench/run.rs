@@ -64,6 +64,21 @@ pub struct Run {
     pub speed_rad_s: Vec<f64>,
 }
 
+/// What there is to read at one sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Time of the sample, s.
+    pub time_s: f64,
+    /// The encoder's counter.
+    pub counts: i64,
+    /// Reading of the current sensor, A.
+    pub current_a: f64,
+    /// True angle of the motor shaft, rad.
+    pub angle_rad: f64,
+    /// True speed of the motor shaft, rad/s.
+    pub speed_rad_s: f64,
+}
+
 impl Bench {
     /// The plain machine under voltage control: 4096 counts, 1 ms, no jitter, no noise, seed 0.
     pub fn new(machine: Machine) -> Self {
@@ -87,37 +102,64 @@ impl Bench {
     /// # Errors
     /// A setting, command or effect that makes no sense; [`BenchError::TooStiff`]; [`BenchError::Diverged`].
     pub fn run(&self, drive: &[DriveSample]) -> Result<Run, BenchError> {
-        self.check(drive)?;
+        self.check_commands(drive)?;
+        let mut run = Run::default();
+        let mut samples = drive.iter();
+        self.follow(|reading| {
+            let sample = samples.next()?;
+            run.time_s.push(reading.time_s);
+            run.voltage_v.push(sample.volts);
+            run.enabled.push(sample.enabled);
+            run.counts.push(reading.counts);
+            run.current_a.push(reading.current_a);
+            run.angle_rad.push(reading.angle_rad);
+            run.speed_rad_s.push(reading.speed_rad_s);
+            Some(*sample)
+        })?;
+        Ok(run)
+    }
+
+    /// Runs in step with whoever drives: shows each reading and asks for the command from then on, until there is none.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn follow(
+        &self,
+        mut next: impl FnMut(&Reading) -> Option<DriveSample>,
+    ) -> Result<(), BenchError> {
+        self.check()?;
         let effects = self.assemble()?;
         let latency_s = effects.iter().map(|effect| effect.latency_s()).sum();
-        let times_s = self.sample_times(drive.len());
-        let mut timeline = Timeline::new(drive, &times_s, latency_s);
+        let mut timeline = Timeline::new(latency_s);
         let mut plant = Plant::new(self.machine, &effects, self.substep_hz, self.start_angle());
         let mut encoder = Encoder::new(&effects, self.counts_per_rev, self.seed);
         let mut noise = Chance::new(self.seed, "current noise");
-        let mut run = Run::default();
-        for (row, sample) in drive.iter().enumerate() {
-            let now = times_s[row];
+        let mut times = self.sample_times();
+        let mut now = times(0);
+        for row in 1.. {
             let state = plant.state;
             if !(state.angle.is_finite() && state.speed.is_finite() && state.current.is_finite()) {
                 return Err(BenchError::Diverged { time_s: now });
             }
-            run.time_s.push(now);
-            run.voltage_v.push(sample.volts);
-            run.enabled.push(sample.enabled);
-            run.counts.push(encoder.read(state.angle));
-            run.current_a
-                .push(state.current + self.current_zero_a + self.current_noise_a * noise.normal());
-            run.angle_rad.push(state.angle);
-            run.speed_rad_s.push(state.speed);
-            if let Some(next) = times_s.get(row + 1) {
-                timeline.play(now, *next, |sample, dt| {
-                    plant.advance(self.feed(sample), dt)
-                })?;
-                encoder.pass((plant.state.angle - state.angle) / (next - now), next - now);
-            }
+            let reading = Reading {
+                time_s: now,
+                counts: encoder.read(state.angle),
+                current_a: state.current
+                    + self.current_zero_a
+                    + self.current_noise_a * noise.normal(),
+                angle_rad: state.angle,
+                speed_rad_s: state.speed,
+            };
+            let Some(sample) = next(&reading) else {
+                return Ok(());
+            };
+            timeline.send(now, sample);
+            let then = times(row);
+            timeline.play(now, then, |sample, dt| plant.advance(self.feed(sample), dt))?;
+            encoder.pass((plant.state.angle - state.angle) / (then - now), then - now);
+            now = then;
         }
-        Ok(run)
+        Ok(())
     }
 
     fn feed(&self, sample: DriveSample) -> Feed {
@@ -128,20 +170,18 @@ impl Bench {
         }
     }
 
-    fn sample_times(&self, rows: usize) -> Vec<f64> {
+    /// The time of each row, asked for in order.
+    fn sample_times(&self) -> impl FnMut(usize) -> f64 {
         let mut chance = Chance::new(self.seed, "sample times");
-        let jitter = |row| {
-            if row == 0 {
+        let (interval, jitter) = (self.sample_s, self.jitter_s);
+        move |row| {
+            let late = if row == 0 {
                 0.0
             } else {
-                self.jitter_s * (2.0 * chance.uniform() - 1.0)
-            }
-        };
-        let deviations = (0..rows).map(jitter);
-        deviations
-            .enumerate()
-            .map(|(row, late)| row as f64 * self.sample_s + late)
-            .collect()
+                jitter * (2.0 * chance.uniform() - 1.0)
+            };
+            row as f64 * interval + late
+        }
     }
 
     fn start_angle(&self) -> f64 {
@@ -167,7 +207,17 @@ impl Bench {
         Ok(effects)
     }
 
-    fn check(&self, drive: &[DriveSample]) -> Result<(), BenchError> {
+    fn check_commands(&self, drive: &[DriveSample]) -> Result<(), BenchError> {
+        if let Some(row) = drive.iter().position(|sample| !sample.volts.is_finite()) {
+            return Err(BenchError::BadCommand {
+                row,
+                value: drive[row].volts,
+            });
+        }
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), BenchError> {
         self.machine.check()?;
         let interval = self.sample_s;
         let counts = f64::from(self.counts_per_rev);
@@ -214,12 +264,6 @@ impl Bench {
         ];
         for (setting, value, holds, need) in settings {
             BenchError::require(holds, setting, value, need)?;
-        }
-        if let Some(row) = drive.iter().position(|sample| !sample.volts.is_finite()) {
-            return Err(BenchError::BadCommand {
-                row,
-                value: drive[row].volts,
-            });
         }
         let electrical = self.effects.iter().find(|hidden| hidden.is_electrical());
         match (self.amplifier, electrical) {

@@ -1,5 +1,7 @@
 //! When which command reaches the bridge.
 
+use std::collections::VecDeque;
+
 /// One sample of the drive, held until the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveSample {
@@ -10,27 +12,34 @@ pub struct DriveSample {
 }
 
 /// The drive samples as the bridge meets them: each `latency_s` after its own time.
-pub(super) struct Timeline<'a> {
-    drive: &'a [DriveSample],
-    times_s: &'a [f64],
+pub(super) struct Timeline {
+    /// Commands on their way, each with the time of its arrival.
+    coming: VecDeque<(f64, DriveSample)>,
     latency_s: f64,
-    /// Number of samples that have reached the bridge.
-    arrived: usize,
+    in_force: Option<DriveSample>,
 }
 
-impl<'a> Timeline<'a> {
-    pub(super) fn new(drive: &'a [DriveSample], times_s: &'a [f64], latency_s: f64) -> Self {
+impl Timeline {
+    pub(super) fn new(latency_s: f64) -> Self {
         Timeline {
-            drive,
-            times_s,
+            coming: VecDeque::new(),
             latency_s,
-            arrived: 0,
+            in_force: None,
         }
     }
 
+    /// Sends a command at `time_s`, which must not be earlier than that of the one before.
+    pub(super) fn send(&mut self, time_s: f64, sample: DriveSample) {
+        // Before the first one arrives the command is 0.
+        self.in_force.get_or_insert(DriveSample {
+            volts: 0.0,
+            ..sample
+        });
+        self.coming.push_back((time_s + self.latency_s, sample));
+    }
+
     /// Calls `hold(sample, duration_s)` for each stretch of `from_s … to_s` in which the command is
-    /// constant, until it fails. Calls must follow each other in time. Before the first sample arrives the
-    /// command is 0.
+    /// constant, until it fails. Calls must follow each other in time, and come after the first command.
     pub(super) fn play<E>(
         &mut self,
         from_s: f64,
@@ -39,30 +48,20 @@ impl<'a> Timeline<'a> {
     ) -> Result<(), E> {
         let mut now = from_s;
         while now < to_s {
-            while self.next_arrival() <= now {
-                self.arrived += 1;
+            while let Some((arrival, sample)) = self.coming.front().copied()
+                && arrival <= now
+            {
+                self.coming.pop_front();
+                self.in_force = Some(sample);
             }
-            let until = self.next_arrival().min(to_s);
-            hold(self.in_force(), until - now)?;
+            let arrival = self.coming.front().map_or(f64::INFINITY, |next| next.0);
+            let until = arrival.min(to_s);
+            if let Some(sample) = self.in_force {
+                hold(sample, until - now)?;
+            }
             now = until;
         }
         Ok(())
-    }
-
-    fn next_arrival(&self) -> f64 {
-        self.times_s
-            .get(self.arrived)
-            .map_or(f64::INFINITY, |time| time + self.latency_s)
-    }
-
-    fn in_force(&self) -> DriveSample {
-        match self.arrived {
-            0 => DriveSample {
-                volts: 0.0,
-                enabled: self.drive[0].enabled,
-            },
-            arrived => self.drive[arrived - 1],
-        }
     }
 }
 
@@ -77,9 +76,10 @@ mod tests {
             enabled: true,
         });
         let times = [0.0, 1.0, 2.0, 3.0];
-        let mut timeline = Timeline::new(&drive, &times[..3], 1.25);
+        let mut timeline = Timeline::new(1.25);
         let mut played = Vec::new();
-        for pair in times.windows(2) {
+        for (pair, sample) in times.windows(2).zip(drive) {
+            timeline.send(pair[0], sample);
             timeline
                 .play(pair[0], pair[1], |sample, dt| {
                     played.push((sample.volts, dt));

@@ -3,6 +3,7 @@
 mod compare;
 mod completions;
 mod demo;
+mod device;
 mod diagnose;
 mod fit;
 mod model;
@@ -33,6 +34,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
         Verb::Prove(args) => prove::run(&session, &args),
+        Verb::Device(args) => device::run(&session, &args),
         Verb::Completions { shell } => completions::run(shell),
     }
 }

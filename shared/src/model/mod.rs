@@ -20,6 +20,7 @@ mod friction;
 mod led;
 mod part;
 mod pieces;
+mod rigid;
 mod rung;
 mod state;
 mod winding;
@@ -33,6 +34,7 @@ use crate::units::{PerUnit, Quantity};
 use coupled::{Coupled, MotorAndLoad};
 use friction::Forces;
 pub use led::Seen;
+pub use rigid::{Rigid, RigidPlan};
 use rung::{RUNGS, Rung};
 pub use state::{MAX_DELAY, Motion, Past, State};
 

@@ -96,6 +96,11 @@ impl Scalar for Fixed {
         Fixed((x * (1u64 << POINT) as f64) as i64)
     }
 
+    #[inline(always)]
+    fn from_q15(duty: i16) -> Self {
+        Fixed(i64::from(duty) << (POINT - 15))
+    }
+
     fn coefficient(x: f64) -> FixedCoefficient {
         // Only the bits of the float are read: no soft-float arithmetic on a small core.
         let bits = x.to_bits();

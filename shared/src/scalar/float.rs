@@ -21,6 +21,10 @@ macro_rules! float_scalar {
                 x as $t
             }
             #[inline(always)]
+            fn from_q15(duty: i16) -> Self {
+                duty as $t * (1.0 / 32_768.0)
+            }
+            #[inline(always)]
             fn coefficient(x: f64) -> Self {
                 x as $t
             }
@@ -38,7 +42,7 @@ macro_rules! float_scalar {
             }
             #[inline]
             fn sin_cos_turns(self) -> (Self, Self) {
-                $sincos(self * (core::f64::consts::TAU as $t))
+                $sincos(self)
             }
             #[inline]
             fn part_of(self, whole: Self) -> Self {
@@ -101,16 +105,50 @@ macro_rules! float_scalar {
     };
 }
 
-float_scalar!(f64, f64, libm::exp, libm::log, libm::sqrt, libm::sincos, 53);
+float_scalar!(f64, f64, libm::exp, libm::log, libm::sqrt, sin_cos, 53);
 float_scalar!(
     f32,
     SplitAngle,
     libm::expf,
     libm::logf,
     libm::sqrtf,
-    libm::sincosf,
+    short_sin_cos,
     24
 );
+
+fn sin_cos(turns: f64) -> (f64, f64) {
+    libm::sincos(turns * core::f64::consts::TAU)
+}
+
+/// In f32 a polynomial does: turns need no reduction by multiples of π, which is most of `libm::sincosf` and two kilobytes
+/// of a microcontroller's flash.
+fn short_sin_cos(turns: f32) -> (f32, f32) {
+    (sin_turns(turns), sin_turns(turns + 0.25))
+}
+
+/// Sine of a fraction of a turn: the turn is folded to a quarter, and Taylor's series of `sin(π/2·x)` is summed there; the
+/// last term left out is below 6e-8.
+fn sin_turns(turns: f32) -> f32 {
+    const SERIES: [f32; 6] = [
+        -3.598_843_2e-6,
+        1.604_411_8e-4,
+        -4.681_754e-3,
+        7.969_262_6e-2,
+        -6.459_641e-1,
+        core::f32::consts::FRAC_PI_2,
+    ];
+    let quarters = 4.0 * (turns - libm::floorf(turns + 0.5));
+    let folded = if quarters > 1.0 {
+        2.0 - quarters
+    } else if quarters < -1.0 {
+        -2.0 - quarters
+    } else {
+        quarters
+    };
+    let square = folded * folded;
+    let sum = SERIES.iter().fold(0.0, |sum, term| sum * square + term);
+    sum * folded
+}
 
 impl Angle<f64> for f64 {
     type Error = f64;
@@ -190,5 +228,27 @@ impl Angle<f32> for SplitAngle {
     fn turns(self, counts_per_rev: u32) -> f32 {
         let within = (self.whole as i64).rem_euclid(counts_per_rev as i64);
         (within as f32 + self.fraction) / counts_per_rev as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short_sin_cos;
+
+    #[test]
+    fn the_short_sine_is_as_exact_as_f32_allows() {
+        for k in -4000..4000 {
+            let turns = k as f32 / 1000.0;
+            let (sin, cos) = short_sin_cos(turns);
+            let angle = f64::from(turns) * core::f64::consts::TAU;
+            assert!(
+                (f64::from(sin) - angle.sin()).abs() < 4e-6,
+                "{turns}: {sin}"
+            );
+            assert!(
+                (f64::from(cos) - angle.cos()).abs() < 4e-6,
+                "{turns}: {cos}"
+            );
+        }
     }
 }

@@ -54,6 +54,10 @@ pub trait Scalar:
     /// `e` to the power `self`, for `self ≤ 0`.
     fn exp_decay(self) -> Self;
 
+    /// A duty in Q15, as a part of one.
+    fn from_q15(duty: i16) -> Self {
+        Self::from_f64(f64::from(duty) * (1.0 / 32_768.0))
+    }
     /// Zero.
     fn zero() -> Self {
         Self::default()

@@ -1,5 +1,12 @@
 //! The shape of the command line, and nothing else.
 
+mod device;
+
+pub use device::{
+    CommissionArgs, DeviceArgs, DeviceMethod, DeviceVerb, EmulateArgs, EmulationArgs, LimitArgs,
+    OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
+};
+
 use crate::prove::{Excite, HowMany, Shard};
 use crate::solve;
 use clap::builder::PossibleValuesParser;
@@ -64,6 +71,8 @@ pub enum Verb {
     Paper(PaperArgs),
     /// Diagnoses random motors with random hidden effects, and says how good that was
     Prove(ProveArgs),
+    /// Talks to the firmware: commissions a motor on its own controller, and checks what it found
+    Device(DeviceArgs),
     /// Prints a completion script for a shell
     Completions {
         /// The shell

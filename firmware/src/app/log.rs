@@ -1,0 +1,103 @@
+//! What a run leaves behind: rows for the host, and what the device itself will fit.
+
+use heapless::Vec;
+use shared::trace::Trace;
+use shared::wire::{MOST_ROWS, Row, Rows, Stage};
+
+/// Rows under way to the host.
+#[derive(Debug)]
+pub struct Batch {
+    stage: Stage,
+    first: u32,
+    count: i32,
+    rows: Vec<Row, MOST_ROWS>,
+}
+
+impl Batch {
+    /// At the start of a stage, with the shaft at `count`.
+    pub fn new(stage: Stage, count: i32) -> Self {
+        Batch {
+            stage,
+            first: 0,
+            count,
+            rows: Vec::new(),
+        }
+    }
+
+    /// Rows of the recording once more, from `first` on; where the shaft stood is known from the first time.
+    pub fn resumed(first: u32) -> Self {
+        Batch {
+            first,
+            ..Batch::new(Stage::Record, 0)
+        }
+    }
+
+    /// Takes a row, and gives the message that it fills.
+    pub fn push(&mut self, row: Row) -> Option<Rows> {
+        let _ = self.rows.push(row);
+        if self.rows.is_full() {
+            self.take()
+        } else {
+            None
+        }
+    }
+
+    /// The rows so far, if there are any.
+    pub fn take(&mut self) -> Option<Rows> {
+        if self.rows.is_empty() {
+            return None;
+        }
+        let rows = core::mem::take(&mut self.rows);
+        let message = Rows {
+            stage: self.stage,
+            first: self.first,
+            count: self.count,
+            rows,
+        };
+        self.first += message.rows.len() as u32;
+        for row in &message.rows {
+            self.count = self.count.wrapping_add(row.step.into());
+        }
+        Some(message)
+    }
+}
+
+/// Periods that the device keeps to fit.
+#[derive(Debug)]
+pub struct Log<const N: usize> {
+    duties: [i16; N],
+    steps: [i16; N],
+    len: usize,
+}
+
+impl<const N: usize> Log<N> {
+    /// Empty.
+    pub const fn new() -> Self {
+        Log {
+            duties: [0; N],
+            steps: [0; N],
+            len: 0,
+        }
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    /// Keeps a period, while there is room.
+    pub fn push(&mut self, duty: i16, step: i16) {
+        if let (Some(d), Some(s)) = (self.duties.get_mut(self.len), self.steps.get_mut(self.len)) {
+            (*d, *s) = (duty, step);
+            self.len += 1;
+        }
+    }
+
+    /// What is kept.
+    pub fn trace(&self) -> Trace<'_> {
+        Trace {
+            duties: self.duties.get(..self.len).unwrap_or(&[]),
+            steps: self.steps.get(..self.len).unwrap_or(&[]),
+        }
+    }
+}

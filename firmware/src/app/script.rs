@@ -1,0 +1,179 @@
+//! What duty comes next, in each phase that drives.
+
+use heapless::Vec;
+use shared::excite::{self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape};
+use shared::trace::OPEN;
+use shared::wire::Segment;
+
+/// Most segments of a plan that the device holds.
+pub const PLAN: usize = 256;
+
+/// A plan to play.
+pub type Plan = Vec<Segment, PLAN>;
+
+/// The short excitation that is fitted: levels of both signs for the time constants, a slow triangle for friction. Two
+/// seconds; longer or shorter recordings stretch it.
+const RECORD: [Experiment; 2] = [
+    Experiment {
+        shape: Shape::Telegraph {
+            levels: 9,
+            hold_s: 0.06,
+        },
+        seconds: 1.4,
+        amplitude: 1.0,
+    },
+    Experiment {
+        shape: Shape::Triangle { waves: 1 },
+        seconds: 0.6,
+        amplitude: 0.6,
+    },
+];
+
+/// What the fit has not seen: steps, and levels in another order.
+const VERIFY: [Experiment; 2] = [
+    Experiment {
+        shape: Shape::Steps { open: false },
+        seconds: 1.2,
+        amplitude: 0.9,
+    },
+    Experiment {
+        shape: Shape::Telegraph {
+            levels: 7,
+            hold_s: 0.08,
+        },
+        seconds: 0.8,
+        amplitude: 0.9,
+    },
+];
+
+/// A source of duties.
+#[derive(Debug, Clone)]
+pub enum Script {
+    /// Small growing steps up to a duty.
+    Growing {
+        /// Duty of the present step.
+        duty: i16,
+        /// By which it grows.
+        by: i16,
+        /// Where it ends.
+        to: i16,
+        /// Periods left in the present step.
+        left: u32,
+        /// Periods of a step.
+        hold: u32,
+    },
+    /// An excitation.
+    Excitation {
+        /// Its commands.
+        commands: Commands<'static, f32>,
+        /// Duty of its largest command.
+        amplitude: i16,
+        /// Periods left.
+        left: u32,
+    },
+    /// The plan that the host sent: the segment, and the periods of it that are done.
+    Plan {
+        /// Index of the present segment.
+        at: usize,
+        /// Periods of it that are over.
+        done: u16,
+    },
+}
+
+/// Which excitation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// The long one.
+    Excite {
+        /// Open the bridge in its pauses.
+        coast: bool,
+    },
+    /// The one that is fitted.
+    Record,
+    /// The one that the fit is tried on.
+    Verify,
+}
+
+impl Script {
+    /// Small growing steps up to `to`, `hold` periods each.
+    pub fn growing(to: i16, hold: u32) -> Self {
+        let by = (to / 40).max(1);
+        Script::Growing {
+            duty: 0,
+            by,
+            to,
+            left: 0,
+            hold,
+        }
+    }
+
+    /// An excitation stretched to `periods`, with `amplitude` as its largest duty.
+    pub fn excitation(which: Which, periods: u32, amplitude: i16, seed: u64) -> Self {
+        let plan: &'static [Experiment] = match which {
+            Which::Excite { coast: true } => &COMMISSIONING_COAST,
+            Which::Excite { coast: false } => &COMMISSIONING,
+            Which::Record => &RECORD,
+            Which::Verify => &VERIFY,
+        };
+        let seconds = plan.iter().fold(0.0, |sum, part| sum + part.seconds);
+        let interval = seconds as f32 / periods.max(1) as f32;
+        // The verification is drawn from another seed, or its levels would be those of the fit.
+        let seed = match which {
+            Which::Verify => seed ^ 0x5eed_0f7e_57ed,
+            _ => seed,
+        };
+        Script::Excitation {
+            commands: excite::commands(plan, interval, seed),
+            amplitude,
+            left: periods,
+        }
+    }
+
+    /// The plan from its start.
+    pub fn plan() -> Self {
+        Script::Plan { at: 0, done: 0 }
+    }
+
+    /// The duty of the next period, [`OPEN`] for an open bridge; `None` at the end.
+    pub fn next(&mut self, plan: &Plan) -> Option<i16> {
+        match self {
+            Script::Growing {
+                duty,
+                by,
+                to,
+                left,
+                hold,
+            } => {
+                if *left == 0 {
+                    if *duty >= *to {
+                        return None;
+                    }
+                    *duty = duty.saturating_add(*by).min(*to);
+                    *left = *hold;
+                }
+                *left -= 1;
+                Some(*duty)
+            }
+            Script::Excitation {
+                commands,
+                amplitude,
+                left,
+            } => {
+                *left = left.checked_sub(1)?;
+                let command = commands.next()?;
+                if !command.enabled {
+                    return Some(OPEN);
+                }
+                Some((command.drive * f32::from(*amplitude)) as i16)
+            }
+            Script::Plan { at, done } => {
+                while plan.get(*at)?.periods <= *done {
+                    *at += 1;
+                    *done = 0;
+                }
+                *done += 1;
+                plan.get(*at).map(|segment| segment.duty)
+            }
+        }
+    }
+}

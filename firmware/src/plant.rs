@@ -1,0 +1,126 @@
+//! A motor to practise on, where there is none: for tests of the application and for images without a bench.
+//!
+//! Plain equations in SI, integrated in short steps; it shares nothing with the model that is fitted to it. What the host's
+//! virtual bench can do (every effect of the catalogue), this does not: an image reaches that over a link instead.
+
+/// Steps of the integration in a control period.
+const SUBSTEPS: u32 = 20;
+
+/// A brushed motor behind an H bridge, with an encoder.
+#[derive(Debug, Clone)]
+pub struct Motor {
+    /// V.
+    pub supply: f32,
+    /// Ω.
+    pub resistance: f32,
+    /// H.
+    pub inductance: f32,
+    /// N·m/A, and V·s/rad.
+    pub constant: f32,
+    /// kg·m².
+    pub inertia: f32,
+    /// N·m·s/rad.
+    pub viscous: f32,
+    /// N·m.
+    pub coulomb: f32,
+    /// Amplitude of the cogging, N·m, with [`cogging_order`](Self::cogging_order) periods a revolution.
+    pub cogging: f32,
+    /// Periods a revolution.
+    pub cogging_order: f32,
+    /// Counts a revolution.
+    pub counts_per_rev: f32,
+    /// What stands between it and the drive.
+    pub state: Shaft,
+}
+
+/// Where the motor is.
+#[derive(Debug, Clone, Default)]
+pub struct Shaft {
+    /// A.
+    pub current: f32,
+    /// rad/s.
+    pub speed: f32,
+    /// Whole counts.
+    pub count: i32,
+    /// The rest, in counts from 0 to 1.
+    pub fraction: f32,
+    /// Within a revolution, rad.
+    pub angle: f32,
+}
+
+/// A motor of 24 V and some ten watts, on a 2000-count encoder.
+pub const SMALL: Motor = Motor {
+    supply: 24.0,
+    resistance: 2.3,
+    inductance: 1.1e-3,
+    constant: 0.052,
+    inertia: 1.9e-5,
+    viscous: 1.2e-5,
+    coulomb: 0.008,
+    cogging: 0.0,
+    cogging_order: 14.0,
+    counts_per_rev: 2000.0,
+    state: Shaft {
+        current: 0.0,
+        speed: 0.0,
+        count: 0,
+        fraction: 0.4,
+        angle: 0.0,
+    },
+};
+
+impl Motor {
+    /// Moves on by `seconds` with a duty in Q15, or with an open bridge.
+    pub fn advance(&mut self, duty: Option<i16>, seconds: f32) {
+        let dt = seconds / SUBSTEPS as f32;
+        for _ in 0..SUBSTEPS {
+            self.electrical(duty, dt);
+            self.mechanical(dt);
+        }
+    }
+
+    /// mA.
+    pub fn current_ma(&self) -> i32 {
+        (self.state.current * 1000.0) as i32
+    }
+
+    /// The current follows its first-order equation exactly while the speed is held.
+    fn electrical(&mut self, duty: Option<i16>, dt: f32) {
+        let state = &mut self.state;
+        state.current = match duty {
+            None => 0.0,
+            Some(duty) => {
+                let volts = self.supply * f32::from(duty) / 32_768.0;
+                let end = (volts - self.constant * state.speed) / self.resistance;
+                end + (state.current - end) * libm::expf(-dt * self.resistance / self.inductance)
+            }
+        };
+    }
+
+    /// Semi-implicit Euler; friction takes up to all of the momentum.
+    fn mechanical(&mut self, dt: f32) {
+        let state = &mut self.state;
+        let cogging = self.cogging * libm::sinf(self.cogging_order * state.angle);
+        let torque = self.constant * state.current - self.viscous * state.speed - cogging;
+        let free = state.speed + torque / self.inertia * dt;
+        let grip = self.coulomb / self.inertia * dt;
+        let speed = if free > grip {
+            free - grip
+        } else if free < -grip {
+            free + grip
+        } else {
+            0.0
+        };
+        let turned = 0.5 * (state.speed + speed) * dt;
+        state.speed = speed;
+        let tau = core::f32::consts::TAU;
+        state.angle += turned;
+        if state.angle.abs() > tau {
+            state.angle -= tau * state.angle.signum();
+        }
+        state.fraction += turned * self.counts_per_rev / tau;
+        let whole = libm::floorf(state.fraction);
+        state.fraction -= whole;
+        state.count = state.count.wrapping_add(whole as i32);
+    }
+}

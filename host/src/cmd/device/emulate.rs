@@ -1,0 +1,121 @@
+//! Reaching a device: a real one, or one that is emulated for the occasion.
+
+use super::super::simulate::hidden;
+use crate::bench::{Bench, Machine};
+use crate::cli::{EmulateArgs, EmulationArgs, LimitArgs, PortArgs};
+use crate::device::{DeviceError, Emulation, Image, Port};
+use crate::error::Error;
+use crate::session::Session;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// Counts of an emulated encoder.
+pub(super) const COUNTS_PER_REV: u32 = 2000;
+
+/// A device that can be talked to; an emulated one ends with this value.
+pub(super) struct Reached {
+    pub(super) port: Port,
+    /// Supply and counts of an emulated bench.
+    pub(super) bench: Option<(f64, u32)>,
+    _emulation: Option<Emulation>,
+}
+
+/// Where `scripts/emulated` puts its images, the microcontroller's first.
+const BUILT: [&str; 2] = [
+    "target/mcu/thumbv7em-none-eabihf/firmware/emulated",
+    "target/firmware/emulated",
+];
+
+fn image(args: &EmulationArgs) -> Result<Image, Error> {
+    let path = match &args.image {
+        Some(path) => path.clone(),
+        None => {
+            let built = BUILT.iter().map(PathBuf::from).find(|path| path.exists());
+            built.ok_or_else(|| {
+                DeviceError::Emulation(
+                    "no image of the firmware here: run `scripts/emulated` in the project's folder, which builds it, or give \
+                     --image FILE"
+                        .to_owned(),
+                )
+            })?
+        }
+    };
+    Ok(Image::at(&path)?)
+}
+
+fn start(args: &EmulationArgs, counts_per_rev: u32, seed: u64) -> Result<(Emulation, f64), Error> {
+    if !(args.pace > 0.0 && args.pace.is_finite()) {
+        return Err(Error::Usage(format!(
+            "--pace {}: must be above zero",
+            args.pace
+        )));
+    }
+    let machine =
+        Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
+    let effects = args
+        .hide
+        .iter()
+        .map(|text| hidden(text, &machine))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut bench = Bench::new(machine);
+    bench.effects = effects;
+    bench.counts_per_rev = counts_per_rev;
+    bench.seed = seed;
+    let emulation = Emulation::start(&image(args)?, bench, args.pace)?;
+    Ok((emulation, machine.supply_v))
+}
+
+/// The device of `--port`, or an emulated one.
+pub(super) fn reach(
+    args: &PortArgs,
+    limits: Option<&LimitArgs>,
+    seed: u64,
+) -> Result<Reached, Error> {
+    if let Some(address) = &args.port {
+        return Ok(Reached {
+            port: Port::parse(address)?,
+            bench: None,
+            _emulation: None,
+        });
+    }
+    let counts = limits
+        .and_then(|limits| limits.counts_per_rev)
+        .unwrap_or(COUNTS_PER_REV);
+    let (emulation, supply) = start(&args.emulation, counts, seed)?;
+    Ok(Reached {
+        port: emulation.port().clone(),
+        bench: Some((supply, counts)),
+        _emulation: Some(emulation),
+    })
+}
+
+/// `servoid device emulate`.
+pub(super) fn run(session: &Session, args: &EmulateArgs) -> Result<(), Error> {
+    let (mut emulation, supply) = start(&args.emulation, args.counts_per_rev, session.seed)?;
+    let text = format!(
+        "an emulated device answers at {port}: --supply-v {supply} --counts-per-rev {}\n  servoid device info --port {port}\n\
+         Ctrl-C ends it.\n",
+        args.counts_per_rev,
+        port = emulation.port()
+    );
+    session.deliver(
+        &text,
+        &serde_json::json!({ "schema": "servoid.emulation/1", "port": emulation.port().to_string(),
+            "supply_v": supply, "counts_per_rev": args.counts_per_rev }),
+    )?;
+    while !session.stop().load(Ordering::Relaxed) {
+        if !emulation.runs() {
+            return Err(
+                DeviceError::Emulation("the emulated device ended by itself".to_owned()).into(),
+            );
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    Ok(())
+}
+
+/// Whether a folder can take a run, before the motor moves.
+pub(super) fn check_out(path: &Path) -> Result<crate::device::Folder, Error> {
+    Ok(crate::device::Folder::new(path)?)
+}

@@ -1,0 +1,367 @@
+//! Verbs that drive the motor: commission, record, stream, run.
+
+use super::emulate::{self, Reached};
+use crate::cli::{
+    CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
+};
+use crate::device::{
+    Conversation, Folder, Order, Progress, Recorded, Run, Saved, follow, segments,
+};
+use crate::error::Error;
+use crate::output::CommandSequence;
+use crate::session::{Session, print};
+use indicatif::ProgressBar;
+use shared::fit::{Method, Settings};
+use shared::trace::DUTY;
+use shared::wire::{About, Kind, Segment, Stage};
+use std::path::Path;
+
+/// How an order begins: without anything that only a commissioning needs.
+fn order(
+    session: &Session,
+    reached: &Reached,
+    limits: &LimitArgs,
+    kind: Kind,
+) -> Result<Order, Error> {
+    let (supply, counts) = reached.bench.unzip();
+    let missing = |flag: &str| Error::Usage(format!("{flag}: say it, a device does not know"));
+    let supply_v = limits
+        .supply
+        .or(supply)
+        .ok_or_else(|| missing("--supply-v"))?;
+    let counts_per_rev = limits
+        .counts_per_rev
+        .or(counts)
+        .ok_or_else(|| missing("--counts-per-rev"))?;
+    if !(supply_v > 0.0 && supply_v.is_finite()) {
+        return Err(Error::Usage(format!(
+            "--supply-v {supply_v}: must be above zero"
+        )));
+    }
+    if counts_per_rev == 0 {
+        return Err(Error::Usage(
+            "--counts-per-rev 0: must be above zero".to_owned(),
+        ));
+    }
+    Ok(Order {
+        kind,
+        amplitude: limits.amplitude,
+        excite_s: 0.0,
+        coast: true,
+        record_s: Some(0.0),
+        verify_s: 0.0,
+        verify_within: None,
+        seed: session.seed,
+        fit: Settings {
+            seed: session.seed,
+            ..Settings::default()
+        },
+        supply_v,
+        counts_per_rev: counts_per_rev.into(),
+        max_voltage: limits.max_voltage,
+        max_current: limits.max_current,
+        max_travel: limits.max_travel,
+        max_speed: limits.max_speed,
+        continuous: limits.continuous_current.zip(limits.thermal_time),
+        resistance_ohm: limits.resistance,
+    })
+}
+
+/// A run under way.
+struct Bench {
+    reached: Reached,
+    conversation: Conversation,
+    about: About,
+}
+
+fn open(session: &Session, port: &PortArgs, limits: &LimitArgs) -> Result<Bench, Error> {
+    let reached = emulate::reach(port, Some(limits), session.seed)?;
+    let mut conversation = Conversation::open(&reached.port)?;
+    let about = conversation.about()?;
+    session.remark(&format!("{}, firmware {}", about.board, about.firmware));
+    Ok(Bench {
+        reached,
+        conversation,
+        about,
+    })
+}
+
+impl Bench {
+    /// Runs an order, shows how far it is, and keeps what came even if the link broke.
+    fn run(
+        &mut self,
+        session: &Session,
+        order: &Order,
+        plan: &[Segment],
+        recorded: &mut Vec<Recorded>,
+        mut also: impl FnMut(Progress<'_>),
+    ) -> Result<Run, Error> {
+        let job = order.job(&self.about, plan)?;
+        self.conversation.start(job, plan)?;
+        let bar = session.progress(0, "device");
+        let run = follow(
+            &mut self.conversation,
+            &self.about,
+            session.stop(),
+            recorded,
+            |progress| {
+                show(&bar, progress);
+                also(progress);
+            },
+        );
+        bar.finish_and_clear();
+        if run.is_ok() {
+            // It has nothing more to report: let it go back to idle.
+            let _ = self.conversation.about();
+        }
+        Ok(run?)
+    }
+}
+
+fn show(bar: &ProgressBar, progress: Progress<'_>) {
+    match progress {
+        Progress::Stage(stage, length) => {
+            bar.set_message(format!("{stage:?}").to_lowercase());
+            bar.set_length(length.unwrap_or(0).into());
+            bar.set_position(0);
+            bar.reset_eta();
+        }
+        Progress::Rows(rows) => bar.set_position(u64::from(rows.first) + rows.rows.len() as u64),
+        Progress::Models(done, of) => {
+            bar.set_length(of.into());
+            bar.set_position(done.into());
+        }
+    }
+}
+
+/// Runs an order into a folder; what arrived before a link broke is kept there too.
+fn into_folder(
+    session: &Session,
+    bench: &mut Bench,
+    order: &Order,
+    plan: &[Segment],
+    folder: &Folder,
+    path: &Path,
+) -> Result<(), Error> {
+    let mut recorded = Vec::new();
+    let run = bench.run(session, order, plan, &mut recorded, |_| {});
+    let current = bench.about.senses_current;
+    let run = match run {
+        Ok(run) => run,
+        Err(error) => {
+            let kept = if recorded.is_empty() {
+                String::new()
+            } else {
+                let saved = Saved::broken(&bench.about, order, &recorded);
+                folder.write(&saved, &recorded, current)?;
+                format!(
+                    "\nwhat had arrived is in {}, and says that it is partial",
+                    path.display()
+                )
+            };
+            return Err(Error::Failed(format!("{error}{kept}")));
+        }
+    };
+    let saved = Saved::new(&run, order);
+    let written = folder.write(&saved, &run.recorded, current)?;
+    let text = summary(&saved, &run, path, &written);
+    match &saved.failure {
+        None => session.deliver(&text, &saved),
+        Some(failure) => {
+            session.deliver(&text, &saved)?;
+            Err(Error::Failed(format!(
+                "the device gave up while it was to {} after {:.2} s: {}{}",
+                failure.stage,
+                failure.at_s,
+                failure.message,
+                if failure.limit != 0 {
+                    format!(" (seen {}, limit {})", failure.seen, failure.limit)
+                } else {
+                    String::new()
+                }
+            )))
+        }
+    }
+}
+
+fn summary(saved: &Saved, run: &Run, path: &Path, written: &[&str]) -> String {
+    let period_s = f64::from(saved.period_us) * 1e-6;
+    let mut text = String::new();
+    for part in &run.recorded {
+        if part.stage != Stage::Probe {
+            let stage = format!("{:?}", part.stage).to_lowercase();
+            text += &format!("  {stage:<8} {:>8.3} s", part.rows.len() as f64 * period_s);
+            text += &match part.missing() {
+                0 => "\n".to_owned(),
+                missing => format!(", {missing} periods missing: partial\n"),
+            };
+        }
+    }
+    if saved.breakaway_v > 0.0 {
+        text += &format!(
+            "the shaft first moved at {:.3} V; excited with up to {:.2} V\n",
+            saved.breakaway_v, saved.amplitude_v
+        );
+    }
+    if let Some(outcome) = &saved.outcome {
+        text += &format!(
+            "the device fitted ({}, {} models, {}): {:.4} counts RMS",
+            match saved.fit.method {
+                Method::Pso => "particle swarm",
+                Method::Firefly => "fireflies",
+            },
+            outcome.evaluations,
+            saved.format,
+            outcome.rms_counts
+        );
+        if let Some(rms) = saved.verified_rms_counts {
+            text += &format!("; {rms:.4} on what it had not seen");
+        }
+        text.push('\n');
+        for parameter in &outcome.parameters {
+            let std = parameter
+                .std
+                .map_or_else(|| "not determined".to_owned(), |std| format!("± {std:.2e}"));
+            text += &format!(
+                "  {:<12}{:>14.6} {:<8} {std}\n",
+                parameter.name, parameter.value, parameter.unit
+            );
+        }
+    }
+    text += &format!(
+        "{}: {}, motor.toml, device.json\n",
+        path.display(),
+        written.join(", ")
+    );
+    if saved.outcome.is_some() {
+        text += &format!("next: servoid device verify {}\n", path.display());
+    } else if written.contains(&"recording.csv") {
+        text += &format!(
+            "next: servoid diagnose {}\n",
+            path.join("recording.csv").display()
+        );
+    }
+    text
+}
+
+/// `servoid device commission`.
+pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(), Error> {
+    let folder = emulate::check_out(&args.out)?;
+    let mut bench = open(session, &args.port, &args.limits)?;
+    let order = Order {
+        excite_s: args.excite,
+        coast: !args.no_coast,
+        record_s: args.record,
+        verify_s: args.verify,
+        verify_within: args.verify_within,
+        fit: Settings {
+            method: match args.algorithm {
+                DeviceMethod::Pso => Method::Pso,
+                DeviceMethod::Firefly => Method::Firefly,
+            },
+            population: args.population,
+            evaluations: args.budget,
+            seed: session.seed,
+            coulomb: args.with.iter().any(|name| name == "coulomb"),
+            load: args.with.iter().any(|name| name == "load_torque"),
+        },
+        ..order(session, &bench.reached, &args.limits, Kind::Commission)?
+    };
+    into_folder(session, &mut bench, &order, &[], &folder, &args.out)
+}
+
+/// `servoid device record`.
+pub(super) fn record(session: &Session, args: &RecordArgs) -> Result<(), Error> {
+    let folder = emulate::check_out(&args.out)?;
+    let mut bench = open(session, &args.port, &args.limits)?;
+    let order = Order {
+        excite_s: args.seconds,
+        coast: !args.no_coast,
+        ..order(session, &bench.reached, &args.limits, Kind::Record)?
+    };
+    into_folder(session, &mut bench, &order, &[], &folder, &args.out)
+}
+
+/// `servoid device run`.
+pub(super) fn play(session: &Session, args: &RunArgs) -> Result<(), Error> {
+    let commands = CommandSequence::read(&args.plan)?;
+    let folder = emulate::check_out(&args.out)?;
+    let mut bench = open(session, &args.port, &args.limits)?;
+    let order = order(session, &bench.reached, &args.limits, Kind::Play)?;
+    let plan = segments(&commands, order.supply_v, bench.about.period_us)?;
+    into_folder(session, &mut bench, &order, &plan, &folder, &args.out)
+}
+
+/// `servoid device stream`.
+pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> {
+    let mut bench = open(session, &args.port, &args.limits)?;
+    let order = Order {
+        excite_s: args.seconds,
+        coast: !args.no_coast,
+        ..order(session, &bench.reached, &args.limits, Kind::Record)?
+    };
+    let mut lines = Lines {
+        count: 0,
+        printed: 0,
+        period_s: f64::from(bench.about.period_us) * 1e-6,
+        supply_v: order.supply_v,
+        closed: false,
+    };
+    print(b"t_s,voltage_v,angle_counts,current_a,enabled\n")?;
+    let run = bench.run(session, &order, &[], &mut Vec::new(), |progress| {
+        if let Progress::Rows(rows) = progress {
+            lines.print(rows);
+        }
+    })?;
+    match run.outcome {
+        Ok(_) => Ok(()),
+        Err(failure) => Err(Error::Failed(format!(
+            "the device gave up: {}",
+            failure.fault
+        ))),
+    }
+}
+
+/// Rows of the excitation as lines of CSV.
+struct Lines {
+    count: i32,
+    printed: u32,
+    period_s: f64,
+    supply_v: f64,
+    /// Nobody reads any more.
+    closed: bool,
+}
+
+impl Lines {
+    fn print(&mut self, rows: &shared::wire::Rows) {
+        if rows.stage != Stage::Excite || self.closed {
+            return;
+        }
+        let mut text = String::new();
+        if rows.first != self.printed {
+            text += &format!(
+                "# {} periods were lost\n",
+                rows.first.saturating_sub(self.printed)
+            );
+        }
+        self.count = rows.count;
+        for (k, row) in rows.rows.iter().enumerate() {
+            let open = row.duty == shared::trace::OPEN;
+            let volts = if open {
+                0.0
+            } else {
+                f64::from(row.duty) * DUTY * self.supply_v
+            };
+            let time = f64::from(rows.first + k as u32) * self.period_s;
+            text += &format!(
+                "{time:?},{volts:?},{},{:?},{}\n",
+                self.count,
+                f64::from(row.current_ma) * 1e-3,
+                u8::from(!open)
+            );
+            self.count = self.count.wrapping_add(row.step.into());
+        }
+        self.printed = rows.first + rows.rows.len() as u32;
+        self.closed = print(text.as_bytes()).is_err();
+    }
+}

@@ -1,0 +1,315 @@
+//! `servoid device verify`: whether the device's answer stands.
+//!
+//! First its arithmetic: the same recording, seed and number format on the host must give the same bits. Then its search:
+//! least squares in double precision on the same recording. Then its physics: the diagnosis of the long recording, judged by
+//! the verification, neither of which the device fitted.
+
+use crate::cli::VerifyArgs;
+use crate::device::{DeviceError, Folder, Replayed, Saved, SavedOutcome, replay};
+use crate::diagnose::{self, HeldOut, usable};
+use crate::error::Error;
+use crate::fit::{self, Fit, Options};
+use crate::input::{MotorFile, read_recording};
+use crate::problem::Data;
+use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use crate::session::Session;
+use serde::Serialize;
+use shared::effects::Kind;
+use shared::wire::Stage;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+
+/// Values that differ by less than this part are the same answer.
+const SAME: f64 = 0.01;
+
+#[derive(Serialize)]
+struct VerifyJson {
+    schema: &'static str,
+    same_bits: bool,
+    differ: Vec<String>,
+    stronger: Option<Stronger>,
+    stands: bool,
+    verdict: String,
+    diagnosis: Option<DiagnosisJson>,
+}
+
+/// The same model on the same recording, fitted by least squares in double precision.
+#[derive(Clone, Debug, Serialize)]
+struct Stronger {
+    rms_counts: f64,
+    device_rms_counts: f64,
+    gain_rad_s_v: f64,
+    a1_s: f64,
+    gain_off: f64,
+    a1_off: f64,
+}
+
+impl Stronger {
+    fn agrees(&self) -> bool {
+        self.gain_off.abs() < SAME && self.a1_off.abs() < SAME
+    }
+}
+
+pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
+    let folder = Folder::at(&args.folder);
+    let saved = folder.saved()?;
+    let Some(outcome) = &saved.outcome else {
+        let why = match &saved.failure {
+            Some(failure) => format!(
+                "the device gave up before it had fitted: {}",
+                failure.message
+            ),
+            None => "the device did not fit; commission the motor first".to_owned(),
+        };
+        return Err(DeviceError::Folder {
+            path: args.folder.clone(),
+            why,
+        }
+        .into());
+    };
+    let (duties, steps) = folder.fitted(&saved)?;
+    let replayed = replay(&saved, &duties, &steps);
+    let mut text = bits(&saved, outcome, &replayed, duties.len());
+    session.remark("the device's fit, repeated");
+
+    let motor = MotorFile::read(&args.folder.join("motor.toml"))?;
+    let stronger = stronger(session, &folder, &motor, outcome, &saved)?;
+    text += &search(outcome, &stronger);
+
+    let diagnosed = match (
+        folder.recording_of(Stage::Excite),
+        folder.recording_of(Stage::Verify),
+    ) {
+        (Some(recording), Some(held_out)) => {
+            Some(diagnose(session, &recording, &held_out, &motor)?)
+        }
+        _ => None,
+    };
+    let fitted = fitted_effects(&saved);
+    let same = replayed.differ.is_empty();
+    let (stands, verdict) = verdict(same, &stronger, diagnosed.as_ref(), &fitted);
+    if let Some(diagnosed) = &diagnosed {
+        text += &format!("\n{}\n", diagnosed.text);
+    }
+    text += &format!("{verdict}\n");
+    let json = VerifyJson {
+        schema: "servoid.verify/1",
+        same_bits: same,
+        differ: replayed.differ,
+        stronger: Some(stronger),
+        stands,
+        verdict: verdict.clone(),
+        diagnosis: diagnosed.map(|diagnosed| diagnosed.json),
+    };
+    session.deliver(&text, &json)?;
+    if same {
+        Ok(())
+    } else {
+        Err(Error::Failed(
+            "the host does not find the device's bits: is the firmware of another version, or fitted.csv changed?".to_owned(),
+        ))
+    }
+}
+
+fn fitted_effects(saved: &Saved) -> Vec<Kind> {
+    let flags = [
+        (saved.fit.coulomb, Kind::Coulomb),
+        (saved.fit.load, Kind::LoadTorque),
+    ];
+    flags
+        .into_iter()
+        .filter(|(on, _)| *on)
+        .map(|(_, kind)| kind)
+        .collect()
+}
+
+fn bits(saved: &Saved, outcome: &SavedOutcome, replayed: &Replayed, periods: usize) -> String {
+    let what = format!(
+        "{periods} periods, {} models, {}, seed {}",
+        outcome.evaluations, saved.format, saved.fit.seed
+    );
+    if replayed.differ.is_empty() {
+        format!("arithmetic: the host finds the same bits ({what})\n")
+    } else {
+        format!(
+            "arithmetic: the host finds OTHER BITS for {} ({what})\n",
+            replayed.differ.join(", ")
+        )
+    }
+}
+
+fn stronger(
+    session: &Session,
+    folder: &Folder,
+    motor: &MotorFile,
+    outcome: &SavedOutcome,
+    saved: &Saved,
+) -> Result<Stronger, Error> {
+    let path = folder.recording_of(Stage::Record).ok_or_else(|| {
+        Error::Failed(
+            "fitted.csv is not there: the folder is not as `servoid device commission` wrote it"
+                .to_owned(),
+        )
+    })?;
+    let data = Data::new(&read_recording(&path, motor)?)?;
+    let options = Options {
+        effects: fitted_effects(saved),
+        seed: session.seed,
+        known: motor.known.clone(),
+        ..Options::default()
+    };
+    let problem = fit::problem(&data, &options)?;
+    let found = super::super::search::search(session, &problem, "lm", &options)?;
+    let fit = Fit::conclude(&problem, "lm", "squared", &found, &options, None)?;
+    let response = fit.candidate.machine.response();
+    let off = |name: &str, truth: f64| {
+        outcome
+            .value(name)
+            .map_or(f64::NAN, |value| value / truth - 1.0)
+    };
+    Ok(Stronger {
+        rms_counts: fit.rms_counts,
+        device_rms_counts: outcome.rms_counts,
+        gain_rad_s_v: response.gain,
+        a1_s: response.a1,
+        gain_off: off("gain", response.gain),
+        a1_off: off("a1", response.a1),
+    })
+}
+
+fn search(outcome: &SavedOutcome, stronger: &Stronger) -> String {
+    format!(
+        "search: least squares in double precision leaves {:.4} counts RMS, the device {:.4}; its gain is off by {:+.3} %, its \
+         time constant by {:+.3} %\n",
+        stronger.rms_counts,
+        outcome.rms_counts,
+        stronger.gain_off * 100.0,
+        stronger.a1_off * 100.0
+    )
+}
+
+/// What the diagnosis says, already written.
+struct Diagnosed {
+    text: String,
+    json: DiagnosisJson,
+    names: Vec<Kind>,
+    explained: bool,
+    base: f64,
+    last: f64,
+}
+
+fn diagnose(
+    session: &Session,
+    recording: &Path,
+    held_out: &Path,
+    motor: &MotorFile,
+) -> Result<Diagnosed, Error> {
+    let first = read_recording(recording, motor)?;
+    let mut remarks = usable::check(&first)?;
+    let other = read_recording(held_out, motor)?;
+    remarks.extend(usable::check(&other)?);
+    let (data, rest) = (Data::new(&first)?, Data::new(&other)?);
+    let options = Options {
+        known: motor.known.clone(),
+        seed: session.seed,
+        ..Options::default()
+    };
+    let bar = session.progress(0, "diagnose");
+    let done = || {
+        bar.inc(1);
+        if bar.length() <= Some(bar.position()) {
+            bar.inc_length(1);
+        }
+    };
+    let diagnosis = diagnose::diagnose(&data, &rest, &options, session.stop(), &done);
+    bar.finish_and_clear();
+    let diagnosis = diagnosis?;
+    let last = diagnose::settle(&diagnosis, &data, &rest, &options, session.stop())?;
+    let findings = diagnose::findings(&diagnosis, &data, &rest)?;
+    let kind = HeldOut::Recording(other.source.clone());
+    let report = DiagnosisReport {
+        data: &data,
+        held_out: &kind,
+        diagnosis: &diagnosis,
+        last: &last,
+        findings: &findings,
+        remarks,
+        seed: session.seed,
+        interrupted: session.stop().load(Ordering::Relaxed),
+        json: session.json_file(),
+    };
+    Ok(Diagnosed {
+        text: report.text(),
+        json: DiagnosisJson::from(&report),
+        names: diagnosis.steps.iter().map(|step| step.added).collect(),
+        explained: matches!(
+            diagnosis.verdict,
+            diagnose::Verdict::Complete | diagnose::Verdict::MissingEffects
+        ),
+        base: diagnosis.base.judged().held_out,
+        last: diagnosis.last.judged().held_out,
+    })
+}
+
+fn verdict(
+    same: bool,
+    stronger: &Stronger,
+    diagnosed: Option<&Diagnosed>,
+    fitted: &[Kind],
+) -> (bool, String) {
+    if !same {
+        return (
+            false,
+            "The device's answer does not stand: its arithmetic cannot be repeated.".to_owned(),
+        );
+    }
+    if !stronger.agrees() {
+        return (
+            false,
+            "The device's answer does not stand: on its own recording a stronger search finds another motor. Commission \
+             again with another --seed or a larger --budget."
+                .to_owned(),
+        );
+    }
+    let Some(diagnosed) = diagnosed else {
+        return (
+            true,
+            "The device's answer stands as far as its own recording tells; there is no long recording to diagnose (--excite 0)."
+                .to_owned(),
+        );
+    };
+    let missing: Vec<&str> = diagnosed
+        .names
+        .iter()
+        .filter(|kind| !fitted.contains(kind))
+        .map(|kind| kind.name())
+        .collect();
+    if !diagnosed.explained {
+        return (
+            false,
+            "The device's answer does not stand alone: something in the recording is not explained by its model, nor by any \
+             in the catalogue."
+                .to_owned(),
+        );
+    }
+    if missing.is_empty() {
+        return (
+            true,
+            "The device's answer stands: same bits, same motor, and no physics missing.".to_owned(),
+        );
+    }
+    (
+        false,
+        format!(
+            "The device's answer does not stand alone: {} missing. With {} the held-out error falls from {:.2} to {:.2} counts RMS.",
+            if let [only] = missing.as_slice() {
+                format!("{only} is")
+            } else {
+                format!("{} are", missing.join(" and "))
+            },
+            if missing.len() == 1 { "it" } else { "them" },
+            diagnosed.base,
+            diagnosed.last
+        ),
+    )
+}

@@ -1,0 +1,85 @@
+//! What can go wrong with a device, and what to do about it.
+
+use shared::wire::Refusal;
+use std::io;
+use std::path::PathBuf;
+
+/// What went wrong with a device.
+#[derive(Debug, thiserror::Error)]
+pub enum DeviceError {
+    /// The address names no port.
+    #[error(
+        "port `{0}`: give a serial port (/dev/ttyACM0, COM3, with :baud after it if it is not 921600), tcp:HOST:PORT or \
+         unix:PATH; `servoid device list` shows the serial ports"
+    )]
+    Address(String),
+    /// The port cannot be opened.
+    #[error("port {port}: {reason}; is the device plugged in, and is no other program using it?")]
+    Open {
+        /// As given.
+        port: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// The port broke.
+    #[error("the link broke: {0}; a device that drives stops by itself within half a second")]
+    Link(#[from] io::Error),
+    /// Nothing that makes sense comes back.
+    #[error(
+        "no answer from {port} within {seconds} s{noise}; check power, cable and baud rate, and that the firmware is \
+         flashed"
+    )]
+    Silent {
+        /// As given.
+        port: String,
+        /// How long was waited.
+        seconds: f64,
+        /// What came instead.
+        noise: String,
+    },
+    /// The device speaks another version.
+    #[error(
+        "the device speaks version {theirs} of the link, this program {ours}: use the servoid that belongs to its firmware, or flash the one that belongs to this"
+    )]
+    Version {
+        /// The device's.
+        theirs: u16,
+        /// This program's.
+        ours: u16,
+    },
+    /// The device refused.
+    #[error("the device refused: {}", reason(.0))]
+    Refused(Refusal),
+    /// The device restarted in the middle.
+    #[error(
+        "the device restarted in the middle of the run (its supply may have broken down); its bridge is off since then"
+    )]
+    Restarted,
+    /// A flag does not fit the device.
+    #[error("{0}")]
+    Order(String),
+    /// The emulation cannot be started.
+    #[error("{0}")]
+    Emulation(String),
+    /// A folder of a run cannot be used.
+    #[error("{}: {why}", .path.display())]
+    Folder {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it, and what to do.
+        why: String,
+    },
+}
+
+fn reason(refusal: &Refusal) -> &'static str {
+    match refusal {
+        Refusal::Busy => "a run is under way; wait for it, or `servoid device stop`",
+        Refusal::NotArmed => "the arming was used up or too old; try again",
+        Refusal::BadJob => {
+            "a length or a limit is zero or beyond what it can do; see `servoid device info`"
+        }
+        Refusal::BadPlan => {
+            "the plan has too many segments for it, or arrived with a gap; try again, or use a shorter plan"
+        }
+    }
+}

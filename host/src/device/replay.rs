@@ -1,0 +1,71 @@
+//! The device's fit once more on the host: same recording, seed and number format, and so the same bits.
+
+use super::Saved;
+use shared::fit::{Fit, Outcome};
+use shared::scalar::{Fixed, Scalar};
+use shared::trace::Trace;
+
+/// What the host makes of the device's recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replayed {
+    /// The host's outcome.
+    pub outcome: Option<Outcome>,
+    /// Names of what has other bits than the device reported; none if all are the same.
+    pub differ: Vec<String>,
+}
+
+/// Fits what the device fitted, as the device fitted it.
+pub fn replay(saved: &Saved, duties: &[i16], steps: &[i16]) -> Replayed {
+    let trace = Trace { duties, steps };
+    let outcome = if saved.format == "fixed" {
+        fit::<Fixed>(saved, &trace)
+    } else {
+        fit::<f32>(saved, &trace)
+    };
+    Replayed {
+        differ: differences(saved, outcome.as_ref()),
+        outcome,
+    }
+}
+
+fn fit<S: Scalar>(saved: &Saved, trace: &Trace<'_>) -> Option<Outcome> {
+    let mut fit = Fit::<S>::new(trace, saved.fit)?;
+    loop {
+        if let Some(outcome) = fit.work(trace, u32::MAX) {
+            return Some(outcome);
+        }
+    }
+}
+
+fn differences(saved: &Saved, host: Option<&Outcome>) -> Vec<String> {
+    let (Some(reported), Some(host)) = (&saved.outcome, host) else {
+        return match (&saved.outcome, host) {
+            (None, None) => Vec::new(),
+            _ => vec!["whether there is a fit at all".to_owned()],
+        };
+    };
+    let device = reported.outcome();
+    let mut differ = Vec::new();
+    if device.estimates.len() != host.estimates.len() {
+        differ.push("the number of parameters".to_owned());
+    }
+    for (k, (a, b)) in device.estimates.iter().zip(&host.estimates).enumerate() {
+        let name = reported
+            .parameters
+            .get(k)
+            .map_or("?", |parameter| parameter.name.as_str());
+        if a.value.to_bits() != b.value.to_bits() {
+            differ.push(name.to_owned());
+        }
+        if a.std.to_bits() != b.std.to_bits() {
+            differ.push(format!("standard deviation of {name}"));
+        }
+    }
+    if device.mean_square.to_bits() != host.mean_square.to_bits() {
+        differ.push("error".to_owned());
+    }
+    if device.evaluations != host.evaluations {
+        differ.push("evaluations".to_owned());
+    }
+    differ
+}

@@ -1,0 +1,183 @@
+//! One run: what the device sends, put together.
+
+use super::{Conversation, DeviceError};
+use shared::wire::{About, Failure, Report, Row, Rows, Stage, ToDevice, ToHost};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// The host says that it is there this often, whatever else it does.
+const ALIVE: Duration = Duration::from_millis(20);
+/// A device that says nothing for this long is gone.
+const GONE: Duration = Duration::from_secs(5);
+/// After a stop, the report may take this long.
+const FAREWELL: Duration = Duration::from_secs(2);
+
+/// The periods of one stage, as far as they arrived.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// Which stage.
+    pub stage: Stage,
+    /// Encoder reading at the start.
+    pub count: i32,
+    /// In order; what was lost is left out.
+    pub rows: Vec<Option<Row>>,
+}
+
+impl Recorded {
+    /// Periods that never arrived.
+    pub fn missing(&self) -> usize {
+        self.rows.iter().filter(|row| row.is_none()).count()
+    }
+
+    /// The rows before the first gap.
+    pub fn whole(&self) -> impl Iterator<Item = Row> {
+        self.rows.iter().map_while(|row| *row)
+    }
+
+    fn take(&mut self, rows: &Rows) {
+        let first = rows.first as usize;
+        if first == 0 {
+            self.count = rows.count;
+        }
+        let end = first + rows.rows.len();
+        if self.rows.len() < end {
+            self.rows.resize(end, None);
+        }
+        for (slot, row) in self.rows[first..end].iter_mut().zip(&rows.rows) {
+            *slot = Some(*row);
+        }
+    }
+}
+
+/// A run as it ended.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// What the device is.
+    pub about: About,
+    /// What was recorded, a stage each.
+    pub recorded: Vec<Recorded>,
+    /// How it ended.
+    pub outcome: Result<Report, Failure>,
+    /// Frames that arrived damaged.
+    pub damaged: u32,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress<'a> {
+    /// A stage began, of so many periods if that is known.
+    Stage(Stage, Option<u32>),
+    /// Periods that arrived.
+    Rows(&'a Rows),
+    /// Models run, of about so many.
+    Models(u32, u32),
+}
+
+/// Longest stage that can be real, rows: a damaged number must not ask for all memory.
+const MOST_ROWS: usize = 50_000_000;
+
+/// Follows a run from its start to its report, asking again for rows of the recording that were lost.
+///
+/// # Errors
+/// A link that breaks, a device that falls silent or restarts. What arrived is in `recorded` then.
+pub fn follow(
+    conversation: &mut Conversation,
+    about: &About,
+    stop: &AtomicBool,
+    recorded: &mut Vec<Recorded>,
+    mut progress: impl FnMut(Progress<'_>),
+) -> Result<Run, DeviceError> {
+    let mut said = Instant::now();
+    let mut heard = Instant::now();
+    let mut stopped: Option<Instant> = None;
+    let outcome = loop {
+        if stop.load(Ordering::Relaxed) && stopped.is_none_or(|at| at.elapsed() > FAREWELL / 4) {
+            if stopped.is_some_and(|at| at.elapsed() > FAREWELL) {
+                return Err(DeviceError::Link(std::io::ErrorKind::TimedOut.into()));
+            }
+            conversation.say(&ToDevice::Stop)?;
+            stopped.get_or_insert_with(Instant::now);
+        }
+        if said.elapsed() >= ALIVE {
+            conversation.say(&ToDevice::Alive)?;
+            said = Instant::now();
+        }
+        let Some(message) = conversation.hear()? else {
+            if heard.elapsed() > GONE {
+                return Err(DeviceError::Silent {
+                    port: "the device".to_owned(),
+                    seconds: GONE.as_secs_f64(),
+                    noise: String::new(),
+                });
+            }
+            continue;
+        };
+        heard = Instant::now();
+        match message {
+            ToHost::About(now) if now.boot != about.boot => return Err(DeviceError::Restarted),
+            ToHost::Refused(refusal) => return Err(DeviceError::Refused(refusal)),
+            ToHost::Stage { stage, length, .. } => {
+                let known = length > 0 && length < u32::MAX && stage != Stage::Probe;
+                progress(Progress::Stage(stage, known.then_some(length)));
+            }
+            ToHost::Rows(rows) => {
+                enter(recorded, &rows);
+                progress(Progress::Rows(&rows));
+            }
+            ToHost::Fitting { done, of, .. } => progress(Progress::Models(done, of)),
+            ToHost::Report(report) => break Ok(report),
+            ToHost::Failed(failure) => break Err(failure),
+            ToHost::About(_) | ToHost::Armed { .. } => {}
+        }
+    };
+    resend(conversation, recorded)?;
+    Ok(Run {
+        about: about.clone(),
+        recorded: recorded.clone(),
+        outcome,
+        damaged: conversation.damaged(),
+    })
+}
+
+fn enter(recorded: &mut Vec<Recorded>, rows: &Rows) {
+    if rows.first as usize > MOST_ROWS {
+        return;
+    }
+    let known = recorded.iter().position(|part| part.stage == rows.stage);
+    let index = known.unwrap_or_else(|| {
+        recorded.push(Recorded {
+            stage: rows.stage,
+            count: rows.count,
+            rows: Vec::new(),
+        });
+        recorded.len() - 1
+    });
+    recorded[index].take(rows);
+}
+
+/// The device still has the rows that it fitted: what was lost of them is asked for again.
+fn resend(conversation: &mut Conversation, recorded: &mut [Recorded]) -> Result<(), DeviceError> {
+    let Some(part) = recorded.iter_mut().find(|part| part.stage == Stage::Record) else {
+        return Ok(());
+    };
+    let begun = Instant::now();
+    while let Some(first) = part.rows.iter().position(Option::is_none) {
+        conversation.say(&ToDevice::Resend {
+            first: first as u32,
+        })?;
+        let asked = Instant::now();
+        while part.rows[first].is_none() && asked.elapsed() < ALIVE * 10 {
+            if let Some(ToHost::Rows(rows)) = conversation.hear()?
+                && rows.stage == Stage::Record
+            {
+                let count = part.count;
+                part.take(&rows);
+                part.count = count;
+            }
+        }
+        if begun.elapsed() > GONE {
+            break;
+        }
+    }
+    Ok(())
+}

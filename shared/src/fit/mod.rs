@@ -1,0 +1,251 @@
+//! The fit on the device: swarm or fireflies, then Newton's steps, a slice at a time.
+//!
+//! ```text
+//! trace → space (what is searched, and where) → search → polish → outcome
+//!              └── candidate → rigid motor → evaluation, so many samples a slice
+//! ```
+//!
+//! It searches in what voltage and angle determine: gain and the two time constants, in logarithms, and friction and
+//! load if asked for. All is per supply, per period and in counts: a device need not know its supply voltage nor its
+//! encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
+//! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
+
+mod evaluation;
+mod outcome;
+mod polish;
+mod space;
+
+pub use evaluation::Evaluation;
+pub use outcome::{Estimate, Outcome, Stop};
+pub use polish::Polish;
+pub use space::{MOST, Point, Space, Unknown};
+
+use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
+use crate::scalar::Scalar;
+use crate::trace::Trace;
+use serde::{Deserialize, Serialize};
+
+/// Largest population.
+pub const POPULATION: usize = 20;
+
+/// How to search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Method {
+    /// Particle swarm.
+    Pso,
+    /// Fireflies.
+    Firefly,
+}
+
+/// What to search for, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Settings {
+    /// The method.
+    pub method: Method,
+    /// Particles or fireflies, at most [`POPULATION`].
+    pub population: u8,
+    /// Evaluations of the search; those of the polish come on top.
+    pub evaluations: u16,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Search for Coulomb friction.
+    pub coulomb: bool,
+    /// Search for a constant load.
+    pub load: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            method: Method::Firefly,
+            population: 20,
+            evaluations: 4000,
+            seed: 1,
+            coulomb: true,
+            load: false,
+        }
+    }
+}
+
+/// The swarm's settings for a population of 20: Clerc and Kennedy's constriction (2002).
+const SWARM: PsoSettings = PsoSettings {
+    inertia: 0.7298,
+    cognitive: 1.496,
+    social: 1.496,
+    fastest: 1.0,
+};
+
+/// The search, of either method. There is no heap to put the larger one on.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Debug)]
+enum Search {
+    Pso(Pso<f32, POPULATION, MOST>),
+    Firefly(Firefly<f32, POPULATION, MOST>),
+}
+
+impl Search {
+    fn new(settings: &Settings, dim: usize) -> Self {
+        let population = settings.population.clamp(2, POPULATION as u8) as usize;
+        let (evaluations, seed) = (settings.evaluations, settings.seed);
+        match settings.method {
+            Method::Pso => Search::Pso(Pso::new(dim, population, SWARM, seed)),
+            Method::Firefly => {
+                let cooled = FireflySettings {
+                    evaluations: evaluations.into(),
+                    ..FireflySettings::default()
+                };
+                Search::Firefly(Firefly::new(dim, population, cooled, seed))
+            }
+        }
+    }
+
+    fn each(&mut self) -> &mut dyn Optimiser<f32, MOST> {
+        match self {
+            Search::Pso(pso) => pso,
+            Search::Firefly(firefly) => firefly,
+        }
+    }
+}
+
+/// Where the fit is; one stage after another in the same room.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Debug)]
+enum Stage<S: Scalar> {
+    Search(Search),
+    Polish(Polish<S>),
+    Done(Stop),
+}
+
+/// A fit under way.
+#[derive(Clone, Debug)]
+pub struct Fit<S: Scalar> {
+    settings: Settings,
+    space: Space,
+    stage: Stage<S>,
+    running: Option<Evaluation<S>>,
+    evaluations: u32,
+    best: Point,
+    least: f32,
+    curvature: Option<polish::Curvature>,
+}
+
+impl<S: Scalar> Fit<S> {
+    /// Begins; `None` if the shaft did not move, so that there is nothing to fit.
+    pub fn new(trace: &Trace<'_>, settings: Settings) -> Option<Self> {
+        let space = Space::around(trace, &settings)?;
+        Some(Fit {
+            stage: Stage::Search(Search::new(&settings, space.dim())),
+            settings,
+            space,
+            running: None,
+            evaluations: 0,
+            best: [0.5; MOST],
+            least: f32::INFINITY,
+            curvature: None,
+        })
+    }
+
+    /// Evaluations so far, and about how many there will be.
+    pub fn progress(&self) -> (u32, u32) {
+        let dim = self.space.dim() as u32;
+        let search = u32::from(self.settings.evaluations);
+        let polish = 3 * dim * dim;
+        (self.evaluations, (search + polish).max(self.evaluations))
+    }
+
+    /// Least mean squared error so far, counts².
+    pub fn least(&self) -> f32 {
+        self.least
+    }
+
+    /// Runs a model along at most about `samples` periods of the trace. Returns the outcome once there is one.
+    pub fn work(&mut self, trace: &Trace<'_>, samples: u32) -> Option<Outcome> {
+        let mut left = samples;
+        while left > 0 {
+            let used = match &mut self.stage {
+                Stage::Done(stop) => {
+                    let stop = *stop;
+                    return Some(self.outcome(trace, stop));
+                }
+                Stage::Polish(polish) => {
+                    let used = polish.work(&self.space, trace, left);
+                    (self.best, self.least) = polish.best();
+                    if let Some(curvature) = polish.done(&self.space, trace.len()) {
+                        self.evaluations += polish.evaluations();
+                        self.curvature = curvature;
+                        self.stage = Stage::Done(Stop::Converged);
+                    }
+                    used
+                }
+                Stage::Search(_) => match &mut self.running {
+                    None => {
+                        self.begin();
+                        BUILD
+                    }
+                    Some(evaluation) => {
+                        let used = evaluation.run(trace, left);
+                        if let Some(mean_square) = evaluation.result() {
+                            self.end(mean_square);
+                        }
+                        used
+                    }
+                },
+            };
+            left = left.saturating_sub(used);
+        }
+        None
+    }
+
+    /// Asks for the next point and builds its model.
+    fn begin(&mut self) {
+        let Stage::Search(search) = &mut self.stage else {
+            return;
+        };
+        let search = search.each();
+        let (x, bound) = (search.ask(), search.bound());
+        match self.space.model::<S>(&x) {
+            Ok(model) => self.running = Some(Evaluation::new(model, bound)),
+            Err(_) => self.end(f32::INFINITY),
+        }
+    }
+
+    /// Tells the cost of the point, and goes on to the polish when the search is done.
+    fn end(&mut self, mean_square: f32) {
+        self.running = None;
+        self.evaluations += 1;
+        let Stage::Search(search) = &mut self.stage else {
+            return;
+        };
+        let search = search.each();
+        search.tell(mean_square);
+        let best = search.best();
+        (self.best, self.least) = (best.x, best.cost);
+        if self.evaluations >= u32::from(self.settings.evaluations) {
+            self.stage = if self.least.is_finite() {
+                Stage::Polish(Polish::new(self.best, self.least))
+            } else {
+                Stage::Done(Stop::NoModel)
+            };
+        }
+    }
+
+    fn outcome(&self, trace: &Trace<'_>, stop: Stop) -> Outcome {
+        Outcome::new(
+            &self.space,
+            trace,
+            self.best,
+            self.least,
+            self.curvature.as_ref(),
+            self.evaluations,
+            stop,
+        )
+    }
+
+    /// The best motor so far, to predict with.
+    pub fn model(&self) -> Option<crate::model::Rigid<S>> {
+        self.space.model(&self.best).ok()
+    }
+}
+
+/// Samples that building a model is worth: with friction there are eight maps to make.
+const BUILD: u32 = 100;

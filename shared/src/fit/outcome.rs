@@ -1,0 +1,67 @@
+//! What a fit found.
+
+use super::polish::Curvature;
+use super::{MOST, Point, Space};
+use crate::trace::Trace;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Why a fit ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Stop {
+    /// Search and polish are done.
+    Converged,
+    /// No candidate could be built: the motor is beyond the number format.
+    NoModel,
+}
+
+/// A value with its standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// In the device's own measure, see [`Unknown`](super::Unknown).
+    pub value: f32,
+    /// From the curvature of the cost; infinite where the trace does not determine the value.
+    pub std: f32,
+}
+
+/// What a fit found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// One for each unknown: gain, mechanical and electrical time constant, then friction and load if asked for.
+    pub estimates: Vec<Estimate, MOST>,
+    /// Mean squared error, counts².
+    pub mean_square: f32,
+    /// Models that were run.
+    pub evaluations: u32,
+    /// Why it ended.
+    pub stop: Stop,
+}
+
+impl Outcome {
+    pub(super) fn new(
+        space: &Space,
+        trace: &Trace<'_>,
+        best: Point,
+        least: f32,
+        curvature: Option<&Curvature>,
+        evaluations: u32,
+        stop: Stop,
+    ) -> Self {
+        // Where the count stands still, readings repeat and say nothing new.
+        let readings = trace.steps.iter().filter(|&&step| step != 0).count();
+        let estimates = (0..space.dim())
+            .map(|k| Estimate {
+                value: space.value(k, &best),
+                std: curvature.map_or(f32::INFINITY, |curvature| {
+                    curvature.std(&space.gradient(k, &best), least, readings)
+                }),
+            })
+            .collect();
+        Outcome {
+            estimates,
+            mean_square: least,
+            evaluations,
+            stop,
+        }
+    }
+}

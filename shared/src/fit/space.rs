@@ -1,0 +1,212 @@
+//! What is searched, and where.
+//!
+//! The first coordinate is the acceleration from standstill, gain over mechanical time constant: a slow motor's recording
+//! shows that well and either of the two badly, so gain itself would lie along a narrow slanted valley (a swarm of 20 missed
+//! 8 % of drawn motors with it, 3 % without).
+
+use super::{Outcome, Settings};
+use crate::error::ModelError;
+use crate::model::{Rigid, RigidPlan};
+use crate::motor::Machine;
+use crate::scalar::{Real, Scalar};
+use crate::trace::Trace;
+use crate::units::PerUnit;
+
+/// Most unknowns.
+pub const MOST: usize = 5;
+
+/// A point of the unit cube.
+pub type Point = [f32; MOST];
+
+/// One unknown, in the device's own measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// Steady speed under the whole supply, counts a period.
+    Gain,
+    /// Mechanical time constant (with an electrical one: the first-order coefficient), periods.
+    Mechanical,
+    /// Electrical time constant, periods.
+    Electrical,
+    /// Coulomb friction, as a part of the supply.
+    Coulomb,
+    /// Constant load against positive rotation, as a part of the supply.
+    Load,
+}
+
+/// The unknowns and their ranges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Space {
+    unknowns: [Unknown; MOST],
+    dim: usize,
+    /// Lower end: a logarithm, or a value.
+    low: Point,
+    /// Upper end.
+    high: Point,
+}
+
+/// Accelerations are searched from a third of the gain that the trace shows, regressed without lag, over the longest time
+/// constant, to twice that gain in one period.
+const GAIN_BELOW: f32 = 3.0;
+const ABRUPT: f32 = 2.0;
+/// Mechanical time constants: from half a period to twice the trace.
+const SHORTEST: f32 = 0.5;
+/// Electrical time constants, periods.
+const ELECTRICAL: [f32; 2] = [0.02, 50.0];
+/// A winding slower than this many mechanical time constants is no motor's.
+const SLOWEST_WINDING: f32 = 4.0;
+/// Place of the mechanical time constant among the coordinates.
+const MECHANICAL: usize = 1;
+/// Friction and load, parts of the supply.
+const MOST_FRICTION: f32 = 0.5;
+
+impl Space {
+    /// Around what the trace shows at a glance; `None` if the shaft did not move with the drive.
+    pub fn around(trace: &Trace<'_>, settings: &Settings) -> Option<Self> {
+        let (mut cross, mut power) = (0i64, 0i64);
+        for (duty, step) in trace.iter() {
+            let duty = i64::from(duty.unwrap_or(0));
+            cross += duty * i64::from(step);
+            power += duty * duty;
+        }
+        if cross <= 0 || power <= 0 {
+            return None;
+        }
+        let gain = (cross as f64 / power as f64 * 32_768.0) as f32;
+        let longest = 2.0 * trace.len() as f32;
+        let mut space = Space {
+            unknowns: [Unknown::Gain; MOST],
+            dim: 0,
+            low: [0.0; MOST],
+            high: [0.0; MOST],
+        };
+        let range = |low: f32, high: f32| (Real::ln(low), Real::ln(high));
+        space.push(
+            Unknown::Gain,
+            range(gain / GAIN_BELOW / longest, gain * ABRUPT),
+        );
+        space.push(Unknown::Mechanical, range(SHORTEST, longest));
+        space.push(Unknown::Electrical, (ELECTRICAL[0], ELECTRICAL[1]));
+        if settings.coulomb {
+            space.push(Unknown::Coulomb, (0.0, MOST_FRICTION));
+        }
+        if settings.load {
+            space.push(Unknown::Load, (-MOST_FRICTION, MOST_FRICTION));
+        }
+        Some(space)
+    }
+
+    fn push(&mut self, unknown: Unknown, (low, high): (f32, f32)) {
+        self.unknowns[self.dim] = unknown;
+        self.low[self.dim] = low;
+        self.high[self.dim] = high;
+        self.dim += 1;
+    }
+
+    /// Number of unknowns.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// The unknowns, in the order in which they are reported.
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns[..self.dim]
+    }
+
+    /// Coordinate `k` in its own measure: a logarithm, or the value.
+    fn coordinate(&self, k: usize, x: &Point) -> f32 {
+        self.low[k] + (self.high[k] - self.low[k]) * x[k]
+    }
+
+    /// The value of unknown `k` at `x`.
+    pub fn value(&self, k: usize, x: &Point) -> f32 {
+        match self.unknowns[k] {
+            Unknown::Gain => Real::exp(self.coordinate(k, x) + self.coordinate(MECHANICAL, x)),
+            Unknown::Mechanical => Real::exp(self.coordinate(k, x)),
+            Unknown::Electrical | Unknown::Coulomb | Unknown::Load => self.coordinate(k, x),
+        }
+    }
+
+    /// By how much the value of unknown `k` changes with each coordinate of `x`.
+    pub fn gradient(&self, k: usize, x: &Point) -> Point {
+        let span = |k: usize| self.high[k] - self.low[k];
+        let mut gradient = [0.0; MOST];
+        match self.unknowns[k] {
+            Unknown::Gain => {
+                let gain = self.value(k, x);
+                gradient[k] = span(k) * gain;
+                gradient[MECHANICAL] = span(MECHANICAL) * gain;
+            }
+            Unknown::Mechanical => gradient[k] = span(k) * self.value(k, x),
+            Unknown::Electrical | Unknown::Coulomb | Unknown::Load => gradient[k] = span(k),
+        }
+        gradient
+    }
+
+    /// The motor at `x`.
+    ///
+    /// # Errors
+    /// A coefficient beyond the range of `S`; an electrical time constant far above the mechanical one.
+    pub fn model<S: Scalar>(&self, x: &Point) -> Result<Rigid<S>, ModelError> {
+        let mut values = [0.0; MOST];
+        for (k, value) in values.iter_mut().enumerate().take(self.dim) {
+            *value = self.value(k, x);
+        }
+        self.model_with(&values)
+    }
+
+    /// The motor that an outcome describes.
+    ///
+    /// # Errors
+    /// As [`model`](Self::model).
+    pub fn model_of<S: Scalar>(&self, outcome: &Outcome) -> Result<Rigid<S>, ModelError> {
+        let mut values = [0.0; MOST];
+        for (value, estimate) in values.iter_mut().zip(&outcome.estimates) {
+            *value = estimate.value;
+        }
+        self.model_with(&values)
+    }
+
+    fn model_with<S: Scalar>(&self, values: &Point) -> Result<Rigid<S>, ModelError> {
+        let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
+        let (mut coulomb, mut load) = (0.0, 0.0);
+        for (unknown, value) in self.unknowns().iter().zip(values) {
+            let slot = match unknown {
+                Unknown::Gain => &mut gain,
+                Unknown::Mechanical => &mut mechanical,
+                Unknown::Electrical => &mut electrical,
+                Unknown::Coulomb => &mut coulomb,
+                Unknown::Load => &mut load,
+            };
+            *slot = *value;
+        }
+        if electrical > SLOWEST_WINDING * mechanical {
+            return Err(ModelError::Parameter {
+                name: "electrical time constant",
+                value: electrical.into(),
+            });
+        }
+        // A count is the unit of angle, a period that of time, the supply that of voltage: SI in all but name.
+        let kb = 1.0 / gain;
+        Rigid::new(&RigidPlan {
+            machine: Machine {
+                kb,
+                damping: 0.0,
+                inertia: mechanical * kb,
+                electrical,
+            },
+            coulomb,
+            load,
+            units: PerUnit {
+                volts: 1.0,
+                speed: power_of_two_above(gain),
+                interval: 1.0,
+                counts_per_rev: core::f32::consts::TAU,
+            },
+        })
+    }
+}
+
+/// The power of two next above a positive number: dividing by it loses no bits.
+fn power_of_two_above(x: f32) -> f32 {
+    f32::from_bits((x.to_bits() & 0x7f80_0000) + 0x0080_0000)
+}

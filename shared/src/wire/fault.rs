@@ -1,0 +1,76 @@
+//! Why a run was given up.
+
+use core::fmt;
+use serde::{Deserialize, Serialize};
+
+/// Why a run was given up: the cause code of a report. Append only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fault {
+    /// The user or the host asked to stop.
+    Stopped,
+    /// The host fell silent.
+    LinkLost,
+    /// A control period took longer than it may.
+    Overrun,
+    /// The bridge's own protection switched it off.
+    Bridge,
+    /// The shaft did not move although the drive was strong.
+    Stall,
+    /// The shaft left the travel that it was allowed.
+    Overtravel,
+    /// The model did not predict the recording that it had not seen.
+    NotVerified,
+    /// The shaft runs away against the drive: the encoder counts the wrong way.
+    Runaway,
+    /// More current than allowed.
+    Overcurrent,
+    /// The winding would get too hot.
+    Overheated,
+    /// More counts a period than allowed.
+    Overspeed,
+    /// The run took longer than allowed.
+    TimeUp,
+    /// The recording holds nothing to fit.
+    NothingToFit,
+}
+
+impl Fault {
+    /// All of them, in the order of the wire.
+    pub const ALL: [Fault; 13] = [
+        Fault::Stopped,
+        Fault::LinkLost,
+        Fault::Overrun,
+        Fault::Bridge,
+        Fault::Stall,
+        Fault::Overtravel,
+        Fault::NotVerified,
+        Fault::Runaway,
+        Fault::Overcurrent,
+        Fault::Overheated,
+        Fault::Overspeed,
+        Fault::TimeUp,
+        Fault::NothingToFit,
+    ];
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Fault::Stopped => "stopped on request",
+            Fault::LinkLost => "the host fell silent: check the cable, then start again",
+            Fault::Overrun => "a control period took too long: the board is too busy, or its period too short",
+            Fault::Bridge => "the bridge's protection switched it off: check the supply and the motor's leads",
+            Fault::Stall => "the shaft did not move at strong drive: free it, check the motor's and the encoder's leads",
+            Fault::Overtravel => "the shaft left its allowed travel: allow more, or ask for a smaller amplitude",
+            Fault::NotVerified => "the model did not predict a fresh recording: diagnose the recording on the host",
+            Fault::Runaway => "the shaft ran against the drive: swap the encoder's channels, or the motor's leads",
+            Fault::Overcurrent => "the current exceeded its limit: raise the limit if the motor bears it, or ask for a smaller amplitude",
+            Fault::Overheated => "the winding would get too hot: let it cool, ask for a smaller amplitude or a shorter run",
+            Fault::Overspeed => "the shaft was faster than allowed: ask for a smaller amplitude",
+            Fault::TimeUp => "the run took longer than allowed: allow more time, or ask for less",
+            Fault::NothingToFit => "the recording holds no motion to fit: ask for a larger amplitude",
+        })
+    }
+}
+
+impl core::error::Error for Fault {}

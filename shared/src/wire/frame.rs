@@ -1,0 +1,92 @@
+//! Frames: where a message begins and ends, and whether it came through whole.
+
+use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Longest frame, with its zero byte.
+pub const LONGEST_FRAME: usize = 320;
+
+/// Bytes of the check at the end of a message.
+const CHECK: usize = 4;
+
+/// Without a table, which would take a kilobyte of a microcontroller's flash.
+static CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
+
+/// The frame of a message, ended by a zero byte; `None` if the buffer is too short.
+pub fn encode<'a, T: Serialize>(message: &T, buffer: &'a mut [u8]) -> Option<&'a [u8]> {
+    let mut plain = [0; LONGEST_FRAME];
+    let len = postcard::to_slice(message, &mut plain).ok()?.len();
+    let check = CRC.checksum(plain.get(..len)?).to_le_bytes();
+    plain.get_mut(len..len + CHECK)?.copy_from_slice(&check);
+    let mut encoder = cobs::CobsEncoder::new(buffer);
+    encoder.push(plain.get(..len + CHECK)?).ok()?;
+    let end = encoder.finalize();
+    *buffer.get_mut(end)? = 0;
+    buffer.get(..=end)
+}
+
+/// Puts bytes together to frames.
+#[derive(Clone, Debug)]
+pub struct Deframer {
+    buffer: [u8; LONGEST_FRAME],
+    len: usize,
+    /// The frame under way is too long: skip to its end.
+    skipping: bool,
+    dropped: u32,
+}
+
+impl Default for Deframer {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Deframer {
+    /// At the start of a frame.
+    pub const fn new() -> Self {
+        Deframer {
+            buffer: [0; LONGEST_FRAME],
+            len: 0,
+            skipping: false,
+            dropped: 0,
+        }
+    }
+
+    /// Takes a byte; gives the message that it completes.
+    pub fn push<T: DeserializeOwned>(&mut self, byte: u8) -> Option<T> {
+        if byte != 0 {
+            match self.buffer.get_mut(self.len) {
+                Some(slot) if !self.skipping => {
+                    *slot = byte;
+                    self.len += 1;
+                }
+                _ => self.skipping = true,
+            }
+            return None;
+        }
+        let len = core::mem::take(&mut self.len);
+        let whole = !core::mem::take(&mut self.skipping);
+        if len == 0 && whole {
+            // Zeros in a row: a sender that clears the line first.
+            return None;
+        }
+        let message = whole.then(|| decode(self.buffer.get_mut(..len)?)).flatten();
+        if message.is_none() {
+            self.dropped = self.dropped.saturating_add(1);
+        }
+        message
+    }
+
+    /// Frames that did not decode.
+    pub fn dropped(&self) -> u32 {
+        self.dropped
+    }
+}
+
+fn decode<T: DeserializeOwned>(frame: &mut [u8]) -> Option<T> {
+    let len = cobs::decode_in_place(frame).ok()?;
+    let (plain, check) = frame.get(..len)?.split_last_chunk::<CHECK>()?;
+    let whole = CRC.checksum(plain) == u32::from_le_bytes(*check);
+    whole.then(|| postcard::from_bytes(plain).ok()).flatten()
+}

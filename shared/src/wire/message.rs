@@ -1,0 +1,278 @@
+//! The messages. Append only: new ones at the end of an enum, new fields nowhere but in new messages.
+
+use super::Fault;
+use crate::fit::{Outcome, Settings};
+use heapless::{String, Vec};
+use serde::{Deserialize, Serialize};
+
+/// Most rows in one message.
+pub const MOST_ROWS: usize = 24;
+/// Most segments of a plan in one message.
+pub const MOST_SEGMENTS: usize = 16;
+
+/// From the host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ToDevice {
+    /// Who are you? Answered by [`ToHost::About`].
+    Hello,
+    /// The host is there. While the bridge drives, something must come every half second.
+    Alive,
+    /// Get ready. Answered by [`ToHost::Armed`] with a nonce that starts one run, soon.
+    Arm,
+    /// Starts a run.
+    Start {
+        /// From [`ToHost::Armed`].
+        nonce: u32,
+        /// What to do.
+        job: Job,
+    },
+    /// Open the bridge now.
+    Stop,
+    /// Segments of a plan for [`Kind::Play`], before the start.
+    Plan {
+        /// Index of the first one; zero clears the plan.
+        first: u16,
+        /// Segments.
+        segments: Vec<Segment, MOST_SEGMENTS>,
+    },
+    /// Send the rows that the device fitted once more, from this one on.
+    Resend {
+        /// Index of the first row, counted from the start of the recording.
+        first: u32,
+    },
+}
+
+/// To the host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ToHost {
+    /// Answer to a hello, and what a device says when it powers up.
+    About(About),
+    /// Answer to an arming.
+    Armed {
+        /// Starts one run.
+        nonce: u32,
+        /// Periods for which it does.
+        periods: u32,
+    },
+    /// A command was refused; nothing has changed.
+    Refused(Refusal),
+    /// The device entered a stage.
+    Stage {
+        /// Which one.
+        stage: Stage,
+        /// Periods since the start of the run.
+        at: u32,
+        /// Periods that the stage will take, if that is known.
+        length: u32,
+    },
+    /// What was commanded and read.
+    Rows(Rows),
+    /// How far the fit is.
+    Fitting {
+        /// Models run.
+        done: u32,
+        /// Models to run, about.
+        of: u32,
+        /// Least mean squared error so far, counts².
+        least: f32,
+    },
+    /// The run is done.
+    Report(Report),
+    /// The run was given up.
+    Failed(Failure),
+}
+
+/// What a device is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct About {
+    /// [`VERSION`](super::VERSION) that it speaks.
+    pub version: u16,
+    /// Name of the board.
+    pub board: String<24>,
+    /// Version of the firmware.
+    pub firmware: String<16>,
+    /// Length of a control period, µs.
+    pub period_us: u32,
+    /// Periods that it can fit.
+    pub capacity: u16,
+    /// Format that its model runs in.
+    pub format: Format,
+    /// Whether it measures the current.
+    pub senses_current: bool,
+    /// Different after each power-up: a host that sees it change knows that the device restarted.
+    pub boot: u32,
+    /// What it is doing.
+    pub stage: Stage,
+}
+
+/// A number format of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Format {
+    /// Single precision.
+    F32,
+    /// Fixed point, 64 bits with 32-bit products.
+    Fixed,
+}
+
+/// What the device is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Stage {
+    /// Waits for a start; the bridge is open.
+    Idle,
+    /// Small growing steps until the shaft moves.
+    Probe,
+    /// Plays the long excitation, which is streamed and not kept.
+    Excite,
+    /// Plays and keeps what it will fit.
+    Record,
+    /// Fits; the bridge is open.
+    Fit,
+    /// Drives what the fit has not seen.
+    Verify,
+    /// Done or given up; the bridge is open.
+    Report,
+}
+
+/// Why a command was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Refusal {
+    /// A run is under way.
+    Busy,
+    /// The nonce is not the one of the last arming, or too old.
+    NotArmed,
+    /// A limit or a length is zero or beyond the device.
+    BadJob,
+    /// The plan has a gap or is too long for the device.
+    BadPlan,
+}
+
+/// What kind of run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    /// Probe, excite, record, fit, verify.
+    Commission,
+    /// Probe and excite only.
+    Record,
+    /// Play the plan that was uploaded.
+    Play,
+}
+
+/// A run as ordered.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Job {
+    /// What kind of run.
+    pub kind: Kind,
+    /// Largest duty of the excitations, Q15.
+    pub amplitude: i16,
+    /// Periods of the long excitation; none if zero.
+    pub excite: u32,
+    /// Whether the bridge opens in the pauses of the long excitation.
+    pub coast: bool,
+    /// Periods to record and fit, at most the device's capacity.
+    pub record: u16,
+    /// Periods of the verification.
+    pub verify: u32,
+    /// Largest error of the verification that the model may leave, hundredths of a count RMS; zero takes any.
+    pub verify_within: u32,
+    /// Seed of the excitations.
+    pub seed: u64,
+    /// How to fit.
+    pub fit: Settings,
+    /// What must not be exceeded.
+    pub limits: Limits,
+}
+
+/// Limits that the device watches. Zero means none, but for the duty and the time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Largest duty of any drive, Q15; at least 1.
+    pub duty: i16,
+    /// Counts either way from where the run began.
+    pub travel: u32,
+    /// Counts a period.
+    pub speed: u16,
+    /// mA.
+    pub current_ma: u32,
+    /// Current that the winding bears forever, mA.
+    pub continuous_ma: u32,
+    /// Thermal time constant of the winding, periods.
+    pub thermal: u32,
+    /// Current at full drive and standstill, mA: what a board without a current sensor assumes.
+    pub stall_ma: u32,
+    /// Longest run, periods; at least 1.
+    pub time: u32,
+}
+
+/// A stretch of a plan: one duty ([`OPEN`](crate::trace::OPEN) for an open bridge) for so many periods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Segment {
+    /// Q15 of the supply.
+    pub duty: i16,
+    /// Periods.
+    pub periods: u16,
+}
+
+/// Consecutive periods.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rows {
+    /// Stage in which they were made.
+    pub stage: Stage,
+    /// Index of the first one, counted from the start of the stage.
+    pub first: u32,
+    /// Encoder reading at its start.
+    pub count: i32,
+    /// The periods.
+    pub rows: Vec<Row, MOST_ROWS>,
+}
+
+/// One period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Row {
+    /// Duty held during it, or [`OPEN`](crate::trace::OPEN).
+    pub duty: i16,
+    /// Counts travelled during it.
+    pub step: i16,
+    /// Current at its start, mA, saturated; zero without a sensor.
+    pub current_ma: i16,
+}
+
+/// How a run ended well.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Duty at which the shaft first moved, Q15.
+    pub breakaway: i16,
+    /// Largest duty of the excitation, Q15, after the probe.
+    pub amplitude: i16,
+    /// Periods played, over all stages.
+    pub periods: u32,
+    /// The fit, if one was asked for.
+    pub outcome: Option<Outcome>,
+    /// How well it predicts, if that was asked for.
+    pub verified: Option<Verified>,
+}
+
+/// How well the model predicts what it has not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verified {
+    /// Mean squared error, counts².
+    pub mean_square: f32,
+    /// Over so many periods.
+    pub periods: u32,
+}
+
+/// How a run was given up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Failure {
+    /// Why.
+    pub fault: Fault,
+    /// In which stage.
+    pub stage: Stage,
+    /// Periods since the start of the run.
+    pub at: u32,
+    /// The number that broke the limit, in the limit's unit; zero if there is none.
+    pub seen: i32,
+    /// The limit.
+    pub limit: i32,
+    /// What was found before, if anything.
+    pub report: Option<Report>,
+}

@@ -1,0 +1,201 @@
+//! The fit on the device finds motors: swarm and fireflies, f32 and fixed point, over many seeds.
+
+use shared::effects::{EffectSet, Kind};
+use shared::excite::{Experiment, Shape, commands};
+use shared::fit::{Estimate, Fit, Method, Outcome, Settings};
+use shared::model::{Model, Plan, State};
+use shared::motor::Machine;
+use shared::rng;
+use shared::scalar::{Angle, Fixed, Scalar};
+use shared::trace::{DUTY, Trace};
+use shared::units::PerUnit;
+
+const PERIODS: usize = 2_000;
+
+/// A motor as its terminals show it, per supply, period and count.
+#[derive(Clone, Copy, Debug)]
+struct Motor {
+    gain: f64,
+    mechanical: f64,
+    electrical: f64,
+    coulomb: f64,
+}
+
+/// Motors of a tenth to a hundred counts a period, a few to a few hundred periods slow.
+fn motor(seed: u64) -> Motor {
+    let mut rng = rng::seeded(seed);
+    let mut log =
+        |low: f64, high: f64| (low.ln() + rng::uniform::<f64>(&mut rng) * (high / low).ln()).exp();
+    Motor {
+        gain: log(3.0, 600.0),
+        mechanical: log(5.0, 300.0),
+        electrical: log(0.1, 3.0),
+        coulomb: log(0.005, 0.1),
+    }
+}
+
+struct Recorded {
+    duties: Vec<i16>,
+    steps: Vec<i16>,
+}
+
+impl Recorded {
+    fn of(motor: &Motor) -> Self {
+        let plan = [
+            Experiment {
+                shape: Shape::Telegraph {
+                    levels: 9,
+                    hold_s: 60.0,
+                },
+                seconds: 1400.0,
+                amplitude: 0.95,
+            },
+            Experiment {
+                shape: Shape::Triangle { waves: 1 },
+                seconds: 600.0,
+                amplitude: 0.6,
+            },
+        ];
+        let drives = commands::<f64>(&plan, 1.0, 5);
+        let duties: Vec<i16> = drives
+            .map(|command| (command.drive * 32_767.0) as i16)
+            .take(PERIODS)
+            .collect();
+        let kb = 1.0 / motor.gain;
+        let mut effects = EffectSet::default();
+        effects.push(Kind::Coulomb, &[motor.coulomb]).unwrap();
+        let model = Model::<f64>::new(&Plan {
+            effects,
+            ..Plan::linear(
+                Machine {
+                    kb,
+                    damping: 0.0,
+                    inertia: motor.mechanical * kb,
+                    electrical: motor.electrical,
+                },
+                PerUnit::new(1.0, motor.gain, 1.0, std::f64::consts::TAU).unwrap(),
+            )
+        })
+        .unwrap();
+        let mut state = State::at(<f64 as Scalar>::Angle::from_counts(0.37), 0.0);
+        let mut before = 0;
+        let steps = duties.iter().map(|&duty| {
+            model.step(&mut state, f64::from(duty) * DUTY, false);
+            let count = Angle::<f64>::floor(model.reading(&state));
+            let step = count - before;
+            before = count;
+            i16::try_from(step).unwrap()
+        });
+        let steps = steps.collect();
+        Recorded { duties, steps }
+    }
+
+    fn trace(&self) -> Trace<'_> {
+        Trace {
+            duties: &self.duties,
+            steps: &self.steps,
+        }
+    }
+}
+
+fn fit<S: Scalar>(recorded: &Recorded, settings: Settings, slice: u32) -> Outcome {
+    let mut fit = Fit::<S>::new(&recorded.trace(), settings).expect("the shaft moved");
+    loop {
+        if let Some(outcome) = fit.work(&recorded.trace(), slice) {
+            return outcome;
+        }
+    }
+}
+
+fn relative(estimate: Estimate, truth: f64) -> f64 {
+    (f64::from(estimate.value) / truth - 1.0).abs()
+}
+
+const SEEDS: u64 = 60;
+
+/// Fits drawn motors and returns how many the search missed; the others must be found to a thousandth.
+fn missed<S: Scalar>(method: Method) -> usize {
+    let mut missed = 0;
+    let mut errors = Vec::new();
+    for seed in 0..SEEDS {
+        let motor = motor(seed);
+        let recorded = Recorded::of(&motor);
+        let settings = Settings {
+            method,
+            seed,
+            ..Settings::default()
+        };
+        let outcome = fit::<S>(&recorded, settings, 3000);
+        if outcome.mean_square.sqrt() > 0.35 {
+            println!("seed {seed} missed: {motor:?}, {outcome:?}");
+            missed += 1;
+            continue;
+        }
+        for (estimate, truth) in outcome.estimates.iter().zip([motor.gain, motor.mechanical]) {
+            errors.push(relative(*estimate, truth));
+            let off = f64::from(estimate.value) - truth;
+            assert!(
+                off.abs() < 8.0 * f64::from(estimate.std),
+                "seed {seed}: {off} off at a standard deviation of {}, {motor:?}",
+                estimate.std
+            );
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let at = |part: f64| errors[(part * (errors.len() - 1) as f64) as usize];
+    println!(
+        "{method:?}: {missed} of {SEEDS} missed; gain and time constant off by {:.1e} in the median, {:.1e} at 90 %",
+        at(0.5),
+        at(0.9)
+    );
+    assert!(at(0.9) < 1e-3);
+    missed
+}
+
+#[test]
+fn fireflies_find_drawn_motors_in_both_formats() {
+    assert!(missed::<f32>(Method::Firefly) <= 1);
+    assert!(missed::<Fixed>(Method::Firefly) <= 1);
+}
+
+#[test]
+fn the_swarm_finds_drawn_motors_in_both_formats() {
+    assert!(missed::<f32>(Method::Pso) <= 5);
+    assert!(missed::<Fixed>(Method::Pso) <= 5);
+}
+
+#[test]
+fn the_outcome_does_not_depend_on_how_the_work_is_sliced() {
+    let recorded = Recorded::of(&motor(3));
+    for method in [Method::Pso, Method::Firefly] {
+        let settings = Settings {
+            method,
+            evaluations: 400,
+            ..Settings::default()
+        };
+        let whole = fit::<Fixed>(&recorded, settings, u32::MAX);
+        for slice in [1, 100, 777, 3000] {
+            assert_eq!(
+                fit::<Fixed>(&recorded, settings, slice),
+                whole,
+                "slices of {slice}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_motor_that_did_not_move_with_the_drive_is_not_fitted() {
+    let settings = Settings::default();
+    for (duties, steps) in [
+        (vec![], vec![]),
+        (vec![900; 50], vec![0; 50]),
+        (vec![900; 50], vec![-3; 50]),
+    ] {
+        let trace = Trace {
+            duties: &duties,
+            steps: &steps,
+        };
+        assert!(Fit::<f32>::new(&trace, settings).is_none());
+    }
+}

@@ -1,0 +1,249 @@
+//! The path of a user without hardware, end to end: the firmware's application on a PC, the virtual bench as its motor, and
+//! the command line that talks to it.
+
+use clap::Parser;
+use firmware::app::{App, Memory};
+use firmware::board::pc::Pc;
+use host::bench::{Bench, Hidden, Machine};
+use host::cli::Cli;
+use serde_json::Value;
+use std::fs;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+
+const COUNTS_PER_REV: u32 = 2000;
+/// Far above real time: the host must still be in time.
+const PACE: f64 = 6.0;
+
+/// A device on a thread of its own; it ends with this value.
+struct Device {
+    port: String,
+    end: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Device {
+    fn with(hide: &[&str]) -> Self {
+        let machine = Machine::gearmotor();
+        let mut bench = Bench::new(machine);
+        bench.effects = hide
+            .iter()
+            .map(|text| Hidden::parse(text, &machine).unwrap())
+            .collect();
+        bench.counts_per_rev = COUNTS_PER_REV;
+        let (plant, _) = host::device::plant(bench, PACE).unwrap();
+        let free = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))
+            .unwrap()
+            .local_addr()
+            .unwrap();
+        let end = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&end);
+        let board = Pc::start(&free.to_string(), &plant.to_string()).unwrap();
+        let thread = thread::spawn(move || {
+            let mut memory = Box::new(Memory::<f32, 2000>::new());
+            let mut app = App::new(board, &mut memory);
+            while !app.board().is_gone() && !flag.load(Ordering::Relaxed) {
+                app.period();
+            }
+        });
+        Device {
+            port: format!("tcp:{free}"),
+            end,
+            thread: Some(thread),
+        }
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        self.end.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            thread.join().expect("the application does not panic");
+        }
+    }
+}
+
+/// Runs a command line; gives its JSON, and the error if there was one.
+fn servoid(words: &[&str], json: &Path) -> (Option<Value>, Option<String>) {
+    let mut line = vec!["servoid"];
+    line.extend(words);
+    let json_text = json.display().to_string();
+    line.extend(["--json", &json_text, "--quiet"]);
+    let cli = Cli::try_parse_from(line).unwrap_or_else(|error| panic!("{error}"));
+    let error = host::cmd::run(cli).err().map(|error| error.to_string());
+    let value = fs::read_to_string(json)
+        .ok()
+        .and_then(|text| serde_json::from_str(&text).ok());
+    (value, error)
+}
+
+fn commission(device: &Device, out: &Path, more: &[&str]) -> (Option<Value>, Option<String>) {
+    let out_text = out.display().to_string();
+    let mut words = vec![
+        "device",
+        "commission",
+        "--port",
+        &device.port,
+        "--supply-v",
+        "12",
+        "--counts-per-rev",
+        "2000",
+    ];
+    words.extend(["--out", &out_text]);
+    words.extend(more);
+    servoid(&words, &out.with_extension("commission.json"))
+}
+
+fn verify(out: &Path) -> Value {
+    let (json, error) = servoid(
+        &["device", "verify", &out.display().to_string()],
+        &out.with_extension("verify.json"),
+    );
+    assert_eq!(error, None);
+    json.expect("a verdict")
+}
+
+#[test]
+fn a_motor_with_friction_commissions_itself_and_its_answer_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, algorithm) in [("fireflies", "firefly"), ("swarm", "pso")] {
+        let device = Device::with(&["coulomb"]);
+        let out = folder.path().join(name);
+        let (saved, error) = commission(
+            &device,
+            &out,
+            &["--algorithm", algorithm, "--verify-within", "0.5"],
+        );
+        assert_eq!(error, None);
+        let saved = saved.unwrap();
+        assert_eq!(saved["partial"], false, "{saved}");
+        assert!(
+            saved["verified_rms_counts"].as_f64().unwrap() < 0.4,
+            "{saved}"
+        );
+        let verdict = verify(&out);
+        assert_eq!(verdict["same_bits"], true, "{verdict}");
+        assert_eq!(verdict["stands"], true, "{}", verdict["verdict"]);
+    }
+}
+
+#[test]
+fn a_hidden_effect_is_named_by_the_host_and_the_error_falls() {
+    let folder = tempfile::tempdir().unwrap();
+    let device = Device::with(&["cogging"]);
+    let out = folder.path().join("cogging");
+    let (_, error) = commission(&device, &out, &[]);
+    assert_eq!(error, None);
+    let verdict = verify(&out);
+    assert_eq!(verdict["same_bits"], true);
+    assert_eq!(verdict["stands"], false);
+    let diagnosis = &verdict["diagnosis"];
+    assert_eq!(
+        diagnosis["final"]["effects"],
+        serde_json::json!(["cogging"]),
+        "{}",
+        verdict["verdict"]
+    );
+    let error = |of: &str| diagnosis[of]["validate_rms_counts"].as_f64().unwrap();
+    assert!(
+        error("base") > 8.0 * error("final"),
+        "{} {}",
+        error("base"),
+        error("final")
+    );
+}
+
+#[test]
+fn a_changed_recording_is_found_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let device = Device::with(&[]);
+    let out = folder.path().join("run");
+    let (_, error) = commission(&device, &out, &["--excite", "0"]);
+    assert_eq!(error, None);
+    assert_eq!(verify(&out)["same_bits"], true);
+    let path = out.join("fitted.csv");
+    let text = fs::read_to_string(&path).unwrap();
+    // One count less from the middle on.
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let middle = lines.len() / 2;
+    for line in &mut lines[middle..] {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        cells[2] = (cells[2].parse::<i64>().unwrap() - 1).to_string();
+        *line = cells.join(",");
+    }
+    fs::write(&path, lines.join("\n") + "\n").unwrap();
+    let (json, error) = servoid(
+        &["device", "verify", &out.display().to_string()],
+        &out.with_extension("again.json"),
+    );
+    assert_eq!(json.unwrap()["same_bits"], false);
+    assert!(error.unwrap().contains("does not find the device's bits"));
+}
+
+#[test]
+fn limits_and_a_folder_in_use_are_told_with_their_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let device = Device::with(&[]);
+    let out = folder.path().join("travel");
+    let (saved, error) = commission(&device, &out, &["--max-travel", "0.5"]);
+    let error = error.expect("half a turn is not enough");
+    assert!(
+        error.contains("left its allowed travel") && error.contains("limit 1000"),
+        "{error}"
+    );
+    assert_eq!(saved.unwrap()["failure"]["fault"], "Overtravel");
+    let (_, error) = commission(&device, &out, &[]);
+    assert!(error.unwrap().contains("holds a run already"));
+    let (_, error) = commission(&device, &folder.path().join("odd"), &["--max-current", "0"]);
+    assert!(error.unwrap().contains("--max-current 0"));
+}
+
+#[test]
+fn a_plan_is_played_as_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = folder.path().join("plan.csv");
+    fs::write(
+        &plan,
+        "t_s,voltage_v,enabled\n0,0,1\n0.1,6,1\n0.4,-6,1\n0.7,0,0\n1.0,0,0\n",
+    )
+    .unwrap();
+    let device = Device::with(&[]);
+    let out = folder.path().join("played");
+    let (plan_text, out_text) = (plan.display().to_string(), out.display().to_string());
+    let words = [
+        "device",
+        "run",
+        &plan_text,
+        "--out",
+        &out_text,
+        "--port",
+        &device.port,
+        "--supply-v",
+        "12",
+        "--counts-per-rev",
+        "2000",
+    ];
+    let (_, error) = servoid(&words, &folder.path().join("played.json"));
+    assert_eq!(error, None);
+    let text = fs::read_to_string(out.join("recording.csv")).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 1301);
+    for (at, volts, enabled) in [
+        (50, 0.0, 1.0),
+        (200, 6.0, 1.0),
+        (500, -6.0, 1.0),
+        (900, 0.0, 0.0),
+    ] {
+        let row = &rows[at];
+        assert!((row[1] - volts).abs() < 1e-3, "{row:?}");
+        assert_eq!(row.last(), Some(&enabled), "{row:?}");
+    }
+    assert!(rows[400][2] > rows[100][2] + 100.0, "it turned");
+}
