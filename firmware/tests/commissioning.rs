@@ -1,6 +1,6 @@
 //! Whole runs of the application on the PC: against a motor that obeys, and against everything that can go wrong.
 
-use firmware::app::App;
+use firmware::app::{App, Log};
 use firmware::board::Board;
 use firmware::phase::{Fault, Phase};
 use firmware::plant::{Motor, SMALL};
@@ -97,7 +97,11 @@ impl<S: firmware::app::Arithmetic> Host<S> {
             shared: bench.clone(),
         };
         Host {
-            app: App::new(rig, Box::leak(Box::default())),
+            app: App::new(
+                rig,
+                Box::leak(Box::default()),
+                Box::leak(Box::new(Log::new())),
+            ),
             bench,
             inbox: Deframer::default(),
             heard: Vec::new(),
@@ -264,7 +268,8 @@ fn a_motor_commissions_itself_in_both_formats() {
             duties: &duties,
             steps: &steps,
         };
-        let mut fit = shared::fit::Fit::<S>::new(&trace, job().fit).unwrap();
+        let mut fit = shared::fit::Fit::<S>::idle();
+        assert!(fit.begin(&trace, job().fit));
         let again = loop {
             if let Some(outcome) = fit.work(&trace, 1_000_000) {
                 break outcome;

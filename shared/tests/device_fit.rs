@@ -99,7 +99,8 @@ impl Recorded {
 }
 
 fn fit<S: Scalar>(recorded: &Recorded, settings: Settings, slice: u32) -> Outcome {
-    let mut fit = Fit::<S>::new(&recorded.trace(), settings).expect("the shaft moved");
+    let mut fit = Fit::<S>::idle();
+    assert!(fit.begin(&recorded.trace(), settings), "the shaft moved");
     loop {
         if let Some(outcome) = fit.work(&recorded.trace(), slice) {
             return outcome;
@@ -196,6 +197,6 @@ fn a_motor_that_did_not_move_with_the_drive_is_not_fitted() {
             duties: &duties,
             steps: &steps,
         };
-        assert!(Fit::<f32>::new(&trace, settings).is_none());
+        assert!(!Fit::<f32>::idle().begin(&trace, settings));
     }
 }

@@ -16,7 +16,8 @@ mod script;
 use crate::board::Board;
 use crate::guard::{Guard, Tripped};
 use crate::phase::{Bridge, Event, Fault, Phase};
-use log::{Batch, Log};
+use log::Batch;
+pub use log::Log;
 use outbox::Outbox;
 use script::{Plan, Script, Which};
 use shared::fit::{Evaluation, Fit, Outcome};
@@ -72,24 +73,22 @@ enum Work {
     Fit,
 }
 
-/// The large part of the application's memory, apart so that a `static` can hold it from the start: an application that is
-/// moved once stands on the stack once more.
+/// The large part of the application's memory but for the [`Log`], apart so that a `static` can hold it: an application
+/// that is moved once stands on the stack once more.
 #[derive(Debug)]
-pub struct Memory<S: Scalar, const N: usize> {
-    log: Log<N>,
-    fit: Option<Fit<S>>,
+pub struct Memory<S: Scalar> {
+    fit: Fit<S>,
     predicted: Option<Evaluation<S>>,
     plan: Plan,
     inbox: Deframer,
     outbox: Outbox,
 }
 
-impl<S: Scalar, const N: usize> Memory<S, N> {
+impl<S: Scalar> Memory<S> {
     /// Empty.
     pub const fn new() -> Self {
         Memory {
-            log: Log::new(),
-            fit: None,
+            fit: Fit::idle(),
             predicted: None,
             plan: Plan::new(),
             inbox: Deframer::new(),
@@ -98,7 +97,16 @@ impl<S: Scalar, const N: usize> Memory<S, N> {
     }
 }
 
-impl<S: Scalar, const N: usize> Default for Memory<S, N> {
+#[cfg(target_os = "none")]
+impl<S: Scalar> Memory<S> {
+    /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
+    #[inline(never)]
+    pub fn placed(cell: &'static static_cell::StaticCell<Self>) -> &'static mut Self {
+        cell.init_with(Self::new)
+    }
+}
+
+impl<S: Scalar> Default for Memory<S> {
     fn default() -> Self {
         Self::new()
     }
@@ -108,7 +116,8 @@ impl<S: Scalar, const N: usize> Default for Memory<S, N> {
 #[derive(Debug)]
 pub struct App<'m, B, S: Scalar, const N: usize> {
     board: B,
-    memory: &'m mut Memory<S, N>,
+    memory: &'m mut Memory<S>,
+    log: &'m mut Log<N>,
     phase: Phase,
     work: Work,
     nonces: rng::Generator,
@@ -140,7 +149,7 @@ const NO_REPORT: Report = Report {
 
 impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// Takes the board over, opens its bridge and waits in [`Phase::Idle`].
-    pub fn new(mut board: B, memory: &'m mut Memory<S, N>) -> Self {
+    pub fn new(mut board: B, memory: &'m mut Memory<S>, log: &'m mut Log<N>) -> Self {
         board.coast();
         let count = board.count();
         let mut nonces = rng::seeded(u64::from(board.entropy()));
@@ -148,6 +157,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         let mut app = Self {
             board,
             memory,
+            log,
             phase: Phase::Idle,
             work: Work::Rest,
             nonces,
@@ -324,7 +334,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     #[inline(never)]
     fn resend(&mut self, first: u32) {
-        let trace = self.memory.log.trace();
+        let trace = self.log.trace();
         let rows = trace.iter().enumerate().skip(first as usize);
         let mut batch = Batch::resumed(first);
         for (_, (duty, step)) in rows {
@@ -366,7 +376,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
         self.at = 0;
         self.begun_at = self.count;
-        self.memory.log.clear();
+        self.log.clear();
         self.report = NO_REPORT;
         self.failure = None;
         self.memory.predicted = None;
@@ -401,8 +411,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             (Bridge::Driven, _, Some(_)) => Work::Brake { still: 0, all: 0 },
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
                 self.memory.predicted = None;
-                self.memory.fit = Fit::new(&self.memory.log.trace(), job.fit);
-                if self.memory.fit.is_none() {
+                if !self.memory.fit.begin(&self.log.trace(), job.fit) {
                     return self.fail(Fault::NothingToFit);
                 }
                 Work::Fit
@@ -538,7 +547,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let duty = self.duty;
         if self.phase == Phase::Record {
-            self.memory.log.push(duty, step);
+            self.log.push(duty, step);
         }
         if let (Phase::Verify, Some(predicted)) = (self.phase, &mut self.memory.predicted) {
             predicted.step(duty, step);
@@ -610,7 +619,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// The fitted motor, built once more from the log: the fit itself is gone, its room is needed.
     fn fitted(&self) -> Option<shared::model::Rigid<S>> {
         let (job, outcome) = (self.job?, self.report.outcome.as_ref()?);
-        shared::fit::Space::around(&self.memory.log.trace(), &job.fit)?
+        shared::fit::Space::around(&self.log.trace(), &job.fit)?
             .model_of(outcome)
             .ok()
     }
@@ -652,13 +661,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     #[inline(never)]
     fn fit(&mut self) {
-        let Memory {
-            log, fit, outbox, ..
-        } = &mut *self.memory;
-        let Some(fit) = fit else {
-            return self.fail(Fault::NothingToFit);
-        };
-        if let Some(outcome) = fit.work(&log.trace(), B::SLICE) {
+        let Memory { fit, outbox, .. } = &mut *self.memory;
+        if let Some(outcome) = fit.work(&self.log.trace(), B::SLICE) {
             return self.fitted_to(outcome);
         }
         if self.repeat >= Self::periods(PROGRESS_US) {
@@ -671,7 +675,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     fn fitted_to(&mut self, outcome: Outcome) {
         self.report.outcome = Some(outcome);
-        self.memory.fit = None;
         // The host may have been silent while nothing moved; the next phase drives.
         self.silence = 0;
         self.done();

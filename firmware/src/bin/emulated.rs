@@ -8,15 +8,18 @@
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let board = firmware::board::qemu::Qemu::start();
-    let mut app = firmware::app::App::new(board, MEMORY.init_with(firmware::app::Memory::new));
+    let mut app =
+        firmware::app::App::new(board, firmware::app::Memory::placed(&MEMORY), LOG.take());
     loop {
         app.period();
     }
 }
 
 #[cfg(target_os = "none")]
-static MEMORY: static_cell::StaticCell<firmware::app::Memory<f32, 2000>> =
-    static_cell::StaticCell::new();
+static MEMORY: static_cell::StaticCell<firmware::app::Memory<f32>> = static_cell::StaticCell::new();
+#[cfg(target_os = "none")]
+static LOG: static_cell::ConstStaticCell<firmware::app::Log<2000>> =
+    static_cell::ConstStaticCell::new(firmware::app::Log::new());
 
 #[cfg(target_os = "none")]
 #[panic_handler]
@@ -38,8 +41,9 @@ fn main() {
         eprintln!("emulated: {link}, {plant}: {error}");
         std::process::exit(1);
     });
-    let mut memory = firmware::app::Memory::<f32, 2000>::new();
-    let mut app = firmware::app::App::new(board, &mut memory);
+    let mut memory = firmware::app::Memory::<f32>::new();
+    let mut log = firmware::app::Log::<2000>::new();
+    let mut app = firmware::app::App::new(board, &mut memory, &mut log);
     while !app.board().is_gone() {
         app.period();
     }

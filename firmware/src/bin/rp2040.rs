@@ -5,15 +5,19 @@
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let board = firmware::board::rp2040::Rp2040::start();
-    let mut app = firmware::app::App::new(board, MEMORY.init_with(firmware::app::Memory::new));
+    let mut app =
+        firmware::app::App::new(board, firmware::app::Memory::placed(&MEMORY), LOG.take());
     loop {
         app.period();
     }
 }
 
 #[cfg(target_os = "none")]
-static MEMORY: static_cell::StaticCell<firmware::app::Memory<shared::scalar::Fixed, 1000>> =
+static MEMORY: static_cell::StaticCell<firmware::app::Memory<shared::scalar::Fixed>> =
     static_cell::StaticCell::new();
+#[cfg(target_os = "none")]
+static LOG: static_cell::ConstStaticCell<firmware::app::Log<1000>> =
+    static_cell::ConstStaticCell::new(firmware::app::Log::new());
 
 /// There is nothing to run on a PC: `scripts/boards` builds the image.
 #[cfg(not(target_os = "none"))]

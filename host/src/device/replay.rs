@@ -29,7 +29,10 @@ pub fn replay(saved: &Saved, duties: &[i16], steps: &[i16]) -> Replayed {
 }
 
 fn fit<S: Scalar>(saved: &Saved, trace: &Trace<'_>) -> Option<Outcome> {
-    let mut fit = Fit::<S>::new(trace, saved.fit)?;
+    let mut fit = Fit::<S>::idle();
+    if !fit.begin(trace, saved.fit) {
+        return None;
+    }
     loop {
         if let Some(outcome) = fit.work(trace, u32::MAX) {
             return Some(outcome);

@@ -1,5 +1,6 @@
 //! One candidate along the trace, so many samples at a time.
 
+use super::{Point, Space};
 use crate::model::{Motion, Rigid};
 use crate::scalar::{Angle, ErrorValue, Scalar};
 use crate::trace::Trace;
@@ -11,6 +12,25 @@ const BLOCK: usize = 64;
 const UNKNOWN_START: f64 = 0.5;
 
 type ErrorOf<S> = <<S as Scalar>::Angle as Angle<S>>::Error;
+
+/// Room for as many models as ever run side by side.
+pub(super) type Runs<S> = [Option<Evaluation<S>>; 3];
+
+/// Puts the motor at `x` into `slot`; says whether there is one. Out of line, so that its copies of a model stand on the
+/// stack no longer than it runs.
+#[inline(never)]
+pub(super) fn build<S: Scalar>(
+    slot: &mut Option<Evaluation<S>>,
+    space: &Space,
+    x: &Point,
+    bound: f32,
+) -> bool {
+    *slot = space
+        .model::<S>(x)
+        .ok()
+        .map(|model| Evaluation::new(model, bound));
+    slot.is_some()
+}
 
 /// A rigid motor that follows a trace from standstill, and how far it strays.
 ///

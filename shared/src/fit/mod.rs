@@ -16,6 +16,7 @@ mod polish;
 mod space;
 
 pub use evaluation::Evaluation;
+use evaluation::{Runs, build};
 pub use outcome::{Estimate, Outcome, Stop};
 pub use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
@@ -54,16 +55,21 @@ pub struct Settings {
     pub load: bool,
 }
 
+impl Settings {
+    /// What suits most motors.
+    pub const USUAL: Settings = Settings {
+        method: Method::Firefly,
+        population: 20,
+        evaluations: 4000,
+        seed: 1,
+        coulomb: true,
+        load: false,
+    };
+}
+
 impl Default for Settings {
     fn default() -> Self {
-        Settings {
-            method: Method::Firefly,
-            population: 20,
-            evaluations: 4000,
-            seed: 1,
-            coulomb: true,
-            load: false,
-        }
+        Self::USUAL
     }
 }
 
@@ -110,9 +116,9 @@ impl Search {
 /// Where the fit is; one stage after another in the same room.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
-enum Stage<S: Scalar> {
+enum Stage {
     Search(Search),
-    Polish(Polish<S>),
+    Polish(Polish),
     Done(Stop),
 }
 
@@ -121,8 +127,8 @@ enum Stage<S: Scalar> {
 pub struct Fit<S: Scalar> {
     settings: Settings,
     space: Space,
-    stage: Stage<S>,
-    running: Option<Evaluation<S>>,
+    stage: Stage,
+    runs: Runs<S>,
     evaluations: u32,
     best: Point,
     least: f32,
@@ -130,19 +136,34 @@ pub struct Fit<S: Scalar> {
 }
 
 impl<S: Scalar> Fit<S> {
-    /// Begins; `None` if the shaft did not move, so that there is nothing to fit.
-    pub fn new(trace: &Trace<'_>, settings: Settings) -> Option<Self> {
-        let space = Space::around(trace, &settings)?;
-        Some(Fit {
-            stage: Stage::Search(Search::new(&settings, space.dim())),
-            settings,
-            space,
-            running: None,
+    /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack.
+    pub const fn idle() -> Self {
+        Fit {
+            settings: Settings::USUAL,
+            space: Space::NONE,
+            stage: Stage::Done(Stop::NoModel),
+            runs: [None; 3],
             evaluations: 0,
             best: [0.5; MOST],
             least: f32::INFINITY,
             curvature: None,
-        })
+        }
+    }
+
+    /// Begins; says whether there is anything to fit: none if the shaft did not move with the drive.
+    pub fn begin(&mut self, trace: &Trace<'_>, settings: Settings) -> bool {
+        let Some(space) = Space::around(trace, &settings) else {
+            return false;
+        };
+        self.stage = Stage::Search(Search::new(&settings, space.dim()));
+        self.settings = settings;
+        self.space = space;
+        self.runs = [const { None }; 3];
+        self.evaluations = 0;
+        self.best = [0.5; MOST];
+        self.least = f32::INFINITY;
+        self.curvature = None;
+        true
     }
 
     /// Evaluations so far, and about how many there will be.
@@ -168,7 +189,7 @@ impl<S: Scalar> Fit<S> {
                     return Some(self.outcome(trace, stop));
                 }
                 Stage::Polish(polish) => {
-                    let used = polish.work(&self.space, trace, left);
+                    let used = polish.work(&self.space, trace, &mut self.runs, left);
                     (self.best, self.least) = polish.best();
                     if let Some(curvature) = polish.done(&self.space, trace.len()) {
                         self.evaluations += polish.evaluations();
@@ -177,9 +198,9 @@ impl<S: Scalar> Fit<S> {
                     }
                     used
                 }
-                Stage::Search(_) => match &mut self.running {
+                Stage::Search(_) => match &mut self.runs[0] {
                     None => {
-                        self.begin();
+                        self.next();
                         BUILD
                     }
                     Some(evaluation) => {
@@ -197,21 +218,20 @@ impl<S: Scalar> Fit<S> {
     }
 
     /// Asks for the next point and builds its model.
-    fn begin(&mut self) {
+    fn next(&mut self) {
         let Stage::Search(search) = &mut self.stage else {
             return;
         };
         let search = search.each();
         let (x, bound) = (search.ask(), search.bound());
-        match self.space.model::<S>(&x) {
-            Ok(model) => self.running = Some(Evaluation::new(model, bound)),
-            Err(_) => self.end(f32::INFINITY),
+        if !build(&mut self.runs[0], &self.space, &x, bound) {
+            self.end(f32::INFINITY);
         }
     }
 
     /// Tells the cost of the point, and goes on to the polish when the search is done.
     fn end(&mut self, mean_square: f32) {
-        self.running = None;
+        self.runs[0] = None;
         self.evaluations += 1;
         let Stage::Search(search) = &mut self.stage else {
             return;

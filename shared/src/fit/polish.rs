@@ -4,7 +4,7 @@
 //! two others, each displaced along one axis, for each pair of axes in turn. So the normal equations are summed up in the
 //! room of three models, however many unknowns there are, and d·(d − 1)/2 passes give all of them.
 
-use super::evaluation::Evaluation;
+use super::evaluation::{Runs, build};
 use super::{MOST, Point, Space};
 use crate::scalar::{ErrorValue, Real, Scalar};
 use crate::trace::Trace;
@@ -75,12 +75,7 @@ struct Differences {
 
 impl Differences {
     /// Runs the models side by side for a while; returns how many periods they ran in all.
-    fn run<S: Scalar>(
-        &mut self,
-        runs: &mut [Option<Evaluation<S>>; 3],
-        trace: &Trace<'_>,
-        samples: u32,
-    ) -> u32 {
+    fn run<S: Scalar>(&mut self, runs: &mut Runs<S>, trace: &Trace<'_>, samples: u32) -> u32 {
         let to = (self.at + samples as usize / 3 + 1).min(trace.len());
         let from = self.at;
         for k in from..to {
@@ -127,7 +122,7 @@ enum Work {
 
 /// Levenberg and Marquardt's method, a slice at a time.
 #[derive(Clone, Copy, Debug)]
-pub struct Polish<S: Scalar> {
+pub struct Polish {
     centre: Point,
     cost: f32,
     reach: Point,
@@ -141,11 +136,10 @@ pub struct Polish<S: Scalar> {
     rounds: u32,
     evaluations: u32,
     work: Work,
-    runs: [Option<Evaluation<S>>; 3],
     differences: Differences,
 }
 
-impl<S: Scalar> Polish<S> {
+impl Polish {
     /// From `centre`, where the mean squared error is `cost`.
     pub fn new(centre: Point, cost: f32) -> Self {
         Polish {
@@ -161,7 +155,6 @@ impl<S: Scalar> Polish<S> {
             rounds: 0,
             evaluations: 0,
             work: Work::Displace(0, 1),
-            runs: [None; 3],
             differences: Differences::default(),
         }
     }
@@ -188,21 +181,27 @@ impl<S: Scalar> Polish<S> {
     }
 
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
-    pub fn work(&mut self, space: &Space, trace: &Trace<'_>, samples: u32) -> u32 {
+    pub fn work<S: Scalar>(
+        &mut self,
+        space: &Space,
+        trace: &Trace<'_>,
+        runs: &mut Runs<S>,
+        samples: u32,
+    ) -> u32 {
         match self.work {
             Work::Done => samples,
             Work::Displace(a, b) => {
                 let points = [self.centre, self.displaced(a).0, self.displaced(b).0];
                 let mut built = true;
                 for (k, x) in points.iter().enumerate() {
-                    built &= self.build(k, space, x, f32::INFINITY);
+                    built &= build(&mut runs[k], space, x, f32::INFINITY);
                 }
                 self.differences = Differences::default();
                 self.work = if built { Work::Run(a, b) } else { Work::Done };
                 3 * super::BUILD
             }
             Work::Run(_, _) if self.differences.at < trace.len() => {
-                self.differences.run(&mut self.runs, trace, samples)
+                self.differences.run(runs, trace, samples)
             }
             Work::Run(a, b) => {
                 let products = self.differences.products();
@@ -213,13 +212,13 @@ impl<S: Scalar> Polish<S> {
             Work::Build => {
                 let (trial, bound) = (self.trial, self.cost);
                 self.work = Work::Try;
-                if !self.build(0, space, &trial, bound) {
+                if !build(&mut runs[0], space, &trial, bound) {
                     self.judge(space, f32::INFINITY);
                 }
                 super::BUILD
             }
             Work::Try => {
-                let Some(trial) = &mut self.runs[0] else {
+                let Some(trial) = &mut runs[0] else {
                     self.work = Work::Done;
                     return 1;
                 };
@@ -231,16 +230,6 @@ impl<S: Scalar> Polish<S> {
                 trial.run(trace, samples)
             }
         }
-    }
-
-    /// Puts the motor at `x` in place `k`; says whether there is one.
-    #[inline(never)]
-    fn build(&mut self, k: usize, space: &Space, x: &Point, bound: f32) -> bool {
-        self.runs[k] = space
-            .model::<S>(x)
-            .ok()
-            .map(|model| Evaluation::new(model, bound));
-        self.runs[k].is_some()
     }
 
     /// The centre moved along `axis`, away from a wall if there is one.

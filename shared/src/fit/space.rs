@@ -60,6 +60,14 @@ const MECHANICAL: usize = 1;
 const MOST_FRICTION: f32 = 0.5;
 
 impl Space {
+    /// Of nothing.
+    pub(super) const NONE: Space = Space {
+        unknowns: [Unknown::Gain; MOST],
+        dim: 0,
+        low: [0.0; MOST],
+        high: [0.0; MOST],
+    };
+
     /// Around what the trace shows at a glance; `None` if the shaft did not move with the drive.
     pub fn around(trace: &Trace<'_>, settings: &Settings) -> Option<Self> {
         let (mut cross, mut power) = (0i64, 0i64);
@@ -73,12 +81,7 @@ impl Space {
         }
         let gain = (cross as f64 / power as f64 * 32_768.0) as f32;
         let longest = 2.0 * trace.len() as f32;
-        let mut space = Space {
-            unknowns: [Unknown::Gain; MOST],
-            dim: 0,
-            low: [0.0; MOST],
-            high: [0.0; MOST],
-        };
+        let mut space = Space::NONE;
         let range = |low: f32, high: f32| (Real::ln(low), Real::ln(high));
         space.push(
             Unknown::Gain,
