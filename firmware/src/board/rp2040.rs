@@ -118,6 +118,7 @@ impl Rp2040 {
 impl Board for Rp2040 {
     const NAME: &'static str = "Raspberry Pi Pico";
     const PERIOD_US: u32 = PERIOD_US;
+    // A core without a floating-point unit: some 1,500 instructions a sample.
     const SLICE: u32 = 20;
 
     fn drive(&mut self, duty: i16) {
@@ -167,7 +168,7 @@ struct Encoder {
 }
 
 impl Encoder {
-    /// The state machine keeps the count in Y and pushes it again and again, 10 million times a second; what finds no
+    /// The state machine keeps the count in Y and pushes it again and again, ten million times a second; what finds no
     /// room is lost. The lines before and after an edge, two bits each, are the address of what to do about it.
     fn new(
         common: &mut pio::Common<'static, PIO0>,
