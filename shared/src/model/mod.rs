@@ -28,7 +28,7 @@ use crate::discretise::Discretisation;
 use crate::effects::{EffectSet, Lowered};
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Angle, Mask, Real, Scalar};
+use crate::scalar::{Abreast, Angle, Mask, Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 use coupled::{Coupled, MotorAndLoad};
 use friction::Forces;
@@ -53,6 +53,7 @@ pub struct Plan<R> {
 
 impl<R: Real> Plan<R> {
     /// The linear machine, discretised exactly.
+    #[inline(always)]
     pub fn linear(machine: Machine<R>, units: PerUnit<R>) -> Self {
         Plan {
             machine,
@@ -86,6 +87,19 @@ pub struct Model<S: Scalar> {
     constant: Forces<S>,
 }
 
+abreast!(Model {
+    rest,
+    first,
+    late,
+    counts_per_unit,
+    turns_per_unit,
+    counts_per_turn,
+    counts_per_rev,
+    effects,
+    tolerated,
+    constant
+});
+
 /// A stretch of a step under one command.
 #[derive(Clone, Copy, Debug)]
 struct Stretch<S: Scalar> {
@@ -95,6 +109,21 @@ struct Stretch<S: Scalar> {
     parts: u16,
     /// Halvings of the first part after a large jump of the voltage.
     grade: usize,
+}
+
+impl<W, const N: usize> Abreast<Stretch<f64>, N> for Stretch<W>
+where
+    W: Scalar<Coefficient = W, Angle = W> + From<[f64; N]>,
+{
+    fn abreast(each: [&Stretch<f64>; N]) -> Option<Self> {
+        Some(Stretch {
+            motor: Abreast::abreast(each.map(|one| &one.motor))?,
+            coupled: Abreast::abreast(each.map(|one| &one.coupled))?,
+            parts: Abreast::abreast(each.map(|one| &one.parts))?,
+            // More of them are only finer.
+            grade: each.iter().fold(0, |most, one| most.max(one.grade)),
+        })
+    }
 }
 
 /// The first part after a jump of the voltage is at most this fraction of the electrical time
@@ -137,7 +166,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Advances by one interval with `command` held; `open` while the bridge is open.
-    #[inline]
+    #[inline(always)]
     pub fn step(&self, state: &mut State<S>, command: S, open: bool) {
         if self.effects.is_empty() {
             let by = self.rest.motor[0].slide(&state.motion, command, S::zero(), open);
@@ -156,7 +185,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// What the encoder sees, in counts before it rounds down.
-    #[inline]
+    #[inline(always)]
     pub fn reading(&self, state: &State<S>) -> S::Angle {
         let angle = state.motion.angle;
         if !self.effects.needs.sensed {
@@ -167,37 +196,40 @@ impl<S: Scalar> Model<S> {
         angle.advance(error, self.counts_per_turn)
     }
 
+    #[inline(always)]
     fn step_with_effects(&self, state: &mut State<S>, command: S, open: bool) {
-        let (mut command, mut open) = (command, open);
-        if self.late > 0 || self.first.is_some() {
+        let is_late = self.late > 0 || self.first.is_some();
+        if is_late {
             state.past.push(command, open);
-            if let Some(first) = &self.first {
-                let (before, open) = state.past.ago(self.late + 1);
-                self.hold(first, state, before, open);
-            }
-            (command, open) = state.past.ago(self.late);
         }
-        self.hold(&self.rest, state, command, open);
+        // One loop with one body, here and in `hold`: all of the model is compiled into it.
+        let stretches = self.first.iter().map(|first| (first, self.late + 1));
+        for (stretch, ago) in stretches.chain(core::iter::once((&self.rest, self.late))) {
+            let (command, open) = if is_late {
+                state.past.ago(ago)
+            } else {
+                (command, open)
+            };
+            self.hold(stretch, state, command, open);
+        }
     }
 
     /// Holds a command for a stretch of the step.
+    #[inline(always)]
     fn hold(&self, stretch: &Stretch<S>, state: &mut State<S>, command: S, open: bool) {
         let volts = self.effects.drive(command);
         let jump = (volts - state.volts).abs();
-        let mut grade = match (state.open, open) {
+        let grade = match (state.open, open) {
             (_, true) => 0,
             (true, false) => stretch.grade,
             (false, false) => stretch.grade_after(jump),
         };
         state.volts = volts;
         state.open = open;
-        for _ in 0..stretch.parts {
-            // An eighth, an eighth, a quarter, a half: all together one part.
-            self.move_on(stretch, grade, state, volts, open);
-            while grade > 0 {
-                self.move_on(stretch, grade, state, volts, open);
-                grade -= 1;
-            }
+        // An eighth, an eighth, a quarter, a half: all together one part.
+        let graded = core::iter::once(grade).chain((1..=grade).rev());
+        for level in graded.chain(core::iter::repeat_n(0, stretch.parts as usize - 1)) {
+            self.move_on(stretch, level, state, volts, open);
         }
     }
 
@@ -223,7 +255,7 @@ impl<S: Scalar> Model<S> {
 impl<S: Scalar> Stretch<S> {
     /// Halvings of the first part after a jump of the voltage: one for each doubling beyond the
     /// largest jump that needs none.
-    #[inline]
+    #[inline(always)]
     fn grade_after(&self, jump: S) -> usize {
         let mut tame = S::from_f64(SMALL_JUMP);
         let mut grade = 0;
@@ -276,6 +308,7 @@ impl<S: Scalar> Stretch<S> {
 }
 
 /// Whole samples of a delay, and the fraction of one that is left, if any.
+#[inline(always)]
 fn whole_and_fraction<R: Real>(delay: R) -> Result<(usize, Option<R>), ModelError> {
     const NEGLIGIBLE: f64 = 1e-9;
     let samples = delay.to_f64();
