@@ -198,20 +198,16 @@ impl<S: Scalar> Model<S> {
 
     #[inline(always)]
     fn step_with_effects(&self, state: &mut State<S>, command: S, open: bool) {
-        let is_late = self.late > 0 || self.first.is_some();
-        if is_late {
+        let (mut command, mut open) = (command, open);
+        if self.late > 0 || self.first.is_some() {
             state.past.push(command, open);
+            if let Some(first) = &self.first {
+                let (before, open) = state.past.ago(self.late + 1);
+                self.hold(first, state, before, open);
+            }
+            (command, open) = state.past.ago(self.late);
         }
-        // One loop with one body, here and in `hold`: all of the model is compiled into it.
-        let stretches = self.first.iter().map(|first| (first, self.late + 1));
-        for (stretch, ago) in stretches.chain(core::iter::once((&self.rest, self.late))) {
-            let (command, open) = if is_late {
-                state.past.ago(ago)
-            } else {
-                (command, open)
-            };
-            self.hold(stretch, state, command, open);
-        }
+        self.hold(&self.rest, state, command, open);
     }
 
     /// Holds a command for a stretch of the step.
@@ -219,17 +215,20 @@ impl<S: Scalar> Model<S> {
     fn hold(&self, stretch: &Stretch<S>, state: &mut State<S>, command: S, open: bool) {
         let volts = self.effects.drive(command);
         let jump = (volts - state.volts).abs();
-        let grade = match (state.open, open) {
+        let mut grade = match (state.open, open) {
             (_, true) => 0,
             (true, false) => stretch.grade,
             (false, false) => stretch.grade_after(jump),
         };
         state.volts = volts;
         state.open = open;
-        // An eighth, an eighth, a quarter, a half: all together one part.
-        let graded = core::iter::once(grade).chain((1..=grade).rev());
-        for level in graded.chain(core::iter::repeat_n(0, stretch.parts as usize - 1)) {
-            self.move_on(stretch, level, state, volts, open);
+        for _ in 0..stretch.parts {
+            // An eighth, an eighth, a quarter, a half: all together one part.
+            self.move_on(stretch, grade, state, volts, open);
+            while grade > 0 {
+                self.move_on(stretch, grade, state, volts, open);
+                grade -= 1;
+            }
         }
     }
 
