@@ -6,12 +6,12 @@
 use core::fmt::{self, Write};
 use shared::cost::{Cost, evaluate};
 use shared::effects::{EffectSet, Kind, MAX_PARAMETERS};
-use shared::fit::{Fit, Method, Settings};
+use shared::fit::{Arithmetic, Fit, Method, Settings};
 use shared::model::{Model, Plan, State};
 use shared::motor::Machine;
 use shared::recording::Recording;
 use shared::rng;
-use shared::scalar::{Angle, ErrorValue, Fixed, Scalar};
+use shared::scalar::{ErrorValue, Fixed, Readable};
 use shared::trace::Trace;
 use shared::units::PerUnit;
 
@@ -64,7 +64,7 @@ pub fn prove(out: &mut impl Write) -> fmt::Result {
 
 /// Steps and cost of the motor with one effect at its typical size.
 #[inline(never)]
-fn line<S: Scalar>(
+fn line<S: Arithmetic>(
     out: &mut impl Write,
     format: &str,
     name: &str,
@@ -104,7 +104,7 @@ fn line<S: Scalar>(
 }
 
 #[inline(never)]
-fn model<S: Scalar>(kind: Option<Kind>) -> Option<Model<S>> {
+fn model<S: Arithmetic>(kind: Option<Kind>) -> Option<Model<S>> {
     let machine = Machine {
         kb: 0.05f32,
         damping: 0.001,
@@ -130,7 +130,7 @@ fn model<S: Scalar>(kind: Option<Kind>) -> Option<Model<S>> {
 
 /// A whole fit.
 #[inline(never)]
-fn fitted<S: Scalar>(out: &mut impl Write, format: &str, method: Method) -> fmt::Result {
+fn fitted<S: Arithmetic>(out: &mut impl Write, format: &str, method: Method) -> fmt::Result {
     let (mut duties, mut steps) = ([0; PERIODS], [0; PERIODS]);
     let mut rng = rng::seeded(5);
     let (mut duty, mut speed) = (0i16, 0i32);

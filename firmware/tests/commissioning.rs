@@ -77,7 +77,7 @@ impl Board for Rig {
     }
 }
 
-struct Host<S: firmware::app::Arithmetic> {
+struct Host<S: shared::fit::Arithmetic> {
     app: App<'static, Rig, S, 2000>,
     bench: Rc<RefCell<Bench>>,
     inbox: Deframer,
@@ -85,7 +85,7 @@ struct Host<S: firmware::app::Arithmetic> {
     alive: bool,
 }
 
-impl<S: firmware::app::Arithmetic> Host<S> {
+impl<S: shared::fit::Arithmetic> Host<S> {
     fn new(motor: Motor) -> Self {
         let bench = Rc::new(RefCell::new(Bench {
             encoder: 1,
@@ -221,7 +221,7 @@ fn job() -> Job {
 
 #[test]
 fn a_motor_commissions_itself_in_both_formats() {
-    fn whole<S: firmware::app::Arithmetic>() {
+    fn whole<S: shared::fit::Arithmetic>() {
         let mut host = Host::<S>::new(SMALL);
         let report = host
             .run(job(), |_, _, _| {})

@@ -3,7 +3,7 @@
 use crate::encoder::{FLOOR_OFFSET_COUNTS, FLOOR_RMS_COUNTS};
 use crate::model::{Model, State};
 use crate::recording::Recording;
-use crate::scalar::{Angle, ErrorValue, Scalar};
+use crate::scalar::{ErrorValue, Readable, Scalar};
 
 /// What is summed over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,13 +79,13 @@ pub struct Sum<E> {
 
 /// Runs `model` from `start` along the recording and sums the cost, until the end or until it
 /// exceeds `limit`: an optimiser that only compares costs loses nothing by stopping there.
-pub fn evaluate<S: Scalar>(
+pub fn evaluate<S: Scalar<Angle: Readable<S>>>(
     model: &Model<S>,
     start: State<S>,
     recording: &Recording<'_, S>,
     cost: Cost,
-    limit: Option<<S::Angle as Angle<S>>::Error>,
-) -> Sum<<S::Angle as Angle<S>>::Error> {
+    limit: Option<<S::Angle as Readable<S>>::Error>,
+) -> Sum<<S::Angle as Readable<S>>::Error> {
     let mut state = start;
     let mut value = Default::default();
     for k in 0..recording.len() {

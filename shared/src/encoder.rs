@@ -1,6 +1,6 @@
 //! The incremental encoder: it rounds down to whole counts and its counter wraps.
 
-use crate::scalar::{Angle, Real};
+use crate::scalar::{Readable, Real};
 
 /// Quantisation floor of an encoder that rounds, in counts RMS: no model of the motion can leave
 /// less than `1/√12` of a count between itself and the reading.
@@ -12,7 +12,7 @@ pub const FLOOR_OFFSET_COUNTS: f64 = 0.5;
 /// Reading of a 32-bit counter at `angle` (rad).
 pub fn reading<R: Real>(angle: R, counts_per_rev: u32) -> i32 {
     let counts = angle.to_f64() * counts_per_rev as f64 / core::f64::consts::TAU;
-    Angle::<f64>::floor(counts)
+    Readable::<f64>::floor(counts)
 }
 
 /// Counts travelled between two readings of a 32-bit counter that may have wrapped.

@@ -2,11 +2,11 @@
 
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{Experiment, Shape, commands};
-use shared::fit::{Estimate, Fit, Method, Outcome, Settings};
+use shared::fit::{Arithmetic, Estimate, Fit, Method, Outcome, Settings};
 use shared::model::{Model, Plan, State};
 use shared::motor::Machine;
 use shared::rng;
-use shared::scalar::{Angle, Fixed, Scalar};
+use shared::scalar::{Angle, Fixed, Readable, Scalar};
 use shared::trace::{DUTY, Trace};
 use shared::units::PerUnit;
 
@@ -81,7 +81,7 @@ impl Recorded {
         let mut before = 0;
         let steps = duties.iter().map(|&duty| {
             model.step(&mut state, f64::from(duty) * DUTY, false);
-            let count = Angle::<f64>::floor(model.reading(&state));
+            let count = Readable::<f64>::floor(model.reading(&state));
             let step = count - before;
             before = count;
             i16::try_from(step).unwrap()
@@ -98,7 +98,7 @@ impl Recorded {
     }
 }
 
-fn fit<S: Scalar>(recorded: &Recorded, settings: Settings, slice: u32) -> Outcome {
+fn fit<S: Arithmetic>(recorded: &Recorded, settings: Settings, slice: u32) -> Outcome {
     let mut fit = Fit::<S>::idle();
     assert!(fit.begin(&recorded.trace(), settings), "the shaft moved");
     loop {
@@ -115,7 +115,7 @@ fn relative(estimate: Estimate, truth: f64) -> f64 {
 const SEEDS: u64 = 60;
 
 /// Fits drawn motors and returns how many the search missed; the others must be found to a thousandth.
-fn missed<S: Scalar>(method: Method) -> usize {
+fn missed<S: Arithmetic>(method: Method) -> usize {
     let mut missed = 0;
     let mut errors = Vec::new();
     for seed in 0..SEEDS {

@@ -7,7 +7,7 @@ use motors::{BENCHES, Bench};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands};
 use shared::model::{Model, Plan, State};
-use shared::scalar::{Angle, ErrorValue, Fixed, Scalar};
+use shared::scalar::{ErrorValue, Fixed, Readable, Scalar};
 
 const INTERVAL: f64 = 1e-3;
 
@@ -24,7 +24,7 @@ fn plan(bench: &Bench, effects: &[(Kind, &[f64])]) -> Plan<f64> {
 }
 
 /// Angle in counts after each sample.
-fn run<S: Scalar>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
+fn run<S: Scalar<Angle: Readable<S>>>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
     let model = Model::<S>::new(plan).expect("a valid model");
     let mut state = State::<S>::default();
     drive

@@ -20,13 +20,11 @@ use log::Batch;
 pub use log::Log;
 use outbox::Outbox;
 use script::{Plan, Script, Which};
-use shared::fit::{Evaluation, Fit, Outcome};
+use shared::fit::{Arithmetic, Evaluation, Fit, Outcome};
 use shared::rng::{self, Rng};
-use shared::scalar::{Fixed, Scalar};
 use shared::trace::OPEN;
 use shared::wire::{
-    About, Deframer, Failure, Format, Job, Kind, Refusal, Report, Row, ToDevice, ToHost, VERSION,
-    Verified,
+    About, Deframer, Failure, Job, Kind, Refusal, Report, Row, ToDevice, ToHost, VERSION, Verified,
 };
 
 /// A nonce starts a run for this long.
@@ -46,20 +44,6 @@ const REPEAT_US: u32 = 500_000;
 /// The fit's progress is sent this often.
 const PROGRESS_US: u32 = 200_000;
 
-/// A number format that a device can fit in.
-pub trait Arithmetic: Scalar + 'static {
-    /// As the host is told.
-    const FORMAT: Format;
-}
-
-impl Arithmetic for f32 {
-    const FORMAT: Format = Format::F32;
-}
-
-impl Arithmetic for Fixed {
-    const FORMAT: Format = Format::Fixed;
-}
-
 /// What a phase does with its periods.
 #[derive(Debug)]
 enum Work {
@@ -67,16 +51,22 @@ enum Work {
     Rest,
     /// Brakes until the shaft has not moved for a while; counts the periods since it did, and all.
     Brake { still: u32, all: u32 },
-    /// Plays a script.
-    Play { script: Script, batch: Batch },
+    /// Plays a script, whose next duty is ready when the period begins.
+    Play {
+        script: Script,
+        next: Option<i16>,
+        batch: Batch,
+    },
     /// Fits.
     Fit,
+    /// Has fitted.
+    Fitted,
 }
 
 /// The large part of the application's memory but for the [`Log`], apart so that a `static` can hold it: an application
 /// that is moved once stands on the stack once more.
 #[derive(Debug)]
-pub struct Memory<S: Scalar> {
+pub struct Memory<S: Arithmetic> {
     fit: Fit<S>,
     predicted: Option<Evaluation<S>>,
     plan: Plan,
@@ -84,7 +74,7 @@ pub struct Memory<S: Scalar> {
     outbox: Outbox,
 }
 
-impl<S: Scalar> Memory<S> {
+impl<S: Arithmetic> Memory<S> {
     /// Empty.
     pub const fn new() -> Self {
         Memory {
@@ -98,7 +88,7 @@ impl<S: Scalar> Memory<S> {
 }
 
 #[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "emulated")))]
-impl<S: Scalar> Memory<S> {
+impl<S: Arithmetic> Memory<S> {
     /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
     #[inline(never)]
     pub fn placed(cell: &'static static_cell::StaticCell<Self>) -> &'static mut Self {
@@ -106,7 +96,7 @@ impl<S: Scalar> Memory<S> {
     }
 }
 
-impl<S: Scalar> Default for Memory<S> {
+impl<S: Arithmetic> Default for Memory<S> {
     fn default() -> Self {
         Self::new()
     }
@@ -114,7 +104,7 @@ impl<S: Scalar> Default for Memory<S> {
 
 /// A board that is taken through the phases, fitting in `S` what its log of `N` periods holds.
 #[derive(Debug)]
-pub struct App<'m, B, S: Scalar, const N: usize> {
+pub struct App<'m, B, S: Arithmetic, const N: usize> {
     board: B,
     memory: &'m mut Memory<S>,
     log: &'m mut Log<N>,
@@ -198,7 +188,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.silence = self.silence.saturating_add(1);
         self.repeat = self.repeat.saturating_add(1);
         self.at = self.at.saturating_add(1);
-        self.hear();
         if self.phase.bridge() == Bridge::Driven {
             match ticked.and_then(|()| self.listen()) {
                 Ok(()) => self.drive(step),
@@ -209,6 +198,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             self.duty = OPEN;
             self.rest();
         }
+        // After the drive: it must not come late because the host has much to say. A stop opens the bridge here.
+        self.hear();
         let (outbox, board) = (&mut self.memory.outbox, &mut self.board);
         outbox.flush(|bytes| board.send(bytes));
     }
@@ -408,7 +399,10 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             (Bridge::Driven, _, Some(job)) if Self::length(phase, &job) == 0 => {
                 return self.done();
             }
-            (Bridge::Driven, _, Some(_)) => Work::Brake { still: 0, all: 0 },
+            (Bridge::Driven, _, Some(_)) => {
+                self.apply(0);
+                Work::Brake { still: 0, all: 0 }
+            }
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
                 self.memory.predicted = None;
                 if !self.memory.fit.begin(&self.log.trace(), job.fit) {
@@ -468,10 +462,17 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             return self.fail(Fault::Stopped);
         };
         let current = self.board.current_ma();
-        let held = (self.duty != OPEN).then_some(self.duty);
+        let held = self.duty;
+        if let Work::Play {
+            next: Some(duty), ..
+        } = self.work
+        {
+            self.apply(duty);
+        }
+        let driven = (held != OPEN).then_some(held);
         let sensed = B::SENSES_CURRENT.then_some(current);
         let looked = match &mut self.guard {
-            Some(guard) => guard.look(held, self.count, sensed),
+            Some(guard) => guard.look(driven, self.count, sensed),
             None => Ok(()),
         };
         if let Err(tripped) = looked {
@@ -490,46 +491,49 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 };
                 self.begun_at = self.count;
                 let batch = Batch::new(self.phase.stage(), self.count);
-                self.work = Work::Play { script, batch };
-                if self.phase == Phase::Verify {
-                    self.predict();
+                let next = None;
+                self.work = Work::Play {
+                    script,
+                    next,
+                    batch,
+                };
+                // The first duty acts at once, the others when their period begins.
+                if let Some(duty) = self.ready(&job) {
+                    self.apply(duty);
+                    self.ready(&job);
                 }
-                self.play(&job);
             }
-            Work::Play { .. } => {
-                self.keep(step, current);
+            Work::Play { next, .. } => {
+                let ends = next.is_none();
+                self.keep(held, step, current);
                 if self.phase == Phase::Probe && self.probed(&job) {
                     return;
                 }
-                self.play(&job);
+                if !ends {
+                    self.ready(&job);
+                } else if self.phase == Phase::Probe {
+                    self.fail(Fault::Stall);
+                } else if self.phase == Phase::Verify {
+                    self.verified(&job);
+                } else {
+                    self.done();
+                }
             }
             _ => self.fail(Fault::Stopped),
         }
     }
 
-    /// The next duty of the script, or the end of the phase.
-    fn play(&mut self, job: &Job) {
-        let Work::Play { script, .. } = &mut self.work else {
-            return;
+    /// Makes the next duty ready; gives it too.
+    fn ready(&mut self, job: &Job) -> Option<i16> {
+        let Work::Play { script, next, .. } = &mut self.work else {
+            return None;
         };
-        match script.next(&self.memory.plan) {
-            Some(duty) => {
-                let limit = job.limits.duty;
-                let duty = if duty == OPEN {
-                    OPEN
-                } else {
-                    duty.clamp(-limit, limit)
-                };
-                self.apply(duty);
-            }
-            None if self.phase == Phase::Probe => self.fail(Fault::Stall),
-            None => {
-                if self.phase == Phase::Verify {
-                    return self.verified(job);
-                }
-                self.done();
-            }
-        }
+        let limit = job.limits.duty;
+        *next = script.next(&self.memory.plan).map(|duty| match duty {
+            OPEN => OPEN,
+            duty => duty.clamp(-limit, limit),
+        });
+        *next
     }
 
     fn apply(&mut self, duty: i16) {
@@ -542,10 +546,9 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     /// Keeps the row of the period that has ended.
-    fn keep(&mut self, step: i32, current_ma: i32) {
+    fn keep(&mut self, duty: i16, step: i32, current_ma: i32) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
-        let duty = self.duty;
         if self.phase == Phase::Record {
             self.log.push(duty, step);
         }
@@ -601,19 +604,19 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         true
     }
 
+    /// Builds the fitted motor to predict with. That takes longer than a period may, so it is done while the bridge is open.
     #[inline(never)]
     fn predict(&mut self) {
-        self.memory.predicted = None;
-        let Work::Play { .. } = self.work else {
+        if self.job.is_none_or(|job| job.verify == 0) {
             return;
-        };
-        if let Some(model) = self.fitted() {
-            self.memory.predicted = Some(Evaluation::new(model, f32::INFINITY));
-            self.report.verified = Some(Verified {
-                mean_square: 0.0,
-                periods: 0,
-            });
         }
+        self.memory.predicted = self
+            .fitted()
+            .map(|model| Evaluation::new(model, f32::INFINITY));
+        self.report.verified = self.memory.predicted.map(|_| Verified {
+            mean_square: 0.0,
+            periods: 0,
+        });
     }
 
     /// The fitted motor, built once more from the log: the fit itself is gone, its room is needed.
@@ -647,6 +650,11 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     fn rest(&mut self) {
         match (&self.work, self.phase) {
             (Work::Fit, Phase::Fit) => self.fit(),
+            (Work::Fitted, Phase::Fit) => {
+                // The host may have been silent while nothing moved.
+                self.silence = 0;
+                self.done();
+            }
             (_, Phase::Report(outcome)) if self.repeat >= Self::periods(REPEAT_US) => {
                 self.repeat = 0;
                 let message = match outcome {
@@ -675,9 +683,9 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     fn fitted_to(&mut self, outcome: Outcome) {
         self.report.outcome = Some(outcome);
-        // The host may have been silent while nothing moved; the next phase drives.
-        self.silence = 0;
-        self.done();
+        self.predict();
+        // The next phase drives, and its first period must not find this one late: one more passes with the bridge open.
+        self.work = Work::Fitted;
     }
 
     #[inline(never)]

@@ -1,8 +1,8 @@
 //! The device's fit once more on the host: same recording, seed and number format, and so the same bits.
 
 use super::Saved;
-use shared::fit::{Fit, Outcome};
-use shared::scalar::{Fixed, Scalar};
+use shared::fit::{Arithmetic, Fit, Outcome};
+use shared::scalar::Fixed;
 use shared::trace::Trace;
 
 /// What the host makes of the device's recording.
@@ -28,7 +28,7 @@ pub fn replay(saved: &Saved, duties: &[i16], steps: &[i16]) -> Replayed {
     }
 }
 
-fn fit<S: Scalar>(saved: &Saved, trace: &Trace<'_>) -> Option<Outcome> {
+fn fit<S: Arithmetic>(saved: &Saved, trace: &Trace<'_>) -> Option<Outcome> {
     let mut fit = Fit::<S>::idle();
     if !fit.begin(trace, saved.fit) {
         return None;

@@ -163,29 +163,30 @@ impl<'a> Search<'a> {
         if self.evaluations + self.x.len() > self.settings.evaluations {
             return false;
         }
-        self.columns.clear();
-        for axis in 0..self.x.len() {
-            if self.stop.load(Ordering::Relaxed) {
-                return false;
-            }
-            let mut moved = self.x.clone();
-            let step = if moved[axis] + STEP > 1.0 {
-                -STEP
-            } else {
-                STEP
-            };
-            moved[axis] += step;
-            self.evaluations += 1;
-            let column = match self.objective.residuals_and_cost(&moved) {
-                Some((residuals, _)) => thinned(residuals, self.settings.stride)
-                    .iter()
-                    .zip(&self.residuals)
-                    .map(|(there, here)| (there - here) / step)
-                    .collect(),
-                None => vec![0.0; self.residuals.len()],
-            };
-            self.columns.push(column);
+        if self.stop.load(Ordering::Relaxed) {
+            return false;
         }
+        let step = |x: f64| if x + STEP > 1.0 { -STEP } else { STEP };
+        let moved: Vec<Vec<f64>> = (0..self.x.len())
+            .map(|axis| {
+                let mut moved = self.x.clone();
+                moved[axis] += step(moved[axis]);
+                moved
+            })
+            .collect();
+        let changes = self.objective.changes(&self.x, &moved);
+        self.evaluations += moved.len();
+        self.columns = changes
+            .into_iter()
+            .zip(&self.x)
+            .map(|(change, &x)| match change {
+                Some(change) => {
+                    let slopes = change.iter().map(|change| change / step(x));
+                    slopes.step_by(self.settings.stride.max(1)).collect()
+                }
+                None => vec![0.0; self.residuals.len()],
+            })
+            .collect();
         self.fresh = true;
         true
     }

@@ -1,8 +1,10 @@
 //! A fit of the led model: cheap, smooth, and for that a start only.
 
 use super::motion::Motion;
+use crate::problem::abreast::Run;
+use crate::problem::course::{Leg, Manner, legs};
 use crate::problem::simulate::{Candidate, Method, Simulation};
-use crate::problem::{Data, Horizon, Structure};
+use crate::problem::{Data, Horizon, StartAngle, Structure};
 use crate::solve::Objective;
 use shared::effects::Kind;
 
@@ -33,30 +35,40 @@ pub fn follows(kind: Kind) -> bool {
 impl Led<'_> {
     /// Model minus measurement in counts, with the best start angle. `None` where the model cannot run.
     pub fn errors(&self, candidate: &Candidate) -> Option<Vec<f64>> {
-        // One part a sample: what is held at the measured mean needs no more.
-        let method = Method {
+        let simulation = Simulation::new(self.data, candidate, self.coarse()).ok()?;
+        let mut errors = simulation.errors(self.manner(), &self.legs(candidate));
+        self.centre(&mut errors);
+        errors.iter().all(|e| e.is_finite()).then_some(errors)
+    }
+
+    /// One part a sample: what is held at the measured mean needs no more.
+    fn coarse(&self) -> Method {
+        Method {
             substeps: 1,
             ..self.method
+        }
+    }
+
+    fn manner(&self) -> Manner<'_> {
+        Manner::Led {
+            seen: &self.motion.seen,
+            turns: &self.motion.turns,
+        }
+    }
+
+    fn legs(&self, candidate: &Candidate) -> Vec<Leg> {
+        legs(self.data, candidate, self.horizon, StartAngle::Free)
+    }
+
+    /// Takes the best start angle of a whole run; in windows the measured one stands.
+    fn centre(&self, errors: &mut [f64]) {
+        let middle = match self.horizon {
+            Horizon::Windows(_) => self.data.centre(0) - self.data.counts[0],
+            _ => errors.iter().sum::<f64>() / errors.len().max(1) as f64,
         };
-        let simulation = Simulation::new(self.data, candidate, method).ok()?;
-        let (seen, turns) = (&self.motion.seen, &self.motion.turns);
-        if let Horizon::Windows(windows) = self.horizon {
-            let mut errors = Vec::with_capacity(self.data.len());
-            for window in windows {
-                errors.extend(simulation.led(window.range.clone(), seen, turns, window.speed));
-            }
-            let centre = self.data.centre(0) - self.data.counts[0];
-            for error in &mut errors {
-                *error -= centre;
-            }
-            return errors.iter().all(|e| e.is_finite()).then_some(errors);
+        for error in errors {
+            *error -= middle;
         }
-        let mut errors = simulation.led(0..self.data.len(), seen, turns, candidate.start_speed);
-        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
-        for error in &mut errors {
-            *error -= mean;
-        }
-        mean.is_finite().then_some(errors)
     }
 }
 
@@ -74,5 +86,21 @@ impl Objective for Led<'_> {
         let errors = self.errors(&self.structure.candidate(&self.structure.values(x)))?;
         let cost = errors.iter().map(|e| e * e).sum();
         Some((errors, cost))
+    }
+
+    fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        let candidate = |x: &[f64]| self.structure.candidate(&self.structure.values(x));
+        let candidates: Vec<Candidate> = moved.iter().map(|x| candidate(x)).collect();
+        let run = Run {
+            data: self.data,
+            method: self.coarse(),
+            manner: self.manner(),
+        };
+        run.changes(
+            &candidate(x),
+            &candidates,
+            |candidate| self.legs(candidate),
+            |_, errors| self.centre(errors),
+        )
     }
 }

@@ -1,5 +1,7 @@
 //! The cost of a point of the unit cube, and the residuals behind it.
 
+use super::abreast::Run;
+use super::course::{Manner, legs};
 use super::data::Data;
 use super::simulate::{Candidate, Method, Simulation};
 use super::unknowns::Structure;
@@ -29,6 +31,14 @@ pub struct Window {
 }
 
 impl Horizon {
+    /// What moves a model along it.
+    fn manner(&self) -> Manner<'static> {
+        match self {
+            Horizon::Nudged(memory_s) => Manner::Nudged(*memory_s),
+            Horizon::Whole | Horizon::Windows(_) => Manner::Free,
+        }
+    }
+
     /// Windows of `seconds`, with the speed taken from `2·half + 1` samples.
     pub fn windows(data: &Data, seconds: f64, half: usize) -> Self {
         let mut windows = Vec::new();
@@ -94,35 +104,9 @@ impl FitProblem<'_> {
 
     /// The cost of a model; infinite where it cannot run.
     pub fn cost_of(&self, candidate: &Candidate) -> f64 {
-        if self.horizon == Horizon::Whole && self.start_angle == StartAngle::Known {
-            return self.running_sum(candidate);
-        }
         match self.errors(candidate) {
             Ok(errors) => self.sum(&errors),
             Err(_) => f64::INFINITY,
-        }
-    }
-
-    /// The cost where nothing has to be looked at twice: no vector of errors is kept.
-    fn running_sum(&self, candidate: &Candidate) -> f64 {
-        let Ok(simulation) = Simulation::new(self.data, candidate, self.method) else {
-            return f64::INFINITY;
-        };
-        let data = self.data;
-        let shift = reading_shift(data);
-        let mut sum = 0.0;
-        simulation.run(
-            0..data.len(),
-            data.counts[0],
-            candidate.start_speed,
-            |k, angle| {
-                sum += self.cost.sample(angle - data.counts[k] + shift);
-            },
-        );
-        if sum.is_nan() {
-            f64::INFINITY
-        } else {
-            sum * self.weight
         }
     }
 
@@ -160,42 +144,34 @@ pub fn errors(
     cost: Cost,
 ) -> Result<Vec<f64>, ModelError> {
     let simulation = Simulation::new(data, candidate, method)?;
-    let mut errors = vec![0.0; data.len()];
-    match horizon {
-        Horizon::Whole => {
-            let start = match start_angle {
-                StartAngle::Known => data.counts[0],
-                StartAngle::Free => data.centre(0) + candidate.start_offset,
-            };
-            simulation.run(0..data.len(), start, candidate.start_speed, |k, angle| {
-                errors[k] = angle - data.counts[k];
-            });
-            // Where effects depend on the angle it is absolute, and a shift would be one freedom too many.
-            let absolute = data.quantised && candidate.needs_angle();
-            if start_angle == StartAngle::Free && !absolute {
-                let centre = data.centre(0) - data.counts[0];
-                let middle = match cost {
-                    Cost::Absolute { .. } => median(&errors),
-                    Cost::Squared | Cost::Interval { .. } => mean(&errors),
-                };
-                for error in &mut errors {
-                    *error += centre - middle;
-                }
-            }
-        }
-        Horizon::Nudged(memory_s) => {
-            errors = simulation.nudged(candidate.start_speed, *memory_s);
-        }
-        Horizon::Windows(windows) => {
-            for window in windows {
-                let start = data.centre(window.range.start);
-                simulation.run(window.range.clone(), start, window.speed, |k, angle| {
-                    errors[k] = angle - data.counts[k];
-                });
-            }
-        }
-    }
+    let legs = legs(data, candidate, horizon, start_angle);
+    let mut errors = simulation.errors(horizon.manner(), &legs);
+    centre(data, candidate, horizon, start_angle, cost, &mut errors);
     Ok(errors)
+}
+
+/// Takes the best start angle of a whole run where it is free.
+fn centre(
+    data: &Data,
+    candidate: &Candidate,
+    horizon: &Horizon,
+    start_angle: StartAngle,
+    cost: Cost,
+    errors: &mut [f64],
+) {
+    // Where effects depend on the angle it is absolute, and a shift would be one freedom too many.
+    let absolute = data.quantised && candidate.needs_angle();
+    if *horizon != Horizon::Whole || start_angle != StartAngle::Free || absolute {
+        return;
+    }
+    let centre = data.centre(0) - data.counts[0];
+    let middle = match cost {
+        Cost::Absolute { .. } => median(errors),
+        Cost::Squared | Cost::Interval { .. } => mean(errors),
+    };
+    for error in errors {
+        *error += centre - middle;
+    }
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -246,6 +222,30 @@ impl Objective for FitProblem<'_> {
             .iter()
             .all(|e| e.is_finite())
             .then_some((errors, cost))
+    }
+
+    fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        let candidates: Vec<Candidate> = moved.iter().map(|x| self.candidate(x)).collect();
+        let run = Run {
+            data: self.data,
+            method: self.method,
+            manner: self.horizon.manner(),
+        };
+        run.changes(
+            &self.candidate(x),
+            &candidates,
+            |candidate| legs(self.data, candidate, &self.horizon, self.start_angle),
+            |candidate, errors| {
+                centre(
+                    self.data,
+                    candidate,
+                    &self.horizon,
+                    self.start_angle,
+                    self.cost,
+                    errors,
+                );
+            },
+        )
     }
 
     fn start(&self) -> Option<Vec<f64>> {

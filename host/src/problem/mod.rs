@@ -1,9 +1,12 @@
 //! A recording and a model with unknowns, as a cost over the unit cube.
 //!
 //! [`data`] lowers a recording to what the model takes; [`unknowns`] says which numbers are
-//! searched for and what they mean; [`simulate`] runs a candidate along the data; [`cost`] sums.
+//! searched for and what they mean; [`simulate`] makes a candidate's models, [`course`] runs them along the
+//! data, [`abreast`] several candidates at a time; [`cost`] sums.
 
+pub mod abreast;
 pub mod cost;
+pub mod course;
 pub mod data;
 pub mod simulate;
 pub mod unknowns;

@@ -1,12 +1,12 @@
 //! One candidate, run along the data.
 
+use super::course::{Course, Leg, Manner};
 use super::data::Data;
 use shared::discretise::Discretisation;
 use shared::effects::EffectSet;
 use shared::error::ModelError;
-use shared::model::{MAX_DELAY, Model, Plan, Seen, State};
+use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
-use std::ops::Range;
 
 /// A model with all its numbers, in SI.
 #[derive(Clone, Copy, Debug)]
@@ -81,82 +81,37 @@ impl<'a> Simulation<'a> {
         })
     }
 
-    /// Runs over the samples of `range` from an angle in counts and a speed in rad/s; calls `each`
-    /// with the sample and what the model's encoder sees there (counts).
-    pub fn run(
-        &self,
-        range: Range<usize>,
-        angle: f64,
-        speed: f64,
-        mut each: impl FnMut(usize, f64),
-    ) {
-        let mut state = self.start(range.start, angle, speed);
-        if let ([model], None) = (&self.models[..], &self.data.open) {
-            // The usual case: even samples, the bridge always closed.
-            for k in range {
-                each(k, model.reading(&state));
-                model.step(&mut state, self.data.command[k], false);
-            }
-            return;
-        }
-        for k in range {
-            let model = self.model(k);
-            each(k, model.reading(&state));
-            model.step(&mut state, self.data.command[k], self.data.is_open(k));
-        }
+    /// Runs over a leg; writes what the model's encoder sees at each of its samples, counts.
+    pub fn run(&self, manner: Manner<'_>, leg: &Leg, sights: &mut [f64]) {
+        let course = Course {
+            data: self.data,
+            models: &self.models,
+        };
+        course.run(manner, self.begin(leg), leg.range.clone(), |k, sight| {
+            sights[k] = sight;
+        });
     }
 
-    /// Runs like [`run`](Self::run) over the whole recording, but pulled towards the readings like an
-    /// observer that forgets an error within `memory_s`: what happens once, such as a slipped detent,
-    /// does not stay for ever. Gives model minus reading, in counts, before each pull.
-    pub fn nudged(&self, speed: f64, memory_s: f64) -> Vec<f64> {
-        let data = self.data;
-        let mut state = self.start(0, data.centre(0), speed);
-        let units = &data.units;
-        let per_count = units.interval / (memory_s * units.counts_per_unit());
-        (0..data.len())
-            .map(|k| {
-                let model = self.model(k);
-                let error = model.reading(&state) - data.counts[k];
-                let off = error - (data.centre(k) - data.counts[k]);
-                // Both poles of the error at 1/memory.
-                let share =
-                    (data.lengths[data.length_of[k] as usize] * units.interval / memory_s).min(0.5);
-                state.motion.angle -= 2.0 * share * off;
-                // A shaft that friction holds stays at rest.
-                if state.motion.speed != 0.0 {
-                    state.motion.speed -= share * off * per_count;
-                }
-                model.step(&mut state, data.command[k], data.is_open(k));
-                error
-            })
-            .collect()
+    /// Model minus reading over all legs, counts.
+    pub fn errors(&self, manner: Manner<'_>, legs: &[Leg]) -> Vec<f64> {
+        let mut errors = vec![0.0; self.data.len()];
+        for leg in legs {
+            self.run(manner, leg, &mut errors);
+        }
+        for (error, reading) in errors.iter_mut().zip(&self.data.counts) {
+            *error -= reading;
+        }
+        errors
     }
 
-    /// Runs over `range` led along a measured motion, one entry of `seen` an interval and of `turns` a
-    /// sample of the recording, from the range's first reading and a speed in rad/s. Gives model minus
-    /// reading in counts.
-    pub fn led(
-        &self,
-        range: Range<usize>,
-        seen: &[Seen<f64>],
-        turns: &[f64],
-        speed: f64,
-    ) -> Vec<f64> {
-        let mut state = self.start(range.start, self.data.centre(range.start), speed);
-        range
-            .map(|k| {
-                let model = self.model(k);
-                let error = model.reading_at(&state, turns[k]) - self.data.counts[k];
-                model.lead(
-                    &mut state,
-                    self.data.command[k],
-                    self.data.is_open(k),
-                    &seen[k],
-                );
-                error
-            })
-            .collect()
+    /// State at the first sample of a leg.
+    pub fn begin(&self, leg: &Leg) -> State<f64> {
+        self.start(leg.range.start, leg.angle, leg.speed)
+    }
+
+    /// One model for each length of interval in the data.
+    pub fn models(&self) -> &[Model<f64>] {
+        &self.models
     }
 
     fn model(&self, k: usize) -> &Model<f64> {

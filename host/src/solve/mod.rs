@@ -33,6 +33,17 @@ pub trait Objective: Sync {
     fn residuals_and_cost(&self, _x: &[f64]) -> Option<(Vec<f64>, f64)> {
         None
     }
+    /// By how much the residuals at each `moved` point differ from those at `x`: the stuff of finite differences.
+    /// `None` where there are none. All may be computed side by side, so that what the arithmetic does to all of
+    /// them alike cancels; that is why `x` is computed again.
+    fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        let here = self.residuals_and_cost(x);
+        let change = |x: &Vec<f64>| {
+            let (there, here) = (self.residuals_and_cost(x)?.0, &here.as_ref()?.0);
+            Some(there.iter().zip(here).map(|(t, h)| t - h).collect())
+        };
+        moved.iter().map(change).collect()
+    }
     /// A start from the data (regression), if there is one.
     fn start(&self) -> Option<Vec<f64>> {
         None

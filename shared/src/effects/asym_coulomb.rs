@@ -1,7 +1,7 @@
 //! Coulomb friction that differs between the directions.
 
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Friction `Tf` against forward and `Tb` against backward motion: to the equations, Coulomb
@@ -11,6 +11,8 @@ pub struct AsymCoulomb<S> {
     mean: S,
     bias: S,
 }
+
+abreast!(AsymCoulomb { mean, bias });
 
 impl<S: Scalar> Effect<S> for AsymCoulomb<S> {
     const DESCRIPTION: Description = Description {

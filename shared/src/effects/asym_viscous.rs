@@ -1,7 +1,7 @@
 //! Viscous friction that differs between the directions.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Extra viscous friction, `bf·ω` forward and `bb·ω` backward, as of a lip seal or a screw pump: the
@@ -11,6 +11,8 @@ pub struct AsymViscous<S: Scalar> {
     mean: S::Coefficient,
     difference: S::Coefficient,
 }
+
+abreast!(AsymViscous { mean, difference });
 
 impl<S: Scalar> Effect<S> for AsymViscous<S> {
     const DESCRIPTION: Description = Description {
@@ -42,7 +44,7 @@ impl<S: Scalar> Effect<S> for AsymViscous<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
         let magnitude = shaft.mean_over_speed(S::abs);
         shaft.speed.times(self.mean) + magnitude.times(self.difference)

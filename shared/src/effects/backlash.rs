@@ -2,7 +2,7 @@
 
 use super::{Coupling, Description, Effect, Parameter, Place};
 use crate::motor::Machine;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 use core::marker::PhantomData;
 
@@ -11,6 +11,8 @@ use core::marker::PhantomData;
 /// inertias against each other while they touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Backlash<S>(PhantomData<S>);
+
+abreast!(Backlash { 0 });
 
 impl<S: Scalar> Effect<S> for Backlash<S> {
     const DESCRIPTION: Description = Description {

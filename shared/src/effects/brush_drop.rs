@@ -1,7 +1,7 @@
 //! Voltage drop of the brushes.
 
 use super::{Brush, Description, Effect, Needs, Parameter, Place};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// A voltage against the current: proportional up to the knee, constant beyond.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct BrushDrop<S> {
     brush: Brush<S>,
 }
+
+abreast!(BrushDrop { brush });
 
 impl<S: Scalar> Effect<S> for BrushDrop<S> {
     const DESCRIPTION: Description = Description {
@@ -41,6 +43,7 @@ impl<S: Scalar> Effect<S> for BrushDrop<S> {
         }
     }
 
+    #[inline(always)]
     fn brush(&self) -> Brush<S> {
         self.brush
     }

@@ -1,6 +1,6 @@
 //! Functions that no number format has, as series of Chebyshev polynomials.
 
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use core::array::from_fn;
 
 /// Degree of the series.
@@ -11,6 +11,8 @@ const DEGREE: usize = 16;
 pub(super) struct Chebyshev<S: Scalar> {
     terms: [S; DEGREE + 1],
 }
+
+abreast!(Chebyshev { terms });
 
 impl<S: Scalar> Chebyshev<S> {
     /// The series that agrees with `f` at the extrema of `T_n`, both ends among them (Trefethen,
@@ -38,14 +40,14 @@ impl<S: Scalar> Chebyshev<S> {
     }
 
     /// The function at `x`, by Clenshaw's recurrence.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, x: S) -> S {
         let twice = x + x;
         let (first, others) = (self.terms[0], &self.terms[1..]);
-        let start = (S::zero(), S::zero());
-        let (next, after) = others.iter().rev().fold(start, |(next, after), term| {
-            (twice * next + (*term - after), next)
-        });
+        let (mut next, mut after) = (S::zero(), S::zero());
+        for term in others.iter().rev() {
+            (next, after) = (twice * next + (*term - after), next);
+        }
         x * next + (first - after)
     }
 }

@@ -1,7 +1,7 @@
 //! Cogging: the magnets prefer some angles.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// One angle order of torque: `A·cos(kθ) + B·sin(kθ)`, the same in both directions and at all
@@ -10,6 +10,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct Cogging<S: Scalar> {
     torque: Harmonic<S>,
 }
+
+abreast!(Cogging { torque });
 
 impl<S: Scalar> Effect<S> for Cogging<S> {
     const DESCRIPTION: Description = Description {
@@ -44,7 +46,7 @@ impl<S: Scalar> Effect<S> for Cogging<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
         self.torque.mean(shaft)
     }

@@ -1,7 +1,7 @@
 //! Coulomb friction.
 
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Friction of constant size `Tc` against motion; at rest it holds up to the same size.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct Coulomb<S> {
     torque: S,
 }
+
+abreast!(Coulomb { torque });
 
 impl<S: Scalar> Effect<S> for Coulomb<S> {
     const DESCRIPTION: Description = Description {

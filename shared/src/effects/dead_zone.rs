@@ -1,7 +1,7 @@
 //! Dead zone of the power stage.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// The stage loses `V0` of the command's magnitude, and gives nothing below it.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct DeadZone<S> {
     volts: S,
 }
+
+abreast!(DeadZone { volts });
 
 impl<S: Scalar> Effect<S> for DeadZone<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Commands arrive late.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 use core::marker::PhantomData;
 
@@ -10,6 +10,8 @@ use core::marker::PhantomData;
 /// them, and taken as that many even where the sampling jitters.
 #[derive(Clone, Copy, Debug)]
 pub struct Delay<S>(PhantomData<S>);
+
+abreast!(Delay { 0 });
 
 impl<S: Scalar> Effect<S> for Delay<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Eccentricity of the encoder's disc or magnet.
 
 use super::{Description, Effect, Needs, Parameter, Place, harmonic::Harmonic};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// The encoder sees `θ + A·cos θ + B·sin θ`; a disc of radius `r` that sits off its axis by `e` has
@@ -10,6 +10,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct EncEcc<S: Scalar> {
     error: Harmonic<S>,
 }
+
+abreast!(EncEcc { error });
 
 impl<S: Scalar> Effect<S> for EncEcc<S> {
     const DESCRIPTION: Description = Description {
@@ -41,7 +43,7 @@ impl<S: Scalar> Effect<S> for EncEcc<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sensed(&self, turns: S, _memory: S) -> S {
         self.error.at(turns)
     }

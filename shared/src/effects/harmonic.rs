@@ -1,7 +1,8 @@
 //! A wave along the angle, and its mean over a part of a step.
 
 use super::Shaft;
-use crate::scalar::Scalar;
+use crate::scalar::curves::polynomial;
+use crate::scalar::{Scalar, abreast};
 
 /// `A·cos(kθ) + B·sin(kθ)`.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +13,13 @@ pub(super) struct Harmonic<S: Scalar> {
     cosine: S,
     sine: S,
 }
+
+abreast!(Harmonic {
+    order,
+    wave,
+    cosine,
+    sine
+});
 
 /// `sin(πx)/(πx)` in powers of `x²`, highest first. What is left out is below 3e-7 up to its first
 /// zero at `x = 1`.
@@ -39,7 +47,7 @@ impl<S: Scalar> Harmonic<S> {
     }
 
     /// Its value at a position within the revolution, in turns.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, turns: S) -> S {
         let (sine, cosine) = turns.times(self.order).sin_cos_turns();
         self.cosine * cosine + self.sine * sine
@@ -47,13 +55,10 @@ impl<S: Scalar> Harmonic<S> {
 
     /// Its mean over the travel of a part: the value at the middle, less as the travel nears a whole
     /// wave, and nothing beyond that, where the waves cancel.
-    #[inline]
+    #[inline(always)]
     pub(super) fn mean(&self, shaft: &Shaft<S>) -> S {
         let waves = shaft.travel.abs().min(self.wave).times(self.order);
         let square = waves * waves;
-        let sinc = SINC
-            .iter()
-            .fold(S::zero(), |sum, term| sum * square + S::from_f64(*term));
-        self.at(shaft.turns) * sinc
+        self.at(shaft.turns) * polynomial(&SINC, square)
     }
 }

@@ -1,7 +1,7 @@
 //! The winding heats up.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// One thermal node. The memory is the rise `y` of the resistance, as a share of the cold one:
@@ -13,6 +13,12 @@ pub struct Heating<S: Scalar> {
     cooling: S::Coefficient,
     magnets: S::Coefficient,
 }
+
+abreast!(Heating {
+    heating,
+    cooling,
+    magnets
+});
 
 impl<S: Scalar> Effect<S> for Heating<S> {
     const DESCRIPTION: Description = Description {
@@ -48,7 +54,7 @@ impl<S: Scalar> Effect<S> for Heating<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn winding(&self, _volts: S, shaft: &Shaft<S>, memory: S) -> Winding<S> {
         let rise = self.rise(memory, shaft);
         Winding {
@@ -58,10 +64,12 @@ impl<S: Scalar> Effect<S> for Heating<S> {
         }
     }
 
+    #[inline(always)]
     fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
         shaft.current * self.rise(memory, shaft).times(self.magnets)
     }
 
+    #[inline(always)]
     fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
         memory + self.change(self.rise(memory, shaft), shaft)
     }
@@ -77,7 +85,10 @@ impl<S: Scalar> Heating<S> {
     /// Change over the part of a rise that stays near `rise`.
     #[inline(always)]
     fn change(&self, rise: S, shaft: &Shaft<S>) -> S {
-        let square = shaft.mean_over_current(|current| current * current);
+        let square = shaft.mean_over_current(
+            #[inline(always)]
+            |current| current * current,
+        );
         let heat = (square + square * rise).times(self.heating);
         (heat - rise.times(self.cooling)).times(shaft.length)
     }

@@ -1,7 +1,7 @@
 //! Friction that is largest near standstill, and fades with the speed.
 
 use super::chebyshev::Chebyshev;
-use crate::scalar::{Mask, Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar, abreast};
 
 /// `H·e^(−|ω/ωs|^δ)` for `1 ≤ δ ≤ 2`: Tustin's with 1, the Gaussian of Armstrong-Hélouvry with 2.
 ///
@@ -19,6 +19,14 @@ pub(super) struct Hump<S: Scalar> {
     /// What is left of one, by the nearness.
     part: Chebyshev<S>,
 }
+
+abreast!(Hump {
+    height,
+    reach,
+    per_reach,
+    turn,
+    part
+});
 
 /// Slowest `ωs`, as a part of the base speed: below it the hump is a static friction.
 const SLOWEST: f64 = 1e-4;
@@ -56,7 +64,7 @@ impl<S: Scalar> Hump<S> {
     }
 
     /// What is left of it at a speed.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, speed: S) -> S {
         let speed = speed.abs();
         // Most of the time the shaft is faster than that, and nothing has to be computed.
@@ -81,7 +89,7 @@ fn turn<R: Real>(exponent: R) -> R {
 
 /// How near to standstill a speed is, from −1 at the reach to 1 at rest, for a distance within 0 and 1:
 /// `2t·(1 − d)/(d + t) − 1`, which spreads the range about standstill by `1 + 1/t`.
-#[inline]
+#[inline(always)]
 fn nearness<S: Scalar>(distance: S, turn: S) -> S {
     let one = S::from_f64(1.0);
     let half = ((one - distance) * turn).part_of(distance + turn);

@@ -1,7 +1,7 @@
 //! Saturation of the armature inductance.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Incremental inductance `L/(1 + k·c²)`: the simplest even form that stays positive.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct LSat<S: Scalar> {
     falloff: S::Coefficient,
 }
+
+abreast!(LSat { falloff });
 
 impl<S: Scalar> Effect<S> for LSat<S> {
     const DESCRIPTION: Description = Description {
@@ -40,9 +42,12 @@ impl<S: Scalar> Effect<S> for LSat<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn winding(&self, _volts: S, shaft: &Shaft<S>, _memory: S) -> Winding<S> {
-        let square = shaft.mean_over_current(|current| current * current);
+        let square = shaft.mean_over_current(
+            #[inline(always)]
+            |current| current * current,
+        );
         Winding {
             rate: square.times(self.falloff),
             ..Winding::default()

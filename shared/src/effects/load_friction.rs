@@ -1,7 +1,7 @@
 //! Friction that grows with the torque passed through a gear.
 
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Dry friction `μ·|T|` of the torque `T` that the motor and its load pass to each other.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct LoadFriction<S: Scalar> {
     share: S::Coefficient,
 }
+
+abreast!(LoadFriction { share });
 
 impl<S: Scalar> Effect<S> for LoadFriction<S> {
     const DESCRIPTION: Description = Description {
@@ -40,7 +42,7 @@ impl<S: Scalar> Effect<S> for LoadFriction<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
         Budget::even(shaft.transmitted.abs().times(self.share))
     }

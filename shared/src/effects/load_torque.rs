@@ -1,7 +1,7 @@
 //! Constant torque on the shaft.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// A constant torque against positive rotation, as of a weight on a drum.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct LoadTorque<S> {
     torque: S,
 }
+
+abreast!(LoadTorque { torque });
 
 impl<S: Scalar> Effect<S> for LoadTorque<S> {
     const DESCRIPTION: Description = Description {

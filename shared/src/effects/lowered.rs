@@ -1,7 +1,7 @@
 //! Effects lowered to per unit, ready to run.
 
 use super::{Any, Brush, Budget, EffectSet, MAX_EFFECTS, Needs, Shaft, Stiff, Winding};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::PerUnit;
 
 /// Effects lowered to per unit, in the order in which the command meets them.
@@ -13,6 +13,12 @@ pub struct Lowered<S: Scalar> {
     /// Drop of the brushes.
     pub brush: Brush<S>,
 }
+
+abreast!(Lowered {
+    effects,
+    needs,
+    brush
+});
 
 impl<S: Scalar> Lowered<S> {
     /// Lowers the effects of a set that do something.
@@ -47,74 +53,90 @@ impl<S: Scalar> Lowered<S> {
     }
 
     /// Volts from the drive for a command.
-    #[inline]
+    #[inline(always)]
     pub fn drive(&self, command: S) -> S {
-        self.each()
-            .fold(command, |volts, effect| effect.drive(volts))
+        let mut volts = command;
+        for effect in self.each() {
+            volts = effect.drive(volts);
+        }
+        volts
     }
 
     /// Changes of the winding with `volts` from the drive.
-    #[inline]
+    #[inline(always)]
     pub fn winding(&self, volts: S, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Winding<S> {
-        self.each()
-            .zip(memory)
-            .fold(Winding::default(), |sum, (effect, memory)| {
-                sum.and(effect.winding(volts, shaft, *memory))
-            })
+        let mut sum = Winding::default();
+        for (effect, memory) in self.each().zip(memory) {
+            sum = sum.and(effect.winding(volts, shaft, *memory));
+        }
+        sum
     }
 
     /// Sum of the torques against positive rotation.
-    #[inline]
+    #[inline(always)]
     pub fn torque(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> S {
-        self.each()
-            .zip(memory)
-            .fold(S::zero(), |sum, (effect, memory)| {
-                sum + effect.torque(shaft, *memory)
-            })
+        let mut sum = S::zero();
+        for (effect, memory) in self.each().zip(memory) {
+            sum = sum + effect.torque(shaft, *memory);
+        }
+        sum
     }
 
     /// Sum of the stiff torques.
+    #[inline]
     pub fn stiff(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Stiff<S> {
-        self.each()
-            .zip(memory)
-            .fold(Stiff::default(), |sum, (effect, memory)| {
-                sum.and(effect.stiff(shaft, *memory))
-            })
+        S::routine(
+            #[inline(always)]
+            || {
+                let mut sum = Stiff::default();
+                for (effect, memory) in self.each().zip(memory) {
+                    sum = sum.and(effect.stiff(shaft, *memory));
+                }
+                sum
+            },
+        )
     }
 
     /// Torque that the current should give and does not.
-    #[inline]
+    #[inline(always)]
     pub fn lost_torque(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> S {
-        self.each()
-            .zip(memory)
-            .fold(S::zero(), |sum, (effect, memory)| {
-                sum + effect.lost_torque(shaft, *memory)
-            })
+        let mut sum = S::zero();
+        for (effect, memory) in self.each().zip(memory) {
+            sum = sum + effect.lost_torque(shaft, *memory);
+        }
+        sum
     }
 
     /// Sum of the friction budgets.
-    #[inline]
+    #[inline(always)]
     pub fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-        self.each().fold(Budget::default(), |sum, effect| {
-            sum.and(effect.friction(shaft))
-        })
+        let mut sum = Budget::default();
+        for effect in self.each() {
+            sum = sum.and(effect.friction(shaft));
+        }
+        sum
     }
 
     /// Brings the memories up to the end of a part.
     #[inline]
     pub fn remember(&self, memory: &mut [S; MAX_EFFECTS], shaft: &Shaft<S>) {
-        for (effect, memory) in self.each().zip(memory) {
-            *memory = effect.remember(*memory, shaft);
-        }
+        S::routine(
+            #[inline(always)]
+            || {
+                for (effect, memory) in self.each().zip(&mut *memory) {
+                    *memory = effect.remember(*memory, shaft);
+                }
+            },
+        )
     }
 
     /// Error of the angle that the encoder sees, in turns.
-    #[inline]
+    #[inline(always)]
     pub fn sensed(&self, turns: S, memory: &[S; MAX_EFFECTS]) -> S {
-        self.each()
-            .zip(memory)
-            .fold(S::zero(), |sum, (effect, memory)| {
-                sum + effect.sensed(turns, *memory)
-            })
+        let mut sum = S::zero();
+        for (effect, memory) in self.each().zip(memory) {
+            sum = sum + effect.sensed(turns, *memory);
+        }
+        sum
     }
 }

@@ -3,7 +3,7 @@
 use super::decay::{REACH, decay};
 use super::hump::Hump;
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Stiff};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// `dz/dt = ω − |ω|·z/zs(ω)`, `T = σ0·z + σ1·dz/dt`, with the deflection `zs` at which the bristles
@@ -27,6 +27,16 @@ pub struct Lugre<S: Scalar> {
     /// Largest angle per torque whose product with `per_deflection` the number format can hold.
     softest: S,
 }
+
+abreast!(Lugre {
+    torque,
+    excess,
+    far,
+    per_deflection,
+    damping,
+    fastest,
+    softest
+});
 
 /// Least deflection, turns.
 const SHORTEST: f64 = 1e-7;
@@ -73,6 +83,7 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         }
     }
 
+    #[inline(always)]
     fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
         let half = S::coefficient(0.5);
         let bent = self.bent(memory, shaft);
@@ -90,6 +101,7 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         }
     }
 
+    #[inline(always)]
     fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
         self.bent(memory, shaft).end
     }
@@ -110,6 +122,7 @@ struct Bent<S> {
 impl<S: Scalar> Lugre<S> {
     /// Damping of a torque that changes by `change` over the part. It may be beyond the number format
     /// for a moment: far less is left of it when the torque has been solved for.
+    #[inline(always)]
     fn damped(&self, change: S, shaft: &Shaft<S>) -> S {
         let most = self.fastest.times(shaft.length);
         let change = change.min(most).max(-most);
@@ -117,10 +130,15 @@ impl<S: Scalar> Lugre<S> {
     }
 
     /// The bristles over a part that they begin at a deflection `from`.
+    #[inline(always)]
     fn bent(&self, from: S, shaft: &Shaft<S>) -> Bent<S> {
         let one = S::from_f64(1.0);
         let half = S::from_f64(0.5);
-        let steady = one + shaft.mean_over_speed(|speed| self.excess.at(speed));
+        let steady = one
+            + shaft.mean_over_speed(
+                #[inline(always)]
+                |speed| self.excess.at(speed),
+            );
         // A quarter of the deflections travelled, x/4, at most seven: its eighth is a part.
         let quarter = S::coefficient(0.25);
         let travel = shaft.travel.abs().min(self.far).times(quarter);

@@ -1,7 +1,7 @@
 //! The counter misses counts.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// A decoder that cannot follow loses the share `s` of the travel that is beyond the speed `w0`, and
@@ -15,6 +15,8 @@ pub struct MissedCounts<S: Scalar> {
     share: S::Coefficient,
     speed: S,
 }
+
+abreast!(MissedCounts { share, speed });
 
 impl<S: Scalar> Effect<S> for MissedCounts<S> {
     const DESCRIPTION: Description = Description {
@@ -44,12 +46,14 @@ impl<S: Scalar> Effect<S> for MissedCounts<S> {
         }
     }
 
+    #[inline(always)]
     fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
         let followed = self.speed.part_of(shaft.speed.abs());
         let beyond = shaft.travel - shaft.travel * followed;
         memory + beyond.times(self.share)
     }
 
+    #[inline(always)]
     fn sensed(&self, _turns: S, memory: S) -> S {
         -memory
     }

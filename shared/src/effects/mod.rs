@@ -46,7 +46,7 @@ pub use set::EffectSet;
 pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, Winding};
 
 use crate::motor::Machine;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Abreast, Real, Scalar};
 use crate::units::PerUnit;
 
 /// Most effects in one model.
@@ -94,6 +94,7 @@ impl Needs {
     };
 
     /// What either needs.
+    #[inline(always)]
     pub fn or(self, other: Needs) -> Needs {
         Needs {
             mean: self.mean | other.mean,
@@ -140,38 +141,47 @@ pub trait Effect<S: Scalar>: Copy {
         None
     }
     /// Volts behind this effect, from those before it.
+    #[inline(always)]
     fn drive(&self, volts: S) -> S {
         volts
     }
     /// Drop of the brushes.
+    #[inline(always)]
     fn brush(&self) -> Brush<S> {
         Brush::default()
     }
     /// Changes of the winding, with `volts` from the drive.
+    #[inline(always)]
     fn winding(&self, _volts: S, _shaft: &Shaft<S>, _memory: S) -> Winding<S> {
         Winding::default()
     }
     /// Torque against positive rotation, in volts referred to the winding.
+    #[inline(always)]
     fn torque(&self, _shaft: &Shaft<S>, _memory: S) -> S {
         S::zero()
     }
     /// Torque against positive rotation that rises steeply with the travel of the part.
+    #[inline(always)]
     fn stiff(&self, _shaft: &Shaft<S>, _memory: S) -> Stiff<S> {
         Stiff::default()
     }
     /// Torque that the current should give and does not.
+    #[inline(always)]
     fn lost_torque(&self, _shaft: &Shaft<S>, _memory: S) -> S {
         S::zero()
     }
     /// Friction budget.
+    #[inline(always)]
     fn friction(&self, _shaft: &Shaft<S>) -> Budget<S> {
         Budget::default()
     }
     /// What it remembers after a part; nothing in it may depend on the sample interval.
+    #[inline(always)]
     fn remember(&self, memory: S, _shaft: &Shaft<S>) -> S {
         memory
     }
     /// Error of the angle that the encoder sees, in turns, at a position within the revolution.
+    #[inline(always)]
     fn sensed(&self, _turns: S, _memory: S) -> S {
         S::zero()
     }
@@ -238,11 +248,30 @@ macro_rules! kinds {
         #[derive(Clone, Copy, Debug)]
         enum Any<S: Scalar> { $($kind($file::$kind<S>)),* }
 
+        impl<W, const N: usize> Abreast<Any<f64>, N> for Any<W>
+        where
+            W: Scalar<Coefficient = W, Angle = W> + From<[f64; N]>,
+        {
+            fn abreast(each: [&Any<f64>; N]) -> Option<Self> {
+                match each[0] {
+                    $(Any::$kind(first) => {
+                        let mut own = [first; N];
+                        for (own, one) in own.iter_mut().zip(each) {
+                            let Any::$kind(effect) = one else { return None };
+                            *own = effect;
+                        }
+                        Some(Any::$kind(Abreast::abreast(own)?))
+                    }),*
+                }
+            }
+        }
+
         impl<S: Scalar> Any<S> {
             #[inline(always)]
             fn drive(&self, volts: S) -> S {
                 match self { $(Any::$kind(effect) => effect.drive(volts)),* }
             }
+            #[inline(always)]
             fn brush(&self) -> Brush<S> {
                 match self { $(Any::$kind(effect) => effect.brush()),* }
             }
@@ -254,6 +283,7 @@ macro_rules! kinds {
             fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
                 match self { $(Any::$kind(effect) => effect.torque(shaft, memory)),* }
             }
+            #[inline(always)]
             fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
                 match self { $(Any::$kind(effect) => effect.stiff(shaft, memory)),* }
             }

@@ -1,7 +1,7 @@
 //! Constant voltage added to the command.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// An offset of the power stage or of the logged command.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct OffsetVoltage<S> {
     volts: S,
 }
+
+abreast!(OffsetVoltage { volts });
 
 impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
     const DESCRIPTION: Description = Description {

@@ -1,6 +1,6 @@
 //! What an effect sees of the motor, and what it may give back. Per unit.
 
-use crate::scalar::{Mask, Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar, abreast};
 
 /// The mean state of shaft and winding over a part of a step.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,7 @@ pub struct Shaft<S: Scalar> {
 
 impl<S: Scalar> Shaft<S> {
     /// One instant.
+    #[inline(always)]
     pub fn at(turns: S, speed: S, current: S) -> Self {
         let zero = S::zero();
         Shaft {
@@ -89,8 +90,15 @@ pub struct Budget<S> {
     pub bias: S,
 }
 
+abreast!(Budget {
+    moving,
+    holding,
+    bias
+});
+
 impl<S: Scalar> Budget<S> {
     /// The same at rest and in motion, and in both directions.
+    #[inline(always)]
     pub fn even(torque: S) -> Self {
         Budget {
             moving: torque,
@@ -125,6 +133,7 @@ pub struct Stiff<S> {
 
 impl<S: Scalar> Stiff<S> {
     /// Both.
+    #[inline(always)]
     pub fn and(self, other: Self) -> Self {
         Stiff {
             torque: self.torque + other.torque,
@@ -134,6 +143,7 @@ impl<S: Scalar> Stiff<S> {
     }
 
     /// The torque that agrees with the travel it leaves, if `reckoned` with was another.
+    #[inline(always)]
     pub fn from(self, reckoned: S) -> S {
         let one = S::from_f64(1.0);
         reckoned + (self.torque - reckoned) * one.part_of(one + self.slope)
@@ -172,13 +182,22 @@ pub struct Brush<S> {
     pub knee: S,
 }
 
+abreast!(Brush { drop, knee });
+
 impl<S: Scalar> Brush<S> {
     /// Both, which bend at the later of their knees.
+    #[inline(always)]
     pub fn and(self, other: Self) -> Self {
         Brush {
             drop: self.drop + other.drop,
             knee: self.knee.max(other.knee),
         }
+    }
+
+    /// Where on the law a current is: −1 or 1 beyond the knee, 0 within.
+    #[inline(always)]
+    pub fn side(&self, current: S) -> S {
+        S::select(current.abs().less(self.knee), S::zero(), current.signum())
     }
 }
 
@@ -210,6 +229,7 @@ impl<R: Real> Coupling<R> {
     }
 
     /// Both in series, in front of one load.
+    #[inline(always)]
     pub fn in_series_with(self, other: Self) -> Self {
         Coupling {
             load_share: self.load_share.max(other.load_share),

@@ -2,7 +2,7 @@
 
 use super::hump::Hump;
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Sliding friction `Tc` that rises to `Tc + Ts` as the speed falls below about `ws`. The exponent is
@@ -13,6 +13,12 @@ pub struct Stribeck<S: Scalar> {
     holding: S,
     excess: Hump<S>,
 }
+
+abreast!(Stribeck {
+    sliding,
+    holding,
+    excess
+});
 
 impl<S: Scalar> Effect<S> for Stribeck<S> {
     const DESCRIPTION: Description = Description {
@@ -47,9 +53,12 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-        let excess = shaft.mean_over_speed(|speed| self.excess.at(speed));
+        let excess = shaft.mean_over_speed(
+            #[inline(always)]
+            |speed| self.excess.at(speed),
+        );
         Budget {
             moving: self.sliding + excess,
             holding: self.holding,

@@ -1,7 +1,7 @@
 //! The supply falls with the current drawn from it.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// The bridge draws the part `d = u/Vs` of the current from the supply and passes on the part `d` of
@@ -11,6 +11,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct SupplySag<S: Scalar> {
     sag: S::Coefficient,
 }
+
+abreast!(SupplySag { sag });
 
 impl<S: Scalar> Effect<S> for SupplySag<S> {
     const DESCRIPTION: Description = Description {
@@ -42,7 +44,7 @@ impl<S: Scalar> Effect<S> for SupplySag<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn winding(&self, volts: S, _shaft: &Shaft<S>, _memory: S) -> Winding<S> {
         Winding {
             resistance: (volts * volts).times(self.sag),

@@ -1,7 +1,8 @@
 //! Magnetic saturation of the torque.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::curves::polynomial;
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Torque `Is·tanh(c/Is)` of a current `c`, with `Is = 1/√(3·k3)`: a bounded law whose series begins
@@ -11,6 +12,8 @@ pub struct TorqueSat<S: Scalar> {
     /// `3·k3`.
     square: S::Coefficient,
 }
+
+abreast!(TorqueSat { square });
 
 /// `tanh(x)/x` as a quotient of polynomials in `x²`, the fourth approximant of its continued
 /// fraction (Lambert): off by less than 2e-6 up to `x = 2.45`, highest powers first.
@@ -48,17 +51,15 @@ impl<S: Scalar> Effect<S> for TorqueSat<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn lost_torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
-        let polynomial = |terms: &[f64], y: S| {
-            terms
-                .iter()
-                .fold(S::zero(), |sum, term| sum * y + S::from_f64(*term))
-        };
-        shaft.mean_over_current(|current| {
-            let y = (current * current).times(self.square);
-            let share = polynomial(&ABOVE, y).part_of(polynomial(&BELOW, y));
-            current - current * share
-        })
+        shaft.mean_over_current(
+            #[inline(always)]
+            |current| {
+                let y = (current * current).times(self.square);
+                let share = polynomial(&ABOVE, y).part_of(polynomial(&BELOW, y));
+                current - current * share
+            },
+        )
     }
 }

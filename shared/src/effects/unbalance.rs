@@ -1,7 +1,7 @@
 //! An eccentric mass on a horizontal shaft.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Gravity on a mass off the axis: `A·cos θ + B·sin θ`. What the mass adds to the inertia is part of
@@ -10,6 +10,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct Unbalance<S: Scalar> {
     torque: Harmonic<S>,
 }
+
+abreast!(Unbalance { torque });
 
 impl<S: Scalar> Effect<S> for Unbalance<S> {
     const DESCRIPTION: Description = Description {
@@ -43,7 +45,7 @@ impl<S: Scalar> Effect<S> for Unbalance<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
         self.torque.mean(shaft)
     }

@@ -1,7 +1,7 @@
 //! The power stage clips.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Commands beyond `±V1` give `±V1`. There is nothing to see where no command reaches the limit.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct VoltageSat<S> {
     limit: S,
 }
+
+abreast!(VoltageSat { limit });
 
 impl<S: Scalar> Effect<S> for VoltageSat<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Windage: the drag of the air that a fan or a fast rotor stirs.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
 /// Turbulent drag, `c·ω·|ω|`.
@@ -9,6 +9,8 @@ use crate::units::{PerUnit, Quantity};
 pub struct Windage<S: Scalar> {
     drag: S::Coefficient,
 }
+
+abreast!(Windage { drag });
 
 impl<S: Scalar> Effect<S> for Windage<S> {
     const DESCRIPTION: Description = Description {
@@ -39,9 +41,12 @@ impl<S: Scalar> Effect<S> for Windage<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn torque(&self, shaft: &Shaft<S>, _memory: S) -> S {
-        let square = shaft.mean_over_speed(|speed| speed * speed.abs());
+        let square = shaft.mean_over_speed(
+            #[inline(always)]
+            |speed| speed * speed.abs(),
+        );
         square.times(self.drag)
     }
 }

@@ -1,8 +1,8 @@
 //! One candidate along the trace, so many samples at a time.
 
-use super::{Point, Space};
+use super::{Arithmetic, Point, Space};
 use crate::model::{Motion, Rigid};
-use crate::scalar::{Angle, ErrorValue, Scalar};
+use crate::scalar::{ErrorValue, Readable, Scalar};
 use crate::trace::Trace;
 
 /// Samples between two looks at the bound.
@@ -11,7 +11,7 @@ const BLOCK: usize = 64;
 /// Largest mean error that where the shaft stood within a count can explain, counts.
 const UNKNOWN_START: f64 = 0.5;
 
-type ErrorOf<S> = <<S as Scalar>::Angle as Angle<S>>::Error;
+type ErrorOf<S> = <<S as Scalar>::Angle as Readable<S>>::Error;
 
 /// Room for as many models as ever run side by side.
 pub(super) type Runs<S> = [Option<Evaluation<S>>; 3];
@@ -19,7 +19,7 @@ pub(super) type Runs<S> = [Option<Evaluation<S>>; 3];
 /// Puts the motor at `x` into `slot`; says whether there is one. Out of line, so that its copies of a model stand on the
 /// stack no longer than it runs.
 #[inline(never)]
-pub(super) fn build<S: Scalar>(
+pub(super) fn build<S: Arithmetic>(
     slot: &mut Option<Evaluation<S>>,
     space: &Space,
     x: &Point,
@@ -37,7 +37,7 @@ pub(super) fn build<S: Scalar>(
 /// Its cost is the variance of the error: where within a count the shaft stood at the start is not known, so a constant
 /// difference does not count.
 #[derive(Clone, Copy, Debug)]
-pub struct Evaluation<S: Scalar> {
+pub struct Evaluation<S: Arithmetic> {
     model: Rigid<S>,
     motion: Motion<S>,
     /// Reading, relative to that at the start.
@@ -50,7 +50,7 @@ pub struct Evaluation<S: Scalar> {
     result: Option<f32>,
 }
 
-impl<S: Scalar> Evaluation<S> {
+impl<S: Arithmetic> Evaluation<S> {
     /// At the start of the trace; gives up as soon as its cost must exceed `bound`.
     pub fn new(model: Rigid<S>, bound: f32) -> Self {
         Evaluation {

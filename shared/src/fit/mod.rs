@@ -22,9 +22,24 @@ pub use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
-use crate::scalar::Scalar;
+use crate::scalar::{Fixed, Readable, Scalar};
 use crate::trace::Trace;
+use crate::wire::Format;
 use serde::{Deserialize, Serialize};
+
+/// A number format that a device can fit in.
+pub trait Arithmetic: Scalar<Angle: Readable<Self>> + 'static {
+    /// As the host is told.
+    const FORMAT: Format;
+}
+
+impl Arithmetic for f32 {
+    const FORMAT: Format = Format::F32;
+}
+
+impl Arithmetic for Fixed {
+    const FORMAT: Format = Format::Fixed;
+}
 
 /// Largest population.
 pub const POPULATION: usize = 20;
@@ -124,7 +139,7 @@ enum Stage {
 
 /// A fit under way.
 #[derive(Clone, Debug)]
-pub struct Fit<S: Scalar> {
+pub struct Fit<S: Arithmetic> {
     settings: Settings,
     space: Space,
     stage: Stage,
@@ -135,7 +150,7 @@ pub struct Fit<S: Scalar> {
     curvature: Option<polish::Curvature>,
 }
 
-impl<S: Scalar> Fit<S> {
+impl<S: Arithmetic> Fit<S> {
     /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack.
     pub const fn idle() -> Self {
         Fit {

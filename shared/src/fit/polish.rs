@@ -5,8 +5,8 @@
 //! room of three models, however many unknowns there are, and d·(d − 1)/2 passes give all of them.
 
 use super::evaluation::{Runs, build};
-use super::{MOST, Point, Space};
-use crate::scalar::{ErrorValue, Real, Scalar};
+use super::{Arithmetic, MOST, Point, Space};
+use crate::scalar::{ErrorValue, Real};
 use crate::trace::Trace;
 
 /// Most rounds.
@@ -75,7 +75,7 @@ struct Differences {
 
 impl Differences {
     /// Runs the models side by side for a while; returns how many periods they ran in all.
-    fn run<S: Scalar>(&mut self, runs: &mut Runs<S>, trace: &Trace<'_>, samples: u32) -> u32 {
+    fn run<S: Arithmetic>(&mut self, runs: &mut Runs<S>, trace: &Trace<'_>, samples: u32) -> u32 {
         let to = (self.at + samples as usize / 3 + 1).min(trace.len());
         let from = self.at;
         for k in from..to {
@@ -181,7 +181,7 @@ impl Polish {
     }
 
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
-    pub fn work<S: Scalar>(
+    pub fn work<S: Arithmetic>(
         &mut self,
         space: &Space,
         trace: &Trace<'_>,

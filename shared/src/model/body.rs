@@ -47,16 +47,19 @@ pub trait Body<S: Scalar> {
     fn yields(&self, level: usize, torque: S) -> S;
 
     /// Torque of the load on the motor shaft, against positive rotation.
+    #[inline(always)]
     fn load(&self, _from: &Motion<S>, _side: S) -> S {
         S::zero()
     }
 
     /// Twist beyond the flank on `side`, in its direction.
+    #[inline(always)]
     fn beyond(&self, _from: &Motion<S>, _side: S) -> S {
         S::zero()
     }
 
     /// Side of the gap that touches: −1, 1, or 0 while the load is free.
+    #[inline(always)]
     fn side(&self, _from: &Motion<S>) -> S {
         S::zero()
     }

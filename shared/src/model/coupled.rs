@@ -14,13 +14,13 @@
 
 use super::body::{Body, Increment};
 use super::friction::is_zero;
-use super::rung::{RUNGS, Rung, Timing, shortest};
+use super::rung::{RUNGS, Rung, Timing, shortest, weighed};
 use super::state::Motion;
 use crate::discretise::{Discretisation, LinearMap, LinearSystem, scaled};
 use crate::effects::Coupling;
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Mask, Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar, abreast};
 
 /// Maps of one part of a step while the flanks touch.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +35,14 @@ struct Touching<S: Scalar> {
     /// Twist by slip while the load is free.
     flight: S::Coefficient,
 }
+
+abreast!(Touching {
+    timing,
+    driven,
+    coast,
+    held,
+    flight
+});
 
 /// The coupling's constants, per unit.
 #[derive(Clone, Copy, Debug)]
@@ -53,12 +61,23 @@ struct Joint<S: Scalar> {
     loose: bool,
 }
 
+abreast!(Joint {
+    damping,
+    stiffness,
+    most,
+    twist_per_angle,
+    half_gap,
+    loose
+});
+
 /// Motor and load.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled<S: Scalar> {
     joint: Joint<S>,
     touching: [Touching<S>; RUNGS],
 }
+
+abreast!(Coupled { joint, touching });
 
 /// A machine split in two, per unit.
 struct Split<R> {
@@ -247,6 +266,7 @@ impl<S: Scalar> Coupled<S> {
 
 impl<S: Scalar> Joint<S> {
     /// Twist beyond the flank on `side`.
+    #[inline(always)]
     fn bend(&self, twist: S, side: S) -> S {
         twist - side * self.half_gap
     }
@@ -279,34 +299,29 @@ impl<S: Scalar> MotorAndLoad<'_, S> {
         let maps = &self.coupled.touching[level];
         let (speed, slip) = (from.speed, from.slip);
         if open {
-            let row = |k: &[S::Coefficient; 4]| {
-                speed.times(k[0]) + bend.times(k[1]) + slip.times(k[2]) + torque.times(k[3])
-            };
+            let by = [speed, bend, slip, torque];
             let [speed, twist, slip, angle] = &maps.coast;
             return Increment {
                 current: -from.current,
-                speed: row(speed),
-                angle: row(angle),
-                twist: row(twist),
-                slip: row(slip),
+                speed: weighed(by, speed),
+                angle: weighed(by, angle),
+                twist: weighed(by, twist),
+                slip: weighed(by, slip),
             };
         }
-        let row = |k: &[S::Coefficient; 6]| {
-            let own = from.current.times(k[0]) + speed.times(k[1]);
-            let load = bend.times(k[2]) + slip.times(k[3]);
-            own + load + volts.times(k[4]) + torque.times(k[5])
-        };
+        let by = [from.current, speed, bend, slip, volts, torque];
         let [current, speed, twist, slip, angle] = &maps.driven;
         Increment {
-            current: row(current),
-            speed: row(speed),
-            angle: row(angle),
-            twist: row(twist),
-            slip: row(slip),
+            current: weighed(by, current),
+            speed: weighed(by, speed),
+            angle: weighed(by, angle),
+            twist: weighed(by, twist),
+            slip: weighed(by, slip),
         }
     }
 }
 
+#[inline(always)]
 fn select<S: Scalar>(mask: S::Mask, a: Increment<S>, b: Increment<S>) -> Increment<S> {
     Increment {
         current: S::select(mask, a.current, b.current),
@@ -361,11 +376,11 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         let joint = &self.coupled.joint;
         let maps = &self.coupled.touching[level];
         let bend = joint.bend(from.twist, side);
-        let row = |k: &[S::Coefficient; 2]| bend.times(k[0]) + from.slip.times(k[1]);
+        let by = [bend, from.slip];
         let still = self.motor.settle(level, from, side, volts, open);
         let touching = Increment {
-            twist: row(&maps.held[0]),
-            slip: row(&maps.held[1]),
+            twist: weighed(by, &maps.held[0]),
+            slip: weighed(by, &maps.held[1]),
             ..still
         };
         if !joint.loose {

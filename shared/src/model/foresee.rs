@@ -31,11 +31,13 @@ pub(super) struct Foreseen<S: Scalar> {
 
 impl<S: Scalar> Model<S> {
     /// Doubtful torque times its length, per unit, that needs no shorter parts.
+    #[inline(always)]
     pub(super) fn tolerated(counts_per_unit: f64) -> S {
         S::from_f64(TOLERATED_COUNTS / counts_per_unit)
     }
 
     /// What acts where nothing depends on the state.
+    #[inline(always)]
     pub(super) fn constant(effects: &Lowered<S>) -> Forces<S> {
         let rest = Shaft::at(S::zero(), S::zero(), S::zero());
         let budget = effects.friction(&rest);
@@ -103,7 +105,7 @@ impl<S: Scalar> Model<S> {
 
     /// What acts at `shaft` and is held for the part, with the drive at `volts` and a torque
     /// `further` that is known already.
-    #[inline(always)]
+    #[inline]
     pub(super) fn forces(
         &self,
         state: &State<S>,
@@ -112,30 +114,55 @@ impl<S: Scalar> Model<S> {
         further: S,
         open: bool,
     ) -> Forces<S> {
-        let effects = &self.effects;
-        let needs = effects.needs;
-        let mut torque = further;
-        if needs.torque {
-            torque = torque + effects.torque(shaft, &state.memory);
-        }
-        let lost = if needs.lost_torque && !open {
-            effects.lost_torque(shaft, &state.memory)
-        } else {
-            S::zero()
-        };
-        let budget = if needs.friction {
-            effects.friction(&Shaft {
-                transmitted: shaft.current + torque - lost,
-                ..*shaft
-            })
-        } else {
-            Budget::default()
-        };
-        Forces {
-            volts,
-            torque: torque + lost + budget.bias,
-            budget,
-        }
+        S::routine(
+            #[inline(always)]
+            || {
+                let effects = &self.effects;
+                let needs = effects.needs;
+                let mut torque = further;
+                if needs.torque {
+                    torque = torque + effects.torque(shaft, &state.memory);
+                }
+                let lost = if needs.lost_torque && !open {
+                    effects.lost_torque(shaft, &state.memory)
+                } else {
+                    S::zero()
+                };
+                let budget = if needs.friction {
+                    effects.friction(&Shaft {
+                        transmitted: shaft.current + torque - lost,
+                        ..*shaft
+                    })
+                } else {
+                    Budget::default()
+                };
+                Forces {
+                    volts,
+                    torque: torque + lost + budget.bias,
+                    budget,
+                }
+            },
+        )
+    }
+
+    /// Volts that the changes of the winding `at` a shaft add to those of the drive, with which alone
+    /// the shaft would be `free`.
+    #[inline]
+    pub(super) fn extra_volts(
+        &self,
+        state: &State<S>,
+        volts: S,
+        at: &Shaft<S>,
+        free: &Shaft<S>,
+        timing: &Timing<S>,
+    ) -> S {
+        S::routine(
+            #[inline(always)]
+            || {
+                let changed = self.effects.winding(volts, at, &state.memory);
+                extra_volts(&changed, &self.effects.brush, volts, free, timing)
+            },
+        )
     }
 
     /// What acts in a part that begins at `start` with the drive at `volts`.
@@ -266,9 +293,8 @@ impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
     /// the shaft would be `free`.
     #[inline(always)]
     fn extra_volts(&self, at: &Shaft<S>, free: &Shaft<S>) -> S {
-        let effects = &self.model.effects;
-        let changed = effects.winding(self.volts, at, &self.state.memory);
         let timing = self.body.timing(self.level);
-        extra_volts(&changed, &effects.brush, self.volts, free, timing)
+        self.model
+            .extra_volts(self.state, self.volts, at, free, timing)
     }
 }

@@ -6,7 +6,7 @@ use super::pieces::Pieces;
 use super::rung::RUNGS;
 use super::state::Motion;
 use crate::effects::Budget;
-use crate::scalar::{Angle, Mask, Scalar};
+use crate::scalar::{Angle, Mask, Scalar, abreast};
 
 /// What is held over a part of a step.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +18,12 @@ pub struct Forces<S> {
     /// Friction.
     pub budget: Budget<S>,
 }
+
+abreast!(Forces {
+    volts,
+    torque,
+    budget
+});
 
 /// Sense of the motion that friction opposes: of the speed, or of the `pull` that breaks a resting
 /// shaft loose; zero while it is held.
@@ -72,20 +78,19 @@ impl<S: Scalar> Piece<S> {
         let against = torque + sense * budget.moving;
         let slide = body.slide(level, from, side, volts, against, open);
         let settle = body.settle(level, from, side, volts, open);
-        let either = |settle, slide| S::select(holds, settle, slide);
         let mut end = Motion {
-            current: from.current + either(settle.current, slide.current),
-            speed: from.speed + either(zero, slide.speed),
+            current: from.current + S::select(holds, settle.current, slide.current),
+            speed: from.speed + S::select(holds, zero, slide.speed),
             ..*from
         };
         if B::COUPLED {
-            end.twist = from.twist + either(settle.twist, slide.twist);
-            end.slip = from.slip + either(settle.slip, slide.slip);
+            end.twist = from.twist + S::select(holds, settle.twist, slide.twist);
+            end.slip = from.slip + S::select(holds, settle.slip, slide.slip);
         }
         let pull_after = end.current - torque - body.load(&end, side);
         Piece {
             end,
-            turned: either(zero, slide.angle),
+            turned: S::select(holds, zero, slide.angle),
             pull: (pull, pull_after),
             holds,
             turns_back: (end.speed * sense).less(zero),
@@ -94,12 +99,14 @@ impl<S: Scalar> Piece<S> {
     }
 
     /// Whether the shaft stopped, reversed or broke loose.
+    #[inline(always)]
     fn eventful(&self) -> bool {
         self.turns_back.or(self.breaks_loose).any()
     }
 
     /// The end of a piece so short that the stop or the release in it need not be located any
     /// better.
+    #[inline(always)]
     fn settle_speed<B: Body<S>>(&mut self, body: &B, level: usize, budget: &Budget<S>) {
         let started = started(body, level, self.pull, budget);
         let passed = passed_through(self.end.speed, self.pull.1, budget);
@@ -113,15 +120,21 @@ impl<S: Scalar> Piece<S> {
 
     /// A piece so short that the contact within it need not be located any better: for the `share`
     /// of it after the contact the motion is that of `touching`, which touched all along.
+    #[inline(always)]
     fn land(&mut self, touching: &Self, share: S) {
-        let blend = |a: S, b: S| a + (b - a) * share;
-        self.turned = blend(self.turned, touching.turned);
+        self.turned = blend(self.turned, touching.turned, share);
         let (end, other) = (&mut self.end, &touching.end);
-        end.current = blend(end.current, other.current);
-        end.speed = blend(end.speed, other.speed);
-        end.twist = blend(end.twist, other.twist);
-        end.slip = blend(end.slip, other.slip);
+        end.current = blend(end.current, other.current, share);
+        end.speed = blend(end.speed, other.speed, share);
+        end.twist = blend(end.twist, other.twist, share);
+        end.slip = blend(end.slip, other.slip, share);
     }
+}
+
+/// `a`, or as much as the `share` says of `b`.
+#[inline(always)]
+fn blend<S: Scalar>(a: S, b: S, share: S) -> S {
+    a + (b - a) * share
 }
 
 /// Takes a part of a step if the shaft slides on throughout; most do. Gives the angle travelled.
@@ -163,37 +176,43 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
     open: bool,
     counts_per_unit: S::Coefficient,
 ) -> S {
-    let mut pieces = Pieces::new(level, RUNGS - 1);
-    let mut travel = S::zero();
-    while let Some(level) = pieces.next() {
-        let side = body.side(motion);
-        let mut piece = Piece::take(body, level, motion, side, forces, open);
-        let end_side = body.side(&piece.end);
-        let contact = B::COUPLED && is_zero(end_side - side).not().any();
-        if (piece.eventful() || contact) && pieces.halve() {
-            continue;
-        }
-        if contact {
-            // Flanks part without a jump of the torque, but they touch with one.
-            let touching = Piece::take(body, level, motion, end_side, forces, open);
-            let beyond = body.beyond(&piece.end, end_side);
-            let share = beyond.part_of(beyond - body.beyond(motion, end_side));
-            let lands = is_zero(side).and(is_zero(end_side).not());
-            piece.land(&touching, S::select(lands, share, S::zero()));
-        }
-        if piece.eventful() {
-            piece.settle_speed(body, level, &forces.budget);
-        }
-        piece.end.angle = motion.angle.advance(piece.turned, counts_per_unit);
-        *motion = piece.end;
-        travel = travel + piece.turned;
-        pieces.pass();
-    }
-    travel
+    S::routine(
+        #[inline(always)]
+        || {
+            let mut pieces = Pieces::new(level, RUNGS - 1);
+            let mut travel = S::zero();
+            while let Some(level) = pieces.next() {
+                let side = body.side(motion);
+                let mut piece = Piece::take(body, level, motion, side, forces, open);
+                let end_side = body.side(&piece.end);
+                let contact = B::COUPLED && is_zero(end_side - side).not().any();
+                if (piece.eventful() || contact) && pieces.halve() {
+                    continue;
+                }
+                if contact {
+                    // Flanks part without a jump of the torque, but they touch with one.
+                    let touching = Piece::take(body, level, motion, end_side, forces, open);
+                    let beyond = body.beyond(&piece.end, end_side);
+                    let share = beyond.part_of(beyond - body.beyond(motion, end_side));
+                    let lands = is_zero(side).and(is_zero(end_side).not());
+                    piece.land(&touching, S::select(lands, share, S::zero()));
+                }
+                if piece.eventful() {
+                    piece.settle_speed(body, level, &forces.budget);
+                }
+                piece.end.angle = motion.angle.advance(piece.turned, counts_per_unit);
+                *motion = piece.end;
+                travel = travel + piece.turned;
+                pieces.pass();
+            }
+            travel
+        },
+    )
 }
 
 /// Speed of a shaft that broke loose within the smallest piece, in which the pull rose evenly from
 /// `pull.0` to `pull.1`: the excess over friction acts for the rest of the piece.
+#[inline(always)]
 fn started<S: Scalar, B: Body<S>>(body: &B, level: usize, pull: (S, S), budget: &Budget<S>) -> S {
     let (before, pull) = pull;
     let excess = pull.abs() - budget.holding;
@@ -205,6 +224,7 @@ fn started<S: Scalar, B: Body<S>>(body: &B, level: usize, pull: (S, S), budget: 
 /// Speed after a reversal within the smallest piece. It was run with friction on the old side
 /// throughout; beyond the reversal the same pull meets friction on the new side, so the speed
 /// gained there shrinks as the net torque does. Zero if friction holds the pull.
+#[inline(always)]
 fn passed_through<S: Scalar>(speed: S, pull: S, budget: &Budget<S>) -> S {
     let pull = pull.abs();
     let share = (pull - budget.moving).part_of(pull + budget.moving);

@@ -8,7 +8,6 @@
 //! [`Model::step`]. (In the theory of identification: a series-parallel model.)
 
 use super::state::State;
-use super::winding::extra_volts;
 use super::{Model, friction};
 use crate::effects::Shaft;
 use crate::scalar::{Angle, Scalar};
@@ -27,6 +26,7 @@ pub struct Seen<S> {
 impl<S: Scalar> Model<S> {
     /// Advances by one interval with `command` held, the effects evaluated at `seen`. Delays and loads
     /// behind a spring or a gap are not followed.
+    #[inline(always)]
     pub fn lead(&self, state: &mut State<S>, command: S, open: bool, seen: &Seen<S>) {
         let rung = &self.rest.motor[0];
         let timing = rung.timing();
@@ -48,8 +48,7 @@ impl<S: Scalar> Model<S> {
         }
         let mut extra = zero;
         if effects.needs.winding && !open {
-            let changed = effects.winding(volts, &shaft, &state.memory);
-            extra = extra_volts(&changed, &effects.brush, volts, &shaft, timing);
+            extra = self.extra_volts(state, volts, &shaft, &shaft, timing);
             shaft.current = shaft.current + timing.gain * extra;
         }
         let forces = self.forces(state, &shaft, volts, zero, open);
@@ -72,6 +71,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// What the encoder sees, in counts before it rounds down, if its disc stands at `turns`.
+    #[inline(always)]
     pub fn reading_at(&self, state: &State<S>, turns: S) -> S::Angle {
         if !self.effects.needs.sensed {
             return state.motion.angle;

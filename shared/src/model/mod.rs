@@ -29,7 +29,7 @@ use crate::discretise::Discretisation;
 use crate::effects::{EffectSet, Lowered};
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Angle, Mask, Real, Scalar};
+use crate::scalar::{Abreast, Angle, Mask, Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 use coupled::{Coupled, MotorAndLoad};
 use friction::Forces;
@@ -55,6 +55,7 @@ pub struct Plan<R> {
 
 impl<R: Real> Plan<R> {
     /// The linear machine, discretised exactly.
+    #[inline(always)]
     pub fn linear(machine: Machine<R>, units: PerUnit<R>) -> Self {
         Plan {
             machine,
@@ -88,6 +89,19 @@ pub struct Model<S: Scalar> {
     constant: Forces<S>,
 }
 
+abreast!(Model {
+    rest,
+    first,
+    late,
+    counts_per_unit,
+    turns_per_unit,
+    counts_per_turn,
+    counts_per_rev,
+    effects,
+    tolerated,
+    constant
+});
+
 /// A stretch of a step under one command.
 #[derive(Clone, Copy, Debug)]
 struct Stretch<S: Scalar> {
@@ -97,6 +111,21 @@ struct Stretch<S: Scalar> {
     parts: u16,
     /// Halvings of the first part after a large jump of the voltage.
     grade: usize,
+}
+
+impl<W, const N: usize> Abreast<Stretch<f64>, N> for Stretch<W>
+where
+    W: Scalar<Coefficient = W, Angle = W> + From<[f64; N]>,
+{
+    fn abreast(each: [&Stretch<f64>; N]) -> Option<Self> {
+        Some(Stretch {
+            motor: Abreast::abreast(each.map(|one| &one.motor))?,
+            coupled: Abreast::abreast(each.map(|one| &one.coupled))?,
+            parts: Abreast::abreast(each.map(|one| &one.parts))?,
+            // More of them are only finer.
+            grade: each.iter().fold(0, |most, one| most.max(one.grade)),
+        })
+    }
 }
 
 /// The first part after a jump of the voltage is at most this fraction of the electrical time
@@ -139,7 +168,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Advances by one interval with `command` held; `open` while the bridge is open.
-    #[inline]
+    #[inline(always)]
     pub fn step(&self, state: &mut State<S>, command: S, open: bool) {
         if self.effects.is_empty() {
             let by = self.rest.motor[0].slide(&state.motion, command, S::zero(), open);
@@ -158,7 +187,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// What the encoder sees, in counts before it rounds down.
-    #[inline]
+    #[inline(always)]
     pub fn reading(&self, state: &State<S>) -> S::Angle {
         let angle = state.motion.angle;
         if !self.effects.needs.sensed {
@@ -169,6 +198,7 @@ impl<S: Scalar> Model<S> {
         angle.advance(error, self.counts_per_turn)
     }
 
+    #[inline(always)]
     fn step_with_effects(&self, state: &mut State<S>, command: S, open: bool) {
         let (mut command, mut open) = (command, open);
         if self.late > 0 || self.first.is_some() {
@@ -183,6 +213,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Holds a command for a stretch of the step.
+    #[inline(always)]
     fn hold(&self, stretch: &Stretch<S>, state: &mut State<S>, command: S, open: bool) {
         let volts = self.effects.drive(command);
         let jump = (volts - state.volts).abs();
@@ -225,7 +256,7 @@ impl<S: Scalar> Model<S> {
 impl<S: Scalar> Stretch<S> {
     /// Halvings of the first part after a jump of the voltage: one for each doubling beyond the
     /// largest jump that needs none.
-    #[inline]
+    #[inline(always)]
     fn grade_after(&self, jump: S) -> usize {
         let mut tame = S::from_f64(SMALL_JUMP);
         let mut grade = 0;
@@ -278,6 +309,7 @@ impl<S: Scalar> Stretch<S> {
 }
 
 /// Whole samples of a delay, and the fraction of one that is left, if any.
+#[inline(always)]
 fn whole_and_fraction<R: Real>(delay: R) -> Result<(usize, Option<R>), ModelError> {
     const NEGLIGIBLE: f64 = 1e-9;
     let samples = delay.to_f64();

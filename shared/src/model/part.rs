@@ -2,6 +2,7 @@
 
 use super::Model;
 use super::body::{Body, Increment};
+use super::foresee::Foreseen;
 use super::friction::{Forces, slide_and_stick, slide_on};
 use super::pieces::Pieces;
 use super::rung::RUNGS;
@@ -18,40 +19,46 @@ impl<S: Scalar> Model<S> {
         volts: S,
         open: bool,
     ) {
-        let needs = self.effects.needs;
-        if !(needs.mean || needs.memory) {
-            let forces = Forces {
-                volts,
-                ..self.constant
-            };
-            self.follow(body, level, &mut state.motion, &forces, open);
-            return;
-        }
-        let mut pieces = Pieces::new(level, RUNGS - 1);
-        while let Some(level) = pieces.next() {
-            let start = self.start(&state.motion, body.timing(level), open);
-            let forces = if needs.mean {
-                let foreseen = self.foresee(body, level, state, &start, volts, open);
-                if foreseen.doubtful.any() && pieces.halve() {
-                    continue;
+        S::routine(
+            #[inline(always)]
+            || {
+                let needs = self.effects.needs;
+                if !(needs.mean || needs.memory) {
+                    let forces = Forces {
+                        volts,
+                        ..self.constant
+                    };
+                    self.follow(body, level, &mut state.motion, &forces, open);
+                    return;
                 }
-                foreseen.forces
-            } else {
-                self.forces(state, &start, volts, S::zero(), open)
-            };
-            let travel = self.follow(body, level, &mut state.motion, &forces, open);
-            if needs.memory {
-                let by = Increment {
-                    current: state.motion.current - start.current,
-                    speed: state.motion.speed - start.speed,
-                    angle: travel,
-                    ..Increment::default()
-                };
-                let shaft = self.mean(&start, &by, forces.volts, body.timing(level), open);
-                self.effects.remember(&mut state.memory, &shaft);
-            }
-            pieces.pass();
-        }
+                let mut pieces = Pieces::new(level, RUNGS - 1);
+                while let Some(level) = pieces.next() {
+                    let start = self.start(&state.motion, body.timing(level), open);
+                    let forces = if needs.mean {
+                        let Foreseen { forces, doubtful } =
+                            self.foresee(body, level, state, &start, volts, open);
+                        if doubtful.any() && pieces.halve() {
+                            continue;
+                        }
+                        forces
+                    } else {
+                        self.forces(state, &start, volts, S::zero(), open)
+                    };
+                    let travel = self.follow(body, level, &mut state.motion, &forces, open);
+                    if needs.memory {
+                        let by = Increment {
+                            current: state.motion.current - start.current,
+                            speed: state.motion.speed - start.speed,
+                            angle: travel,
+                            ..Increment::default()
+                        };
+                        let shaft = self.mean(&start, &by, forces.volts, body.timing(level), open);
+                        self.effects.remember(&mut state.memory, &shaft);
+                    }
+                    pieces.pass();
+                }
+            },
+        )
     }
 
     /// Moves under `forces`. Gives the angle travelled, in base speed × interval.

@@ -5,7 +5,7 @@ use super::state::Motion;
 use crate::discretise::{Discretisation, LinearMap, LinearSystem, lowered};
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Real, Scalar, abreast};
 
 /// Lengths of parts: a step and seven halvings of it.
 pub const RUNGS: usize = 8;
@@ -34,6 +34,15 @@ pub struct Timing<S: Scalar> {
     pub give: S,
 }
 
+abreast!(Timing {
+    length,
+    per_length,
+    lag,
+    kb,
+    gain,
+    give
+});
+
 /// Maps of one part of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Rung<S: Scalar> {
@@ -48,6 +57,16 @@ pub struct Rung<S: Scalar> {
     held: [S::Coefficient; 2],
     timing: Timing<S>,
 }
+
+abreast!(Rung {
+    current,
+    speed,
+    angle,
+    coast_speed,
+    coast_angle,
+    held,
+    timing
+});
 
 /// The maps of a step in R, before they are lowered.
 #[derive(Clone, Copy)]
@@ -183,6 +202,7 @@ pub fn ladder<S: Scalar, R: Real>(
 
 impl<S: Scalar> Rung<S> {
     /// Its length, and how the mean current follows from its ends.
+    #[inline(always)]
     pub fn timing(&self) -> &Timing<S> {
         &self.timing
     }
@@ -192,24 +212,32 @@ impl<S: Scalar> Rung<S> {
     pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
         let (current, speed) = (from.current, from.speed);
         if open {
-            let row = |k: &[S::Coefficient; 2]| speed.times(k[0]) + torque.times(k[1]);
+            let by = [speed, torque];
             return Increment {
                 current: -current,
-                speed: row(&self.coast_speed),
-                angle: row(&self.coast_angle),
+                speed: weighed(by, &self.coast_speed),
+                angle: weighed(by, &self.coast_angle),
                 ..Increment::default()
             };
         }
-        let row = |k: &[S::Coefficient; 4]| {
-            current.times(k[0]) + speed.times(k[1]) + volts.times(k[2]) + torque.times(k[3])
-        };
+        let by = [current, speed, volts, torque];
         Increment {
-            current: row(&self.current),
-            speed: row(&self.speed),
-            angle: row(&self.angle),
+            current: weighed(by, &self.current),
+            speed: weighed(by, &self.speed),
+            angle: weighed(by, &self.angle),
             ..Increment::default()
         }
     }
+}
+
+/// The sum of numbers, each times its own multiplier.
+#[inline(always)]
+pub fn weighed<S: Scalar, const K: usize>(numbers: [S; K], by: &[S::Coefficient; K]) -> S {
+    let mut sum = numbers[0].times(by[0]);
+    for k in 1..K {
+        sum = sum + numbers[k].times(by[k]);
+    }
+    sum
 }
 
 impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {

@@ -1,7 +1,7 @@
 //! What runs: the state of the motor, of its load and of the effects' memories.
 
 use crate::effects::MAX_EFFECTS;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, abreast};
 
 /// What moves: winding, shaft and load.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,6 +17,14 @@ pub struct Motion<S: Scalar> {
     /// Speed of the motor less that of its load, per unit.
     pub slip: S,
 }
+
+abreast!(Motion {
+    current,
+    speed,
+    angle,
+    twist,
+    slip
+});
 
 /// What runs. `Default` is rest at angle zero, with everything cold and relaxed. Nothing in it
 /// depends on the sample interval, so models of one motor at different intervals can share it.
@@ -34,8 +42,17 @@ pub struct State<S: Scalar> {
     pub past: Past<S>,
 }
 
+abreast!(State {
+    motion,
+    volts,
+    open,
+    memory,
+    past
+});
+
 impl<S: Scalar> State<S> {
     /// A motor without current that passes `angle` at `speed`; its load turns with it.
+    #[inline(always)]
     pub fn at(angle: S::Angle, speed: S) -> Self {
         State {
             motion: Motion {
@@ -59,6 +76,12 @@ pub struct Past<S> {
     newest: usize,
 }
 
+abreast!(Past {
+    volts,
+    open,
+    newest
+});
+
 impl<S: Copy> Past<S> {
     /// Takes the next command.
     pub fn push(&mut self, volts: S, open: bool) {
@@ -68,6 +91,7 @@ impl<S: Copy> Past<S> {
     }
 
     /// The command of `samples` ago, at most [`MAX_DELAY`].
+    #[inline(always)]
     pub fn ago(&self, samples: usize) -> (S, bool) {
         let len = self.volts.len();
         let k = (self.newest + len - samples.min(len - 1)) % len;

@@ -17,6 +17,7 @@ use crate::effects::{Brush, Shaft, Winding};
 use crate::scalar::{Mask, Scalar};
 
 /// Volts `E` for a part whose mean, with the plain winding at `volts`, is `free`.
+#[inline(always)]
 pub fn extra_volts<S: Scalar>(
     changed: &Winding<S>,
     brush: &Brush<S>,
@@ -50,15 +51,16 @@ pub fn extra_volts<S: Scalar>(
 }
 
 /// Whether the current passes a bend of the brushes' law on its way through the part.
+#[inline(always)]
 pub fn bends<S: Scalar>(brush: &Brush<S>, start: &Shaft<S>, mean: &Shaft<S>) -> S::Mask {
     let zero = S::zero();
-    let side = |current: S| S::select(current.abs().less(brush.knee), zero, current.signum());
-    let moved = side(start.current) - side(start.current + mean.current_change);
+    let moved = brush.side(start.current) - brush.side(start.current + mean.current_change);
     let bent = zero.less(moved).or(moved.less(zero));
     bent.and(zero.less(brush.drop))
 }
 
 /// The product, kept within half the range of a format that has one.
+#[inline(always)]
 fn bounded<S: Scalar>(a: S, b: S) -> S {
     if S::LIMIT.is_infinite() {
         return a * b;

@@ -7,7 +7,7 @@
 //!
 //! A multiplier keeps 31 significant bits whatever its size: a mantissa and a shift.
 
-use super::{Angle, ErrorValue, Scalar};
+use super::{Angle, ErrorValue, Readable, Scalar};
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Bits below the point.
@@ -203,13 +203,11 @@ fn sin_turns(raw: i64) -> Fixed {
 pub struct FixedAngle(i64);
 
 impl Angle<Fixed> for FixedAngle {
-    type Error = FixedError;
-
     fn from_counts(counts: f64) -> Self {
         let whole = libm::floor(counts);
         let fraction = ((counts - whole) * 4_294_967_296.0) as i64;
         FixedAngle(
-            ((<f64 as Angle<f64>>::floor(counts) as i64) << 32) | fraction.min(u32::MAX as i64),
+            ((<f64 as Readable<f64>>::floor(counts) as i64) << 32) | fraction.min(u32::MAX as i64),
         )
     }
     #[inline(always)]
@@ -220,6 +218,18 @@ impl Angle<Fixed> for FixedAngle {
             counts_per_unit.shift - (32 - UPPER_POINT) as i32,
         )))
     }
+    fn turns(self, counts_per_rev: u32) -> Fixed {
+        let within = (self.0 >> 32).rem_euclid(counts_per_rev as i64) as u64;
+        // within + fraction, as a fraction of a turn with 60 bits below the point.
+        let fraction = self.0 as u32 as u64;
+        let rest = ((within << 32) | fraction) / counts_per_rev as u64;
+        Fixed((rest << (POINT - 32)) as i64)
+    }
+}
+
+impl Readable<Fixed> for FixedAngle {
+    type Error = FixedError;
+
     #[inline(always)]
     fn floor(self) -> i32 {
         (self.0 >> 32) as i32
@@ -227,13 +237,6 @@ impl Angle<Fixed> for FixedAngle {
     #[inline(always)]
     fn minus(self, counts: i32) -> FixedError {
         FixedError(self.0.wrapping_sub((counts as i64) << 32) >> 16)
-    }
-    fn turns(self, counts_per_rev: u32) -> Fixed {
-        let within = (self.0 >> 32).rem_euclid(counts_per_rev as i64) as u64;
-        // within + fraction, as a fraction of a turn with 60 bits below the point.
-        let fraction = self.0 as u32 as u64;
-        let rest = ((within << 32) | fraction) / counts_per_rev as u64;
-        Fixed((rest << (POINT - 32)) as i64)
     }
 }
 

@@ -3,13 +3,14 @@
 //! f64 keeps the angle as one number. f32 keeps whole counts in an integer and the rest as a
 //! fraction: as one number it would lose a count after a few revolutions.
 
-use super::{Angle, ErrorValue, Real, Scalar};
+use super::curves;
+use super::{Angle, ErrorValue, Readable, Real, Scalar};
 
 /// Remainder for counts that the 32-bit counter has wrapped.
 const WRAP: f64 = 4_294_967_296.0;
 
 macro_rules! float_scalar {
-    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:path, $bits:expr) => {
+    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:expr, $decay:expr, $bits:expr) => {
         impl Scalar for $t {
             type Mask = bool;
             type Coefficient = $t;
@@ -54,7 +55,7 @@ macro_rules! float_scalar {
             }
             #[inline]
             fn exp_decay(self) -> Self {
-                $exp(self)
+                $decay(self)
             }
         }
 
@@ -105,7 +106,16 @@ macro_rules! float_scalar {
     };
 }
 
-float_scalar!(f64, f64, libm::exp, libm::log, libm::sqrt, sin_cos, 53);
+float_scalar!(
+    f64,
+    f64,
+    libm::exp,
+    libm::log,
+    libm::sqrt,
+    curves::sin_cos_turns,
+    |x| curves::exp_decay(x, curves::power_of_two),
+    53
+);
 float_scalar!(
     f32,
     SplitAngle,
@@ -113,12 +123,9 @@ float_scalar!(
     libm::logf,
     libm::sqrtf,
     short_sin_cos,
+    libm::expf,
     24
 );
-
-fn sin_cos(turns: f64) -> (f64, f64) {
-    libm::sincos(turns * core::f64::consts::TAU)
-}
 
 /// In f32 a polynomial does: turns need no reduction by multiples of π, which is most of `libm::sincosf` and two kilobytes
 /// of a microcontroller's flash.
@@ -151,8 +158,6 @@ fn sin_turns(turns: f32) -> f32 {
 }
 
 impl Angle<f64> for f64 {
-    type Error = f64;
-
     #[inline(always)]
     fn from_counts(counts: f64) -> Self {
         counts
@@ -161,6 +166,16 @@ impl Angle<f64> for f64 {
     fn advance(self, step: f64, counts_per_unit: f64) -> Self {
         self + step * counts_per_unit
     }
+    #[inline]
+    fn turns(self, counts_per_rev: u32) -> f64 {
+        let turns = self / counts_per_rev as f64;
+        turns - libm::floor(turns)
+    }
+}
+
+impl Readable<f64> for f64 {
+    type Error = f64;
+
     #[inline]
     fn floor(self) -> i32 {
         let whole = libm::floor(self);
@@ -176,11 +191,6 @@ impl Angle<f64> for f64 {
             difference - WRAP * libm::floor(difference / WRAP + 0.5)
         }
     }
-    #[inline]
-    fn turns(self, counts_per_rev: u32) -> f64 {
-        let turns = self / counts_per_rev as f64;
-        turns - libm::floor(turns)
-    }
 }
 
 /// Whole counts and a fraction in `[0, 1)`, so that the sum of many small steps stays exact to
@@ -192,12 +202,10 @@ pub struct SplitAngle {
 }
 
 impl Angle<f32> for SplitAngle {
-    type Error = f32;
-
     fn from_counts(counts: f64) -> Self {
         let whole = libm::floor(counts);
         SplitAngle {
-            whole: <f64 as Angle<f64>>::floor(counts),
+            whole: <f64 as Readable<f64>>::floor(counts),
             fraction: (counts - whole) as f32,
         }
     }
@@ -216,6 +224,16 @@ impl Angle<f32> for SplitAngle {
             fraction,
         }
     }
+    #[inline]
+    fn turns(self, counts_per_rev: u32) -> f32 {
+        let within = (self.whole as i64).rem_euclid(counts_per_rev as i64);
+        (within as f32 + self.fraction) / counts_per_rev as f32
+    }
+}
+
+impl Readable<f32> for SplitAngle {
+    type Error = f32;
+
     #[inline(always)]
     fn floor(self) -> i32 {
         self.whole
@@ -223,11 +241,6 @@ impl Angle<f32> for SplitAngle {
     #[inline(always)]
     fn minus(self, counts: i32) -> f32 {
         self.whole.wrapping_sub(counts) as f32 + self.fraction
-    }
-    #[inline]
-    fn turns(self, counts_per_rev: u32) -> f32 {
-        let within = (self.whole as i64).rem_euclid(counts_per_rev as i64);
-        (within as f32 + self.fraction) / counts_per_rev as f32
     }
 }
 

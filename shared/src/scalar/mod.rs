@@ -8,10 +8,14 @@
 //! * comparisons give a [`Mask`] and choices are [`Scalar::select`], so that a SIMD lane type, where
 //!   every lane is another candidate, can be a `Scalar` too.
 
+mod abreast;
+pub mod curves;
 mod fixed;
 mod float;
 mod mask;
 
+pub use abreast::Abreast;
+pub(crate) use abreast::abreast;
 pub use fixed::{Fixed, FixedCoefficient};
 pub use mask::Mask;
 
@@ -58,23 +62,35 @@ pub trait Scalar:
     fn from_q15(duty: i16) -> Self {
         Self::from_f64(f64::from(duty) * (1.0 / 32_768.0))
     }
+    /// Computes what is long and needed in several places. A number that is computed with instructions which
+    /// the rest of the program must do without makes it a routine of its own that has them too.
+    #[inline(always)]
+    fn routine<A>(mut body: impl FnMut() -> A) -> A {
+        body()
+    }
+
     /// Zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::default()
     }
     /// Magnitude.
+    #[inline(always)]
     fn abs(self) -> Self {
         Self::select(self.less(Self::zero()), -self, self)
     }
     /// The smaller of two.
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(other.less(self), other, self)
     }
     /// The larger of two.
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(self.less(other), other, self)
     }
     /// −1, 0 or 1.
+    #[inline(always)]
     fn signum(self) -> Self {
         let one = Self::from_f64(1.0);
         let zero = Self::zero();
@@ -88,18 +104,22 @@ pub trait Scalar:
 
 /// Shaft angle in encoder counts, kept so that it never loses low bits.
 pub trait Angle<S: Scalar>: Copy + Default + Debug {
-    /// A difference of angles in counts, the stuff of which costs are summed.
-    type Error: ErrorValue;
     /// From a number of counts.
     fn from_counts(counts: f64) -> Self;
     /// Adds `step · counts_per_unit` counts.
     fn advance(self, step: S, counts_per_unit: S::Coefficient) -> Self;
+    /// Position within a revolution, as a fraction of a turn in `[0, 1)`.
+    fn turns(self, counts_per_rev: u32) -> S;
+}
+
+/// An angle that an encoder can read. Of several candidates side by side there is no one reading.
+pub trait Readable<S: Scalar>: Angle<S> {
+    /// A difference of angles in counts, the stuff of which costs are summed.
+    type Error: ErrorValue;
     /// The encoder's reading: rounded down, and wrapped like its 32-bit counter.
     fn floor(self) -> i32;
     /// `self − counts`, by way of the shorter way round the 32-bit counter.
     fn minus(self, counts: i32) -> Self::Error;
-    /// Position within a revolution, as a fraction of a turn in `[0, 1)`.
-    fn turns(self, counts_per_rev: u32) -> S;
 }
 
 /// An angle error in counts.
@@ -118,7 +138,9 @@ pub trait ErrorValue: Copy + Default + Debug + PartialOrd + Add<Output = Self> {
 
 /// A floating-point [`Scalar`] with the functions that set-up code needs (never the hot loop).
 /// All of them come from `libm`, so that the PC and the MCU get the same bits.
-pub trait Real: Scalar<Coefficient = Self, Mask = bool> + PartialOrd + Div<Output = Self> {
+pub trait Real:
+    Scalar<Coefficient = Self, Mask = bool, Angle: Readable<Self>> + PartialOrd + Div<Output = Self>
+{
     /// As f64, exactly.
     fn to_f64(self) -> f64;
     /// Natural exponential.

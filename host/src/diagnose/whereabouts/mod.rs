@@ -11,8 +11,9 @@ pub use whiteness::{Whiteness, whiteness};
 
 use crate::error::Error;
 use crate::fit::scores::{EquationResidual, equation_residuals, whole};
+use crate::problem::course::{Manner, legs};
 use crate::problem::simulate::{Method, Simulation};
-use crate::problem::{Candidate, Data};
+use crate::problem::{Candidate, Data, Horizon, StartAngle};
 
 /// Filter time of the residual, sample intervals: long enough that the encoder's steps do not drown it, short
 /// against a motor's time constants.
@@ -121,12 +122,12 @@ fn perfect_volts(
     }
     let mut own = data.clone();
     let simulation = Simulation::new(data, complete, method)?;
-    simulation.run(
-        0..data.len(),
-        data.centre(0) + complete.start_offset,
-        complete.start_speed,
-        |k, angle| own.counts[k] = angle.floor(),
-    );
+    for leg in legs(data, complete, &Horizon::Whole, StartAngle::Free) {
+        simulation.run(Manner::Free, &leg, &mut own.counts);
+    }
+    for sight in &mut own.counts {
+        *sight = sight.floor();
+    }
     Ok(rms(&equation_residuals(&own, complete, time)))
 }
 

@@ -1,0 +1,51 @@
+//! Candidates side by side: one number for each of them in the lanes of the processor's vector registers, with
+//! which `shared`'s equations are computed as with any other number.
+//!
+//! Which instructions there are is found out when the program runs. Where there are none, candidates are
+//! computed one by one.
+
+mod number;
+mod token;
+
+use core::marker::PhantomData;
+pub use number::{LANES, LaneMask, Lanes};
+pub use token::Token;
+
+/// Something to be computed in lanes.
+pub trait Work {
+    /// What it gives.
+    type Output;
+    /// Does it, with `M` registers of the processor `T` to a number. Everything in it that is to be fast must be
+    /// inlined into it.
+    fn run<T: Token, const M: usize>(self) -> Self::Output;
+}
+
+/// Does the work with the widest registers that this processor has; `None` where it has none.
+#[cfg(target_arch = "x86_64")]
+pub fn work<W: Work>(work: W) -> Option<W::Output> {
+    use pulp::Simd;
+    use pulp::x86::{Arch, V3, V4};
+    match Arch::new() {
+        Arch::V4(v4) => Some(Simd::vectorize(v4, On::<W, V4, 1>(work, PhantomData))),
+        Arch::V3(v3) => Some(Simd::vectorize(v3, On::<W, V3, 2>(work, PhantomData))),
+        _ => None,
+    }
+}
+
+/// Does the work with the widest registers that this processor has; `None` where it has none.
+#[cfg(not(target_arch = "x86_64"))]
+pub fn work<W: Work>(_work: W) -> Option<W::Output> {
+    None
+}
+
+/// Work on a processor that is known.
+struct On<W, T, const M: usize>(W, PhantomData<T>);
+
+impl<W: Work, T: Token, const M: usize> pulp::WithSimd for On<W, T, M> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> W::Output {
+        self.0.run::<T, M>()
+    }
+}

@@ -1,0 +1,171 @@
+//! Models run along the data: one candidate's, or those of several abreast.
+
+use super::cost::{Horizon, StartAngle};
+use super::data::Data;
+use super::simulate::Candidate;
+use shared::model::{Model, Seen, State};
+use shared::scalar::{Mask, Scalar};
+use std::ops::Range;
+
+/// What recordings are run with: the number of one candidate, or of several abreast.
+pub trait Number: Scalar<Coefficient = Self, Angle = Self> {}
+
+impl<S: Scalar<Coefficient = S, Angle = S>> Number for S {}
+
+/// What moves a model along.
+#[derive(Clone, Copy)]
+pub enum Manner<'a> {
+    /// It runs freely.
+    Free,
+    /// It is pulled towards the readings like an observer that forgets an error within so many seconds: what
+    /// happens once, such as a slipped detent, does not stay for ever.
+    Nudged(f64),
+    /// Its effects are led along a measured motion.
+    Led {
+        /// One entry an interval.
+        seen: &'a [Seen<f64>],
+        /// Position within the revolution, one entry a sample.
+        turns: &'a [f64],
+    },
+}
+
+/// A part of the recording that a model runs through on its own.
+#[derive(Clone, Debug)]
+pub struct Leg {
+    /// Its samples.
+    pub range: Range<usize>,
+    /// What the encoder sees at its first one, counts.
+    pub angle: f64,
+    /// Speed there, rad/s.
+    pub speed: f64,
+}
+
+/// The legs of a horizon for a candidate.
+pub fn legs(
+    data: &Data,
+    candidate: &Candidate,
+    horizon: &Horizon,
+    start_angle: StartAngle,
+) -> Vec<Leg> {
+    let whole = |angle| {
+        vec![Leg {
+            range: 0..data.len(),
+            angle,
+            speed: candidate.start_speed,
+        }]
+    };
+    match horizon {
+        Horizon::Whole => whole(match start_angle {
+            StartAngle::Known => data.counts[0],
+            StartAngle::Free => data.centre(0) + candidate.start_offset,
+        }),
+        Horizon::Nudged(_) => whole(data.centre(0)),
+        Horizon::Windows(windows) => {
+            let leg = |window: &super::cost::Window| Leg {
+                range: window.range.clone(),
+                angle: data.centre(window.range.start),
+                speed: window.speed,
+            };
+            windows.iter().map(leg).collect()
+        }
+    }
+}
+
+/// The data, and a model for each length of interval in it.
+pub struct Course<'a, S: Scalar> {
+    /// The data.
+    pub data: &'a Data,
+    /// The models.
+    pub models: &'a [Model<S>],
+}
+
+impl<S: Number> Course<'_, S> {
+    /// Runs from a state over the samples of `range`; calls `each` with the sample and what the model's encoder
+    /// sees there, counts.
+    #[inline(always)]
+    pub fn run(
+        &self,
+        manner: Manner<'_>,
+        state: State<S>,
+        range: Range<usize>,
+        each: impl FnMut(usize, S),
+    ) {
+        let memory_s = match manner {
+            Manner::Free => None,
+            Manner::Nudged(memory_s) => Some(memory_s),
+            Manner::Led { seen, turns } => return self.led(state, range, seen, turns, each),
+        };
+        self.alone(state, range, memory_s, each);
+    }
+
+    #[inline(always)]
+    fn model(&self, k: usize) -> &Model<S> {
+        &self.models[self.data.length_of[k] as usize]
+    }
+
+    #[inline(always)]
+    fn command(&self, k: usize) -> S {
+        S::from_f64(self.data.command[k])
+    }
+
+    /// Runs freely, or pulled towards the readings with a memory.
+    // One loop for both, since all of the model is compiled into it.
+    #[inline(always)]
+    fn alone(
+        &self,
+        mut state: State<S>,
+        range: Range<usize>,
+        memory_s: Option<f64>,
+        mut each: impl FnMut(usize, S),
+    ) {
+        for k in range {
+            let model = self.model(k);
+            let sight = model.reading(&state);
+            each(k, sight);
+            if let Some(memory_s) = memory_s {
+                self.pull(&mut state, k, sight, memory_s);
+            }
+            model.step(&mut state, self.command(k), self.data.is_open(k));
+        }
+    }
+
+    /// Pulls a model that sees `sight` at sample `k` towards the reading.
+    #[inline(always)]
+    fn pull(&self, state: &mut State<S>, k: usize, sight: S, memory_s: f64) {
+        let data = self.data;
+        let units = &data.units;
+        let per_count = units.interval / (memory_s * units.counts_per_unit());
+        let off =
+            sight - S::from_f64(data.counts[k]) - S::from_f64(data.centre(k) - data.counts[k]);
+        // Both poles of the error at 1/memory.
+        let share = (data.lengths[data.length_of[k] as usize] * units.interval / memory_s).min(0.5);
+        let motion = &mut state.motion;
+        motion.angle = motion.angle - S::from_f64(2.0 * share) * off;
+        let pulled = motion.speed - S::from_f64(share) * off * S::from_f64(per_count);
+        // A shaft that friction holds stays at rest.
+        let zero = S::zero();
+        let moves = motion.speed.less(zero).or(zero.less(motion.speed));
+        motion.speed = S::select(moves, pulled, motion.speed);
+    }
+
+    #[inline(always)]
+    fn led(
+        &self,
+        mut state: State<S>,
+        range: Range<usize>,
+        seen: &[Seen<f64>],
+        turns: &[f64],
+        mut each: impl FnMut(usize, S),
+    ) {
+        for k in range {
+            let model = self.model(k);
+            each(k, model.reading_at(&state, S::from_f64(turns[k])));
+            let seen = Seen {
+                turns: S::from_f64(seen[k].turns),
+                speed: S::from_f64(seen[k].speed),
+                speed_change: S::from_f64(seen[k].speed_change),
+            };
+            model.lead(&mut state, self.command(k), self.data.is_open(k), &seen);
+        }
+    }
+}
