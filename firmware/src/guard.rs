@@ -104,7 +104,7 @@ impl Guard {
         if continuous > 0 && self.heat > continuous * continuous {
             return Err(Tripped {
                 fault: Fault::Overheated,
-                seen: clamped(self.heat.unsigned_abs().isqrt() as i64),
+                seen: libm::sqrtf(self.heat as f32) as i32,
                 limit: clamped(continuous),
             });
         }

@@ -70,6 +70,12 @@ pub struct Log<const N: usize> {
     len: usize,
 }
 
+impl<const N: usize> Default for Log<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<const N: usize> Log<N> {
     /// Empty.
     pub const fn new() -> Self {

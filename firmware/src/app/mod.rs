@@ -44,7 +44,8 @@ const REPEAT_US: u32 = 500_000;
 /// The fit's progress is sent this often.
 const PROGRESS_US: u32 = 200_000;
 
-/// What a phase does with its periods.
+/// What a phase does with its periods. There is no heap to put the larger one on.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug)]
 enum Work {
     /// Nothing.

@@ -88,7 +88,7 @@ impl Order {
             None => largest,
             Some(volts) => volts / self.supply_v * 32_768.0,
         };
-        if !(duty >= 1.0) {
+        if duty.is_nan() || duty < 1.0 {
             return Err(wrong(format!(
                 "--max-voltage {}: must be above zero",
                 duty * self.supply_v / 32_768.0

@@ -59,7 +59,7 @@ impl Curvature {
                 }
             }
         }
-        Real::sqrt(f64::from(least) * repeats * variance.max(0.0)) as f32
+        Real::sqrt((f64::from(least) * repeats * variance.max(0.0)) as f32)
     }
 }
 
@@ -248,9 +248,9 @@ impl Polish {
         self.periods = periods.max(1) as f64;
         if self.tries < 4 {
             let mut unfit = false;
-            let visible = VISIBLE.max(ROUGH * Real::sqrt(f64::from(self.cost)));
+            let visible = VISIBLE.max(ROUGH * f64::from(Real::sqrt(self.cost)));
             for (axis, square) in [(a, aa), (b, bb)] {
-                let moved = Real::sqrt(square.max(0.0) / self.periods);
+                let moved = f64::from(Real::sqrt((square.max(0.0) / self.periods) as f32));
                 let widest = LONGEST.min(self.centre[axis].max(1.0 - self.centre[axis]));
                 let wanted = if moved > 0.0 {
                     (f64::from(self.reach[axis]) * visible / moved) as f32
@@ -371,23 +371,23 @@ impl Polish {
     }
 }
 
-/// Inverse of a symmetric matrix whose diagonal is enlarged by the part `damping`, by Cholesky's method, for the `free`
-/// coordinates; none if that is not positive definite.
+/// Inverse of a symmetric matrix whose diagonal is enlarged by the part `damping`, by Cholesky's method without roots
+/// (`L·D·Lᵀ`), for the `free` coordinates; none if that is not positive definite.
 fn inverse(matrix: &Matrix, n: usize, damping: f64, free: &[bool; MOST]) -> Option<Matrix> {
     let entry = |a: usize, b: usize| match (free[a] && free[b], a == b) {
         (true, true) => matrix[a][a] * (1.0 + damping),
         (true, false) => matrix[a][b],
         (false, same) => f64::from(u8::from(same)),
     };
-    let mut lower = [[0.0; MOST]; MOST];
+    let (mut lower, mut pivots) = ([[0.0; MOST]; MOST], [0.0; MOST]);
     for a in 0..n {
         for b in 0..=a {
-            let terms = (0..b).map(|k| lower[a][k] * lower[b][k]);
+            let terms = (0..b).map(|k| lower[a][k] * lower[b][k] * pivots[k]);
             let rest = terms.fold(entry(a, b), |rest, term: f64| rest - term);
             if a != b {
-                lower[a][b] = rest / lower[b][b];
+                lower[a][b] = rest / pivots[b];
             } else if rest > 1e-12 * entry(a, a) && rest.is_finite() {
-                lower[a][a] = Real::sqrt(rest);
+                pivots[a] = rest;
             } else {
                 return None;
             }
@@ -399,11 +399,11 @@ fn inverse(matrix: &Matrix, n: usize, damping: f64, free: &[bool; MOST]) -> Opti
         for a in 0..n {
             let terms = (0..a).map(|k| lower[a][k] * x[k]);
             let unit = f64::from(u8::from(a == column));
-            x[a] = terms.fold(unit, |rest, term| rest - term) / lower[a][a];
+            x[a] = terms.fold(unit, |rest, term| rest - term);
         }
         for a in (0..n).rev() {
             let terms = (a + 1..n).map(|k| lower[k][a] * x[k]);
-            x[a] = terms.fold(x[a], |rest, term| rest - term) / lower[a][a];
+            x[a] = terms.fold(x[a] / pivots[a], |rest, term| rest - term);
         }
         for (row, x) in inverse.iter_mut().zip(x) {
             row[column] = x;
