@@ -197,7 +197,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         } else {
             self.board.coast();
             self.duty = OPEN;
-            self.rest();
+            self.rest(ticked.is_ok());
         }
         // After the drive: it must not come late because the host has much to say. A stop opens the bridge here.
         self.hear();
@@ -538,11 +538,12 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     fn apply(&mut self, duty: i16) {
-        self.duty = duty;
         if duty == OPEN {
+            self.duty = OPEN;
             self.board.coast();
         } else {
-            self.board.drive(duty);
+            self.duty = self.board.nearest(duty);
+            self.board.drive(self.duty);
         }
     }
 
@@ -648,10 +649,10 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     /// A period with the bridge open.
-    fn rest(&mut self) {
+    fn rest(&mut self, punctual: bool) {
         match (&self.work, self.phase) {
             (Work::Fit, Phase::Fit) => self.fit(),
-            (Work::Fitted, Phase::Fit) => {
+            (Work::Fitted, Phase::Fit) if punctual => {
                 // The host may have been silent while nothing moved.
                 self.silence = 0;
                 self.done();
@@ -685,7 +686,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     fn fitted_to(&mut self, outcome: Outcome) {
         self.report.outcome = Some(outcome);
         self.predict();
-        // The next phase drives, and its first period must not find this one late: one more passes with the bridge open.
+        // The next phase drives: it waits for a period that begins in time.
         self.work = Work::Fitted;
     }
 

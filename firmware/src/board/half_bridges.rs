@@ -34,6 +34,17 @@ impl HalfBridges {
     }
 }
 
+impl HalfBridges {
+    /// What `duty` becomes in steps of the carrier, to the nearest Q15.
+    pub fn nearest(self, duty: i16) -> i16 {
+        let (a, b) = self.compares(duty);
+        let full = i32::from(self.full).max(1);
+        let steps = i32::from(a) - i32::from(b);
+        let half = if steps < 0 { -full / 2 } else { full / 2 };
+        ((steps * 32_768 + half) / full).clamp(-32_767, 32_767) as i16
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -70,6 +81,21 @@ mod tests {
                         || (seen.abs() == longest && wanted.abs() > f64::from(longest)),
                     "{bridge:?} gives {seen} steps for duty {duty}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_duty_is_done_as_it_is() {
+        for bridge in BRIDGES {
+            for duty in -32_767..=i16::MAX {
+                let nearest = bridge.nearest(duty);
+                assert_eq!(
+                    bridge.compares(nearest),
+                    bridge.compares(duty),
+                    "{bridge:?}, {duty}"
+                );
+                assert_eq!(bridge.nearest(nearest), nearest, "{bridge:?}, {duty}");
             }
         }
     }

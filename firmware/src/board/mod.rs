@@ -67,6 +67,12 @@ pub trait Board {
     /// brakes the motor; for no drive at all see [`coast`](Self::coast).
     fn drive(&mut self, duty: i16);
 
+    /// What `duty` becomes in the bridge's own steps, again in Q15: what is recorded is what the winding sees, not what was
+    /// wished for. A bridge of 4,000 steps is off by up to an eighth of a percent of the speed at a tenth of the supply.
+    fn nearest(&self, duty: i16) -> i16 {
+        duty
+    }
+
     /// Opens the bridge: no current path, the motor coasts. The state after reset and after every fault, so it must
     /// work at any time, any number of times, and cannot fail.
     fn coast(&mut self);

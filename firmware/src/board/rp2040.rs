@@ -105,15 +105,17 @@ impl Rp2040 {
     }
 
     fn set(&mut self, duty: i16) {
-        let legs = HalfBridges {
-            full: FULL,
-            refresh: 0,
-        };
-        let (a, b) = legs.compares(duty);
+        let (a, b) = LEGS.compares(duty);
         (self.carrier.compare_a, self.carrier.compare_b) = (a, b);
         self.pwm.set_config(&self.carrier);
     }
 }
+
+/// Its two half bridges.
+const LEGS: HalfBridges = HalfBridges {
+    full: FULL,
+    refresh: 0,
+};
 
 impl Board for Rp2040 {
     const NAME: &'static str = "Raspberry Pi Pico";
@@ -124,6 +126,10 @@ impl Board for Rp2040 {
     fn drive(&mut self, duty: i16) {
         self.set(duty);
         self.enable.set_high();
+    }
+
+    fn nearest(&self, duty: i16) -> i16 {
+        LEGS.nearest(duty)
     }
 
     fn coast(&mut self) {

@@ -274,6 +274,10 @@ impl<W: Wiring> Board for Stm32<W> {
         self.wiring.enable(true);
     }
 
+    fn nearest(&self, duty: i16) -> i16 {
+        self.bridge.legs.nearest(duty)
+    }
+
     fn coast(&mut self) {
         self.bridge.coast();
         self.wiring.enable(false);
