@@ -56,7 +56,8 @@ enum Work {
     Play {
         script: Script,
         next: Option<i16>,
-        batch: Batch,
+        /// None until the first duty acts.
+        batch: Option<Batch>,
     },
     /// Fits.
     Fit,
@@ -490,19 +491,22 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 let Some(script) = self.script(&job) else {
                     return self.done();
                 };
-                self.begun_at = self.count;
-                let batch = Batch::new(self.phase.stage(), self.count);
-                let next = None;
+                // The first duty acts when the next period begins, as all others do: one that came late in this period would
+                // put the whole recording off.
                 self.work = Work::Play {
                     script,
-                    next,
-                    batch,
+                    next: None,
+                    batch: None,
                 };
-                // The first duty acts at once, the others when their period begins.
-                if let Some(duty) = self.ready(&job) {
-                    self.apply(duty);
-                    self.ready(&job);
-                }
+                self.ready(&job);
+            }
+            Work::Play {
+                batch: batch @ None,
+                ..
+            } => {
+                *batch = Some(Batch::new(self.phase.stage(), self.count));
+                self.begun_at = self.count;
+                self.ready(&job);
             }
             Work::Play { next, .. } => {
                 let ends = next.is_none();
@@ -561,7 +565,10 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             }
         }
         self.report.periods = self.report.periods.saturating_add(1);
-        if let Work::Play { batch, .. } = &mut self.work {
+        if let Work::Play {
+            batch: Some(batch), ..
+        } = &mut self.work
+        {
             let row = Row {
                 duty,
                 step,
@@ -575,7 +582,9 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     #[inline(never)]
     fn send_rows(&mut self) {
-        if let Work::Play { batch, .. } = &mut self.work
+        if let Work::Play {
+            batch: Some(batch), ..
+        } = &mut self.work
             && let Some(rows) = batch.take()
         {
             self.memory.outbox.post(&ToHost::Rows(rows));
