@@ -529,6 +529,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     /// Makes the next duty ready; gives it too.
+    #[inline(never)]
     fn ready(&mut self, job: &Job) -> Option<i16> {
         let Work::Play { script, next, .. } = &mut self.work else {
             return None;
@@ -541,6 +542,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         *next
     }
 
+    #[inline(never)]
     fn apply(&mut self, duty: i16) {
         if duty == OPEN {
             self.duty = OPEN;
@@ -552,6 +554,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     /// Keeps the row of the period that has ended.
+    #[inline(never)]
     fn keep(&mut self, duty: i16, step: i32, current_ma: i32) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
