@@ -328,9 +328,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     #[inline(never)]
     fn resend(&mut self, first: u32) {
         let trace = self.log.trace();
-        let rows = trace.iter().enumerate().skip(first as usize);
         let mut batch = Batch::resumed(first);
-        for (_, (duty, step)) in rows {
+        for (duty, step) in trace.iter().skip(first as usize) {
             let row = Row {
                 duty: duty.unwrap_or(OPEN),
                 step,
@@ -528,18 +527,17 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
-    /// Makes the next duty ready; gives it too.
+    /// Makes the next duty ready.
     #[inline(never)]
-    fn ready(&mut self, job: &Job) -> Option<i16> {
+    fn ready(&mut self, job: &Job) {
         let Work::Play { script, next, .. } = &mut self.work else {
-            return None;
+            return;
         };
         let limit = job.limits.duty;
         *next = script.next(&self.memory.plan).map(|duty| match duty {
             OPEN => OPEN,
             duty => duty.clamp(-limit, limit),
         });
-        *next
     }
 
     #[inline(never)]
@@ -624,21 +622,12 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         if self.job.is_none_or(|job| job.verify == 0) {
             return;
         }
-        self.memory.predicted = self
-            .fitted()
-            .map(|model| Evaluation::new(model, f32::INFINITY));
+        let model = self.memory.fit.model();
+        self.memory.predicted = model.map(|model| Evaluation::new(model, f32::INFINITY));
         self.report.verified = self.memory.predicted.map(|_| Verified {
             mean_square: 0.0,
             periods: 0,
         });
-    }
-
-    /// The fitted motor, built once more from the log: the fit itself is gone, its room is needed.
-    fn fitted(&self) -> Option<shared::model::Rigid<S>> {
-        let (job, outcome) = (self.job?, self.report.outcome.as_ref()?);
-        shared::fit::Space::around(&self.log.trace(), &job.fit)?
-            .model_of(outcome)
-            .ok()
     }
 
     fn verified(&mut self, job: &Job) {

@@ -4,10 +4,11 @@
 //! recording and fails; the diagnosis sees where, names what is missing and adds it, and the error falls to the
 //! encoder's own, on both. Then the bench tells the truth.
 
+use super::diagnosing::{Diagnosed, diagnosed};
 use super::simulate::{describe, hidden, wrong_flag};
 use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
-use crate::diagnose::{self, HeldOut};
+use crate::diagnose::HeldOut;
 use crate::error::Error;
 use crate::fit::Options;
 use crate::output::write_whole;
@@ -18,7 +19,6 @@ use crate::report::demo::{DemoJson, DemoReport};
 use crate::report::diagnosis::DiagnosisReport;
 use crate::session::Session;
 use shared::excite::{COMMISSIONING, commands};
-use std::sync::atomic::Ordering;
 
 const INTERVAL_S: f64 = 1e-3;
 const COUNTS_PER_REV: u32 = 2000;
@@ -43,20 +43,12 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         seed: session.seed,
         ..Options::default()
     };
-    let bar = session.progress(0, "diagnose");
-    let done = || {
-        bar.inc(1);
-        if bar.length() <= Some(bar.position()) {
-            bar.inc_length(1);
-        }
-    };
-    let stop = session.stop();
-    let diagnosis = diagnose::diagnose(&data, &held_out, &options, stop, &done);
-    bar.finish_and_clear();
-    let diagnosis = diagnosis?;
-    let interrupted = stop.load(Ordering::Relaxed);
-    let last = diagnose::settle(&diagnosis, &data, &held_out, &options, stop)?;
-    let findings = diagnose::findings(&diagnosis, &data, &held_out)?;
+    let Diagnosed {
+        diagnosis,
+        last,
+        findings,
+        interrupted,
+    } = diagnosed(session, &data, &held_out, &options)?;
     let kind = HeldOut::Recording(other.to_owned());
     let report = DemoReport {
         diagnosis: DiagnosisReport {

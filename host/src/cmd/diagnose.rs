@@ -1,16 +1,16 @@
 //! `servoid diagnose`: where the linear motor fails, and what is missing.
 
+use super::diagnosing::{Diagnosed, diagnosed};
 use super::motor;
 use crate::cli::DiagnoseArgs;
 use crate::diagnose::steady::SteadyCurve;
-use crate::diagnose::{self, HeldOut, holdout, pair, usable};
+use crate::diagnose::{HeldOut, holdout, pair, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport, SteadyJson, SteadyReport};
 use crate::session::Session;
-use std::sync::atomic::Ordering;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     motor::check_outputs(
@@ -30,19 +30,12 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         kind,
         remarks,
     } = &recordings;
-    let bar = session.progress(0, "diagnose");
-    // How many models will be fitted shows only as they are.
-    let done = || {
-        bar.inc(1);
-        if bar.length() <= Some(bar.position()) {
-            bar.inc_length(1);
-        }
-    };
-    let diagnosis = diagnose::diagnose(data, held_out, &options, session.stop(), &done);
-    bar.finish_and_clear();
-    let diagnosis = diagnosis?;
-    let interrupted = session.stop().load(Ordering::Relaxed);
-    let last = diagnose::settle(&diagnosis, data, held_out, &options, session.stop())?;
+    let Diagnosed {
+        diagnosis,
+        last,
+        findings,
+        interrupted,
+    } = diagnosed(session, data, held_out, &options)?;
     let mut remarks = remarks.clone();
     if !interrupted {
         let stop = session.stop();
@@ -50,7 +43,6 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
             &diagnosis, data, held_out, kind, &options, stop,
         )?);
     }
-    let findings = diagnose::findings(&diagnosis, data, held_out)?;
     let report = DiagnosisReport {
         data,
         held_out: kind,

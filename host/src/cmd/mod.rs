@@ -5,6 +5,7 @@ mod completions;
 mod demo;
 mod device;
 mod diagnose;
+mod diagnosing;
 mod fit;
 mod model;
 mod motor;

@@ -4,7 +4,7 @@
 //! shows that well and either of the two badly, so gain itself would lie along a narrow slanted valley (a swarm of 20 missed
 //! 8 % of drawn motors with it, 3 % without).
 
-use super::{Outcome, Settings};
+use super::Settings;
 use crate::error::ModelError;
 use crate::model::{Rigid, RigidPlan};
 use crate::motor::Machine;
@@ -150,29 +150,9 @@ impl Space {
     /// # Errors
     /// A coefficient beyond the range of `S`; an electrical time constant far above the mechanical one.
     pub fn model<S: Scalar>(&self, x: &Point) -> Result<Rigid<S>, ModelError> {
-        let mut values = [0.0; MOST];
-        for (k, value) in values.iter_mut().enumerate().take(self.dim) {
-            *value = self.value(k, x);
-        }
-        self.model_with(&values)
-    }
-
-    /// The motor that an outcome describes.
-    ///
-    /// # Errors
-    /// As [`model`](Self::model).
-    pub fn model_of<S: Scalar>(&self, outcome: &Outcome) -> Result<Rigid<S>, ModelError> {
-        let mut values = [0.0; MOST];
-        for (value, estimate) in values.iter_mut().zip(&outcome.estimates) {
-            *value = estimate.value;
-        }
-        self.model_with(&values)
-    }
-
-    fn model_with<S: Scalar>(&self, values: &Point) -> Result<Rigid<S>, ModelError> {
         let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);
-        for (unknown, value) in self.unknowns().iter().zip(values) {
+        for (k, unknown) in self.unknowns().iter().enumerate() {
             let slot = match unknown {
                 Unknown::Gain => &mut gain,
                 Unknown::Mechanical => &mut mechanical,
@@ -180,7 +160,7 @@ impl Space {
                 Unknown::Coulomb => &mut coulomb,
                 Unknown::Load => &mut load,
             };
-            *slot = *value;
+            *slot = self.value(k, x);
         }
         if electrical > SLOWEST_WINDING * mechanical {
             return Err(ModelError::Parameter {

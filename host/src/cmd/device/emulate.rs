@@ -6,7 +6,7 @@ use crate::cli::{EmulateArgs, EmulationArgs, LimitArgs, PortArgs};
 use crate::device::{DeviceError, Emulation, Image, Port};
 use crate::error::Error;
 use crate::session::Session;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
@@ -113,9 +113,4 @@ pub(super) fn run(session: &Session, args: &EmulateArgs) -> Result<(), Error> {
         std::thread::sleep(Duration::from_millis(50));
     }
     Ok(())
-}
-
-/// Whether a folder can take a run, before the motor moves.
-pub(super) fn check_out(path: &Path) -> Result<crate::device::Folder, Error> {
-    Ok(crate::device::Folder::new(path)?)
 }

@@ -246,7 +246,7 @@ fn summary(saved: &Saved, run: &Run, path: &Path, written: &[&str]) -> String {
 
 /// `servoid device commission`.
 pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(), Error> {
-    let folder = emulate::check_out(&args.out)?;
+    let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let order = Order {
         excite_s: args.excite,
@@ -272,7 +272,7 @@ pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(),
 
 /// `servoid device record`.
 pub(super) fn record(session: &Session, args: &RecordArgs) -> Result<(), Error> {
-    let folder = emulate::check_out(&args.out)?;
+    let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let order = Order {
         excite_s: args.seconds,
@@ -285,7 +285,7 @@ pub(super) fn record(session: &Session, args: &RecordArgs) -> Result<(), Error> 
 /// `servoid device run`.
 pub(super) fn play(session: &Session, args: &RunArgs) -> Result<(), Error> {
     let commands = CommandSequence::read(&args.plan)?;
-    let folder = emulate::check_out(&args.out)?;
+    let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let order = order(session, &bench.reached, &args.limits, Kind::Play)?;
     let plan = segments(&commands, order.supply_v, bench.about.period_us)?;

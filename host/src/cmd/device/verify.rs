@@ -4,6 +4,7 @@
 //! least squares in double precision on the same recording. Then its physics: the diagnosis of the long recording, judged by
 //! the verification, neither of which the device fitted.
 
+use super::super::diagnosing::{Diagnosed, diagnosed};
 use crate::cli::VerifyArgs;
 use crate::device::{DeviceError, Folder, Replayed, Saved, SavedOutcome, replay};
 use crate::diagnose::{self, HeldOut, usable};
@@ -17,7 +18,6 @@ use serde::Serialize;
 use shared::effects::Kind;
 use shared::wire::Stage;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 
 /// Values that differ by less than this part are the same answer.
 const SAME: f64 = 0.01;
@@ -189,7 +189,7 @@ fn search(outcome: &SavedOutcome, stronger: &Stronger) -> String {
 }
 
 /// What the diagnosis says, already written.
-struct Diagnosed {
+struct Account {
     text: String,
     json: DiagnosisJson,
     names: Vec<Kind>,
@@ -203,7 +203,7 @@ fn diagnose(
     recording: &Path,
     held_out: &Path,
     motor: &MotorFile,
-) -> Result<Diagnosed, Error> {
+) -> Result<Account, Error> {
     let first = read_recording(recording, motor)?;
     let mut remarks = usable::check(&first)?;
     let other = read_recording(held_out, motor)?;
@@ -214,18 +214,12 @@ fn diagnose(
         seed: session.seed,
         ..Options::default()
     };
-    let bar = session.progress(0, "diagnose");
-    let done = || {
-        bar.inc(1);
-        if bar.length() <= Some(bar.position()) {
-            bar.inc_length(1);
-        }
-    };
-    let diagnosis = diagnose::diagnose(&data, &rest, &options, session.stop(), &done);
-    bar.finish_and_clear();
-    let diagnosis = diagnosis?;
-    let last = diagnose::settle(&diagnosis, &data, &rest, &options, session.stop())?;
-    let findings = diagnose::findings(&diagnosis, &data, &rest)?;
+    let Diagnosed {
+        diagnosis,
+        last,
+        findings,
+        interrupted,
+    } = diagnosed(session, &data, &rest, &options)?;
     let kind = HeldOut::Recording(other.source.clone());
     let report = DiagnosisReport {
         data: &data,
@@ -235,10 +229,10 @@ fn diagnose(
         findings: &findings,
         remarks,
         seed: session.seed,
-        interrupted: session.stop().load(Ordering::Relaxed),
+        interrupted,
         json: session.json_file(),
     };
-    Ok(Diagnosed {
+    Ok(Account {
         text: report.text(),
         json: DiagnosisJson::from(&report),
         names: diagnosis.steps.iter().map(|step| step.added).collect(),
@@ -254,7 +248,7 @@ fn diagnose(
 fn verdict(
     same: bool,
     stronger: &Stronger,
-    diagnosed: Option<&Diagnosed>,
+    diagnosed: Option<&Account>,
     fitted: &[Kind],
 ) -> (bool, String) {
     if !same {

@@ -1,0 +1,47 @@
+//! A diagnosis with its progress, as every verb that diagnoses needs it.
+
+use crate::diagnose::{self, Diagnosis, Findings};
+use crate::error::Error;
+use crate::fit::{Fit, Options};
+use crate::problem::Data;
+use crate::session::Session;
+use std::sync::atomic::Ordering;
+
+/// A diagnosis, its last model fitted to the end, and where the models fail.
+pub(super) struct Diagnosed {
+    pub(super) diagnosis: Diagnosis,
+    pub(super) last: Fit,
+    pub(super) findings: Findings,
+    /// Whether the user stopped the search for effects.
+    pub(super) interrupted: bool,
+}
+
+/// Diagnoses `data`, judged by `held_out`, and shows that it goes on.
+pub(super) fn diagnosed(
+    session: &Session,
+    data: &Data,
+    held_out: &Data,
+    options: &Options,
+) -> Result<Diagnosed, Error> {
+    let bar = session.progress(0, "diagnose");
+    // How many models will be fitted shows only as they are.
+    let done = || {
+        bar.inc(1);
+        if bar.length() <= Some(bar.position()) {
+            bar.inc_length(1);
+        }
+    };
+    let stop = session.stop();
+    let diagnosis = diagnose::diagnose(data, held_out, options, stop, &done);
+    bar.finish_and_clear();
+    let diagnosis = diagnosis?;
+    let interrupted = stop.load(Ordering::Relaxed);
+    let last = diagnose::settle(&diagnosis, data, held_out, options, stop)?;
+    let findings = diagnose::findings(&diagnosis, data, held_out)?;
+    Ok(Diagnosed {
+        diagnosis,
+        last,
+        findings,
+        interrupted,
+    })
+}
