@@ -15,6 +15,8 @@ use core::fmt::{self, Write};
 use crate::board::Board;
 use crate::phase::Fault;
 
+/// The whole supply, as the lines have it.
+const FULL: i32 = 32_768;
 /// What a key changes the duty by.
 const STEP: i16 = 512;
 /// The largest duty, either way.
@@ -63,7 +65,8 @@ impl<B: Board> Bringup<B> {
         }
         if self.left > 0 {
             self.left -= 1;
-            self.board.drive(self.duty);
+            let duty = i32::from(self.duty) * i32::from(self.board.full()) / FULL;
+            self.board.drive(duty as i16);
         } else {
             self.coast();
         }

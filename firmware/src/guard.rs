@@ -23,6 +23,8 @@ pub struct Tripped {
 #[derive(Debug, Clone)]
 pub struct Guard {
     limits: Limits,
+    /// Duty that is the whole supply.
+    full: i64,
     /// Periods in half the reaction time.
     half: u32,
     origin: i32,
@@ -41,10 +43,11 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// At the start of a run, with the shaft at `count`.
-    pub fn new(limits: Limits, period_us: u32, count: i32) -> Self {
+    /// At the start of a run, with the shaft at `count`, on a board whose [`full`](crate::board::Board::full) duty this is.
+    pub fn new(limits: Limits, period_us: u32, full: u16, count: i32) -> Self {
         Guard {
             limits,
+            full: i64::from(full).max(1),
             half: (REACTION_US / 2 / period_us.max(1)).max(2),
             origin: count,
             last: count,
@@ -87,7 +90,7 @@ impl Guard {
         self.follow(drive, step);
 
         let current = current_ma.map_or_else(
-            || (i64::from(limits.stall_ma) * i64::from(drive).abs()) >> 15,
+            || i64::from(limits.stall_ma) * i64::from(drive).abs() / self.full,
             |current| i64::from(current).abs(),
         );
         let travel = count.wrapping_sub(self.origin).unsigned_abs();
@@ -199,7 +202,7 @@ mod tests {
         step: impl Fn(u32) -> i32,
         current_ma: impl Fn(u32) -> Option<i32>,
     ) -> Option<(u32, Fault)> {
-        let mut guard = Guard::new(limits, PERIOD_US, -7);
+        let mut guard = Guard::new(limits, PERIOD_US, 32_768, -7);
         guard.expect_motion(8000);
         let mut count = -7i32;
         (0..5000).find_map(|k| {

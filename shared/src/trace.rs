@@ -3,13 +3,14 @@
 /// The duty that stands for an open bridge. Drives stop one short of it.
 pub const OPEN: i16 = i16::MIN;
 
-/// Part of the supply that one step of a duty is.
+/// What one step of a duty is worth to a model, whose unit of voltage is a duty of 32,768: the whole supply, or more if
+/// the board says that a smaller duty is the whole supply.
 pub const DUTY: f64 = 1.0 / 32_768.0;
 
 /// A run from standstill: `duties[k]` is held from one reading to the next, which is `steps[k]` counts further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trace<'a> {
-    /// Duties in Q15 of the supply, or [`OPEN`].
+    /// Duties in Q15 of the unit of voltage, or [`OPEN`].
     pub duties: &'a [i16],
     /// Counts travelled in each period.
     pub steps: &'a [i16],

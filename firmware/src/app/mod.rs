@@ -300,6 +300,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             board: text(B::NAME),
             firmware: text(env!("CARGO_PKG_VERSION")),
             period_us: B::PERIOD_US,
+            full: self.board.full(),
             capacity: u16::try_from(N).unwrap_or(u16::MAX),
             format: S::FORMAT,
             senses_current: B::SENSES_CURRENT,
@@ -372,7 +373,12 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.report = NO_REPORT;
         self.failure = None;
         self.memory.predicted = None;
-        self.guard = Some(Guard::new(job.limits, B::PERIOD_US, self.count));
+        self.guard = Some(Guard::new(
+            job.limits,
+            B::PERIOD_US,
+            self.board.full(),
+            self.count,
+        ));
         self.job = Some(job);
         if let Ok(phase) = self.phase.after(Event::Start) {
             self.enter(phase);

@@ -17,12 +17,25 @@ pub struct HalfBridges {
 }
 
 impl HalfBridges {
-    /// Compare values of the legs A and B for `duty` (Q15 of the supply). Their difference is the duty to the nearest
-    /// step, or the largest one that leaves each leg its time to recharge.
+    /// Duty that is one step: the largest power of two with which all steps fit into 15 bits.
+    fn unit(self) -> i32 {
+        let most = i32::from(i16::MAX) / i32::from(self.full).max(1);
+        1 << most.max(1).ilog2()
+    }
+
+    /// Duty that is the whole supply, see [`Board::full`](super::Board::full).
+    pub fn full_duty(self) -> u16 {
+        (i32::from(self.full) * self.unit()) as u16
+    }
+
+    /// Compare values of the legs A and B for `duty`. Their difference is the duty to the nearest step, or the largest one
+    /// that leaves each leg its time to recharge.
     pub fn compares(self, duty: i16) -> (u16, u16) {
-        let full = i32::from(self.full);
+        let (full, unit) = (i32::from(self.full), self.unit());
         let longest = full - i32::from(self.refresh);
-        let difference = ((i32::from(duty) * full + (1 << 14)) >> 15).clamp(-longest, longest);
+        let difference = (i32::from(duty) + unit / 2)
+            .div_euclid(unit)
+            .clamp(-longest, longest);
         let high = ((full + difference.abs() + 1) / 2).min(longest);
         let low = high - difference.abs();
         let (a, b) = if difference >= 0 {
@@ -35,13 +48,10 @@ impl HalfBridges {
 }
 
 impl HalfBridges {
-    /// What `duty` becomes in steps of the carrier, to the nearest Q15.
+    /// What `duty` becomes in steps of the carrier.
     pub fn nearest(self, duty: i16) -> i16 {
         let (a, b) = self.compares(duty);
-        let full = i32::from(self.full).max(1);
-        let steps = i32::from(a) - i32::from(b);
-        let half = if steps < 0 { -full / 2 } else { full / 2 };
-        ((steps * 32_768 + half) / full).clamp(-32_767, 32_767) as i16
+        ((i32::from(a) - i32::from(b)) * self.unit()) as i16
     }
 }
 
@@ -74,7 +84,8 @@ mod tests {
             let longest = i32::from(bridge.full - bridge.refresh);
             for duty in i16::MIN..=i16::MAX {
                 let (a, b) = bridge.compares(duty);
-                let wanted = f64::from(duty) / 32768.0 * f64::from(bridge.full);
+                let wanted =
+                    f64::from(duty) * f64::from(bridge.full) / f64::from(bridge.full_duty());
                 let seen = i32::from(a) - i32::from(b);
                 assert!(
                     (f64::from(seen) - wanted).abs() <= 0.5
@@ -96,6 +107,10 @@ mod tests {
                     "{bridge:?}, {duty}"
                 );
                 assert_eq!(bridge.nearest(nearest), nearest, "{bridge:?}, {duty}");
+                let (a, b) = bridge.compares(duty);
+                let part = f64::from(nearest) / f64::from(bridge.full_duty());
+                let seen = (f64::from(a) - f64::from(b)) / f64::from(bridge.full);
+                assert_eq!(part, seen, "{bridge:?}, {duty}");
             }
         }
     }

@@ -62,13 +62,19 @@ pub trait Board {
     /// Whether [`current_ma`](Self::current_ma) measures.
     const SENSES_CURRENT: bool = false;
 
-    /// Applies `duty` to the winding until the next call, in Q15 of the supply voltage: `duty / 32768` of it, from
-    /// `-32768` (full reverse) to `32767` (one step below full forward). Zero puts zero volts across the winding, which
-    /// brakes the motor; for no drive at all see [`coast`](Self::coast).
+    /// Duty that puts the whole supply across the winding. A bridge that does things in steps chooses it so that each step
+    /// is a whole number: a recording then holds exactly what the winding saw. (With steps rounded to Q15, an encoder of
+    /// 8,192 lines at full speed was three counts off in a few seconds.)
+    fn full(&self) -> u16 {
+        32_768
+    }
+
+    /// Applies `duty` to the winding until the next call: `duty / full` of the supply voltage, at most all of it. Zero puts
+    /// zero volts across the winding, which brakes the motor; for no drive at all see [`coast`](Self::coast).
     fn drive(&mut self, duty: i16);
 
-    /// What `duty` becomes in the bridge's own steps, again in Q15: what is recorded is what the winding sees, not what was
-    /// wished for. A bridge of 4,000 steps is off by up to an eighth of a percent of the speed at a tenth of the supply.
+    /// What `duty` becomes in the bridge's own steps: what is recorded is what the winding sees, not what was wished for. A
+    /// bridge of 4,000 steps is off by up to an eighth of a percent of the speed at a tenth of the supply.
     fn nearest(&self, duty: i16) -> i16 {
         duty
     }

@@ -128,6 +128,10 @@ impl Board for Rp2040 {
         self.enable.set_high();
     }
 
+    fn full(&self) -> u16 {
+        LEGS.full_duty()
+    }
+
     fn nearest(&self, duty: i16) -> i16 {
         LEGS.nearest(duty)
     }

@@ -274,6 +274,10 @@ impl<W: Wiring> Board for Stm32<W> {
         self.wiring.enable(true);
     }
 
+    fn full(&self) -> u16 {
+        self.bridge.legs.full_duty()
+    }
+
     fn nearest(&self, duty: i16) -> i16 {
         self.bridge.legs.nearest(duty)
     }

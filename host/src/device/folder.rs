@@ -1,13 +1,13 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
-use super::{DeviceError, Order, Recorded, Run};
+use super::{DeviceError, DutyScale, Order, Recorded, Run};
 use crate::error::Error;
 use crate::input::{MotorFile, read_recording};
 use crate::output::{write_recording, write_whole};
 use crate::recording::{Drive, Recording};
 use serde::{Deserialize, Serialize};
 use shared::fit::{Estimate, Outcome, Settings, Stop};
-use shared::trace::{DUTY, OPEN};
+use shared::trace::OPEN;
 use shared::wire::{About, Fault, Format, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,6 +42,8 @@ pub struct Saved {
     pub format: String,
     /// V.
     pub supply_v: f64,
+    /// Duty that puts the whole supply across the winding.
+    pub full_duty: u16,
     /// Counts a revolution.
     pub counts_per_rev: f64,
     /// How the device fitted.
@@ -110,19 +112,19 @@ pub struct SavedFailure {
 }
 
 impl SavedOutcome {
-    fn new(outcome: &Outcome, period_s: f64, order: &Order) -> Self {
+    fn new(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> Self {
         let per_count = std::f64::consts::TAU / order.counts_per_rev;
-        let gain = per_count / period_s / order.supply_v;
+        let gain = per_count / period_s / unit_v;
         let mut measures = vec![
             ("gain", gain, "rad/s/V"),
             ("a1", period_s, "s"),
             ("electrical", period_s, "s"),
         ];
         if order.fit.coulomb {
-            measures.push(("coulomb", order.supply_v, "V"));
+            measures.push(("coulomb", unit_v, "V"));
         }
         if order.fit.load {
-            measures.push(("load", order.supply_v, "V"));
+            measures.push(("load", unit_v, "V"));
         }
         let parameters =
             outcome
@@ -180,6 +182,14 @@ impl SavedOutcome {
 }
 
 impl Saved {
+    /// What the device's duties are worth.
+    fn scale(&self) -> DutyScale {
+        DutyScale {
+            supply_v: self.supply_v,
+            full: self.full_duty,
+        }
+    }
+
     /// Of a run that came to its end.
     pub fn new(run: &Run, order: &Order) -> Self {
         let failure = run.outcome.as_ref().err();
@@ -201,12 +211,13 @@ impl Saved {
         });
         if let Some(report) = report {
             let period_s = f64::from(run.about.period_us) * 1e-6;
-            saved.breakaway_v = f64::from(report.breakaway) * DUTY * order.supply_v;
-            saved.amplitude_v = f64::from(report.amplitude) * DUTY * order.supply_v;
+            let scale = saved.scale();
+            saved.breakaway_v = scale.volts(report.breakaway);
+            saved.amplitude_v = scale.volts(report.amplitude);
             saved.outcome = report
                 .outcome
                 .as_ref()
-                .map(|outcome| SavedOutcome::new(outcome, period_s, order));
+                .map(|outcome| SavedOutcome::new(outcome, period_s, order, scale.unit_v()));
             saved.verified_rms_counts = report
                 .verified
                 .map(|verified| f64::from(verified.mean_square).sqrt());
@@ -226,6 +237,7 @@ impl Saved {
                 Format::Fixed => "fixed".to_owned(),
             },
             supply_v: order.supply_v,
+            full_duty: about.full,
             counts_per_rev: order.counts_per_rev,
             fit: order.fit,
             breakaway_v: 0.0,
@@ -373,7 +385,7 @@ impl Folder {
             if open(k) {
                 OPEN
             } else {
-                (volts / saved.supply_v / DUTY).round() as i16
+                saved.scale().duty(*volts) as i16
             }
         };
         let duties = recording.command.iter().enumerate().map(duty);
@@ -389,7 +401,7 @@ fn recording(count: i32, rows: &[shared::wire::Row], saved: &Saved, current: boo
         if duty == OPEN {
             0.0
         } else {
-            f64::from(duty) * DUTY * saved.supply_v
+            saved.scale().volts(duty)
         }
     };
     let mut counts = vec![f64::from(count)];

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `port` | serial port, TCP or Unix socket, by one address |
 //! | `conversation` | messages there and back, arming and starting |
+//! | `duty` | what the device's duties are worth in volts |
 //! | `order` | a job in SI, and the same in the device's own measure |
 //! | `run` | one run: what the device sends, put together; progress; stop |
 //! | `folder` | a run as files: recordings any verb reads, and what the device reported |
@@ -17,6 +18,7 @@
 //! | `lockstep` | the virtual bench as the plant of an emulated board |
 
 mod conversation;
+mod duty;
 mod emulation;
 mod error;
 mod folder;
@@ -27,6 +29,7 @@ mod replay;
 mod run;
 
 pub use conversation::Conversation;
+pub use duty::DutyScale;
 pub use emulation::{Emulation, Image};
 pub use error::DeviceError;
 pub use folder::{Folder, Saved, SavedOutcome};

@@ -1,6 +1,6 @@
 //! What a user orders, in SI, and the same in the device's own measure.
 
-use super::DeviceError;
+use super::{DeviceError, DutyScale};
 use crate::output::CommandSequence;
 use shared::fit::Settings;
 use shared::trace::OPEN;
@@ -49,6 +49,14 @@ pub struct Order {
 const ASIDE_S: f64 = 30.0;
 
 impl Order {
+    /// What the duties of the device are worth.
+    pub fn scale(&self, about: &About) -> DutyScale {
+        DutyScale {
+            supply_v: self.supply_v,
+            full: about.full,
+        }
+    }
+
     /// As the device takes it.
     ///
     /// # Errors
@@ -83,17 +91,21 @@ impl Order {
             }
         };
         const HOUR: f64 = 3.6e6;
-        let largest = 32_767.0;
+        let scale = self.scale(about);
+        let largest = f64::from(scale.largest());
         let duty = match self.max_voltage {
             None => largest,
-            Some(volts) => volts / self.supply_v * 32_768.0,
+            Some(volts) => {
+                let duty = scale.duty(volts);
+                if duty.is_nan() || duty < 1.0 {
+                    return Err(wrong(format!(
+                        "--max-voltage {volts}: must be at least {} V, one step of the device",
+                        scale.volts(1)
+                    )));
+                }
+                duty
+            }
         };
-        if duty.is_nan() || duty < 1.0 {
-            return Err(wrong(format!(
-                "--max-voltage {}: must be above zero",
-                duty * self.supply_v / 32_768.0
-            )));
-        }
         if !(self.amplitude > 0.0 && self.amplitude <= 1.0) {
             return Err(wrong(format!(
                 "--amplitude {}: must be above 0 and at most 1",
@@ -147,7 +159,7 @@ impl Order {
 /// Commands beyond the supply, or steps of time that are no whole number of periods.
 pub fn segments(
     commands: &CommandSequence,
-    supply_v: f64,
+    scale: DutyScale,
     period_us: u32,
 ) -> Result<Vec<Segment>, DeviceError> {
     let period_s = f64::from(period_us) * 1e-6;
@@ -164,16 +176,18 @@ pub fn segments(
     }
     let mut owed = 0.0;
     for (k, volts) in commands.voltage_v.iter().enumerate() {
-        let duty = (volts / supply_v * 32_768.0).round();
-        if duty.abs() > 32_768.0 {
+        let duty = scale.duty(*volts);
+        if duty.is_nan() || duty.abs() > f64::from(scale.full) {
             return Err(DeviceError::Order(format!(
-                "row {}: {volts} V is more than the supply's {supply_v} V; make the plan with --max-voltage",
-                k + 1
+                "row {}: {volts} V is more than the supply's {} V; make the plan with --max-voltage",
+                k + 1,
+                scale.supply_v
             )));
         }
         let closed = commands.enabled.as_ref().is_none_or(|enabled| enabled[k]);
         let duty = if closed {
-            duty.clamp(-32_767.0, 32_767.0) as i16
+            let largest = f64::from(scale.largest());
+            duty.clamp(-largest, largest) as i16
         } else {
             OPEN
         };

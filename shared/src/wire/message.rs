@@ -93,6 +93,9 @@ pub struct About {
     pub firmware: String<16>,
     /// Length of a control period, µs.
     pub period_us: u32,
+    /// Duty that puts the whole supply across the winding, at most 32,768. All duties are in this measure: one in which
+    /// the bridge's own steps are whole numbers.
+    pub full: u16,
     /// Periods that it can fit.
     pub capacity: u16,
     /// Format that its model runs in.
@@ -162,7 +165,7 @@ pub enum Kind {
 pub struct Job {
     /// What kind of run.
     pub kind: Kind,
-    /// Largest duty of the excitations, Q15.
+    /// Largest duty of the excitations.
     pub amplitude: i16,
     /// Periods of the long excitation; none if zero.
     pub excite: u32,
@@ -185,7 +188,7 @@ pub struct Job {
 /// Limits that the device watches. Zero means none, but for the duty and the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Limits {
-    /// Largest duty of any drive, Q15; at least 1.
+    /// Largest duty of any drive; at least 1.
     pub duty: i16,
     /// Counts either way from where the run began.
     pub travel: u32,
@@ -206,7 +209,7 @@ pub struct Limits {
 /// A stretch of a plan: one duty ([`OPEN`](crate::trace::OPEN) for an open bridge) for so many periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Segment {
-    /// Q15 of the supply.
+    /// The duty, see [`About::full`].
     pub duty: i16,
     /// Periods.
     pub periods: u16,
@@ -239,9 +242,9 @@ pub struct Row {
 /// How a run ended well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Duty at which the shaft first moved, Q15.
+    /// Duty at which the shaft first moved.
     pub breakaway: i16,
-    /// Largest duty of the excitation, Q15, after the probe.
+    /// Largest duty of the excitation, after the probe.
     pub amplitude: i16,
     /// Periods played, over all stages.
     pub periods: u32,

@@ -20,4 +20,4 @@ pub use message::{
 };
 
 /// Version of the messages.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;

@@ -5,14 +5,13 @@ use crate::cli::{
     CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
 };
 use crate::device::{
-    Conversation, Folder, Order, Progress, Recorded, Run, Saved, follow, segments,
+    Conversation, DutyScale, Folder, Order, Progress, Recorded, Run, Saved, follow, segments,
 };
 use crate::error::Error;
 use crate::output::CommandSequence;
 use crate::session::{Session, print};
 use indicatif::ProgressBar;
 use shared::fit::{Method, Settings};
-use shared::trace::DUTY;
 use shared::wire::{About, Kind, Segment, Stage};
 use std::path::Path;
 
@@ -288,7 +287,7 @@ pub(super) fn play(session: &Session, args: &RunArgs) -> Result<(), Error> {
     let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let order = order(session, &bench.reached, &args.limits, Kind::Play)?;
-    let plan = segments(&commands, order.supply_v, bench.about.period_us)?;
+    let plan = segments(&commands, order.scale(&bench.about), bench.about.period_us)?;
     into_folder(session, &mut bench, &order, &plan, &folder, &args.out)
 }
 
@@ -304,7 +303,7 @@ pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> 
         count: 0,
         printed: 0,
         period_s: f64::from(bench.about.period_us) * 1e-6,
-        supply_v: order.supply_v,
+        scale: order.scale(&bench.about),
         closed: false,
     };
     print(b"t_s,voltage_v,angle_counts,current_a,enabled\n")?;
@@ -327,7 +326,7 @@ struct Lines {
     count: i32,
     printed: u32,
     period_s: f64,
-    supply_v: f64,
+    scale: DutyScale,
     /// Nobody reads any more.
     closed: bool,
 }
@@ -350,7 +349,7 @@ impl Lines {
             let volts = if open {
                 0.0
             } else {
-                f64::from(row.duty) * DUTY * self.supply_v
+                self.scale.volts(row.duty)
             };
             let time = f64::from(rows.first + k as u32) * self.period_s;
             text += &format!(
