@@ -6,6 +6,8 @@
 //! - [`guard`]: limits, stall and runaway: says when a run must end
 //! - [`app`]: applies all that to a board, one control period at a time, and talks to the host
 //! - [`proof`]: what the PC and a microcontroller must compute alike
+//! - [`trials`]: everything that can go wrong, tried out on a bench in memory, on a PC and on a microcontroller
+//! - [`count`]: what a microcontroller's arithmetic costs, in instructions
 //! - [`bringup`]: another program for the same boards, for their first power-up
 #![cfg_attr(target_os = "none", no_std)]
 // Unsafe code is only on a microcontroller: registers of boards without a HAL, and the macros that bind interrupts.
@@ -14,9 +16,11 @@
 pub mod app;
 pub mod board;
 pub mod bringup;
+pub mod count;
 pub mod guard;
 #[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
 mod halt;
 pub mod phase;
 pub mod plant;
 pub mod proof;
+pub mod trials;

@@ -143,10 +143,7 @@ fn fitted<S: Arithmetic>(out: &mut impl Write, format: &str, method: Method) -> 
         duties[k] = duty;
         steps[k] = speed as i16;
     }
-    let trace = Trace {
-        duties: &duties,
-        steps: &steps,
-    };
+    let trace = Trace::new(&duties, &steps);
     let settings = Settings {
         method,
         evaluations: EVALUATIONS,

@@ -1,154 +1,54 @@
 //! Whole runs of the application on the PC: against a motor that obeys, and against everything that can go wrong.
 
-use firmware::app::{App, Log};
-use firmware::board::Board;
+use firmware::app::{Log, Memory};
 use firmware::phase::{Fault, Phase};
 use firmware::plant::{Motor, SMALL};
-use shared::fit::Settings;
+use firmware::trials::{self, bench::Bench};
+use shared::fit::{Arithmetic, Settings};
 use shared::scalar::Fixed;
 use shared::wire::*;
 use std::cell::RefCell;
-use std::collections::VecDeque;
-use std::rc::Rc;
+use std::ops::{Deref, DerefMut};
 
-const PERIOD_S: f32 = 1e-3;
-
-/// What the host and the mischief see of the bench.
-#[derive(Default)]
-struct Bench {
-    to_device: VecDeque<u8>,
-    to_host: VecDeque<u8>,
-    driven: Option<i16>,
-    period: u32,
-    /// Sign of the encoder, or 0 for a dead one.
-    encoder: i32,
-    locked: bool,
-    current_ma: Option<i32>,
-    fails: Option<Fault>,
-}
-
-struct Rig {
-    motor: Motor,
-    count: i32,
-    shared: Rc<RefCell<Bench>>,
-}
-
-impl Board for Rig {
-    const NAME: &'static str = "PC";
-    const PERIOD_US: u32 = 1000;
-    const SLICE: u32 = 20_000;
-    const SENSES_CURRENT: bool = true;
-
-    fn drive(&mut self, duty: i16) {
-        self.shared.borrow_mut().driven = Some(duty);
-    }
-    fn coast(&mut self) {
-        self.shared.borrow_mut().driven = None;
-    }
-    fn count(&mut self) -> i32 {
-        self.count
-    }
-    fn current_ma(&mut self) -> i32 {
-        let sensed = self.shared.borrow().current_ma;
-        sensed.unwrap_or(self.motor.current_ma())
-    }
-    fn tick(&mut self) -> Result<(), Fault> {
-        let mut shared = self.shared.borrow_mut();
-        let before = self.motor.state.count;
-        if !shared.locked {
-            self.motor.advance(shared.driven, PERIOD_S);
-        }
-        self.count += shared.encoder * (self.motor.state.count - before);
-        shared.period += 1;
-        match shared.fails {
-            Some(fault) => Err(fault),
-            None => Ok(()),
-        }
-    }
-    fn receive(&mut self) -> Option<u8> {
-        self.shared.borrow_mut().to_device.pop_front()
-    }
-    fn send(&mut self, bytes: &[u8]) -> usize {
-        self.shared.borrow_mut().to_host.extend(bytes);
-        bytes.len()
-    }
-    fn entropy(&mut self) -> u32 {
-        7
-    }
-}
-
-struct Host<S: shared::fit::Arithmetic> {
-    app: App<'static, Rig, S, 2000>,
-    bench: Rc<RefCell<Bench>>,
-    inbox: Deframer,
+/// A host and a device that lives as long as the test, and all that it has said.
+struct Host<S: Arithmetic> {
+    host: trials::host::Host<'static, S, 2000>,
     heard: Vec<ToHost>,
-    alive: bool,
 }
 
-impl<S: shared::fit::Arithmetic> Host<S> {
-    fn new(motor: Motor) -> Self {
-        let bench = Rc::new(RefCell::new(Bench {
-            encoder: 1,
-            ..Bench::default()
-        }));
-        let rig = Rig {
-            motor,
-            count: -5,
-            shared: bench.clone(),
-        };
-        Host {
-            app: App::new(
-                rig,
-                Box::leak(Box::default()),
-                Box::leak(Box::new(Log::new())),
-            ),
-            bench,
-            inbox: Deframer::default(),
-            heard: Vec::new(),
-            alive: true,
-        }
-    }
+impl<S: Arithmetic> Deref for Host<S> {
+    type Target = trials::host::Host<'static, S, 2000>;
 
-    fn say(&mut self, message: &ToDevice) {
-        let mut buffer = [0; LONGEST_FRAME];
-        let frame = encode(message, &mut buffer).unwrap();
-        self.bench.borrow_mut().to_device.extend(frame);
+    fn deref(&self) -> &Self::Target {
+        &self.host
+    }
+}
+
+impl<S: Arithmetic> DerefMut for Host<S> {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.host
+    }
+}
+
+impl<S: Arithmetic> Host<S> {
+    fn new(motor: Motor) -> Self {
+        let bench = Box::leak(Box::new(RefCell::new(Bench::new(motor))));
+        let (memory, log) = (Box::leak(Box::default()), Box::leak(Box::new(Log::new())));
+        Host {
+            host: trials::host::Host::new(bench, memory, log),
+            heard: Vec::new(),
+        }
     }
 
     /// One period; what the device said is kept.
     fn period(&mut self) {
-        let period = self.bench.borrow().period;
-        if self.alive && period.is_multiple_of(100) {
-            self.say(&ToDevice::Alive);
-        }
-        self.app.period();
-        let mut bench = self.bench.borrow_mut();
-        assert!(
-            bench.driven.is_none()
-                || matches!(
-                    self.app.phase(),
-                    Phase::Probe | Phase::Excite | Phase::Record | Phase::Verify
-                ),
-            "driven in {:?}",
-            self.app.phase()
-        );
-        for byte in bench.to_host.drain(..) {
-            self.heard.extend(self.inbox.push::<ToHost>(byte));
-        }
+        let Host { host, heard } = self;
+        host.period(|message| heard.push(message));
+        assert_eq!(host.drove_in, None);
     }
 
     fn start(&mut self, job: Job) {
-        self.say(&ToDevice::Arm);
-        self.period();
-        let nonce = self.heard.iter().rev().find_map(|message| match message {
-            ToHost::Armed { nonce, .. } => Some(*nonce),
-            _ => None,
-        });
-        self.say(&ToDevice::Start {
-            nonce: nonce.expect("armed"),
-            job,
-        });
-        self.period();
+        assert!(self.host.start(job), "armed");
     }
 
     /// Runs until there is an outcome; `mischief` may meddle before each period.
@@ -221,7 +121,7 @@ fn job() -> Job {
 
 #[test]
 fn a_motor_commissions_itself_in_both_formats() {
-    fn whole<S: shared::fit::Arithmetic>() {
+    fn whole<S: Arithmetic>() {
         let mut host = Host::<S>::new(SMALL);
         let report = host
             .run(job(), |_, _, _| {})
@@ -264,10 +164,7 @@ fn a_motor_commissions_itself_in_both_formats() {
         let rows = host.rows(Stage::Record);
         let duties: Vec<i16> = rows.iter().map(|row| row.duty).collect();
         let steps: Vec<i16> = rows.iter().map(|row| row.step).collect();
-        let trace = shared::trace::Trace {
-            duties: &duties,
-            steps: &steps,
-        };
+        let trace = shared::trace::Trace::new(&duties, &steps);
         let mut fit = shared::fit::Fit::<S>::idle();
         assert!(fit.begin(&trace, job().fit));
         let again = loop {
@@ -281,88 +178,17 @@ fn a_motor_commissions_itself_in_both_formats() {
     whole::<Fixed>();
 }
 
+/// Also run on emulated microcontrollers, see `scripts/proof`.
 #[test]
-fn every_fault_ends_a_run_with_the_bridge_open_and_its_cause_reported() {
-    type Mischief = fn(&mut Bench, Phase, u32);
-    let cases: [(Fault, Mischief); 6] = [
-        (Fault::Runaway, |bench, _, _| bench.encoder = -1),
-        (Fault::Stall, |bench, _, _| bench.locked = true),
-        (Fault::Stall, |bench, phase, at| {
-            bench.encoder = i32::from(phase != Phase::Record || at < 300)
-        }),
-        (Fault::Runaway, |bench, phase, at| {
-            if phase == Phase::Excite && at > 500 {
-                bench.encoder = -1
-            }
-        }),
-        (Fault::Overcurrent, |bench, phase, at| {
-            bench.current_ma = (phase == Phase::Verify && at > 100).then_some(-30_000)
-        }),
-        (Fault::Bridge, |bench, phase, at| {
-            bench.fails = (phase == Phase::Record && at > 100).then_some(Fault::Bridge)
-        }),
-    ];
-    for (fault, mischief) in cases {
-        let mut host = Host::<f32>::new(SMALL);
-        let failure = host.run(job(), mischief).expect_err("it must fail");
-        assert_eq!(failure.fault, fault, "{failure:?}");
-        assert_eq!(host.bench.borrow().driven, None);
-        assert_eq!(host.app.phase(), Phase::Report(Err(fault)));
+fn whatever_goes_wrong_in_whichever_phase_the_bridge_opens_and_the_cause_is_reported() {
+    fn all<S: Arithmetic>() {
+        let mut text = String::new();
+        let failed = trials::run::<S>(&mut text, &mut Memory::new(), &mut Log::new());
+        println!("{text}");
+        assert_eq!(failed, Ok(0), "{text}");
     }
-}
-
-#[test]
-fn limits_end_a_run() {
-    type Change = fn(&mut Limits);
-    let cases: [(Fault, Change); 5] = [
-        (Fault::Overtravel, |limits| limits.travel = 900),
-        (Fault::Overspeed, |limits| limits.speed = 60),
-        (Fault::TimeUp, |limits| limits.time = 2_500),
-        (Fault::Overheated, |limits| {
-            (limits.continuous_ma, limits.thermal) = (900, 300)
-        }),
-        (Fault::Overcurrent, |limits| limits.current_ma = 3_000),
-    ];
-    for (fault, change) in cases {
-        let mut job = job();
-        change(&mut job.limits);
-        let mut host = Host::<f32>::new(SMALL);
-        let failure = host.run(job, |_, _, _| {}).expect_err("it must fail");
-        assert_eq!(failure.fault, fault, "{failure:?}");
-        assert!(failure.seen >= failure.limit, "{failure:?}");
-    }
-}
-
-#[test]
-fn a_silent_host_and_a_stop_let_the_motor_go() {
-    for phase in [Phase::Probe, Phase::Excite, Phase::Record, Phase::Verify] {
-        let mut host = Host::<f32>::new(SMALL);
-        host.start(job());
-        while host.app.phase() != phase {
-            host.period();
-        }
-        host.alive = false;
-        let silent = (0..).find(|_| {
-            host.period();
-            host.bench.borrow().driven.is_none() && matches!(host.app.phase(), Phase::Report(_))
-        });
-        assert!(silent.unwrap() <= 500, "{phase:?}");
-        assert_eq!(host.app.phase(), Phase::Report(Err(Fault::LinkLost)));
-
-        let mut host = Host::<f32>::new(SMALL);
-        host.start(job());
-        while host.app.phase() != phase {
-            host.period();
-        }
-        host.say(&ToDevice::Stop);
-        host.period();
-        assert_eq!(
-            host.app.phase(),
-            Phase::Report(Err(Fault::Stopped)),
-            "{phase:?}"
-        );
-        assert_eq!(host.bench.borrow().driven, None);
-    }
+    all::<f32>();
+    all::<Fixed>();
 }
 
 #[test]

@@ -14,9 +14,21 @@ pub struct Trace<'a> {
     pub duties: &'a [i16],
     /// Counts travelled in each period.
     pub steps: &'a [i16],
+    /// Periods from the start in which the bridge is closed throughout; fewer are no error, but cost time.
+    pub closed: usize,
 }
 
-impl Trace<'_> {
+impl<'a> Trace<'a> {
+    /// Of duties and steps.
+    pub fn new(duties: &'a [i16], steps: &'a [i16]) -> Self {
+        let first_open = duties.iter().position(|&duty| duty == OPEN);
+        Trace {
+            duties,
+            steps,
+            closed: first_open.unwrap_or(duties.len()),
+        }
+    }
+
     /// Periods that have a duty and a step.
     pub fn len(&self) -> usize {
         self.duties.len().min(self.steps.len())

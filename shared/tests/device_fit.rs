@@ -9,6 +9,7 @@ use shared::rng;
 use shared::scalar::{Angle, Fixed, Readable, Scalar};
 use shared::trace::{DUTY, Trace};
 use shared::units::PerUnit;
+use shared::wire::Format;
 
 const PERIODS: usize = 2_000;
 
@@ -91,10 +92,7 @@ impl Recorded {
     }
 
     fn trace(&self) -> Trace<'_> {
-        Trace {
-            duties: &self.duties,
-            steps: &self.steps,
-        }
+        Trace::new(&self.duties, &self.steps)
     }
 }
 
@@ -135,8 +133,10 @@ fn missed<S: Arithmetic>(method: Method) -> usize {
         for (estimate, truth) in outcome.estimates.iter().zip([motor.gain, motor.mechanical]) {
             errors.push(relative(*estimate, truth));
             let off = f64::from(estimate.value) - truth;
+            // The standard deviation is that of the readings. What f32 makes of a slow motor's speed comes on top.
+            let rounding = if S::FORMAT == Format::F32 { 2e-5 } else { 0.0 };
             assert!(
-                off.abs() < 8.0 * f64::from(estimate.std),
+                off.abs() < 8.0 * f64::from(estimate.std) + rounding * truth,
                 "seed {seed}: {off} off at a standard deviation of {}, {motor:?}",
                 estimate.std
             );
@@ -193,10 +193,7 @@ fn a_motor_that_did_not_move_with_the_drive_is_not_fitted() {
         (vec![900; 50], vec![0; 50]),
         (vec![900; 50], vec![-3; 50]),
     ] {
-        let trace = Trace {
-            duties: &duties,
-            steps: &steps,
-        };
+        let trace = Trace::new(&duties, &steps);
         assert!(!Fit::<f32>::idle().begin(&trace, settings));
     }
 }

@@ -92,12 +92,12 @@ fn to_host() -> Vec<ToHost> {
             board: "QEMU netduinoplus2".try_into().unwrap(),
             firmware: "0.1.0".try_into().unwrap(),
             period_us: 1_000,
-            full: 16_800,
             capacity: 2_000,
             format: Format::F32,
             senses_current: true,
             boot: 0x1234_5678,
             stage: Stage::Idle,
+            full: 16_800,
         }),
         ToHost::Armed {
             nonce: 0xdead_beef,

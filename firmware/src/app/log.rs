@@ -1,7 +1,7 @@
 //! What a run leaves behind: rows for the host, and what the device itself will fit.
 
 use heapless::Vec;
-use shared::trace::Trace;
+use shared::trace::{OPEN, Trace};
 use shared::wire::{MOST_ROWS, Row, Rows, Stage};
 
 /// Rows under way to the host.
@@ -68,6 +68,8 @@ pub struct Log<const N: usize> {
     duties: [i16; N],
     steps: [i16; N],
     len: usize,
+    /// Periods before the first with an open bridge.
+    closed: usize,
 }
 
 impl<const N: usize> Default for Log<N> {
@@ -83,18 +85,23 @@ impl<const N: usize> Log<N> {
             duties: [0; N],
             steps: [0; N],
             len: 0,
+            closed: 0,
         }
     }
 
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.len = 0;
+        self.closed = 0;
     }
 
     /// Keeps a period, while there is room.
     pub fn push(&mut self, duty: i16, step: i16) {
         if let (Some(d), Some(s)) = (self.duties.get_mut(self.len), self.steps.get_mut(self.len)) {
             (*d, *s) = (duty, step);
+            if duty != OPEN && self.closed == self.len {
+                self.closed += 1;
+            }
             self.len += 1;
         }
     }
@@ -104,6 +111,7 @@ impl<const N: usize> Log<N> {
         Trace {
             duties: self.duties.get(..self.len).unwrap_or(&[]),
             steps: self.steps.get(..self.len).unwrap_or(&[]),
+            closed: self.closed,
         }
     }
 }

@@ -19,7 +19,7 @@ use crate::phase::{Bridge, Event, Fault, Phase};
 use log::Batch;
 pub use log::Log;
 use outbox::Outbox;
-use script::{Plan, Script, Which};
+pub use script::{Plan, Script, Which};
 use shared::fit::{Arithmetic, Evaluation, Fit, Outcome};
 use shared::rng::{self, Rng};
 use shared::trace::OPEN;
@@ -89,7 +89,7 @@ impl<S: Arithmetic> Memory<S> {
     }
 }
 
-#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "emulated")))]
+#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "proof")))]
 impl<S: Arithmetic> Memory<S> {
     /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
     #[inline(never)]
@@ -300,12 +300,12 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             board: text(B::NAME),
             firmware: text(env!("CARGO_PKG_VERSION")),
             period_us: B::PERIOD_US,
-            full: self.board.full(),
             capacity: u16::try_from(N).unwrap_or(u16::MAX),
             format: S::FORMAT,
             senses_current: B::SENSES_CURRENT,
             boot: self.boot,
             stage: self.phase.stage(),
+            full: self.board.full(),
         };
         self.memory.outbox.post(&ToHost::About(about));
     }
@@ -628,9 +628,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         if self.job.is_none_or(|job| job.verify == 0) {
             return;
         }
-        let model = self.memory.fit.model();
-        self.memory.predicted = model.map(|model| Evaluation::new(model, f32::INFINITY));
-        self.report.verified = self.memory.predicted.map(|_| Verified {
+        let Memory { fit, predicted, .. } = &mut *self.memory;
+        self.report.verified = fit.predict(predicted).then_some(Verified {
             mean_square: 0.0,
             periods: 0,
         });

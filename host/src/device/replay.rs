@@ -16,7 +16,7 @@ pub struct Replayed {
 
 /// Fits what the device fitted, as the device fitted it.
 pub fn replay(saved: &Saved, duties: &[i16], steps: &[i16]) -> Replayed {
-    let trace = Trace { duties, steps };
+    let trace = Trace::new(duties, steps);
     let outcome = if saved.format == "fixed" {
         fit::<Fixed>(saved, &trace)
     } else {

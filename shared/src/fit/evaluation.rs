@@ -2,16 +2,14 @@
 
 use super::{Arithmetic, Point, Space};
 use crate::model::{Motion, Rigid};
-use crate::scalar::{ErrorValue, Readable, Scalar};
-use crate::trace::Trace;
+use crate::scalar::Angle;
+use crate::trace::{OPEN, Trace};
 
 /// Samples between two looks at the bound.
 const BLOCK: usize = 64;
 
 /// Largest mean error that where the shaft stood within a count can explain, counts.
-const UNKNOWN_START: f64 = 0.5;
-
-type ErrorOf<S> = <<S as Scalar>::Angle as Readable<S>>::Error;
+const UNKNOWN_START: f32 = 0.5;
 
 /// Room for as many models as ever run side by side.
 pub(super) type Runs<S> = [Option<Evaluation<S>>; 3];
@@ -25,63 +23,106 @@ pub(super) fn build<S: Arithmetic>(
     x: &Point,
     bound: f32,
 ) -> bool {
-    *slot = space
-        .model::<S>(x)
-        .ok()
-        .map(|model| Evaluation::new(model, bound));
-    slot.is_some()
+    // In place: to hand a model on costs as much as to make it.
+    let evaluation = slot.get_or_insert_with(Evaluation::idle);
+    let built = space.set(&mut evaluation.model, x).is_ok() && evaluation.begin(bound);
+    if !built {
+        *slot = None;
+    }
+    built
+}
+
+/// What load and friction add in each period while the shaft turns one way.
+#[derive(Clone, Copy, Debug)]
+struct Turning<S: Arithmetic> {
+    current: S,
+    speed: S,
+    lead: S::Lead,
+    /// Sense of the motion.
+    sense: S,
 }
 
 /// A rigid motor that follows a trace from standstill, and how far it strays.
 ///
 /// Its cost is the variance of the error: where within a count the shaft stood at the start is not known, so a constant
 /// difference does not count.
+///
+/// A period in which the bridge is closed and the shaft turns on takes a short way, which differs from [`Rigid::step`] in
+/// rounding only.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluation<S: Arithmetic> {
     model: Rigid<S>,
-    motion: Motion<S>,
-    /// Reading, relative to that at the start.
-    count: i32,
+    rows: S::Rows,
+    /// None if the sense of the motion is not known, or friction holds the shaft.
+    turning: Option<Turning<S>>,
+    current: S,
+    speed: S,
+    lead: S::Lead,
     at: usize,
-    sum: ErrorOf<S>,
-    squares: ErrorOf<S>,
+    sums: S::Sums,
     /// Mean square above which the candidate does not matter.
     bound: f32,
     result: Option<f32>,
 }
 
 impl<S: Arithmetic> Evaluation<S> {
-    /// At the start of the trace; gives up as soon as its cost must exceed `bound`.
-    pub fn new(model: Rigid<S>, bound: f32) -> Self {
+    fn idle() -> Self {
         Evaluation {
-            model,
-            motion: Motion::default(),
-            count: 0,
+            model: Rigid::idle(),
+            rows: Default::default(),
+            turning: None,
+            current: S::zero(),
+            speed: S::zero(),
+            lead: Default::default(),
             at: 0,
-            sum: Default::default(),
-            squares: Default::default(),
-            bound,
+            sums: Default::default(),
+            bound: f32::INFINITY,
             result: None,
         }
+    }
+
+    /// Of a model; none if it is beyond the format.
+    pub fn new(model: Rigid<S>) -> Option<Self> {
+        let mut evaluation = Evaluation {
+            model,
+            ..Self::idle()
+        };
+        evaluation.begin(f32::INFINITY).then_some(evaluation)
+    }
+
+    /// Goes to the start of the trace, and gives up as soon as its cost must exceed `bound`. False if the model is beyond the
+    /// format.
+    fn begin(&mut self, bound: f32) -> bool {
+        let Some(rows) = S::rows(self.model.increments(), self.model.counts_per_unit()) else {
+            return false;
+        };
+        self.rows = rows;
+        self.turning = None;
+        (self.current, self.speed, self.lead) = (S::zero(), S::zero(), Default::default());
+        (self.at, self.sums) = (0, Default::default());
+        (self.bound, self.result) = (bound, None);
+        true
     }
 
     /// Runs along at most about `samples` of the trace; returns how many it ran.
     pub fn run(&mut self, trace: &Trace<'_>, samples: u32) -> u32 {
         let len = trace.len();
+        let most = self.bound * len as f32;
         let mut ran = 0;
         while self.result.is_none() && ran < samples {
             let from = self.at;
             let to = (from + BLOCK).min(len);
-            for k in from..to {
-                self.step(trace.duties[k], trace.steps[k]);
+            if let (Some(duties), Some(steps)) =
+                (trace.duties.get(from..to), trace.steps.get(from..to))
+            {
+                self.follow(duties, steps, to <= trace.closed);
             }
             self.at = to;
             ran += (to - from) as u32;
             // The sum about the mean of what was seen only grows, so it may be compared before the end.
-            let so_far = self.spread(to.max(1) as f64);
-            let excessive = so_far > f64::from(self.bound) * len as f64;
-            if to == len || excessive {
-                self.result = Some((so_far / len.max(1) as f64) as f32);
+            let so_far = self.spread(to.max(1) as f32);
+            if to == len || so_far > most {
+                self.result = Some(so_far / len.max(1) as f32);
             }
         }
         ran
@@ -93,33 +134,112 @@ impl<S: Arithmetic> Evaluation<S> {
     }
 
     /// One period: the duty acts, the count is read at its end.
-    #[inline(always)]
     pub fn step(&mut self, duty: i16, step: i16) {
-        let open = duty == crate::trace::OPEN;
-        let command = S::from_q15(if open { 0 } else { duty });
-        self.model.step(&mut self.motion, command, open);
-        self.count = self.count.wrapping_add(i32::from(step));
-        let error = self.error();
-        self.sum = self.sum + error;
-        self.squares = self.squares + error.squared();
+        self.follow(&[duty], &[step], duty != OPEN);
     }
 
     /// Counts by which the model is ahead of the reading now.
-    #[inline(always)]
-    pub fn error(&self) -> ErrorOf<S> {
-        self.motion.angle.minus(self.count)
+    pub fn error(&self) -> f32 {
+        S::counts(self.lead)
     }
 
     /// Mean squared error over the `periods` stepped so far, counts².
     pub fn mean_square(&self, periods: u32) -> f32 {
-        let periods = f64::from(periods.max(1));
-        (self.spread(periods) / periods) as f32
+        let periods = periods.max(1) as f32;
+        self.spread(periods) / periods
+    }
+
+    /// Runs along rows; `closed` if the bridge is closed in all of them.
+    fn follow(&mut self, duties: &[i16], steps: &[i16], closed: bool) {
+        let mut at = 0;
+        while let (Some(&duty), Some(&step)) = (duties.get(at), steps.get(at)) {
+            if self.turning.is_none() {
+                self.turning = self.turn();
+            }
+            let glided = match self.turning {
+                Some(turning) if closed => self.glide(turning, &duties[at..], &steps[at..]),
+                Some(turning) if duty != OPEN => self.glide(turning, &[duty], &[step]),
+                _ => 0,
+            };
+            at += glided;
+            if glided == 0 {
+                self.rough(duty, step);
+                at += 1;
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn turn(&self) -> Option<Turning<S>> {
+        let (sense, [current, speed, angle]) = self.model.turning(self.speed)?;
+        let angle = S::Angle::default().advance(angle, self.model.counts_per_unit());
+        Some(Turning {
+            current,
+            speed,
+            lead: S::ahead(Default::default(), angle, 0),
+            sense,
+        })
+    }
+
+    /// Periods in which the shaft turns on; returns how many those were.
+    #[inline(always)]
+    fn glide(&mut self, turning: Turning<S>, duties: &[i16], steps: &[i16]) -> usize {
+        if self.model.is_free() {
+            self.glide_as::<true>(turning, duties, steps)
+        } else {
+            self.glide_as::<false>(turning, duties, steps)
+        }
+    }
+
+    #[inline(never)]
+    fn glide_as<const FREE: bool>(
+        &mut self,
+        turning: Turning<S>,
+        duties: &[i16],
+        steps: &[i16],
+    ) -> usize {
+        let rows = self.rows;
+        let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
+        let mut periods = 0;
+        for (&duty, &step) in duties.iter().zip(steps) {
+            let mut to = S::follow(&rows, at, duty, step);
+            if !FREE {
+                to.0 = to.0 + turning.current;
+                to.1 = to.1 + turning.speed;
+                if !S::along(to.1, turning.sense) {
+                    break;
+                }
+                to.2 = to.2 + turning.lead;
+            }
+            at = to;
+            S::collect(&mut sums, at.2);
+            periods += 1;
+        }
+        ((self.current, self.speed, self.lead), self.sums) = (at, sums);
+        periods
+    }
+
+    /// A period in which anything may happen.
+    #[inline(never)]
+    fn rough(&mut self, duty: i16, step: i16) {
+        let open = duty == OPEN;
+        let command = S::from_q15(if open { 0 } else { duty });
+        let mut motion = Motion {
+            current: self.current,
+            speed: self.speed,
+            ..Motion::default()
+        };
+        self.model.step(&mut motion, command, open);
+        (self.current, self.speed) = (motion.current, motion.speed);
+        self.lead = S::ahead(self.lead, motion.angle, step);
+        S::collect(&mut self.sums, self.lead);
+        self.turning = None;
     }
 
     /// Sum of the squared errors about their mean, as far as that can be a matter of where the shaft stood.
-    fn spread(&self, periods: f64) -> f64 {
-        let sum = self.sum.to_f64();
+    fn spread(&self, periods: f32) -> f32 {
+        let (sum, squares) = S::sums(&self.sums);
         let mean = (sum / periods).clamp(-UNKNOWN_START, UNKNOWN_START);
-        self.squares.to_f64() - mean * (sum + sum - mean * periods)
+        squares - mean * (sum + sum - mean * periods)
     }
 }

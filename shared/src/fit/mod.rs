@@ -10,11 +10,13 @@
 //! encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
 //! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
 
+mod arithmetic;
 mod evaluation;
 mod outcome;
 mod polish;
 mod space;
 
+pub use arithmetic::Arithmetic;
 pub use evaluation::Evaluation;
 use evaluation::{Runs, build};
 pub use outcome::{Estimate, Outcome, Stop};
@@ -22,24 +24,8 @@ pub use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
-use crate::scalar::{Fixed, Readable, Scalar};
 use crate::trace::Trace;
-use crate::wire::Format;
 use serde::{Deserialize, Serialize};
-
-/// A number format that a device can fit in.
-pub trait Arithmetic: Scalar<Angle: Readable<Self>> + 'static {
-    /// As the host is told.
-    const FORMAT: Format;
-}
-
-impl Arithmetic for f32 {
-    const FORMAT: Format = Format::F32;
-}
-
-impl Arithmetic for Fixed {
-    const FORMAT: Format = Format::Fixed;
-}
 
 /// Largest population.
 pub const POPULATION: usize = 20;
@@ -144,6 +130,8 @@ pub struct Fit<S: Arithmetic> {
     space: Space,
     stage: Stage,
     runs: Runs<S>,
+    /// The search has asked for the cost of the model in the first run.
+    asked: bool,
     evaluations: u32,
     best: Point,
     least: f32,
@@ -158,6 +146,7 @@ impl<S: Arithmetic> Fit<S> {
             space: Space::NONE,
             stage: Stage::Done(Stop::NoModel),
             runs: [None; 3],
+            asked: false,
             evaluations: 0,
             best: [0.5; MOST],
             least: f32::INFINITY,
@@ -174,6 +163,7 @@ impl<S: Arithmetic> Fit<S> {
         self.settings = settings;
         self.space = space;
         self.runs = [const { None }; 3];
+        self.asked = false;
         self.evaluations = 0;
         self.best = [0.5; MOST];
         self.least = f32::INFINITY;
@@ -214,16 +204,16 @@ impl<S: Arithmetic> Fit<S> {
                     used
                 }
                 Stage::Search(_) => match &mut self.runs[0] {
-                    None => {
-                        self.next();
-                        BUILD
-                    }
-                    Some(evaluation) => {
+                    Some(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
                             self.end(mean_square);
                         }
                         used
+                    }
+                    _ => {
+                        self.next();
+                        BUILD
                     }
                 },
             };
@@ -239,14 +229,15 @@ impl<S: Arithmetic> Fit<S> {
         };
         let search = search.each();
         let (x, bound) = (search.ask(), search.bound());
-        if !build(&mut self.runs[0], &self.space, &x, bound) {
+        self.asked = build(&mut self.runs[0], &self.space, &x, bound);
+        if !self.asked {
             self.end(f32::INFINITY);
         }
     }
 
     /// Tells the cost of the point, and goes on to the polish when the search is done.
     fn end(&mut self, mean_square: f32) {
-        self.runs[0] = None;
+        self.asked = false;
         self.evaluations += 1;
         let Stage::Search(search) = &mut self.stage else {
             return;
@@ -276,9 +267,9 @@ impl<S: Arithmetic> Fit<S> {
         )
     }
 
-    /// The best motor so far, to predict with.
-    pub fn model(&self) -> Option<crate::model::Rigid<S>> {
-        self.space.model(&self.best).ok()
+    /// Puts the best motor so far into `slot`, to predict with; says whether there is one.
+    pub fn predict(&self, slot: &mut Option<Evaluation<S>>) -> bool {
+        build(slot, &self.space, &self.best, f32::INFINITY)
     }
 }
 

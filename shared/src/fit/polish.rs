@@ -6,7 +6,7 @@
 
 use super::evaluation::{Runs, build};
 use super::{Arithmetic, MOST, Point, Space};
-use crate::scalar::{ErrorValue, Real};
+use crate::scalar::Real;
 use crate::trace::Trace;
 
 /// Most rounds.
@@ -67,11 +67,15 @@ impl Curvature {
 #[derive(Clone, Copy, Debug, Default)]
 struct Differences {
     at: usize,
-    /// Of the error and of both differences.
-    sums: [f64; 3],
-    /// Of their products: with themselves and with each other, row by row of the upper triangle.
-    products: [f64; 6],
+    /// Of the error and of both differences, then of their products: with themselves and with each other, row by row of the
+    /// upper triangle.
+    sums: [f64; 9],
+    /// The same since the last whole block.
+    block: [f32; 9],
 }
+
+/// Periods that are summed up in f32 before f64 takes over, which is slow where there is no unit for it.
+const BLOCK: usize = 32;
 
 impl Differences {
     /// Runs the models side by side for a while; returns how many periods they ran in all.
@@ -79,19 +83,22 @@ impl Differences {
         let to = (self.at + samples as usize / 3 + 1).min(trace.len());
         let from = self.at;
         for k in from..to {
-            let mut errors = [0.0; 3];
+            let mut errors = [0.0f32; 3];
             for (run, error) in runs.iter_mut().flatten().zip(&mut errors) {
                 run.step(trace.duties[k], trace.steps[k]);
-                *error = run.error().to_f64();
+                *error = run.error();
             }
             let [e, a, b] = errors;
             let (a, b) = (a - e, b - e);
-            for (sum, term) in self.sums.iter_mut().zip([e, a, b]) {
+            let terms = [e, a, b, e * e, e * a, e * b, a * a, a * b, b * b];
+            for (sum, term) in self.block.iter_mut().zip(terms) {
                 *sum += term;
             }
-            let terms = [e * e, e * a, e * b, a * a, a * b, b * b];
-            for (sum, term) in self.products.iter_mut().zip(terms) {
-                *sum += term;
+            if (k + 1).is_multiple_of(BLOCK) || k + 1 == trace.len() {
+                for (sum, block) in self.sums.iter_mut().zip(&mut self.block) {
+                    *sum += f64::from(*block);
+                    *block = 0.0;
+                }
             }
         }
         self.at = to;
@@ -101,9 +108,9 @@ impl Differences {
     /// Products about the means: where within a count the shaft stood is not known.
     fn products(&self) -> [f64; 6] {
         let n = self.at.max(1) as f64;
-        let [e, a, b] = self.sums;
+        let [e, a, b, products @ ..] = self.sums;
         let means = [e * e, e * a, e * b, a * a, a * b, b * b];
-        core::array::from_fn(|k| self.products[k] - means[k] / n)
+        core::array::from_fn(|k| products[k] - means[k] / n)
     }
 }
 

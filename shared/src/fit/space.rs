@@ -4,11 +4,11 @@
 //! shows that well and either of the two badly, so gain itself would lie along a narrow slanted valley (a swarm of 20 missed
 //! 8 % of drawn motors with it, 3 % without).
 
-use super::Settings;
+use super::{Arithmetic, Settings};
 use crate::error::ModelError;
 use crate::model::{Rigid, RigidPlan};
 use crate::motor::Machine;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::trace::Trace;
 use crate::units::PerUnit;
 
@@ -145,11 +145,11 @@ impl Space {
         gradient
     }
 
-    /// The motor at `x`.
+    /// Makes `model` the motor at `x`.
     ///
     /// # Errors
     /// A coefficient beyond the range of `S`; an electrical time constant far above the mechanical one.
-    pub fn model<S: Scalar>(&self, x: &Point) -> Result<Rigid<S>, ModelError> {
+    pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> Result<(), ModelError> {
         let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);
         for (k, unknown) in self.unknowns().iter().enumerate() {
@@ -170,7 +170,7 @@ impl Space {
         }
         // A count is the unit of angle, a period that of time, the supply that of voltage: SI in all but name.
         let kb = 1.0 / gain;
-        Rigid::new(&RigidPlan {
+        model.set(&RigidPlan {
             machine: Machine {
                 kb,
                 damping: 0.0,

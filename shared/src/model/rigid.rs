@@ -31,31 +31,83 @@ pub struct Rigid<S: Scalar> {
     /// The load, and friction; a motor without friction takes the short way.
     forces: Forces<S>,
     rubs: bool,
+    /// Neither friction nor a load.
+    free: bool,
     counts_per_unit: S::Coefficient,
 }
 
-impl<S: Scalar> Rigid<S> {
-    /// Discretises and lowers a plan.
+impl<S: Scalar<Mask = bool>> Rigid<S> {
+    /// A motor that nothing moves, to be [`set`](Self::set).
+    pub fn idle() -> Self {
+        Rigid {
+            motor: [Rung::zero(); RUNGS],
+            forces: Forces {
+                volts: S::zero(),
+                torque: S::zero(),
+                budget: Budget::even(S::zero()),
+            },
+            rubs: false,
+            free: true,
+            counts_per_unit: S::coefficient(0.0),
+        }
+    }
+
+    /// Discretises and lowers a plan, in place. After an error it is no motor.
     ///
     /// # Errors
     /// A parameter that is not physical, or a coefficient beyond the range of `S`.
-    pub fn new<R: Real>(plan: &RigidPlan<R>) -> Result<Self, ModelError> {
+    pub fn set<R: Real>(&mut self, plan: &RigidPlan<R>) -> Result<(), ModelError> {
         plan.machine.check()?;
         let units = &plan.units;
-        let rubs = plan.coulomb != R::zero();
-        let depth = if rubs { RUNGS - 1 } else { 0 };
+        self.rubs = plan.coulomb != R::zero();
+        self.free = !self.rubs && plan.load == R::zero();
+        let depth = if self.rubs { RUNGS - 1 } else { 0 };
         let machine = plan.machine.lower(units);
         let one = R::from_f64(1.0);
-        Ok(Rigid {
-            motor: rung::ladder(&machine, one, depth, Discretisation::Exact)?,
-            forces: Forces {
-                volts: S::zero(),
-                torque: units.number(plan.load, Quantity::Torque),
-                budget: Budget::even(units.number(plan.coulomb, Quantity::Torque)),
-            },
-            rubs,
-            counts_per_unit: S::coefficient(units.counts_per_unit().to_f64()),
-        })
+        rung::climb(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
+        self.forces.torque = units.number(plan.load, Quantity::Torque);
+        self.forces.budget = Budget::even(units.number(plan.coulomb, Quantity::Torque));
+        self.counts_per_unit = S::coefficient(units.counts_per_unit().to_f64());
+        Ok(())
+    }
+
+    /// [`set`](Self::set) from nothing.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn new<R: Real>(plan: &RigidPlan<R>) -> Result<Self, ModelError> {
+        let mut rigid = Rigid::idle();
+        rigid.set(plan)?;
+        Ok(rigid)
+    }
+
+    /// What current, speed and command each add to current, speed and angle in an interval with the bridge closed.
+    pub fn increments(&self) -> [[S::Coefficient; 3]; 3] {
+        self.motor[0].increments()
+    }
+
+    /// Counts in a unit of angle.
+    pub fn counts_per_unit(&self) -> S::Coefficient {
+        self.counts_per_unit
+    }
+
+    /// Whether there is neither friction nor a load.
+    pub fn is_free(&self) -> bool {
+        self.free
+    }
+
+    /// Sense of the motion at `speed`, and what load and friction add to current, speed and angle in each interval for as
+    /// long as the shaft turns on in that sense; none if friction may hold it.
+    pub fn turning(&self, speed: S) -> Option<(S, [S; 3])> {
+        let sense = speed.signum();
+        let torque = if !self.rubs {
+            self.forces.torque
+        } else if sense.less(S::zero()) || S::zero().less(sense) {
+            self.forces.torque + sense * self.forces.budget.moving
+        } else {
+            return None;
+        };
+        Some((sense, self.motor[0].by_torque(torque)))
     }
 
     /// Advances by one interval with `command` held; `open` while the bridge is open.
@@ -90,7 +142,7 @@ mod tests {
     const SAMPLES: usize = 3_000;
 
     /// Angles of both models over random commands with coasting, in units of their formats' text.
-    fn angles<S: Scalar>(plan: &RigidPlan<f64>) -> (Vec<String>, Vec<String>) {
+    fn angles<S: Scalar<Mask = bool>>(plan: &RigidPlan<f64>) -> (Vec<String>, Vec<String>) {
         let mut effects = EffectSet::default();
         effects.push(Kind::Coulomb, &[plan.coulomb]).unwrap();
         effects.push(Kind::LoadTorque, &[plan.load]).unwrap();

@@ -112,31 +112,36 @@ impl<R: Real> Maps<R> {
         }
     }
 
-    fn lower<S: Scalar>(&self, machine: &Machine<R>, length: R) -> Result<Rung<S>, ModelError> {
+    /// Into a rung where it stays: a device has neither the stack nor the time to hand on many of them.
+    fn lower<S: Scalar>(
+        &self,
+        rung: &mut Rung<S>,
+        machine: &Machine<R>,
+        length: R,
+    ) -> Result<(), ModelError> {
         let driven = &self.driven;
         let row = |k: usize| {
             let (x, u) = (driven.states[k], driven.inputs[k]);
             [x[0], x[1], u[0], u[1]]
         };
         let (x, u) = (driven.angle_by_states, driven.angle_by_inputs);
-        Ok(Rung {
-            timing: Timing::new(machine, length, driven.inputs[0][0], u),
-            current: lowered::<S, R, 4>("current increment", row(0))?,
-            speed: lowered::<S, R, 4>("speed increment", row(1))?,
-            angle: lowered::<S, R, 4>("angle increment", [x[0], x[1], u[0], u[1]])?,
-            coast_speed: lowered::<S, R, 2>(
-                "coasting speed increment",
-                [self.coast.states[0][0], self.coast.inputs[0][0]],
-            )?,
-            coast_angle: lowered::<S, R, 2>(
-                "coasting angle increment",
-                [self.coast.angle_by_states[0], self.coast.angle_by_inputs[0]],
-            )?,
-            held: lowered::<S, R, 2>(
-                "held current increment",
-                [self.held.states[0][0], self.held.inputs[0][0]],
-            )?,
-        })
+        rung.timing = Timing::new(machine, length, driven.inputs[0][0], u);
+        rung.current = lowered::<S, R, 4>("current increment", row(0))?;
+        rung.speed = lowered::<S, R, 4>("speed increment", row(1))?;
+        rung.angle = lowered::<S, R, 4>("angle increment", [x[0], x[1], u[0], u[1]])?;
+        rung.coast_speed = lowered::<S, R, 2>(
+            "coasting speed increment",
+            [self.coast.states[0][0], self.coast.inputs[0][0]],
+        )?;
+        rung.coast_angle = lowered::<S, R, 2>(
+            "coasting angle increment",
+            [self.coast.angle_by_states[0], self.coast.angle_by_inputs[0]],
+        )?;
+        rung.held = lowered::<S, R, 2>(
+            "held current increment",
+            [self.held.states[0][0], self.held.inputs[0][0]],
+        )?;
+        Ok(())
     }
 }
 
@@ -179,32 +184,80 @@ pub fn shortest<R: Real>(
 }
 
 /// The maps of a step of `step` intervals and of its halvings down to `depth` (the rest repeats the
-/// last one). The shortest is computed, the others follow by doubling.
+/// last one).
 pub fn ladder<S: Scalar, R: Real>(
     machine: &Machine<R>,
     step: R,
     depth: usize,
     how: Discretisation,
 ) -> Result<[Rung<S>; RUNGS], ModelError> {
-    let (machine, lengths) = shortest(machine, step, depth, how);
-    let mut maps = Maps::new(&machine, lengths[depth], how)?;
-    let mut rungs = [maps.lower::<S>(&machine, lengths[depth])?; RUNGS];
-    for level in (0..depth).rev() {
-        maps = match how {
-            Discretisation::Exact => maps.twice(),
-            // Euler's step is what it is at each length: two half steps are not one whole step.
-            Discretisation::Euler => Maps::new(&machine, lengths[level], how)?,
-        };
-        rungs[level] = maps.lower::<S>(&machine, lengths[level])?;
-    }
+    let mut rungs = [Rung::zero(); RUNGS];
+    climb(&mut rungs, machine, step, depth, how)?;
+    let last = rungs[depth];
+    rungs[depth..].fill(last);
     Ok(rungs)
 }
 
+/// Fills the ladder down to `depth`. The shortest is computed, the others follow by doubling.
+pub fn climb<S: Scalar, R: Real>(
+    rungs: &mut [Rung<S>; RUNGS],
+    machine: &Machine<R>,
+    step: R,
+    depth: usize,
+    how: Discretisation,
+) -> Result<(), ModelError> {
+    let (machine, lengths) = shortest(machine, step, depth, how);
+    let mut maps = Maps::new(&machine, lengths[depth], how)?;
+    for level in (0..=depth).rev() {
+        if level < depth {
+            maps = match how {
+                Discretisation::Exact => maps.twice(),
+                // Euler's step is what it is at each length: two half steps are not one whole step.
+                Discretisation::Euler => Maps::new(&machine, lengths[level], how)?,
+            };
+        }
+        maps.lower(&mut rungs[level], &machine, lengths[level])?;
+    }
+    Ok(())
+}
+
 impl<S: Scalar> Rung<S> {
+    /// A rung on which nothing moves.
+    pub fn zero() -> Self {
+        let none = S::coefficient(0.0);
+        Rung {
+            current: [none; 4],
+            speed: [none; 4],
+            angle: [none; 4],
+            coast_speed: [none; 2],
+            coast_angle: [none; 2],
+            held: [none; 2],
+            timing: Timing {
+                length: none,
+                per_length: none,
+                lag: none,
+                kb: none,
+                gain: S::zero(),
+                give: S::zero(),
+            },
+        }
+    }
+
     /// Its length, and how the mean current follows from its ends.
     #[inline(always)]
     pub fn timing(&self) -> &Timing<S> {
         &self.timing
+    }
+
+    /// Multipliers of current, speed and voltage for the increments of current, speed and angle, with the bridge closed.
+    pub fn increments(&self) -> [[S::Coefficient; 3]; 3] {
+        [self.current, self.speed, self.angle]
+            .map(|[current, speed, volts, _]| [current, speed, volts])
+    }
+
+    /// What a held torque adds to current, speed and angle, with the bridge closed.
+    pub fn by_torque(&self, torque: S) -> [S; 3] {
+        [&self.current, &self.speed, &self.angle].map(|by| torque.times(by[3]))
     }
 
     /// Everything that one held voltage and one held torque (against positive rotation) do.

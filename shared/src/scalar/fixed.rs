@@ -29,7 +29,39 @@ pub struct FixedCoefficient {
 /// Largest shift of a multiplier; anything smaller than 2⁻³⁰ in magnitude gradually loses bits.
 const MAX_SHIFT: i32 = 61;
 
+impl FixedCoefficient {
+    /// As a whole number with so many bits below the point, rounded; none if that is beyond 31 bits.
+    pub fn mantissa(self, bits: i32) -> Option<i32> {
+        i32::try_from(shifted(self.mantissa.into(), self.shift - bits)).ok()
+    }
+
+    /// Most bits below the point for which there is a [`mantissa`](Self::mantissa).
+    pub fn room(self) -> i32 {
+        if self.mantissa == 0 { 60 } else { self.shift }
+    }
+
+    /// The product with another multiplier.
+    pub fn by(self, other: Self) -> Self {
+        FixedCoefficient {
+            mantissa: shifted(i64::from(self.mantissa) * i64::from(other.mantissa), 31) as i32,
+            shift: self.shift + other.shift - 31,
+        }
+    }
+}
+
 impl Fixed {
+    /// From its bits, of which 60 are below the point.
+    #[inline(always)]
+    pub fn from_bits(bits: i64) -> Self {
+        Fixed(bits)
+    }
+
+    /// The upper word, rounded down: 28 bits below the point.
+    #[inline(always)]
+    pub fn word(self) -> i32 {
+        (self.0 >> 32) as i32
+    }
+
     /// The upper word, rounded to nearest.
     #[inline(always)]
     fn upper(self) -> i64 {
@@ -201,6 +233,14 @@ fn sin_turns(raw: i64) -> Fixed {
 /// Counts with 32 bits below the point; wraps like the encoder's counter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FixedAngle(i64);
+
+impl FixedAngle {
+    /// Counts, with 32 bits below the point.
+    #[inline(always)]
+    pub fn bits(self) -> i64 {
+        self.0
+    }
+}
 
 impl Angle<Fixed> for FixedAngle {
     fn from_counts(counts: f64) -> Self {

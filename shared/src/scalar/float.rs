@@ -10,7 +10,7 @@ use super::{Angle, ErrorValue, Readable, Real, Scalar};
 const WRAP: f64 = 4_294_967_296.0;
 
 macro_rules! float_scalar {
-    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:expr, $decay:expr, $bits:expr) => {
+    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:expr, $decay:expr, $bits:expr, $terms:expr) => {
         impl Scalar for $t {
             type Mask = bool;
             type Coefficient = $t;
@@ -60,6 +60,9 @@ macro_rules! float_scalar {
         }
 
         impl Real for $t {
+            const TERMS: u32 = $terms;
+
+            #[inline(always)]
             fn to_f64(self) -> f64 {
                 self as f64
             }
@@ -72,6 +75,7 @@ macro_rules! float_scalar {
             fn sqrt(self) -> Self {
                 $sqrt(self)
             }
+            #[inline(always)]
             fn is_finite(self) -> bool {
                 <$t>::is_finite(self)
             }
@@ -114,7 +118,8 @@ float_scalar!(
     libm::sqrt,
     curves::sin_cos_turns,
     |x| curves::exp_decay(x, curves::power_of_two),
-    53
+    53,
+    13
 );
 float_scalar!(
     f32,
@@ -124,7 +129,8 @@ float_scalar!(
     libm::sqrtf,
     short_sin_cos,
     libm::expf,
-    24
+    24,
+    7
 );
 
 /// In f32 a polynomial does: turns need no reduction by multiples of π, which is most of `libm::sincosf` and two kilobytes

@@ -141,6 +141,9 @@ pub trait ErrorValue: Copy + Default + Debug + PartialOrd + Add<Output = Self> {
 pub trait Real:
     Scalar<Coefficient = Self, Mask = bool, Angle: Readable<Self>> + PartialOrd + Div<Output = Self>
 {
+    /// Terms of a Taylor series in matrices of norm up to ¼ after which the rest is below the format's last digit.
+    const TERMS: u32;
+
     /// As f64, exactly.
     fn to_f64(self) -> f64;
     /// Natural exponential.

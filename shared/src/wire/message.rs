@@ -93,9 +93,6 @@ pub struct About {
     pub firmware: String<16>,
     /// Length of a control period, µs.
     pub period_us: u32,
-    /// Duty that puts the whole supply across the winding, at most 32,768. All duties are in this measure: one in which
-    /// the bridge's own steps are whole numbers.
-    pub full: u16,
     /// Periods that it can fit.
     pub capacity: u16,
     /// Format that its model runs in.
@@ -106,6 +103,9 @@ pub struct About {
     pub boot: u32,
     /// What it is doing.
     pub stage: Stage,
+    /// Duty that puts the whole supply across the winding, at most 32,768. All duties are in this measure: one in which
+    /// the bridge's own steps are whole numbers.
+    pub full: u16,
 }
 
 /// A number format of the model.

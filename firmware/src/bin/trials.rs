@@ -1,0 +1,51 @@
+//! Runs the trials of the guards, see `firmware::trials`: on a PC, or on an emulated microcontroller by semihosting, where
+//! the application fits in f32 if there is a floating-point unit, in fixed point if there is none. `scripts/proof` runs it.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use firmware::app::{Log, Memory};
+use firmware::trials;
+
+#[cfg(target_abi = "eabihf")]
+type Format = f32;
+#[cfg(not(target_abi = "eabihf"))]
+type Format = shared::scalar::Fixed;
+
+#[cfg(target_os = "none")]
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
+    let memory = Memory::<Format>::placed(&MEMORY);
+    let ran = cortex_m_semihosting::hio::hstdout()
+        .map(|mut out| trials::run(&mut out, memory, LOG.take()));
+    exit(if matches!(ran, Ok(Ok(0))) {
+        EXIT_SUCCESS
+    } else {
+        EXIT_FAILURE
+    });
+    loop {}
+}
+
+#[cfg(target_os = "none")]
+static MEMORY: static_cell::StaticCell<Memory<Format>> = static_cell::StaticCell::new();
+#[cfg(target_os = "none")]
+static LOG: static_cell::ConstStaticCell<Log<{ trials::RECORD }>> =
+    static_cell::ConstStaticCell::new(Log::new());
+
+#[cfg(target_os = "none")]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    cortex_m_semihosting::debug::exit(cortex_m_semihosting::debug::EXIT_FAILURE);
+    loop {}
+}
+
+#[cfg(not(target_os = "none"))]
+fn main() -> std::process::ExitCode {
+    let mut text = String::new();
+    let failed = trials::run(&mut text, &mut Memory::<Format>::new(), &mut Log::new());
+    print!("{text}");
+    if failed == Ok(0) {
+        std::process::ExitCode::SUCCESS
+    } else {
+        std::process::ExitCode::FAILURE
+    }
+}

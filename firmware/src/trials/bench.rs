@@ -1,0 +1,110 @@
+//! A bench in memory: a motor, a link of two queues, and what can be wrong with them.
+
+use core::cell::RefCell;
+
+use heapless::Deque;
+
+use crate::board::Board;
+use crate::phase::Fault;
+use crate::plant::Motor;
+
+/// Bytes that wait on one direction of the link.
+const ROOM: usize = 2048;
+const PERIOD_S: f32 = 1e-3;
+
+/// What is on the bench, and what is wrong with it.
+#[derive(Debug)]
+pub struct Bench {
+    /// Bytes that the host has sent.
+    pub to_device: Deque<u8, ROOM>,
+    /// Bytes that the device has sent.
+    pub to_host: Deque<u8, ROOM>,
+    /// What the bridge does: a duty, or open.
+    pub driven: Option<i16>,
+    /// Control periods so far.
+    pub period: u32,
+    /// Sign of the encoder, or 0 for one that stands still.
+    pub encoder: i32,
+    /// Whether something holds the shaft.
+    pub locked: bool,
+    /// What the current sensor shows instead of the current.
+    pub current_ma: Option<i32>,
+    /// What the end of a period fails with.
+    pub fails: Option<Fault>,
+    motor: Motor,
+    count: i32,
+}
+
+impl Bench {
+    /// With a motor, and nothing wrong.
+    pub fn new(motor: Motor) -> Self {
+        Bench {
+            to_device: Deque::new(),
+            to_host: Deque::new(),
+            driven: None,
+            period: 0,
+            encoder: 1,
+            locked: false,
+            current_ma: None,
+            fails: None,
+            motor,
+            count: -5,
+        }
+    }
+}
+
+/// The bench as a board.
+#[derive(Debug, Clone, Copy)]
+pub struct OnBench<'b>(pub &'b RefCell<Bench>);
+
+impl Board for OnBench<'_> {
+    const NAME: &'static str = "bench";
+    const PERIOD_US: u32 = 1000;
+    const SLICE: u32 = 20_000;
+    const SENSES_CURRENT: bool = true;
+
+    fn drive(&mut self, duty: i16) {
+        self.0.borrow_mut().driven = Some(duty);
+    }
+
+    fn coast(&mut self) {
+        self.0.borrow_mut().driven = None;
+    }
+
+    fn count(&mut self) -> i32 {
+        self.0.borrow().count
+    }
+
+    fn current_ma(&mut self) -> i32 {
+        let bench = self.0.borrow();
+        bench.current_ma.unwrap_or(bench.motor.current_ma())
+    }
+
+    fn tick(&mut self) -> Result<(), Fault> {
+        let bench = &mut *self.0.borrow_mut();
+        let before = bench.motor.state.count;
+        if !bench.locked {
+            bench.motor.advance(bench.driven, PERIOD_S);
+        }
+        let travelled = bench.motor.state.count.wrapping_sub(before);
+        bench.count = bench.count.wrapping_add(bench.encoder * travelled);
+        bench.period += 1;
+        bench.fails.map_or(Ok(()), Err)
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        self.0.borrow_mut().to_device.pop_front()
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> usize {
+        let queue = &mut self.0.borrow_mut().to_host;
+        bytes
+            .iter()
+            .take_while(|&&byte| queue.push_back(byte).is_ok())
+            .count()
+    }
+
+    fn entropy(&mut self) -> u32 {
+        7 + self.0.borrow().period
+    }
+}

@@ -1,0 +1,324 @@
+//! Trials of the guards: everything that can go wrong on a bench, in every phase in which it can, while the application
+//! runs. They need neither a host nor a heap, so that they run on a PC and on a microcontroller alike.
+
+pub mod bench;
+pub mod host;
+
+use core::cell::RefCell;
+use core::fmt::{self, Write};
+
+use shared::fit::{Arithmetic, Settings};
+use shared::wire::{Job, Kind, Limits, ToDevice, ToHost};
+
+use crate::app::{Log, Memory};
+use crate::board::Board;
+use crate::guard::REACTION_US;
+use crate::phase::{Fault, Phase};
+use crate::plant::{Motor, SMALL};
+use bench::{Bench, OnBench};
+use host::Host;
+
+/// Periods that a trial records and fits: the length of its log.
+pub const RECORD: usize = 600;
+/// Periods into a phase at which something goes wrong.
+const INTO: u32 = 60;
+/// A duty that moves the motor well.
+const STRONG: u16 = 8_000;
+/// Periods within which a shaft that does not follow must be noticed, one for the period that the duty begins in.
+const REACTION: u32 = REACTION_US / OnBench::PERIOD_US + 1;
+/// Periods after which a trial that has no outcome has failed.
+const LONGEST: u32 = 60_000;
+
+/// What goes wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mischief {
+    /// Nothing.
+    None,
+    /// The encoder's lines are swapped.
+    EncoderReversed,
+    /// The encoder stands still.
+    EncoderStuck,
+    /// Something holds the shaft.
+    ShaftLocked,
+    /// The current sensor shows a short circuit.
+    ShortCircuit,
+    /// The bridge's driver reports a fault.
+    BridgeFault,
+    /// A period was too long.
+    Overrun,
+    /// The host falls silent.
+    Silence,
+    /// The host stops the run.
+    Stop,
+    /// A limit of the job is too low for what it does.
+    Limit(Fault),
+    /// The supply breaks down: the microcontroller starts anew, and the host does not notice.
+    BrownOut,
+}
+
+/// A trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Trial {
+    /// What goes wrong.
+    pub mischief: Mischief,
+    /// In which phase.
+    pub phase: Phase,
+    /// What the device must report; nothing if the run must succeed, or the device must know of no run.
+    pub fault: Option<Fault>,
+    /// Periods within which the bridge must be open, where that does not depend on what is driven.
+    pub within: Option<u32>,
+}
+
+const PHASES: [Phase; 4] = [Phase::Probe, Phase::Excite, Phase::Record, Phase::Verify];
+
+/// What goes wrong in each phase, what must be reported, and how soon.
+const MISCHIEFS: [(Mischief, Option<Fault>, Option<u32>); 9] = [
+    (Mischief::EncoderReversed, Some(Fault::Runaway), None),
+    (Mischief::EncoderStuck, Some(Fault::Stall), None),
+    (Mischief::ShaftLocked, Some(Fault::Stall), None),
+    (Mischief::ShortCircuit, Some(Fault::Overcurrent), Some(1)),
+    (Mischief::BridgeFault, Some(Fault::Bridge), Some(1)),
+    (Mischief::Overrun, Some(Fault::Overrun), Some(1)),
+    (Mischief::Silence, Some(Fault::LinkLost), Some(501)),
+    (Mischief::Stop, Some(Fault::Stopped), Some(1)),
+    (Mischief::BrownOut, None, Some(1)),
+];
+
+const LIMITS: [Fault; 5] = [
+    Fault::Overtravel,
+    Fault::Overspeed,
+    Fault::Overcurrent,
+    Fault::Overheated,
+    Fault::TimeUp,
+];
+
+/// All trials.
+pub fn all() -> impl Iterator<Item = Trial> {
+    let undisturbed = Trial {
+        mischief: Mischief::None,
+        phase: Phase::Idle,
+        fault: None,
+        within: None,
+    };
+    let disturbed = MISCHIEFS.into_iter().flat_map(|(mischief, fault, within)| {
+        PHASES.into_iter().map(move |phase| Trial {
+            mischief,
+            phase,
+            fault,
+            within,
+        })
+    });
+    let limited = LIMITS.into_iter().map(|fault| Trial {
+        mischief: Mischief::Limit(fault),
+        phase: Phase::Excite,
+        fault: Some(fault),
+        within: None,
+    });
+    [undisturbed].into_iter().chain(disturbed).chain(limited)
+}
+
+/// What a trial came to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Outcome {
+    /// The fault that the device reported.
+    pub fault: Option<Fault>,
+    /// Whether it reported success.
+    pub succeeded: bool,
+    /// Periods from the mischief to the open bridge.
+    pub open_after: Option<u32>,
+    /// Longest time of those for which it drove strongly one way, periods.
+    pub strongly: u32,
+    /// Whether the bridge stayed open from then on.
+    pub stayed_open: bool,
+    /// A phase in which the bridge drove though it must not.
+    pub drove_in: Option<Phase>,
+}
+
+impl Trial {
+    /// Whether an outcome is what it must be.
+    pub fn passes(&self, outcome: &Outcome) -> bool {
+        let reported = outcome.fault == self.fault;
+        let succeeded = outcome.succeeded == (self.mischief == Mischief::None);
+        let soon = match (self.within, outcome.open_after) {
+            (None, _) => true,
+            (Some(within), Some(after)) => after <= within,
+            (Some(_), None) => false,
+        };
+        // A shaft that does not follow can only be told from one that need not while it is driven; the probe drives for
+        // longer, but only as strongly as it must.
+        let follows = !matches!(self.fault, Some(Fault::Stall | Fault::Runaway));
+        let noticed = follows || self.phase == Phase::Probe || outcome.strongly <= REACTION;
+        let stayed_open = outcome.stayed_open && outcome.drove_in.is_none();
+        reported && succeeded && soon && noticed && stayed_open
+    }
+
+    fn job(&self) -> Job {
+        let mut limits = Limits {
+            duty: 32_000,
+            travel: 0,
+            speed: 0,
+            current_ma: 20_000,
+            continuous_ma: 0,
+            thermal: 0,
+            stall_ma: 0,
+            time: 60_000,
+        };
+        if let Mischief::Limit(fault) = self.mischief {
+            match fault {
+                Fault::Overtravel => limits.travel = 900,
+                Fault::Overspeed => limits.speed = 60,
+                Fault::Overcurrent => limits.current_ma = 3_000,
+                Fault::Overheated => (limits.continuous_ma, limits.thermal) = (900, 300),
+                _ => limits.time = 700,
+            }
+        }
+        Job {
+            kind: Kind::Commission,
+            amplitude: 30_000,
+            excite: 800,
+            coast: false,
+            record: RECORD as u16,
+            verify: 700,
+            verify_within: 0,
+            seed: 3,
+            fit: Settings {
+                evaluations: 200,
+                ..Settings::USUAL
+            },
+            limits,
+        }
+    }
+
+    /// Runs it; `memory` and `log` are the device's.
+    #[inline(never)]
+    pub fn run<S: Arithmetic>(&self, memory: &mut Memory<S>, log: &mut Log<RECORD>) -> Outcome {
+        let bench = RefCell::new(Bench::new(Motor { ..SMALL }));
+        let mut outcome = self.until_the_end(&bench, memory, log);
+        if self.mischief == Mischief::BrownOut {
+            // The microcontroller starts anew; the host goes on talking, but has not armed it.
+            let mut host = Host::<S, RECORD>::new(&bench, memory, log);
+            outcome.open_after = bench.borrow().driven.is_none().then_some(0);
+            outcome.stayed_open = true;
+            for _ in 0..1000 {
+                host.period(|_| {});
+                outcome.stayed_open &= host.bench.borrow().driven.is_none();
+            }
+        }
+        outcome
+    }
+
+    fn until_the_end<S: Arithmetic>(
+        &self,
+        bench: &RefCell<Bench>,
+        memory: &mut Memory<S>,
+        log: &mut Log<RECORD>,
+    ) -> Outcome {
+        let mut outcome = Outcome::default();
+        let mut host = Host::<S, RECORD>::new(bench, memory, log);
+        if !host.start(self.job()) {
+            return outcome;
+        }
+        let (mut phase, mut into, mut since) = (Phase::Idle, 0, None);
+        let (mut strongly, mut forward) = (0, false);
+        for _ in 0..LONGEST {
+            into = if host.app.phase() == phase {
+                into + 1
+            } else {
+                0
+            };
+            phase = host.app.phase();
+            if since.is_none() && phase == self.phase && into == self.into() {
+                since = Some(0);
+                if self.mischief == Mischief::BrownOut {
+                    return outcome;
+                }
+                self.disturb(&mut host);
+            }
+            let mut ended = false;
+            host.period(|message| match message {
+                ToHost::Report(_) => (outcome.succeeded, ended) = (true, true),
+                ToHost::Failed(failure) => (outcome.fault, ended) = (Some(failure.fault), true),
+                _ => {}
+            });
+            since = since.map(|periods| periods + 1);
+            let duty = host.bench.borrow().driven.unwrap_or(0);
+            let lasts = duty.unsigned_abs() >= STRONG && (duty > 0) == forward;
+            strongly = if lasts { strongly + 1 } else { 0 };
+            forward = duty > 0;
+            if since.is_some() && outcome.open_after.is_none() {
+                outcome.strongly = outcome.strongly.max(strongly);
+            }
+            if host.bench.borrow().driven.is_none() && outcome.open_after.is_none() {
+                outcome.open_after = since;
+            }
+            if ended {
+                break;
+            }
+        }
+        outcome.stayed_open = true;
+        for _ in 0..300 {
+            host.period(|_| {});
+            outcome.stayed_open &= host.bench.borrow().driven.is_none();
+        }
+        outcome.drove_in = host.drove_in;
+        outcome
+    }
+
+    /// The probe moves the shaft within its first steps: what goes wrong in it goes wrong from the start.
+    fn into(&self) -> u32 {
+        if self.phase == Phase::Probe { 1 } else { INTO }
+    }
+
+    fn disturb<S: Arithmetic>(&self, host: &mut Host<'_, S, RECORD>) {
+        match self.mischief {
+            Mischief::Silence => host.alive = false,
+            Mischief::Stop => host.say(&ToDevice::Stop),
+            _ => {}
+        }
+        let bench = &mut *host.bench.borrow_mut();
+        match self.mischief {
+            Mischief::EncoderReversed => bench.encoder = -1,
+            Mischief::EncoderStuck => bench.encoder = 0,
+            Mischief::ShaftLocked => bench.locked = true,
+            Mischief::ShortCircuit => bench.current_ma = Some(-30_000),
+            Mischief::BridgeFault => bench.fails = Some(Fault::Bridge),
+            Mischief::Overrun => bench.fails = Some(Fault::Overrun),
+            _ => {}
+        }
+    }
+}
+
+/// Runs all trials and writes a line for each; returns how many failed.
+///
+/// # Errors
+/// What the writer fails with.
+pub fn run<S: Arithmetic>(
+    out: &mut impl Write,
+    memory: &mut Memory<S>,
+    log: &mut Log<RECORD>,
+) -> Result<u32, fmt::Error> {
+    let mut failed = 0;
+    for trial in all() {
+        let outcome = trial.run(memory, log);
+        let passes = trial.passes(&outcome);
+        failed += u32::from(!passes);
+        let Trial {
+            mischief, phase, ..
+        } = trial;
+        let verdict = if passes { "ok" } else { "FAILED" };
+        write!(out, "{verdict} {mischief:?} in {phase:?}: ")?;
+        match outcome.fault {
+            Some(fault) => write!(out, "{fault:?}")?,
+            None => write!(out, "no fault")?,
+        }
+        match outcome.open_after {
+            Some(periods) => writeln!(
+                out,
+                ", bridge open after {periods} periods, {} of strong drive",
+                outcome.strongly
+            )?,
+            None => writeln!(out)?,
+        }
+    }
+    Ok(failed)
+}

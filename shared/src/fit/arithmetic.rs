@@ -1,0 +1,209 @@
+//! A number format that a device can fit in, and the few operations of its hot loop.
+
+use crate::scalar::{Fixed, Readable, Scalar};
+use crate::wire::Format;
+use core::ops::Add;
+
+/// By current, by speed and by the winding's voltage.
+pub type Row<C> = [C; 3];
+
+/// A number format that a device can fit in.
+///
+/// While the bridge is closed and the shaft neither stops nor turns back, a motor is three sums of products a period, with
+/// multipliers that are made once: [`Rows`](Self::Rows). An associated type, because a core without a floating-point unit
+/// wants them in another shape than the general multipliers of its format.
+pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
+    /// As the host is told.
+    const FORMAT: Format;
+    /// Multipliers of current, speed and duty.
+    type Rows: Copy + Default + core::fmt::Debug;
+    /// Counts by which a model is ahead of the reading.
+    type Lead: Copy + Default + core::fmt::Debug + Add<Output = Self::Lead>;
+    /// Sum and sum of squares of leads.
+    type Sums: Copy + Default + core::fmt::Debug;
+
+    /// Rows for the increments of current, speed and angle (in units of angle, of which each is so many counts). None if the
+    /// format does not hold them.
+    fn rows(
+        increments: [Row<Self::Coefficient>; 3],
+        counts_per_unit: Self::Coefficient,
+    ) -> Option<Self::Rows>;
+    /// A period without torque on the shaft: current, speed and lead at its end.
+    fn follow(
+        rows: &Self::Rows,
+        from: (Self, Self, Self::Lead),
+        duty: i16,
+        step: i16,
+    ) -> (Self, Self, Self::Lead);
+    /// A lead a period later: the model turned by `angle`, and the reading went `step` counts further.
+    fn ahead(lead: Self::Lead, angle: Self::Angle, step: i16) -> Self::Lead;
+    /// A lead in counts.
+    fn counts(lead: Self::Lead) -> f32;
+    /// Whether a speed has the sign of `sense`.
+    fn along(speed: Self, sense: Self) -> bool;
+    /// Adds a lead to the sums. Fixed point saturates at 2¹⁶ counts.
+    fn collect(sums: &mut Self::Sums, lead: Self::Lead);
+    /// Sum in counts, and of squares in counts².
+    fn sums(sums: &Self::Sums) -> (f32, f32);
+}
+
+impl Arithmetic for f32 {
+    const FORMAT: Format = Format::F32;
+    type Rows = [Row<f32>; 3];
+    type Lead = f32;
+    type Sums = (f32, f32);
+
+    fn rows(increments: [Row<f32>; 3], counts_per_unit: f32) -> Option<Self::Rows> {
+        let [mut current, mut speed, angle] = increments;
+        let mut angle = angle.map(|k| k * counts_per_unit);
+        // The current forgets fast: as a whole it needs one addition less, and loses nothing.
+        current[0] += 1.0;
+        for row in [&mut current, &mut speed, &mut angle] {
+            row[2] *= 1.0 / 32_768.0;
+        }
+        Some([current, speed, angle])
+    }
+
+    #[inline(always)]
+    fn follow(
+        [by_current, by_speed, by_angle]: &Self::Rows,
+        (current, speed, lead): (f32, f32, f32),
+        duty: i16,
+        step: i16,
+    ) -> (f32, f32, f32) {
+        let (duty, step) = (f32::from(duty), f32::from(step));
+        let sum = |row: &Row<f32>| row[0] * current + row[1] * speed + row[2] * duty;
+        let [a, b, c] = *by_angle;
+        (
+            sum(by_current),
+            speed + sum(by_speed),
+            // In a row: two hundred counts and more cancel, whatever the order.
+            lead - step + a * current + b * speed + c * duty,
+        )
+    }
+
+    fn ahead(lead: f32, angle: Self::Angle, step: i16) -> f32 {
+        lead + angle.minus(step.into())
+    }
+
+    #[inline(always)]
+    fn counts(lead: f32) -> f32 {
+        lead
+    }
+
+    #[inline(always)]
+    fn along(speed: f32, sense: f32) -> bool {
+        speed * sense > 0.0
+    }
+
+    #[inline(always)]
+    fn collect(sums: &mut Self::Sums, lead: f32) {
+        sums.0 += lead;
+        sums.1 += lead * lead;
+    }
+
+    #[inline(always)]
+    fn sums(sums: &Self::Sums) -> (f32, f32) {
+        *sums
+    }
+}
+
+/// Rows in fixed point: mantissas, which the upper words of current and speed and the duty are multiplied by.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FixedRows {
+    current: Row<i32>,
+    speed: Row<i32>,
+    travel: Row<i32>,
+    travel_shift: u32,
+}
+
+/// Left shifts after the products: an increment of the current takes up to four times the speed, one of the speed less
+/// than all of anything. The fewer, the more bits of a slow motor's small multipliers are left.
+const CURRENT_SHIFT: i32 = 3;
+const SPEED_SHIFT: i32 = 1;
+/// Left shift that makes a duty in Q15 an upper word, which has 28 bits below the point.
+const DUTY_SHIFT: i32 = 28 - 15;
+
+impl Arithmetic for Fixed {
+    const FORMAT: Format = Format::Fixed;
+    type Rows = FixedRows;
+    /// With 32 bits below the point.
+    type Lead = i64;
+    /// With 10 and 20 bits below the point.
+    type Sums = (i64, i64);
+
+    fn rows(
+        increments: [Row<Self::Coefficient>; 3],
+        counts_per_unit: Self::Coefficient,
+    ) -> Option<FixedRows> {
+        let [current, speed, angle] = increments;
+        let mantissas = |of: &Row<Self::Coefficient>, bits: i32| {
+            let [a, b, c] = of.map(|k| k.mantissa(bits));
+            Some([a?, b?, c?])
+        };
+        let travel = angle.map(|k| k.by(counts_per_unit));
+        // As many bits as the largest of them has room for.
+        let bits = travel.iter().fold(60, |bits, k| k.room().min(bits));
+        Some(FixedRows {
+            current: mantissas(&current, 32 - CURRENT_SHIFT)?,
+            speed: mantissas(&speed, 32 - SPEED_SHIFT)?,
+            travel: mantissas(&travel, bits)?,
+            // Upper words have 28 bits below the point, leads 32.
+            travel_shift: u32::try_from(bits - 4).ok()?,
+        })
+    }
+
+    #[inline(always)]
+    fn follow(
+        rows: &FixedRows,
+        (current, speed, lead): (Fixed, Fixed, i64),
+        duty: i16,
+        step: i16,
+    ) -> (Fixed, Fixed, i64) {
+        let (c, s, d) = (current.word(), speed.word(), i32::from(duty) << DUTY_SHIFT);
+        // 32 by 32 bits: small cores have an instruction for that, or at least a short routine.
+        let product = |a: i32, b: i32| i64::from(a) * i64::from(b);
+        let sum = |row: &Row<i32>| product(row[0], c) + product(row[1], s) + product(row[2], d);
+        let travel = sum(&rows.travel) >> rows.travel_shift;
+        (
+            current + Fixed::from_bits(sum(&rows.current) << CURRENT_SHIFT),
+            speed + Fixed::from_bits(sum(&rows.speed) << SPEED_SHIFT),
+            lead.wrapping_add(travel)
+                .wrapping_sub(i64::from(step) << 32),
+        )
+    }
+
+    fn ahead(lead: i64, angle: Self::Angle, step: i16) -> i64 {
+        let by = angle.bits().wrapping_sub(i64::from(step) << 32);
+        lead.wrapping_add(by)
+    }
+
+    fn counts(lead: i64) -> f32 {
+        lead as f32 * (1.0 / 4_294_967_296.0)
+    }
+
+    #[inline(always)]
+    fn along(speed: Fixed, sense: Fixed) -> bool {
+        // A speed below what the upper word holds counts as none.
+        let (speed, sense) = (speed.word(), sense.word());
+        speed != 0 && (speed ^ sense) >= 0
+    }
+
+    #[inline(always)]
+    fn collect(sums: &mut Self::Sums, lead: i64) {
+        const MOST: i32 = 1 << 16;
+        let whole = ((lead >> 32) as i32).clamp(-MOST, MOST - 1);
+        let lead = (whole << 10) | (lead as u32 >> 22) as i32;
+        sums.0 += i64::from(lead);
+        // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
+        sums.1 = sums.1.wrapping_add(i64::from(lead) * i64::from(lead));
+    }
+
+    #[inline(always)]
+    fn sums(sums: &Self::Sums) -> (f32, f32) {
+        (
+            sums.0 as f32 * (1.0 / 1024.0),
+            sums.1 as u64 as f32 * (1.0 / 1_048_576.0),
+        )
+    }
+}
