@@ -89,7 +89,7 @@ impl<S: Arithmetic> Memory<S> {
     }
 }
 
-#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "proof")))]
+#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "trials")))]
 impl<S: Arithmetic> Memory<S> {
     /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
     #[inline(never)]

@@ -1,5 +1,8 @@
 //! A number format that a device can fit in, and the few operations of its hot loop.
 
+use super::Evaluation;
+use crate::error::ModelError;
+use crate::model::{Motion, Rigid, RigidPlan};
 use crate::scalar::{Fixed, Readable, Scalar};
 use crate::wire::Format;
 use core::ops::Add;
@@ -45,6 +48,37 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn collect(sums: &mut Self::Sums, lead: Self::Lead);
     /// Sum in counts, and of squares in counts².
     fn sums(sums: &Self::Sums) -> (f32, f32);
+
+    /// Whether the squares are below `most` counts² beyond doubt; cheaper than to ask how many they are.
+    fn surely_below(sums: &Self::Sums, most: f32) -> bool;
+
+    /// [`Rigid::set`] in this format. Here, and not where it is called, because this crate is compiled for speed and a
+    /// device's application for size; so are the next two.
+    ///
+    /// # Errors
+    /// As there.
+    fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> Result<(), ModelError>;
+    /// [`Rigid::step`] in this format.
+    fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool);
+    /// [`Evaluation`](super::Evaluation)'s short way in this format.
+    fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize;
+}
+
+/// What is compiled here.
+macro_rules! compiled_here {
+    () => {
+        fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> Result<(), ModelError> {
+            model.set(plan)
+        }
+
+        fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool) {
+            model.step(motion, command, open);
+        }
+
+        fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize {
+            run.glide(duties, steps)
+        }
+    };
 }
 
 impl Arithmetic for f32 {
@@ -52,6 +86,8 @@ impl Arithmetic for f32 {
     type Rows = [Row<f32>; 3];
     type Lead = f32;
     type Sums = (f32, f32);
+
+    compiled_here!();
 
     fn rows(increments: [Row<f32>; 3], counts_per_unit: f32) -> Option<Self::Rows> {
         let [mut current, mut speed, angle] = increments;
@@ -106,6 +142,11 @@ impl Arithmetic for f32 {
     fn sums(sums: &Self::Sums) -> (f32, f32) {
         *sums
     }
+
+    #[inline(always)]
+    fn surely_below(sums: &Self::Sums, most: f32) -> bool {
+        sums.1 < most
+    }
 }
 
 /// Rows in fixed point: mantissas, which the upper words of current and speed and the duty are multiplied by.
@@ -114,15 +155,64 @@ pub struct FixedRows {
     current: Row<i32>,
     speed: Row<i32>,
     travel: Row<i32>,
-    travel_shift: u32,
 }
 
 /// Left shifts after the products: an increment of the current takes up to four times the speed, one of the speed less
 /// than all of anything. The fewer, the more bits of a slow motor's small multipliers are left.
 const CURRENT_SHIFT: i32 = 3;
 const SPEED_SHIFT: i32 = 1;
+/// Bits of the multipliers of the travel below the point: motors up to 8,192 counts a period fit, and half a bit is off by
+/// less than a hundredth of a count after 4,000 periods.
+const TRAVEL_POINT: i32 = 18;
 /// Left shift that makes a duty in Q15 an upper word, which has 28 bits below the point.
 const DUTY_SHIFT: i32 = 28 - 15;
+
+/// The product, with all its bits.
+#[inline(always)]
+#[cfg(not(short_multiplier))]
+fn wide(a: i32, b: i32) -> i64 {
+    i64::from(a) * i64::from(b)
+}
+
+/// The product, with all its bits, where the core multiplies to 32 bits only: the compiler would call a routine for 64 by 64
+/// bits, which takes three times as long.
+#[inline(always)]
+#[cfg(short_multiplier)]
+fn wide(a: i32, b: i32) -> i64 {
+    let (a_low, a_high) = (a & 0xffff, a >> 16);
+    let (b_low, b_high) = (b & 0xffff, b >> 16);
+    let low = (a_low as u32).wrapping_mul(b_low as u32);
+    let high = a_high.wrapping_mul(b_high);
+    let cross = i64::from(a_high.wrapping_mul(b_low)) + i64::from(b_high.wrapping_mul(a_low));
+    ((i64::from(high) << 32) | i64::from(low)).wrapping_add(cross << 16)
+}
+
+/// The product with a duty as an upper word.
+#[inline(always)]
+#[cfg(not(short_multiplier))]
+fn by_duty(a: i32, duty: i16) -> i64 {
+    wide(a, i32::from(duty) << DUTY_SHIFT)
+}
+
+/// The product with a duty as an upper word: half the bits, half the work.
+#[inline(always)]
+#[cfg(short_multiplier)]
+fn by_duty(a: i32, duty: i16) -> i64 {
+    let duty = i32::from(duty);
+    let (low, high) = (
+        (a & 0xffff).wrapping_mul(duty),
+        (a >> 16).wrapping_mul(duty),
+    );
+    ((i64::from(high) << 16) + i64::from(low)) << DUTY_SHIFT
+}
+
+/// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
+#[inline(always)]
+fn shifted(x: i64, n: i32) -> i64 {
+    let (high, low) = ((x >> 32) as u32, x as u32);
+    let high = (high << n) | (low >> (32 - n));
+    (i64::from(high as i32) << 32) | i64::from(low << n)
+}
 
 impl Arithmetic for Fixed {
     const FORMAT: Format = Format::Fixed;
@@ -131,6 +221,8 @@ impl Arithmetic for Fixed {
     type Lead = i64;
     /// With 10 and 20 bits below the point.
     type Sums = (i64, i64);
+
+    compiled_here!();
 
     fn rows(
         increments: [Row<Self::Coefficient>; 3],
@@ -142,14 +234,10 @@ impl Arithmetic for Fixed {
             Some([a?, b?, c?])
         };
         let travel = angle.map(|k| k.by(counts_per_unit));
-        // As many bits as the largest of them has room for.
-        let bits = travel.iter().fold(60, |bits, k| k.room().min(bits));
         Some(FixedRows {
             current: mantissas(&current, 32 - CURRENT_SHIFT)?,
             speed: mantissas(&speed, 32 - SPEED_SHIFT)?,
-            travel: mantissas(&travel, bits)?,
-            // Upper words have 28 bits below the point, leads 32.
-            travel_shift: u32::try_from(bits - 4).ok()?,
+            travel: mantissas(&travel, TRAVEL_POINT)?,
         })
     }
 
@@ -160,14 +248,13 @@ impl Arithmetic for Fixed {
         duty: i16,
         step: i16,
     ) -> (Fixed, Fixed, i64) {
-        let (c, s, d) = (current.word(), speed.word(), i32::from(duty) << DUTY_SHIFT);
-        // 32 by 32 bits: small cores have an instruction for that, or at least a short routine.
-        let product = |a: i32, b: i32| i64::from(a) * i64::from(b);
-        let sum = |row: &Row<i32>| product(row[0], c) + product(row[1], s) + product(row[2], d);
-        let travel = sum(&rows.travel) >> rows.travel_shift;
+        let (c, s) = (current.word(), speed.word());
+        let sum = |row: &Row<i32>| wide(row[0], c) + wide(row[1], s) + by_duty(row[2], duty);
+        // Upper words have 28 bits below the point, leads 32.
+        let travel = sum(&rows.travel) >> (TRAVEL_POINT - 4);
         (
-            current + Fixed::from_bits(sum(&rows.current) << CURRENT_SHIFT),
-            speed + Fixed::from_bits(sum(&rows.speed) << SPEED_SHIFT),
+            current + Fixed::from_bits(shifted(sum(&rows.current), CURRENT_SHIFT)),
+            speed + Fixed::from_bits(shifted(sum(&rows.speed), SPEED_SHIFT)),
             lead.wrapping_add(travel)
                 .wrapping_sub(i64::from(step) << 32),
         )
@@ -196,7 +283,7 @@ impl Arithmetic for Fixed {
         let lead = (whole << 10) | (lead as u32 >> 22) as i32;
         sums.0 += i64::from(lead);
         // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
-        sums.1 = sums.1.wrapping_add(i64::from(lead) * i64::from(lead));
+        sums.1 = sums.1.wrapping_add(wide(lead, lead));
     }
 
     #[inline(always)]
@@ -205,5 +292,11 @@ impl Arithmetic for Fixed {
             sums.0 as f32 * (1.0 / 1024.0),
             sums.1 as u64 as f32 * (1.0 / 1_048_576.0),
         )
+    }
+
+    #[inline(always)]
+    fn surely_below(sums: &Self::Sums, most: f32) -> bool {
+        // Whole counts², rounded down on either side.
+        ((sums.1 as u64 >> 20) as u32) < most as u32 && sums.1 >> 52 == 0
     }
 }

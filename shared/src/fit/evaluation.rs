@@ -33,7 +33,7 @@ pub(super) fn build<S: Arithmetic>(
 }
 
 /// What load and friction add in each period while the shaft turns one way.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Turning<S: Arithmetic> {
     current: S,
     speed: S,
@@ -119,7 +119,11 @@ impl<S: Arithmetic> Evaluation<S> {
             }
             self.at = to;
             ran += (to - from) as u32;
-            // The sum about the mean of what was seen only grows, so it may be compared before the end.
+            // The sum about the mean of what was seen only grows, so it may be compared before the end; and it is at most the
+            // plain one.
+            if to < len && S::surely_below(&self.sums, most) {
+                continue;
+            }
             let so_far = self.spread(to.max(1) as f32);
             if to == len || so_far > most {
                 self.result = Some(so_far / len.max(1) as f32);
@@ -157,8 +161,8 @@ impl<S: Arithmetic> Evaluation<S> {
                 self.turning = self.turn();
             }
             let glided = match self.turning {
-                Some(turning) if closed => self.glide(turning, &duties[at..], &steps[at..]),
-                Some(turning) if duty != OPEN => self.glide(turning, &[duty], &[step]),
+                Some(_) if closed => S::glide(self, &duties[at..], &steps[at..]),
+                Some(_) if duty != OPEN => S::glide(self, &[duty], &[step]),
                 _ => 0,
             };
             at += glided;
@@ -181,20 +185,20 @@ impl<S: Arithmetic> Evaluation<S> {
         })
     }
 
-    /// Periods in which the shaft turns on; returns how many those were.
+    /// Periods in which the shaft turns on, with the bridge closed; returns how many those were.
     #[inline(always)]
-    fn glide(&mut self, turning: Turning<S>, duties: &[i16], steps: &[i16]) -> usize {
-        if self.model.is_free() {
-            self.glide_as::<true>(turning, duties, steps)
-        } else {
-            self.glide_as::<false>(turning, duties, steps)
+    pub(super) fn glide(&mut self, duties: &[i16], steps: &[i16]) -> usize {
+        match &self.turning {
+            _ if self.model.is_free() => self.glide_as::<true>(&Turning::default(), duties, steps),
+            Some(turning) => self.glide_as::<false>(&{ *turning }, duties, steps),
+            None => 0,
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn glide_as<const FREE: bool>(
         &mut self,
-        turning: Turning<S>,
+        turning: &Turning<S>,
         duties: &[i16],
         steps: &[i16],
     ) -> usize {
@@ -229,7 +233,7 @@ impl<S: Arithmetic> Evaluation<S> {
             speed: self.speed,
             ..Motion::default()
         };
-        self.model.step(&mut motion, command, open);
+        S::step(&self.model, &mut motion, command, open);
         (self.current, self.speed) = (motion.current, motion.speed);
         self.lead = S::ahead(self.lead, motion.angle, step);
         S::collect(&mut self.sums, self.lead);

@@ -170,7 +170,7 @@ impl Space {
         }
         // A count is the unit of angle, a period that of time, the supply that of voltage: SI in all but name.
         let kb = 1.0 / gain;
-        model.set(&RigidPlan {
+        let plan = RigidPlan {
             machine: Machine {
                 kb,
                 damping: 0.0,
@@ -185,7 +185,8 @@ impl Space {
                 interval: 1.0,
                 counts_per_rev: core::f32::consts::TAU,
             },
-        })
+        };
+        S::set(model, &plan)
     }
 }
 
