@@ -73,8 +73,9 @@ impl Motor {
     /// Moves on by `seconds` with a duty in Q15, or with an open bridge.
     pub fn advance(&mut self, duty: Option<i16>, seconds: f32) {
         let dt = seconds / SUBSTEPS as f32;
+        let decay = libm::expf(-dt * self.resistance / self.inductance);
         for _ in 0..SUBSTEPS {
-            self.electrical(duty, dt);
+            self.electrical(duty, decay);
             self.mechanical(dt);
         }
     }
@@ -85,14 +86,14 @@ impl Motor {
     }
 
     /// The current follows its first-order equation exactly while the speed is held.
-    fn electrical(&mut self, duty: Option<i16>, dt: f32) {
+    fn electrical(&mut self, duty: Option<i16>, decay: f32) {
         let state = &mut self.state;
         state.current = match duty {
             None => 0.0,
             Some(duty) => {
                 let volts = self.supply * f32::from(duty) / 32_768.0;
                 let end = (volts - self.constant * state.speed) / self.resistance;
-                end + (state.current - end) * libm::expf(-dt * self.resistance / self.inductance)
+                end + (state.current - end) * decay
             }
         };
     }
@@ -100,7 +101,11 @@ impl Motor {
     /// Semi-implicit Euler; friction takes up to all of the momentum.
     fn mechanical(&mut self, dt: f32) {
         let state = &mut self.state;
-        let cogging = self.cogging * libm::sinf(self.cogging_order * state.angle);
+        let cogging = if self.cogging == 0.0 {
+            0.0
+        } else {
+            self.cogging * libm::sinf(self.cogging_order * state.angle)
+        };
         let torque = self.constant * state.current - self.viscous * state.speed - cogging;
         let free = state.speed + torque / self.inertia * dt;
         let grip = self.coulomb / self.inertia * dt;
