@@ -20,7 +20,7 @@ use log::Batch;
 pub use log::Log;
 use outbox::Outbox;
 pub use script::{Plan, Script, Which};
-use shared::fit::{Arithmetic, Evaluation, Fit, Outcome};
+use shared::fit::{Arithmetic, Fit, Outcome};
 use shared::rng::{self, Rng};
 use shared::trace::OPEN;
 use shared::wire::{
@@ -70,7 +70,6 @@ enum Work {
 #[derive(Debug)]
 pub struct Memory<S: Arithmetic> {
     fit: Fit<S>,
-    predicted: Option<Evaluation<S>>,
     plan: Plan,
     inbox: Deframer,
     outbox: Outbox,
@@ -81,7 +80,6 @@ impl<S: Arithmetic> Memory<S> {
     pub const fn new() -> Self {
         Memory {
             fit: Fit::idle(),
-            predicted: None,
             plan: Plan::new(),
             inbox: Deframer::new(),
             outbox: Outbox::new(),
@@ -372,7 +370,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.log.clear();
         self.report = NO_REPORT;
         self.failure = None;
-        self.memory.predicted = None;
         self.guard = Some(Guard::new(
             job.limits,
             B::PERIOD_US,
@@ -411,7 +408,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 Work::Brake { still: 0, all: 0 }
             }
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
-                self.memory.predicted = None;
                 if !self.memory.fit.begin(&self.log.trace(), job.fit) {
                     return self.fail(Fault::NothingToFit);
                 }
@@ -565,11 +561,12 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         if self.phase == Phase::Record {
             self.log.push(duty, step);
         }
-        if let (Phase::Verify, Some(predicted)) = (self.phase, &mut self.memory.predicted) {
-            predicted.step(duty, step);
-            if let Some(verified) = &mut self.report.verified {
-                verified.periods += 1;
-            }
+        if self.phase == Phase::Verify
+            && let Some(verified) = &mut self.report.verified
+            && let Some(prediction) = self.memory.fit.prediction()
+        {
+            prediction.step(duty, step);
+            verified.periods += 1;
         }
         self.report.periods = self.report.periods.saturating_add(1);
         if let Work::Play {
@@ -628,18 +625,17 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         if self.job.is_none_or(|job| job.verify == 0) {
             return;
         }
-        let Memory { fit, predicted, .. } = &mut *self.memory;
-        self.report.verified = fit.predict(predicted).then_some(Verified {
+        self.report.verified = self.memory.fit.predict().then_some(Verified {
             mean_square: 0.0,
             periods: 0,
         });
     }
 
     fn verified(&mut self, job: &Job) {
-        if let (Some(predicted), Some(verified)) =
-            (&self.memory.predicted, &mut self.report.verified)
+        if let Some(verified) = &mut self.report.verified
+            && let Some(prediction) = self.memory.fit.prediction()
         {
-            verified.mean_square = predicted.mean_square(verified.periods);
+            verified.mean_square = prediction.mean_square(verified.periods);
             let within = job.verify_within as f32 * 0.01;
             if within > 0.0 && verified.mean_square > within * within {
                 let seen = verified.mean_square.min(1e9) * 10_000.0;

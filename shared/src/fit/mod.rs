@@ -267,9 +267,16 @@ impl<S: Arithmetic> Fit<S> {
         )
     }
 
-    /// Puts the best motor so far into `slot`, to predict with; says whether there is one.
-    pub fn predict(&self, slot: &mut Option<Evaluation<S>>) -> bool {
-        build(slot, &self.space, &self.best, f32::INFINITY)
+    /// Gets the best motor so far ready to predict with, where the search had its models: the fit is over. Says whether there
+    /// is one.
+    pub fn predict(&mut self) -> bool {
+        self.asked = false;
+        build(&mut self.runs[0], &self.space, &self.best, f32::INFINITY)
+    }
+
+    /// The motor that [`predict`](Self::predict) got ready.
+    pub fn prediction(&mut self) -> Option<&mut Evaluation<S>> {
+        self.runs[0].as_mut()
     }
 }
 

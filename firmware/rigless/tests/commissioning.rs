@@ -1,0 +1,275 @@
+//! The application's image, as it is flashed, commissions motors on the bench; and whatever breaks there, the bridge opens.
+//!
+//! `scripts/rig test` builds the image and the host's program, and names them in `SERVOID_APPLICATION` and `SERVOID`.
+
+use std::env;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use serde_json::Value;
+
+/// Time between two looks at the bridge and two moves of the encoder, µs: at 50 the encoder of a fast motor with 16,384
+/// counts moves 40 of them at once, and the error that is left is the bench's.
+const STEP_US: &str = "10";
+
+/// A motor and its encoder, SI.
+struct Motor {
+    name: &'static str,
+    supply: f64,
+    resistance: f64,
+    inductance: f64,
+    torque_constant: f64,
+    inertia: f64,
+    viscous: f64,
+    coulomb: f64,
+    counts_per_rev: u32,
+}
+
+#[rustfmt::skip]
+const MOTORS: [Motor; 10] = [
+    Motor { name: "0.5 W", supply: 6.0, resistance: 12.0, inductance: 0.2e-3, torque_constant: 0.006, inertia: 4e-8, viscous: 1e-8, coulomb: 4e-5, counts_per_rev: 500 },
+    Motor { name: "2 W", supply: 6.0, resistance: 5.0, inductance: 0.3e-3, torque_constant: 0.008, inertia: 1.2e-7, viscous: 1e-7, coulomb: 1e-4, counts_per_rev: 1000 },
+    Motor { name: "5 W", supply: 12.0, resistance: 6.0, inductance: 0.6e-3, torque_constant: 0.017, inertia: 6e-7, viscous: 4e-7, coulomb: 3e-4, counts_per_rev: 2000 },
+    Motor { name: "10 W", supply: 12.0, resistance: 2.4, inductance: 0.6e-3, torque_constant: 0.017, inertia: 3.2e-6, viscous: 1e-6, coulomb: 6e-4, counts_per_rev: 2048 },
+    Motor { name: "20 W", supply: 24.0, resistance: 2.3, inductance: 1.1e-3, torque_constant: 0.052, inertia: 1.9e-5, viscous: 1e-5, coulomb: 6e-3, counts_per_rev: 4000 },
+    Motor { name: "60 W", supply: 24.0, resistance: 1.2, inductance: 0.5e-3, torque_constant: 0.06, inertia: 6.2e-5, viscous: 2e-5, coulomb: 5e-3, counts_per_rev: 4096 },
+    Motor { name: "100 W", supply: 24.0, resistance: 0.6, inductance: 0.3e-3, torque_constant: 0.055, inertia: 1.2e-4, viscous: 3e-5, coulomb: 8e-3, counts_per_rev: 8192 },
+    Motor { name: "200 W", supply: 48.0, resistance: 0.8, inductance: 1e-3, torque_constant: 0.12, inertia: 4e-4, viscous: 1e-4, coulomb: 0.02, counts_per_rev: 10_000 },
+    Motor { name: "350 W", supply: 48.0, resistance: 0.5, inductance: 0.8e-3, torque_constant: 0.15, inertia: 9e-4, viscous: 2e-4, coulomb: 0.04, counts_per_rev: 16_384 },
+    Motor { name: "500 W", supply: 48.0, resistance: 0.3, inductance: 0.6e-3, torque_constant: 0.14, inertia: 1.5e-3, viscous: 3e-4, coulomb: 0.05, counts_per_rev: 16_384 },
+];
+
+impl Motor {
+    fn flags(&self) -> Vec<String> {
+        let numbers = [
+            ("supply", self.supply),
+            ("resistance", self.resistance),
+            ("inductance", self.inductance),
+            ("torque-constant", self.torque_constant),
+            ("inertia", self.inertia),
+            ("viscous", self.viscous),
+            ("coulomb", self.coulomb),
+            ("counts-per-rev", self.counts_per_rev.into()),
+        ];
+        numbers
+            .iter()
+            .flat_map(|(name, value)| [format!("--{name}"), value.to_string()])
+            .collect()
+    }
+
+    /// Steady speed per volt, rad/s/V, and the first-order time constant, s.
+    fn truth(&self) -> [f64; 2] {
+        let (r, k) = (self.resistance, self.torque_constant);
+        let total = k * k + r * self.viscous;
+        [
+            k / total,
+            (r * self.inertia + self.inductance * self.viscous) / total,
+        ]
+    }
+}
+
+/// A bench under way, which ends with it.
+struct Bench {
+    process: Child,
+    address: String,
+}
+
+impl Bench {
+    fn start(flags: &[String]) -> Self {
+        let image = env::var("SERVOID_APPLICATION")
+            .expect("SERVOID_APPLICATION names the image: run scripts/rig test");
+        let mut process = Command::new(env!("CARGO_BIN_EXE_servoid-rigless"))
+            .arg(image)
+            .args(["--step-us", STEP_US])
+            .args(flags)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut first = String::new();
+        BufReader::new(process.stdout.take().unwrap())
+            .read_line(&mut first)
+            .unwrap();
+        let address = first
+            .trim()
+            .strip_prefix("link: ")
+            .expect("the first line names the port");
+        Bench {
+            address: address.to_owned(),
+            process,
+        }
+    }
+}
+
+impl Drop for Bench {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name.replace(' ', "-"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn servoid(arguments: &[&str]) -> Output {
+    let program = env::var("SERVOID").expect("SERVOID names the program: run scripts/rig test");
+    Command::new(program)
+        .args(arguments)
+        .output()
+        .expect("it runs")
+}
+
+fn commission(bench: &Bench, motor: &Motor, out: &Path, more: &[&str]) -> Output {
+    let port = format!("tcp:{}", bench.address);
+    let (supply, counts) = (motor.supply.to_string(), motor.counts_per_rev.to_string());
+    let fixed = [
+        "-q",
+        "device",
+        "commission",
+        "--port",
+        &port,
+        "--supply-v",
+        &supply,
+        "--counts-per-rev",
+        &counts,
+        "--verify",
+        "2",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    servoid(&[&fixed, more].concat())
+}
+
+fn saved(out: &Path) -> Value {
+    let text = fs::read_to_string(out.join("device.json")).expect("the run was saved");
+    serde_json::from_str(&text).unwrap()
+}
+
+/// A line of the table, and what is wrong with it.
+fn identified(motor: &Motor) -> (String, Vec<String>) {
+    let out = folder(motor.name).join("run");
+    let bench = Bench::start(&motor.flags());
+    let output = commission(&bench, motor, &out, &["--excite", "0"]);
+    assert!(output.status.success(), "{}: {output:?}", motor.name);
+    let json = saved(&out);
+    let value = |name: &str| {
+        let parameters = json["outcome"]["parameters"].as_array().unwrap();
+        let found = parameters.iter().find(|p| p["name"] == name).unwrap();
+        found["value"].as_f64().unwrap()
+    };
+    let [gain, lag] = motor.truth();
+    let off = [value("gain") / gain - 1.0, value("a1") / lag - 1.0].map(|off| 100.0 * off);
+    let fitted = json["outcome"]["rms_counts"].as_f64().unwrap();
+    let held_out = json["verified_rms_counts"].as_f64().unwrap();
+    let verdict = servoid(&["-q", "device", "verify", out.to_str().unwrap()]);
+    let same = String::from_utf8_lossy(&verdict.stdout).contains("the host finds the same bits");
+    let line = format!(
+        "{:>6} {:>6} counts/rev   gain {:+.4} %   a1 {:+.4} %   RMS {fitted:.3} counts, {held_out:.3} held out   {}",
+        motor.name,
+        motor.counts_per_rev,
+        off[0],
+        off[1],
+        if same { "same bits" } else { "OTHER BITS" }
+    );
+    let mut wrong = Vec::new();
+    if off.iter().any(|off| off.abs() > 1.0) {
+        wrong.push(format!("{}: more than 1 % off", motor.name));
+    }
+    if held_out > 0.5 {
+        wrong.push(format!("{}: {held_out} counts held out", motor.name));
+    }
+    if !same {
+        wrong.push(format!("{}: other bits", motor.name));
+    }
+    (line, wrong)
+}
+
+#[test]
+fn the_image_identifies_motors_of_half_a_watt_to_half_a_kilowatt() {
+    let next = AtomicUsize::new(0);
+    let mut lines: Vec<(usize, (String, Vec<String>))> = thread::scope(|scope| {
+        let work = || {
+            let mut done = Vec::new();
+            while let Some(motor) = MOTORS.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let k = MOTORS.iter().position(|m| m.name == motor.name).unwrap();
+                done.push((k, identified(motor)));
+            }
+            done
+        };
+        let threads = [scope.spawn(work), scope.spawn(work)];
+        threads
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap())
+            .collect()
+    });
+    lines.sort_by_key(|&(k, _)| k);
+    for (_, (line, _)) in &lines {
+        println!("{line}");
+    }
+    let wrong: Vec<_> = lines
+        .into_iter()
+        .flat_map(|(_, (_, wrong))| wrong)
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Virtual time at which something breaks, s: while the long excitation runs.
+const AT: f64 = 3.0;
+/// The bridge must be open this long after that, s. A shaft that does not follow can only be told while it is driven.
+const OPEN_WITHIN: f64 = 1.0;
+
+#[test]
+fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
+    let motor = &MOTORS[5];
+    // The fault, and what the host must be told.
+    let cases = [
+        ("encoder-reversed", None, "Runaway"),
+        ("encoder-stuck-at", Some(AT), "Stall"),
+        ("rotor-locked-at", Some(AT), "Stall"),
+        ("over-current-at", Some(AT), "Overcurrent"),
+        ("bridge-fault-at", Some(AT), "Bridge"),
+        ("reset-at", Some(AT), ""),
+    ];
+    for (fault, at, told) in cases {
+        let folder = folder(fault);
+        let (log, out) = (folder.join("course.csv"), folder.join("run"));
+        let mut flags = motor.flags();
+        flags.push(format!("--{fault}"));
+        flags.extend(at.map(|at| at.to_string()));
+        flags.extend(["--log".to_owned(), log.to_str().unwrap().to_owned()]);
+        flags.extend(["--for", "6"].map(str::to_owned));
+        let mut bench = Bench::start(&flags);
+        let output = commission(
+            &bench,
+            motor,
+            &out,
+            &["--excite", "20", "--max-current", "15"],
+        );
+        assert!(!output.status.success(), "{fault}: {output:?}");
+        bench.process.wait().unwrap();
+        let failure = &saved(&out)["failure"]["fault"];
+        let reported = failure.as_str().unwrap_or_default();
+        assert_eq!(reported, told, "{fault}: {output:?}");
+        let course = fs::read_to_string(&log).unwrap();
+        let rows: Vec<(f64, bool)> = course
+            .lines()
+            .skip(1)
+            .filter_map(|line| {
+                let mut cells = line.split(',');
+                Some((cells.next()?.parse().ok()?, cells.next()? == "open"))
+            })
+            .collect();
+        let last = rows.iter().rfind(|(_, open)| !open).expect("it drove").0;
+        println!("{fault}: {told:?}, last driven at {last} s");
+        let from = at.unwrap_or(1.0);
+        assert!(last < from + OPEN_WITHIN, "{fault}: driven at {last} s");
+        assert!(rows.last().unwrap().0 > from + 2.0, "{fault}: too short");
+    }
+}
