@@ -10,6 +10,9 @@ fn main() {
     }
     let has = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
     let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
+    if has("DEFMT") {
+        println!("cargo:rustc-link-arg-bins=-Tdefmt.x");
+    }
     if has("STM32") {
         println!("cargo:rustc-link-arg-bins=-T{here}/memory/stm32/chip.x");
     }

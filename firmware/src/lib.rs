@@ -8,6 +8,7 @@
 //! - [`proof`]: what the PC and a microcontroller must compute alike
 //! - [`trials`]: everything that can go wrong, tried out on a bench in memory, on a PC and on a microcontroller
 //! - [`count`]: what a microcontroller's arithmetic costs, in instructions
+//! - [`trail`]: phases and faults for somebody at a debugger, by defmt
 //! - [`bringup`]: another program for the same boards, for their first power-up
 #![cfg_attr(target_os = "none", no_std)]
 // Unsafe code is only on a microcontroller: registers of boards without a HAL, and the macros that bind interrupts.
@@ -23,4 +24,5 @@ mod halt;
 pub mod phase;
 pub mod plant;
 pub mod proof;
+pub mod trail;
 pub mod trials;

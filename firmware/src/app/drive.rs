@@ -1,0 +1,233 @@
+//! The periods in which the bridge is closed: brake until the shaft rests, play a script, look at every period, keep it.
+
+use super::log::Batch;
+use super::script::{Script, Which};
+use super::{App, Work};
+use crate::board::Board;
+use crate::guard::Tripped;
+use crate::phase::{Fault, Phase};
+use shared::fit::Arithmetic;
+use shared::trace::OPEN;
+use shared::wire::{Job, Kind, Row, ToHost};
+
+/// A shaft that has not moved for this long rests.
+const REST_US: u32 = 50_000;
+/// A shaft that brakes for longer than this will not rest.
+const LONGEST_BRAKING_US: u32 = 5_000_000;
+/// Length of a step of the probe.
+const PROBE_STEP_US: u32 = 40_000;
+/// Counts that are motion, and not an encoder that sits on an edge.
+const MOTION: i32 = 8;
+
+impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
+    /// Periods that a phase drives, as far as they are known before.
+    pub(super) fn length(phase: Phase, job: &Job) -> u32 {
+        match (phase, job.kind) {
+            (Phase::Probe, Kind::Play) => 0,
+            (Phase::Probe, _) => 41 * Self::periods(PROBE_STEP_US),
+            (Phase::Excite, Kind::Play) => u32::MAX,
+            (Phase::Excite, _) => job.excite,
+            (Phase::Record, Kind::Commission) => job.record.into(),
+            (Phase::Verify, Kind::Commission) => job.verify,
+            _ => 0,
+        }
+    }
+
+    pub(super) fn script(&self, job: &Job) -> Option<Script> {
+        let amplitude = self.report.amplitude;
+        let which = match (self.phase, job.kind) {
+            (Phase::Probe, _) => {
+                return Some(Script::growing(
+                    job.limits.duty,
+                    Self::periods(PROBE_STEP_US),
+                ));
+            }
+            (Phase::Excite, Kind::Play) => return Some(Script::plan()),
+            (Phase::Excite, _) => Which::Excite { coast: job.coast },
+            (Phase::Record, _) => Which::Record,
+            (Phase::Verify, _) => Which::Verify,
+            _ => return None,
+        };
+        let length = Self::length(self.phase, job);
+        Some(Script::excitation(which, length, amplitude, job.seed))
+    }
+
+    /// A period of a phase that drives: what has just ended is looked at, kept and sent; then the next duty is applied.
+    pub(super) fn drive(&mut self, step: i32) {
+        let Some(job) = self.job else {
+            return self.fail(Fault::Stopped);
+        };
+        let current = self.board.current_ma();
+        let held = self.duty;
+        if let Work::Play {
+            next: Some(duty), ..
+        } = self.work
+        {
+            self.apply(duty);
+        }
+        let driven = (held != OPEN).then_some(held);
+        let sensed = B::SENSES_CURRENT.then_some(current);
+        let looked = match &mut self.guard {
+            Some(guard) => guard.look(driven, self.count, sensed),
+            None => Ok(()),
+        };
+        if let Err(tripped) = looked {
+            return self.trip(tripped);
+        }
+        match &mut self.work {
+            Work::Brake { still, all } => {
+                *still = if step == 0 { *still + 1 } else { 0 };
+                *all += 1;
+                let rests = *still >= Self::periods(REST_US);
+                if !rests && *all < Self::periods(LONGEST_BRAKING_US) {
+                    return self.apply(0);
+                }
+                let Some(script) = self.script(&job) else {
+                    return self.done();
+                };
+                // The first duty acts when the next period begins, as all others do: one that came late in this period would
+                // put the whole recording off.
+                self.work = Work::Play {
+                    script,
+                    next: None,
+                    batch: None,
+                };
+                self.ready(&job);
+            }
+            Work::Play {
+                batch: batch @ None,
+                ..
+            } => {
+                *batch = Some(Batch::new(self.phase.stage(), self.count));
+                self.begun_at = self.count;
+                self.ready(&job);
+            }
+            Work::Play { next, .. } => {
+                let ends = next.is_none();
+                self.keep(held, step, current);
+                if self.phase == Phase::Probe && self.probed(&job) {
+                    return;
+                }
+                if !ends {
+                    self.ready(&job);
+                } else if self.phase == Phase::Probe {
+                    self.fail(Fault::Stall);
+                } else if self.phase == Phase::Verify {
+                    self.verified(&job);
+                } else {
+                    self.done();
+                }
+            }
+            _ => self.fail(Fault::Stopped),
+        }
+    }
+
+    /// Makes the next duty ready.
+    #[inline(never)]
+    pub(super) fn ready(&mut self, job: &Job) {
+        let Work::Play { script, next, .. } = &mut self.work else {
+            return;
+        };
+        let limit = job.limits.duty;
+        *next = script.next(&self.memory.plan).map(|duty| match duty {
+            OPEN => OPEN,
+            duty => duty.clamp(-limit, limit),
+        });
+    }
+
+    #[inline(never)]
+    pub(super) fn apply(&mut self, duty: i16) {
+        if duty == OPEN {
+            self.duty = OPEN;
+            self.board.coast();
+        } else {
+            self.duty = self.board.nearest(duty);
+            self.board.drive(self.duty);
+        }
+    }
+
+    /// Keeps the row of the period that has ended.
+    #[inline(never)]
+    pub(super) fn keep(&mut self, duty: i16, step: i32, current_ma: i32) {
+        let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
+        let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
+        if self.phase == Phase::Record {
+            self.log.push(duty, step);
+        }
+        if self.phase == Phase::Verify
+            && let Some(verified) = &mut self.report.verified
+            && let Some(prediction) = self.memory.fit.prediction()
+        {
+            prediction.step(duty, step);
+            verified.periods += 1;
+        }
+        self.report.periods = self.report.periods.saturating_add(1);
+        if let Work::Play {
+            batch: Some(batch), ..
+        } = &mut self.work
+        {
+            let row = Row {
+                duty,
+                step,
+                current_ma,
+            };
+            if let Some(rows) = batch.push(row) {
+                self.memory.outbox.post(&ToHost::Rows(rows));
+            }
+        }
+    }
+
+    #[inline(never)]
+    pub(super) fn send_rows(&mut self) {
+        if let Work::Play {
+            batch: Some(batch), ..
+        } = &mut self.work
+            && let Some(rows) = batch.take()
+        {
+            self.memory.outbox.post(&ToHost::Rows(rows));
+        }
+    }
+
+    /// Whether the shaft has moved, which ends the probe: with the drive, or against it.
+    pub(super) fn probed(&mut self, job: &Job) -> bool {
+        let moved = self.count.wrapping_sub(self.begun_at);
+        if moved <= -MOTION {
+            self.trip(Tripped {
+                fault: Fault::Runaway,
+                seen: moved,
+                limit: -MOTION,
+            });
+            return true;
+        }
+        if moved < MOTION {
+            return false;
+        }
+        self.report.breakaway = self.duty;
+        self.report.amplitude = job.amplitude.min(job.limits.duty);
+        if let Some(guard) = &mut self.guard {
+            let strong = self.duty.saturating_mul(2).max(job.limits.duty / 4);
+            guard.expect_motion(strong.min(job.limits.duty));
+        }
+        self.done();
+        true
+    }
+
+    pub(super) fn verified(&mut self, job: &Job) {
+        if let Some(verified) = &mut self.report.verified
+            && let Some(prediction) = self.memory.fit.prediction()
+        {
+            verified.mean_square = prediction.mean_square(verified.periods);
+            let within = job.verify_within as f32 * 0.01;
+            if within > 0.0 && verified.mean_square > within * within {
+                let seen = verified.mean_square.min(1e9) * 10_000.0;
+                let seen = libm::sqrtf(seen) as i32;
+                return self.trip(Tripped {
+                    fault: Fault::NotVerified,
+                    seen,
+                    limit: job.verify_within as i32,
+                });
+            }
+        }
+        self.done();
+    }
+}

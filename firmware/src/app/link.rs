@@ -1,0 +1,181 @@
+//! What the application says to the host and takes from it: who it is, arming and starting, the recording once more.
+
+use super::log::Batch;
+use super::{App, NO_REPORT};
+use crate::board::Board;
+use crate::guard::Guard;
+use crate::phase::{Event, Fault, Phase};
+use shared::fit::Arithmetic;
+use shared::rng::Rng;
+use shared::trace::OPEN;
+use shared::wire::{About, Job, Kind, Refusal, Row, ToDevice, ToHost, VERSION};
+
+/// A nonce starts a run for this long.
+const ARMED_US: u32 = 5_000_000;
+/// Silence of the host after which a driven motor is let go.
+const SILENCE_US: u32 = 500_000;
+
+impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
+    pub(super) fn listen(&self) -> Result<(), Fault> {
+        if self.silence > Self::periods(SILENCE_US) {
+            return Err(Fault::LinkLost);
+        }
+        Ok(())
+    }
+
+    pub(super) fn hear(&mut self) {
+        // No more than a period brings at any baud rate we use: a babbling line cannot hold the period up.
+        for _ in 0..256 {
+            let Some(byte) = self.board.receive() else {
+                return;
+            };
+            if let Some(message) = self.memory.inbox.push(byte) {
+                self.silence = 0;
+                self.obey(message);
+            }
+        }
+    }
+
+    #[inline(never)]
+    pub(super) fn obey(&mut self, message: ToDevice) {
+        match message {
+            ToDevice::Hello => {
+                self.acknowledged();
+                self.introduce();
+            }
+            ToDevice::Alive => {}
+            ToDevice::Arm => {
+                self.acknowledged();
+                self.arm();
+            }
+            ToDevice::Start { nonce, job } => match self.start(nonce, job) {
+                Ok(()) => {}
+                Err(refusal) => self.refuse(refusal),
+            },
+            ToDevice::Stop => {
+                if !matches!(self.phase, Phase::Idle | Phase::Report(_)) {
+                    self.fail(Fault::Stopped);
+                }
+            }
+            ToDevice::Plan { first, segments } => {
+                if first == 0 && self.phase == Phase::Idle {
+                    self.memory.plan.clear();
+                }
+                let follows =
+                    usize::from(first) == self.memory.plan.len() && self.phase == Phase::Idle;
+                if !follows || self.memory.plan.extend_from_slice(&segments).is_err() {
+                    self.refuse(Refusal::BadPlan);
+                }
+            }
+            ToDevice::Resend { first } => self.resend(first),
+        }
+    }
+
+    /// The host has the report, if there was one: it went on.
+    pub(super) fn acknowledged(&mut self) {
+        if matches!(self.phase, Phase::Report(_)) {
+            self.enter(Phase::Idle);
+        }
+    }
+
+    #[inline(never)]
+    pub(super) fn introduce(&mut self) {
+        let about = About {
+            version: VERSION,
+            board: text(B::NAME),
+            firmware: text(env!("CARGO_PKG_VERSION")),
+            period_us: B::PERIOD_US,
+            capacity: u16::try_from(N).unwrap_or(u16::MAX),
+            format: S::FORMAT,
+            senses_current: B::SENSES_CURRENT,
+            boot: self.boot,
+            stage: self.phase.stage(),
+            full: self.board.full(),
+        };
+        self.memory.outbox.post(&ToHost::About(about));
+    }
+
+    #[inline(never)]
+    pub(super) fn refuse(&mut self, refusal: Refusal) {
+        self.memory.outbox.post(&ToHost::Refused(refusal));
+    }
+
+    #[inline(never)]
+    pub(super) fn arm(&mut self) {
+        if self.phase != Phase::Idle {
+            return self.refuse(Refusal::Busy);
+        }
+        let nonce = self.nonces.next_u32();
+        let periods = Self::periods(ARMED_US);
+        self.armed = Some((nonce, self.at.wrapping_add(periods)));
+        self.memory.outbox.post(&ToHost::Armed { nonce, periods });
+    }
+
+    #[inline(never)]
+    pub(super) fn resend(&mut self, first: u32) {
+        let trace = self.log.trace();
+        let mut batch = Batch::resumed(first);
+        for (duty, step) in trace.iter().skip(first as usize) {
+            let row = Row {
+                duty: duty.unwrap_or(OPEN),
+                step,
+                current_ma: 0,
+            };
+            if let Some(rows) = batch.push(row) {
+                self.memory.outbox.post(&ToHost::Rows(rows));
+                return;
+            }
+        }
+        if let Some(rows) = batch.take() {
+            self.memory.outbox.post(&ToHost::Rows(rows));
+        }
+    }
+
+    #[inline(never)]
+    pub(super) fn start(&mut self, nonce: u32, job: Job) -> Result<(), Refusal> {
+        if self.phase != Phase::Idle {
+            return Err(Refusal::Busy);
+        }
+        // One try for each arming, right or wrong.
+        match self.armed.take() {
+            Some((armed, until)) if armed == nonce && self.at <= until => {}
+            _ => return Err(Refusal::NotArmed),
+        }
+        let commission = job.kind == Kind::Commission;
+        let fits = usize::from(job.record) <= N && (job.record >= 50 || !commission);
+        let sane = job.amplitude > 0 && job.limits.duty > 0 && job.limits.time > 0;
+        if !fits || !sane {
+            return Err(Refusal::BadJob);
+        }
+        if job.kind == Kind::Play && self.memory.plan.is_empty() {
+            return Err(Refusal::BadPlan);
+        }
+        self.at = 0;
+        self.begun_at = self.count;
+        self.log.clear();
+        self.report = NO_REPORT;
+        self.failure = None;
+        self.guard = Some(Guard::new(
+            job.limits,
+            B::PERIOD_US,
+            self.board.full(),
+            self.count,
+        ));
+        self.job = Some(job);
+        if let Ok(phase) = self.phase.after(Event::Start) {
+            self.enter(phase);
+        }
+        Ok(())
+    }
+}
+
+/// As much of a text as fits.
+fn text<const L: usize>(from: &str) -> heapless::String<L> {
+    let mut text = heapless::String::new();
+    for c in from.chars() {
+        if text.push(c).is_err() {
+            break;
+        }
+    }
+    text
+}
