@@ -6,9 +6,7 @@ use std::env;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::process::{Child, ChildStdout, Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -75,6 +73,8 @@ impl Motor {
 /// A bench under way, which ends with it.
 struct Bench {
     process: Child,
+    /// Where it writes its own report in the end: nobody reads that here, but it must be able to.
+    _report: BufReader<ChildStdout>,
     address: String,
 }
 
@@ -90,9 +90,8 @@ impl Bench {
             .spawn()
             .unwrap();
         let mut first = String::new();
-        BufReader::new(process.stdout.take().unwrap())
-            .read_line(&mut first)
-            .unwrap();
+        let mut report = BufReader::new(process.stdout.take().unwrap());
+        report.read_line(&mut first).unwrap();
         let address = first
             .trim()
             .strip_prefix("link: ")
@@ -100,6 +99,7 @@ impl Bench {
         Bench {
             address: address.to_owned(),
             process,
+            _report: report,
         }
     }
 }
@@ -193,35 +193,17 @@ fn identified(motor: &Motor) -> (String, Vec<String>) {
 
 #[test]
 fn the_image_identifies_motors_of_half_a_watt_to_half_a_kilowatt() {
-    let next = AtomicUsize::new(0);
-    let mut lines: Vec<(usize, (String, Vec<String>))> = thread::scope(|scope| {
-        let work = || {
-            let mut done = Vec::new();
-            while let Some(motor) = MOTORS.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let k = MOTORS.iter().position(|m| m.name == motor.name).unwrap();
-                done.push((k, identified(motor)));
-            }
-            done
-        };
-        let threads = [scope.spawn(work), scope.spawn(work)];
-        threads
-            .into_iter()
-            .flat_map(|thread| thread.join().unwrap())
-            .collect()
-    });
-    lines.sort_by_key(|&(k, _)| k);
-    for (_, (line, _)) in &lines {
+    let mut wrong = Vec::new();
+    for motor in &MOTORS {
+        let (line, faults) = identified(motor);
         println!("{line}");
+        wrong.extend(faults);
     }
-    let wrong: Vec<_> = lines
-        .into_iter()
-        .flat_map(|(_, (_, wrong))| wrong)
-        .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// Virtual time at which something breaks, s: while the long excitation runs.
-const AT: f64 = 3.0;
+const AT: f64 = 5.0;
 /// The bridge must be open this long after that, s. A shaft that does not follow can only be told while it is driven.
 const OPEN_WITHIN: f64 = 1.0;
 
@@ -244,7 +226,7 @@ fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
         flags.push(format!("--{fault}"));
         flags.extend(at.map(|at| at.to_string()));
         flags.extend(["--log".to_owned(), log.to_str().unwrap().to_owned()]);
-        flags.extend(["--for", "6"].map(str::to_owned));
+        flags.extend(["--for", "12"].map(str::to_owned));
         let mut bench = Bench::start(&flags);
         let output = commission(
             &bench,

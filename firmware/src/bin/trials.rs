@@ -15,8 +15,13 @@ type Format = shared::scalar::Fixed;
 fn main() -> ! {
     use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
     let memory = Memory::<Format>::placed(&MEMORY);
-    let ran = cortex_m_semihosting::hio::hstdout()
-        .map(|mut out| trials::run(&mut out, memory, LOG.take()));
+    // The standard output is the log's, if there is one.
+    let out = if cfg!(feature = "defmt-semihosting") {
+        cortex_m_semihosting::hio::hstderr()
+    } else {
+        cortex_m_semihosting::hio::hstdout()
+    };
+    let ran = out.map(|mut out| trials::run(&mut out, memory, LOG.take()));
     exit(if matches!(ran, Ok(Ok(0))) {
         EXIT_SUCCESS
     } else {
