@@ -18,6 +18,8 @@ pub mod app;
 pub mod board;
 pub mod bringup;
 pub mod count;
+#[cfg(all(target_os = "none", feature = "proof"))]
+pub mod emulator;
 pub mod guard;
 #[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
 mod halt;

@@ -21,13 +21,6 @@ static MEMORY: static_cell::StaticCell<firmware::app::Memory<f32>> = static_cell
 static LOG: static_cell::ConstStaticCell<firmware::app::Log<2000>> =
     static_cell::ConstStaticCell::new(firmware::app::Log::new());
 
-#[cfg(target_os = "none")]
-#[panic_handler]
-fn panic(_: &core::panic::PanicInfo) -> ! {
-    cortex_m_semihosting::debug::exit(cortex_m_semihosting::debug::EXIT_FAILURE);
-    loop {}
-}
-
 #[cfg(not(target_os = "none"))]
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -41,7 +41,6 @@ mod counter {
 #[cortex_m_rt::entry]
 fn main() -> ! {
     use core::fmt::Write;
-    use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
     let timer = cortex_m::Peripherals::take().map(|p| p.SYST);
     let run = || {
         let mut counter = counter::Counter::new(timer?);
@@ -60,19 +59,7 @@ fn main() -> ! {
             firmware::count::count::<shared::scalar::Fixed>(&mut out, count, false).ok()
         }
     };
-    exit(if run().is_some() {
-        EXIT_SUCCESS
-    } else {
-        EXIT_FAILURE
-    });
-    loop {}
-}
-
-#[cfg(target_os = "none")]
-#[panic_handler]
-fn panic(_: &core::panic::PanicInfo) -> ! {
-    cortex_m_semihosting::debug::exit(cortex_m_semihosting::debug::EXIT_FAILURE);
-    loop {}
+    firmware::emulator::end(run().is_some())
 }
 
 /// There is nothing to count on a PC.

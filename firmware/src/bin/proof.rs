@@ -5,22 +5,9 @@
 #[cfg(target_os = "none")]
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
     let proved =
         cortex_m_semihosting::hio::hstdout().map(|mut out| firmware::proof::prove(&mut out));
-    exit(if matches!(proved, Ok(Ok(()))) {
-        EXIT_SUCCESS
-    } else {
-        EXIT_FAILURE
-    });
-    loop {}
-}
-
-#[cfg(target_os = "none")]
-#[panic_handler]
-fn panic(_: &core::panic::PanicInfo) -> ! {
-    cortex_m_semihosting::debug::exit(cortex_m_semihosting::debug::EXIT_FAILURE);
-    loop {}
+    firmware::emulator::end(matches!(proved, Ok(Ok(()))))
 }
 
 #[cfg(not(target_os = "none"))]

@@ -13,7 +13,6 @@ type Format = shared::scalar::Fixed;
 #[cfg(target_os = "none")]
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
     let memory = Memory::<Format>::placed(&MEMORY);
     // The standard output is the log's, if there is one.
     let out = if cfg!(feature = "defmt-semihosting") {
@@ -22,12 +21,7 @@ fn main() -> ! {
         cortex_m_semihosting::hio::hstdout()
     };
     let ran = out.map(|mut out| trials::run(&mut out, memory, LOG.take()));
-    exit(if matches!(ran, Ok(Ok(0))) {
-        EXIT_SUCCESS
-    } else {
-        EXIT_FAILURE
-    });
-    loop {}
+    firmware::emulator::end(matches!(ran, Ok(Ok(0))))
 }
 
 #[cfg(target_os = "none")]
@@ -35,13 +29,6 @@ static MEMORY: static_cell::StaticCell<Memory<Format>> = static_cell::StaticCell
 #[cfg(target_os = "none")]
 static LOG: static_cell::ConstStaticCell<Log<{ trials::RECORD }>> =
     static_cell::ConstStaticCell::new(Log::new());
-
-#[cfg(target_os = "none")]
-#[panic_handler]
-fn panic(_: &core::panic::PanicInfo) -> ! {
-    cortex_m_semihosting::debug::exit(cortex_m_semihosting::debug::EXIT_FAILURE);
-    loop {}
-}
 
 #[cfg(not(target_os = "none"))]
 fn main() -> std::process::ExitCode {
