@@ -2,7 +2,7 @@
 //! A single run proves nothing (the spread over seeds is often a factor of five), so every figure is
 //! a median with its spread.
 
-use crate::problem::FitProblem;
+use crate::problem::{FitProblem, Quick};
 use crate::solve::{Evaluator, Found, Solver};
 use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;
@@ -40,6 +40,7 @@ pub fn run(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Row> {
+    let quick = Quick::new(contest.problem);
     solvers
         .iter()
         .map(|solver| {
@@ -49,8 +50,7 @@ pub fn run(
                 .map(|&seed| {
                     let began = Instant::now();
                     let mut nobody = |_: usize, _: f64| {};
-                    let mut evaluator =
-                        Evaluator::new(contest.problem, contest.budget, stop, &mut nobody);
+                    let mut evaluator = Evaluator::new(&quick, contest.budget, stop, &mut nobody);
                     solver.search(&mut evaluator, seed);
                     done();
                     (evaluator.finish(), began.elapsed().as_secs_f64())

@@ -231,12 +231,15 @@ impl<'a> Search<'a> {
             return Outcome::Nowhere;
         }
         self.evaluations += 1;
-        let Some((residuals, squares)) = self.objective.residuals_and_cost(&to) else {
+        // Only a Jacobian that stays learns from a step that is refused.
+        let tried = if self.settings.secant && self.fresh {
+            self.objective.residuals_and_cost(&to)
+        } else {
+            self.objective.residuals_within(&to, self.squares)
+        };
+        let Some((residuals, squares)) = tried.filter(|(_, squares)| squares.is_finite()) else {
             return Outcome::Refused;
         };
-        if !squares.is_finite() {
-            return Outcome::Refused;
-        }
         let residuals = thinned(residuals, self.settings.stride);
         if self.settings.secant {
             self.update(&free, &moved, &scale, &residuals);

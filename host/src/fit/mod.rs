@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::input::Known;
 use crate::problem::cost::Horizon;
 use crate::problem::simulate::Method;
-use crate::problem::{Base, Data, FitProblem, StartAngle, Structure};
+use crate::problem::{Base, Data, FitProblem, Quick, StartAngle, Structure};
 use crate::recording::Drive;
 use crate::solve::nelder_mead::NelderMead;
 use crate::solve::{Evaluator, Found, Objective, Solver};
@@ -229,7 +229,8 @@ pub fn search(
     stop: &AtomicBool,
     observer: &mut dyn FnMut(usize, f64),
 ) -> Found {
-    let mut evaluator = Evaluator::new(problem, options.budget, stop, observer);
+    let quick = Quick::new(problem);
+    let mut evaluator = Evaluator::new(&quick, options.budget, stop, observer);
     solver.search(&mut evaluator, options.seed);
     if solver.name() == "lm" && problem.cost != Cost::Squared {
         evaluator.limit(POLISH);

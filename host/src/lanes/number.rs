@@ -31,6 +31,15 @@ impl<T: Token, const M: usize> Lanes<T, M> {
         cast(self.registers)
     }
 
+    /// Each rounded down.
+    #[inline(always)]
+    pub fn floor(self) -> Self {
+        self.each_by(
+            #[inline(always)]
+            |x| x.floor(),
+        )
+    }
+
     #[inline(always)]
     fn zip(mut self, other: Self, f: impl Fn(T, T::f64s, T::f64s) -> T::f64s) -> Self {
         for k in 0..M {
@@ -185,6 +194,13 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
         Lanes::from([x; LANES])
     }
     #[inline(always)]
+    fn like(self, x: f64) -> Self {
+        Lanes {
+            registers: [self.token.splat_f64s(x); M],
+            token: self.token,
+        }
+    }
+    #[inline(always)]
     fn coefficient(x: f64) -> Self {
         Self::from_f64(x)
     }
@@ -211,6 +227,17 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
         }
         a
     }
+    // As for any number, with constants that need no look at the processor.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::select(self.less(self.like(0.0)), -self, self)
+    }
+    #[inline(always)]
+    fn signum(self) -> Self {
+        let (zero, one) = (self.like(0.0), self.like(1.0));
+        let positive = Self::select(zero.less(self), one, zero);
+        Self::select(self.less(zero), -one, positive)
+    }
     #[inline(always)]
     fn routine<A>(body: impl FnMut() -> A) -> A {
         T::here().vectorize(Routine(body))
@@ -221,7 +248,7 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
     }
     #[inline(always)]
     fn part_of(self, whole: Self) -> Self {
-        let (zero, one) = (Self::zero(), Self::from_f64(1.0));
+        let (zero, one) = (self.like(0.0), self.like(1.0));
         let part = self.zip(
             whole,
             #[inline(always)]

@@ -1,7 +1,7 @@
 //! The proof that the processor at hand has the instructions that lanes are computed with.
 
 use pulp::Simd;
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 /// A processor's vector instructions, where it has them.
 pub trait Token: Simd {
@@ -23,7 +23,7 @@ impl Token for pulp::Scalar {
 impl Token for pulp::x86::V3 {
     #[inline(always)]
     fn here() -> Self {
-        *V3
+        *V3.get().expect("work in lanes begins with the proof")
     }
 }
 
@@ -31,12 +31,13 @@ impl Token for pulp::x86::V3 {
 impl Token for pulp::x86::V4 {
     #[inline(always)]
     fn here() -> Self {
-        *V4
+        *V4.get().expect("work in lanes begins with the proof")
     }
 }
 
-// Looked up once: this stands in the hot loops, where the processor itself must not be asked.
+// Looked at wherever a constant is made, in the hot loops too: a look that can lead to no work but a panic leaves
+// them straight; one that may have to find out first cost the bristles of LuGre two fifths of their time.
 #[cfg(target_arch = "x86_64")]
-static V3: LazyLock<pulp::x86::V3> = LazyLock::new(|| pulp::x86::V3::try_new().expect("AVX2"));
+pub(super) static V3: OnceLock<pulp::x86::V3> = OnceLock::new();
 #[cfg(target_arch = "x86_64")]
-static V4: LazyLock<pulp::x86::V4> = LazyLock::new(|| pulp::x86::V4::try_new().expect("AVX-512"));
+pub(super) static V4: OnceLock<pulp::x86::V4> = OnceLock::new();

@@ -11,6 +11,7 @@ use crate::lanes::{LANES, Lanes, Token, Work, work};
 use shared::effects::Kind;
 use shared::model::{Model, State};
 use shared::scalar::Abreast;
+use std::ops::Range;
 
 /// Fewest candidates that are worth lanes of their own.
 const FEWEST: usize = 3;
@@ -137,6 +138,25 @@ impl Together<'_, '_> {
     }
 }
 
+/// Samples that are handed over at a time.
+const SOME: usize = 64;
+
+/// Writes what the lanes saw at the samples of a `range`, less the readings, to each candidate's errors.
+fn hand_over(
+    sights: &[[f64; LANES]],
+    readings: &[f64],
+    range: Range<usize>,
+    errors: &mut [Vec<f64>],
+) {
+    for (lane, errors) in errors.iter_mut().enumerate() {
+        let readings = &readings[range.clone()];
+        for ((error, sights), reading) in errors[range.clone()].iter_mut().zip(sights).zip(readings)
+        {
+            *error = sights[lane] - reading;
+        }
+    }
+}
+
 impl Work for Together<'_, '_> {
     type Output = Option<Vec<Vec<f64>>>;
 
@@ -151,18 +171,22 @@ impl Work for Together<'_, '_> {
             models: &models,
         };
         let mut errors = vec![vec![0.0; data.len()]; self.able.len()];
+        // Samples are handed over some at a time: one by one, eight places would be written to by turns.
+        let mut some = [[0.0; LANES]; SOME];
         for (index, leg) in self.able[0].1.iter().enumerate() {
             let states = self.each(|(simulation, legs)| simulation.begin(&legs[index]));
             let state = State::<Lanes<T, M>>::abreast(states.each_ref())?;
+            let (first, end) = (leg.range.start, leg.range.end);
             course.run(
                 self.run.manner,
                 state,
                 leg.range.clone(),
                 #[inline(always)]
                 |k, sight| {
-                    let sights = sight.each();
-                    for (errors, sight) in errors.iter_mut().zip(sights) {
-                        errors[k] = sight - data.counts[k];
+                    let place = (k - first) % SOME;
+                    some[place] = sight.each();
+                    if place + 1 == SOME || k + 1 == end {
+                        hand_over(&some, &data.counts, k - place..k + 1, &mut errors);
                     }
                 },
             );

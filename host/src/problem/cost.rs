@@ -110,6 +110,56 @@ impl FitProblem<'_> {
         }
     }
 
+    /// As [`errors`](Self::errors); `None` too once the sum of squares is seen to exceed `limit`.
+    fn errors_within(&self, candidate: &Candidate, limit: f64) -> Option<Vec<f64>> {
+        let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
+        let simulation = Simulation::new(data, candidate, self.method).ok()?;
+        let legs = legs(data, candidate, horizon, start_angle);
+        let centred = is_centred(data, candidate, horizon, start_angle);
+        let zero = shared::encoder::FLOOR_OFFSET_COUNTS - reading_shift(data);
+        // About their mean, errors so far never have more squares than all of them.
+        let (mut samples, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        let too_many = |errors: &[f64]| {
+            for error in errors {
+                let error = error - zero;
+                sum += error;
+                squares += error * error;
+            }
+            samples += errors.len() as f64;
+            let mean = if centred { sum / samples } else { 0.0 };
+            squares - sum * mean > limit * (1.0 + ROUNDING) + ROUNDING * squares
+        };
+        let mut errors = simulation.errors_unless(horizon.manner(), &legs, too_many)?;
+        centre(
+            data,
+            candidate,
+            horizon,
+            start_angle,
+            self.cost,
+            &mut errors,
+        );
+        Some(errors)
+    }
+
+    /// Residuals and cost of a model's errors.
+    fn judged(&self, mut errors: Vec<f64>) -> Option<(Vec<f64>, f64)> {
+        let cost = self.sum(&errors);
+        // What least squares must make small is what the cost is zero at.
+        let zero = match self.cost {
+            Cost::Absolute {
+                model_floored: false,
+            } => 0.0,
+            _ => self.data.centre(0) - self.data.counts[0],
+        };
+        for error in &mut errors {
+            *error -= zero;
+        }
+        errors
+            .iter()
+            .all(|e| e.is_finite())
+            .then_some((errors, cost))
+    }
+
     fn candidate(&self, x: &[f64]) -> Candidate {
         self.structure.candidate(&self.structure.values(x))
     }
@@ -125,8 +175,11 @@ impl FitProblem<'_> {
     }
 }
 
+/// Rounding of a sum of squares, as a part of it.
+const ROUNDING: f64 = 1e-9;
+
 /// Costs take the distance above a floored reading; other readings are the angle itself.
-fn reading_shift(data: &Data) -> f64 {
+pub(super) fn reading_shift(data: &Data) -> f64 {
     if data.quantised {
         0.0
     } else {
@@ -150,6 +203,18 @@ pub fn errors(
     Ok(errors)
 }
 
+/// Whether the start angle of a whole run is free.
+fn is_centred(
+    data: &Data,
+    candidate: &Candidate,
+    horizon: &Horizon,
+    start_angle: StartAngle,
+) -> bool {
+    // Where effects depend on the angle it is absolute, and a shift would be one freedom too many.
+    let absolute = data.quantised && candidate.needs_angle();
+    *horizon == Horizon::Whole && start_angle == StartAngle::Free && !absolute
+}
+
 /// Takes the best start angle of a whole run where it is free.
 fn centre(
     data: &Data,
@@ -159,9 +224,7 @@ fn centre(
     cost: Cost,
     errors: &mut [f64],
 ) {
-    // Where effects depend on the angle it is absolute, and a shift would be one freedom too many.
-    let absolute = data.quantised && candidate.needs_angle();
-    if *horizon != Horizon::Whole || start_angle != StartAngle::Free || absolute {
+    if !is_centred(data, candidate, horizon, start_angle) {
         return;
     }
     let centre = data.centre(0) - data.counts[0];
@@ -206,22 +269,14 @@ impl Objective for FitProblem<'_> {
     }
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let mut errors = self.errors(&self.candidate(x)).ok()?;
-        let cost = self.sum(&errors);
-        // What least squares must make small is what the cost is zero at.
-        let zero = match self.cost {
-            Cost::Absolute {
-                model_floored: false,
-            } => 0.0,
-            _ => self.data.centre(0) - self.data.counts[0],
-        };
-        for error in &mut errors {
-            *error -= zero;
+        self.judged(self.errors(&self.candidate(x)).ok()?)
+    }
+
+    fn residuals_within(&self, x: &[f64], limit: f64) -> Option<(Vec<f64>, f64)> {
+        if self.cost != Cost::Squared {
+            return self.residuals_and_cost(x);
         }
-        errors
-            .iter()
-            .all(|e| e.is_finite())
-            .then_some((errors, cost))
+        self.judged(self.errors_within(&self.candidate(x), limit / self.weight)?)
     }
 
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {

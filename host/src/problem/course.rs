@@ -81,7 +81,7 @@ pub struct Course<'a, S: Scalar> {
 
 impl<S: Number> Course<'_, S> {
     /// Runs from a state over the samples of `range`; calls `each` with the sample and what the model's encoder
-    /// sees there, counts.
+    /// sees there, counts. Gives the state behind them.
     #[inline(always)]
     pub fn run(
         &self,
@@ -89,13 +89,13 @@ impl<S: Number> Course<'_, S> {
         state: State<S>,
         range: Range<usize>,
         each: impl FnMut(usize, S),
-    ) {
+    ) -> State<S> {
         let memory_s = match manner {
             Manner::Free => None,
             Manner::Nudged(memory_s) => Some(memory_s),
             Manner::Led { seen, turns } => return self.led(state, range, seen, turns, each),
         };
-        self.alone(state, range, memory_s, each);
+        self.alone(state, range, memory_s, each)
     }
 
     #[inline(always)]
@@ -117,7 +117,7 @@ impl<S: Number> Course<'_, S> {
         range: Range<usize>,
         memory_s: Option<f64>,
         mut each: impl FnMut(usize, S),
-    ) {
+    ) -> State<S> {
         for k in range {
             let model = self.model(k);
             let sight = model.reading(&state);
@@ -127,6 +127,7 @@ impl<S: Number> Course<'_, S> {
             }
             model.step(&mut state, self.command(k), self.data.is_open(k));
         }
+        state
     }
 
     /// Pulls a model that sees `sight` at sample `k` towards the reading.
@@ -156,7 +157,7 @@ impl<S: Number> Course<'_, S> {
         seen: &[Seen<f64>],
         turns: &[f64],
         mut each: impl FnMut(usize, S),
-    ) {
+    ) -> State<S> {
         for k in range {
             let model = self.model(k);
             each(k, model.reading_at(&state, S::from_f64(turns[k])));
@@ -167,5 +168,6 @@ impl<S: Number> Course<'_, S> {
             };
             model.lead(&mut state, self.command(k), self.data.is_open(k), &seen);
         }
+        state
     }
 }

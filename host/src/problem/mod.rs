@@ -2,16 +2,20 @@
 //!
 //! [`data`] lowers a recording to what the model takes; [`unknowns`] says which numbers are
 //! searched for and what they mean; [`simulate`] makes a candidate's models, [`course`] runs them along the
-//! data, [`abreast`] several candidates at a time; [`cost`] sums.
+//! data, [`abreast`] several candidates at a time; [`cost`] sums, [`quick`] many samples at a time where commands are
+//! [`held`].
 
 pub mod abreast;
 pub mod cost;
 pub mod course;
 pub mod data;
+pub mod held;
+pub mod quick;
 pub mod simulate;
 pub mod unknowns;
 
 pub use cost::{FitProblem, Horizon, StartAngle};
 pub use data::Data;
+pub use quick::Quick;
 pub use simulate::Candidate;
 pub use unknowns::{Base, Structure, Unknown};

@@ -2,11 +2,13 @@
 
 use super::course::{Course, Leg, Manner};
 use super::data::Data;
+use crate::lanes::with_vectors;
 use shared::discretise::Discretisation;
 use shared::effects::EffectSet;
 use shared::error::ModelError;
 use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
+use std::ops::Range;
 
 /// A model with all its numbers, in SI.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,8 @@ impl Default for Method {
     }
 }
 
+/// Samples that are run at a time.
+const SOME: usize = 1024;
 /// Intervals before a start that its current is taken from.
 const MEMORY: usize = 64;
 
@@ -81,27 +85,58 @@ impl<'a> Simulation<'a> {
         })
     }
 
+    /// Model minus reading over all legs, counts.
+    pub fn errors(&self, manner: Manner<'_>, legs: &[Leg]) -> Vec<f64> {
+        let errors = self.errors_unless(manner, legs, |_| false);
+        errors.unwrap_or_default()
+    }
+
+    /// The same, unless what has come so far, some samples at a time, is enough to `give_up`.
+    pub fn errors_unless(
+        &self,
+        manner: Manner<'_>,
+        legs: &[Leg],
+        mut give_up: impl FnMut(&[f64]) -> bool,
+    ) -> Option<Vec<f64>> {
+        let mut errors = vec![0.0; self.data.len()];
+        for leg in legs {
+            let mut state = self.begin(leg);
+            for from in leg.range.clone().step_by(SOME) {
+                let range = from..(from + SOME).min(leg.range.end);
+                state = self.go_on(manner, state, range.clone(), &mut errors);
+                let some = &mut errors[range.clone()];
+                for (error, reading) in some.iter_mut().zip(&self.data.counts[range]) {
+                    *error -= reading;
+                }
+                if give_up(some) {
+                    return None;
+                }
+            }
+        }
+        Some(errors)
+    }
+
     /// Runs over a leg; writes what the model's encoder sees at each of its samples, counts.
     pub fn run(&self, manner: Manner<'_>, leg: &Leg, sights: &mut [f64]) {
+        self.go_on(manner, self.begin(leg), leg.range.clone(), sights);
+    }
+
+    /// The same from a state over some samples; gives the state behind them.
+    fn go_on(
+        &self,
+        manner: Manner<'_>,
+        state: State<f64>,
+        range: Range<usize>,
+        sights: &mut [f64],
+    ) -> State<f64> {
         let course = Course {
             data: self.data,
             models: &self.models,
         };
-        course.run(manner, self.begin(leg), leg.range.clone(), |k, sight| {
-            sights[k] = sight;
-        });
-    }
-
-    /// Model minus reading over all legs, counts.
-    pub fn errors(&self, manner: Manner<'_>, legs: &[Leg]) -> Vec<f64> {
-        let mut errors = vec![0.0; self.data.len()];
-        for leg in legs {
-            self.run(manner, leg, &mut errors);
-        }
-        for (error, reading) in errors.iter_mut().zip(&self.data.counts) {
-            *error -= reading;
-        }
-        errors
+        with_vectors(
+            #[inline(always)]
+            || course.run(manner, state, range, |k, sight| sights[k] = sight),
+        )
     }
 
     /// State at the first sample of a leg.

@@ -28,10 +28,18 @@ pub trait Objective: Sync {
     fn dim(&self) -> usize;
     /// Cost of the point `x`.
     fn cost(&self, x: &[f64]) -> f64;
+    /// The cost where it is at most `limit`; else anything above that, which may take less time to find.
+    fn cost_within(&self, x: &[f64], _limit: f64) -> f64 {
+        self.cost(x)
+    }
     /// Residual vector whose squares the least-squares methods sum, and the cost, from one and the
     /// same evaluation; `None` where there is none.
     fn residuals_and_cost(&self, _x: &[f64]) -> Option<(Vec<f64>, f64)> {
         None
+    }
+    /// The same where the cost is at most `limit`; else `None`, for which less may be computed, or the same.
+    fn residuals_within(&self, x: &[f64], _limit: f64) -> Option<(Vec<f64>, f64)> {
+        self.residuals_and_cost(x)
     }
     /// By how much the residuals at each `moved` point differ from those at `x`: the stuff of finite differences.
     /// `None` where there are none. All may be computed side by side, so that what the arithmetic does to all of
@@ -125,11 +133,18 @@ impl<'a> Evaluator<'a> {
 
     /// Cost at `x`, whose coordinates are first clamped to the cube. NaN counts as infinite.
     pub fn evaluate(&mut self, x: &[f64]) -> Result<f64, Stop> {
+        self.evaluate_within(x, f64::INFINITY)
+    }
+
+    /// The same for methods that only compare: anything above `limit` where the cost is.
+    pub fn evaluate_within(&mut self, x: &[f64], limit: f64) -> Result<f64, Stop> {
         if self.left() == 0 {
             return Err(Stop);
         }
         let x = clamped(x);
-        let cost = finite_or_infinite(self.objective.cost(&x));
+        // The best cost is always wanted as it is.
+        let limit = limit.max(self.best_cost);
+        let cost = finite_or_infinite(self.objective.cost_within(&x, limit));
         self.record(&x, cost);
         Ok(cost)
     }

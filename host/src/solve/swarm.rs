@@ -16,7 +16,8 @@ fn drive(mut optimiser: impl Optimiser<f64, MAX_UNKNOWNS>, evaluator: &mut Evalu
     let dim = evaluator.dim();
     loop {
         let x = optimiser.ask();
-        match evaluator.evaluate(&x[..dim]) {
+        // All of them only compare costs.
+        match evaluator.evaluate_within(&x[..dim], optimiser.bound()) {
             Ok(cost) => optimiser.tell(cost),
             Err(_) => return,
         }

@@ -183,6 +183,16 @@ pub fn shortest<R: Real>(
     (machine, lengths)
 }
 
+/// The maps of a step of `step` intervals alone.
+pub fn rung<S: Scalar, R: Real>(
+    machine: &Machine<R>,
+    step: R,
+    how: Discretisation,
+) -> Result<Rung<S>, ModelError> {
+    let (machine, lengths) = shortest(machine, step, 0, how);
+    Maps::new(&machine, lengths[0], how)?.lower(&machine, lengths[0])
+}
+
 /// The maps of a step of `step` intervals and of its halvings down to `depth` (the rest repeats the
 /// last one).
 pub fn ladder<S: Scalar, R: Real>(

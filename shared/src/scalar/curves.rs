@@ -58,7 +58,7 @@ const LEAST_EXPONENT: f64 = -700.0;
 /// Sine and cosine of an angle given as a fraction of a turn.
 #[inline(always)]
 pub fn sin_cos_turns<S: Scalar>(turns: S) -> (S, S) {
-    let number = S::from_f64;
+    let number = |constant| turns.like(constant);
     let quarters = turns * number(4.0);
     let whole = rounded(quarters);
     let rest = quarters - whole;
@@ -82,7 +82,7 @@ pub fn sin_cos_turns<S: Scalar>(turns: S) -> (S, S) {
 /// `e^x` for `x ≤ 0`, with `power_of_two` made of `k + 1.5·2⁵² + 1023` for a whole `k`.
 #[inline(always)]
 pub fn exp_decay<S: Scalar>(x: S, power_of_two: impl Fn(S) -> S) -> S {
-    let number = S::from_f64;
+    let number = |constant| x.like(constant);
     let x = x.max(number(LEAST_EXPONENT));
     let doublings = rounded(x * number(core::f64::consts::LOG2_E));
     let rest = x - doublings * number(LN_2.0) - doublings * number(LN_2.1);
@@ -98,15 +98,18 @@ pub fn power_of_two(shifted: f64) -> f64 {
 
 #[inline(always)]
 fn rounded<S: Scalar>(x: S) -> S {
-    (x + S::from_f64(ROUNDER)) - S::from_f64(ROUNDER)
+    (x + x.like(ROUNDER)) - x.like(ROUNDER)
 }
 
 /// A polynomial by its coefficients, the highest first.
 #[inline(always)]
 pub fn polynomial<S: Scalar>(terms: &[f64], x: S) -> S {
-    let mut sum = S::zero();
-    for term in terms {
-        sum = sum * x + S::from_f64(*term);
+    let Some((first, others)) = terms.split_first() else {
+        return S::zero();
+    };
+    let mut sum = x.like(*first);
+    for term in others {
+        sum = sum * x + x.like(*term);
     }
     sum
 }

@@ -43,6 +43,11 @@ pub trait Scalar:
 
     /// The nearest representable number; saturates at [`LIMIT`](Self::LIMIT).
     fn from_f64(x: f64) -> Self;
+    /// A constant beside this number. In lanes, the number vouches for the instructions that make it.
+    #[inline(always)]
+    fn like(self, x: f64) -> Self {
+        Self::from_f64(x)
+    }
     /// A multiplier of any size from 2⁻³⁰ to 2³⁰ in magnitude, or nearly zero.
     fn coefficient(x: f64) -> Self::Coefficient;
     /// `self · k`.

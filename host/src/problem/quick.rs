@@ -1,0 +1,248 @@
+//! The cost of a linear motor whose commands are held for long: many samples at a time, and no more of them than
+//! show that the cost is above a limit.
+//!
+//! Samples side by side in lanes go through [`held`](super::held)'s recurrence. Where the transient has died away
+//! only the line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
+//! that follows from the block's ends. Whoever only compares costs loses nothing by it.
+
+mod sum;
+
+use super::cost::reading_shift;
+use super::course::legs;
+use super::data::Data;
+use super::held::{Held, Path, Place, STRIDE};
+use super::simulate::Candidate;
+use super::{FitProblem, Horizon, StartAngle};
+use crate::solve::Objective;
+use shared::cost::Cost;
+use shared::model::{Increments, Plan};
+use std::ops::Range;
+use sum::{Floored, Plain, Squares, Sum};
+
+/// Fewest samples that a command must be held for, on average.
+const HELD: usize = 2 * STRIDE;
+/// Samples of a block.
+const BLOCK: usize = 512;
+/// Rounding of a sum of a block, as a part of what is added up.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// The same of a whole cost.
+const SLACK: f64 = 1e-9;
+
+/// A problem with a quicker cost.
+pub struct Quick<'a> {
+    problem: &'a FitProblem<'a>,
+    /// Where it can be had: on even samples, driven throughout by commands that are held.
+    blocks: Option<Vec<Block>>,
+}
+
+/// Samples under one command.
+struct Block {
+    range: Range<usize>,
+    command: f64,
+    /// Whether the command was another before.
+    begins: bool,
+    /// Sum of the readings.
+    readings: f64,
+}
+
+/// A block of a motor's path.
+struct Piece {
+    path: Path,
+    /// Samples from the path's start to the block's.
+    after: usize,
+    /// The state less where it tends to, at the block's start.
+    off: [f64; 2],
+    /// The block costs no less.
+    least: f64,
+}
+
+impl<'a> Quick<'a> {
+    /// Looks for commands that are held.
+    pub fn new(problem: &'a FitProblem<'a>) -> Self {
+        let data = problem.data;
+        let summed = match problem.cost {
+            Cost::Absolute { .. } => problem.start_angle == StartAngle::Known,
+            Cost::Squared => true,
+            Cost::Interval { .. } => false,
+        };
+        let even = data.lengths == [1.0] && !data.coasts() && problem.horizon == Horizon::Whole;
+        let apt = summed && even && problem.structure.effects.is_empty();
+        let blocks = apt.then(|| blocks(data));
+        Quick {
+            problem,
+            blocks: blocks.filter(|blocks| {
+                let stretches = blocks.iter().filter(|block| block.begins).count();
+                data.len() >= HELD * stretches
+            }),
+        }
+    }
+
+    /// Whether costs are quicker here than sample by sample.
+    pub fn helps(&self) -> bool {
+        self.blocks.is_some()
+    }
+
+    /// The cost, or more than `limit` where that is less; `None` where it must be summed sample by sample.
+    fn held(&self, candidate: &Candidate, limit: f64) -> Option<f64> {
+        let blocks = self.blocks.as_ref()?;
+        let problem = self.problem;
+        let data = problem.data;
+        // A model that cannot run says so where it is summed sample by sample.
+        let plan = Plan {
+            discretisation: problem.method.discretisation,
+            ..Plan::linear(candidate.machine, data.units)
+        };
+        let held = Held::new(Increments::new(&plan).ok()?)?;
+        let [leg] = &legs(data, candidate, &problem.horizon, problem.start_angle)[..] else {
+            return None;
+        };
+        let start = Place {
+            state: [0.0, leg.speed / data.units.speed],
+            angle: leg.angle + reading_shift(data),
+        };
+        let limit = limit / problem.weight;
+        let (pieces, least) = self.pieces(blocks, &held, start, limit)?;
+        if least * (1.0 - SLACK) > limit {
+            return Some(least * problem.weight);
+        }
+        let run = Sum {
+            data,
+            held: &held,
+            blocks,
+            pieces: &pieces,
+            least,
+            limit,
+        };
+        let sum = match problem.cost {
+            Cost::Absolute { model_floored } => {
+                if model_floored {
+                    run.of(Floored)?[0]
+                } else {
+                    run.of(Plain)?[0]
+                }
+            }
+            _ => {
+                let [squares, errors] = run.of(Squares)?;
+                match problem.start_angle {
+                    StartAngle::Known => squares,
+                    // About their mean: the best start.
+                    StartAngle::Free => (squares - errors * errors / data.len() as f64).max(0.0),
+                }
+            }
+        };
+        sum.is_finite().then_some(sum * problem.weight)
+    }
+
+    /// The pieces of a motor's path, as far as needed to see that the cost is above `limit`, and the least cost.
+    fn pieces(
+        &self,
+        blocks: &[Block],
+        held: &Held,
+        start: Place,
+        limit: f64,
+    ) -> Option<(Vec<Piece>, f64)> {
+        let mut pieces: Vec<Piece> = Vec::with_capacity(blocks.len());
+        let mut total = 0.0;
+        let (mut place, mut path, mut off, mut after) = (start, None, [0.0; 2], 0);
+        for block in blocks {
+            if block.begins {
+                if let Some(path) = &path {
+                    place = held.end(path, after, off);
+                }
+                let next = held.path(&place, block.command)?;
+                (off, after) = (next.off, 0);
+                path = Some(next);
+            }
+            let current = path?;
+            let samples = block.range.len();
+            let to = held.on(off, samples);
+            let least = self.least(block, held, &current, after, off, to);
+            total += least;
+            pieces.push(Piece {
+                path: current,
+                after,
+                off,
+                least,
+            });
+            if total * (1.0 - SLACK) > limit {
+                break;
+            }
+            (off, after) = (to, after + samples);
+        }
+        Some((pieces, total))
+    }
+
+    /// A block costs at least this: its errors' sum, however they are spread.
+    fn least(
+        &self,
+        block: &Block,
+        held: &Held,
+        path: &Path,
+        after: usize,
+        off: [f64; 2],
+        to: [f64; 2],
+    ) -> f64 {
+        let Cost::Absolute { model_floored } = self.problem.cost else {
+            return 0.0;
+        };
+        let samples = block.range.len() as f64;
+        let places = samples * (after as f64 + 0.5 * (samples - 1.0));
+        let (transients, terms) = held.sum(off, to);
+        let (levels, rises) = (path.level * samples, path.slope * places);
+        let sum = levels + rises + transients - block.readings;
+        let terms = terms + levels.abs() + rises.abs() + block.readings.abs();
+        // Rounded down, an error is less by up to one.
+        let above = if model_floored { sum - samples } else { sum };
+        (above.max(-sum) - ROUNDING * terms).max(0.0)
+    }
+}
+
+impl Objective for Quick<'_> {
+    fn dim(&self) -> usize {
+        self.problem.dim()
+    }
+
+    fn cost(&self, x: &[f64]) -> f64 {
+        self.cost_within(x, f64::INFINITY)
+    }
+
+    fn cost_within(&self, x: &[f64], limit: f64) -> f64 {
+        let structure = &self.problem.structure;
+        let candidate = structure.candidate(&structure.values(x));
+        self.held(&candidate, limit)
+            .unwrap_or_else(|| self.problem.cost_of(&candidate))
+    }
+
+    fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
+        self.problem.residuals_and_cost(x)
+    }
+
+    fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        self.problem.changes(x, moved)
+    }
+
+    fn start(&self) -> Option<Vec<f64>> {
+        self.problem.start()
+    }
+}
+
+fn blocks(data: &Data) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut from = 0;
+    while from < data.len() {
+        let command = data.command[from];
+        let held = data.command[from..].iter().take_while(|c| **c == command);
+        let to = from + held.count().max(1);
+        for begin in (from..to).step_by(BLOCK) {
+            let range = begin..(begin + BLOCK).min(to);
+            blocks.push(Block {
+                readings: data.counts[range.clone()].iter().sum(),
+                command,
+                begins: begin == from,
+                range,
+            });
+        }
+        from = to;
+    }
+    blocks
+}
