@@ -189,8 +189,10 @@ pub fn rung<S: Scalar, R: Real>(
     step: R,
     how: Discretisation,
 ) -> Result<Rung<S>, ModelError> {
+    let mut rung = Rung::zero();
     let (machine, lengths) = shortest(machine, step, 0, how);
-    Maps::new(&machine, lengths[0], how)?.lower(&machine, lengths[0])
+    Maps::new(&machine, lengths[0], how)?.lower(&mut rung, &machine, lengths[0])?;
+    Ok(rung)
 }
 
 /// The maps of a step of `step` intervals and of its halvings down to `depth` (the rest repeats the
