@@ -4,11 +4,8 @@
 use super::judge::removes;
 use super::missed;
 use super::refit::Refit;
-use super::sketch::Sketch;
 use super::swap::without;
 use super::workshop::Workshop;
-use crate::fit::base_for;
-use crate::problem::Structure;
 use shared::effects::Kind;
 
 /// A model with one effect less is brought to its end if its score is no further behind than this.
@@ -54,11 +51,11 @@ pub fn begun(workshop: &Workshop<'_>, chosen: &Refit, depth: usize) -> Option<Re
     }
     let drop = |rest: Refit, &place: &Kind| without(&rest, place);
     let rest = chosen.effects[depth..].iter().fold(chosen.clone(), drop);
-    workshop.refit(&restarted(workshop, &rest)).ok()
+    workshop.refit(&workshop.restarted(&rest)).ok()
 }
 
 fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
-    let mut sketch = restarted(workshop, &without(chosen, place));
+    let mut sketch = workshop.restarted(&without(chosen, place));
     sketch.simulated = workshop.leaves(&sketch);
     if !sketch.rivals(chosen) {
         sketch = workshop.sketch_from(&sketch.structure, sketch.x)?;
@@ -75,16 +72,4 @@ fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Optio
         refit = workshop.polish(&refit).ok()?;
     }
     Some(refit)
-}
-
-/// A model that has lost effects, where it stands.
-fn restarted(workshop: &Workshop<'_>, rest: &Refit) -> Sketch {
-    let structure = Structure::around(
-        workshop.data,
-        base_for(workshop.data, &rest.structure.effects),
-        &rest.structure.effects,
-        &rest.candidate.machine,
-        rest.structure.start_speed,
-    );
-    Sketch::standing(structure, &rest.candidate, &rest.parameters)
 }

@@ -96,16 +96,7 @@ impl Workshop<'_> {
         let own = kind.description().parameters.len();
         let times = starts.first()?.len().div_ceil(own);
         effects.extend(std::iter::repeat_n(kind, times));
-        let mut structure = Structure::around(
-            self.data,
-            base_for(self.data, &effects),
-            &effects,
-            &parent.candidate.machine,
-            parent.structure.start_speed,
-        );
-        if self.span.window_s.is_some() {
-            widen(&mut structure, self.data.supply);
-        }
+        let structure = self.structure(&effects, parent);
         let mut begun: Vec<Sketch> = starts
             .into_iter()
             .map(|start| {
@@ -140,6 +131,27 @@ impl Workshop<'_> {
             }
         }
         best
+    }
+
+    /// A model that has lost effects, or has others in their place, where it stands.
+    pub(super) fn restarted(&self, rest: &Refit) -> Sketch {
+        let structure = self.structure(&rest.structure.effects, rest);
+        Sketch::standing(structure, &rest.candidate, &rest.parameters)
+    }
+
+    /// The unknowns of a model with `effects` and a machine near that of `there`.
+    fn structure(&self, effects: &[Kind], there: &Refit) -> Structure {
+        let mut structure = Structure::around(
+            self.data,
+            base_for(self.data, effects),
+            effects,
+            &there.candidate.machine,
+            there.structure.start_speed,
+        );
+        if self.span.window_s.is_some() {
+            widen(&mut structure, self.data.supply);
+        }
+        structure
     }
 
     /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
