@@ -7,6 +7,7 @@ pub use device::{
     OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
 
+use crate::diagnose::USUAL_STEPS;
 use crate::prove::{Excite, HowMany, Shard};
 use crate::solve;
 use clap::builder::PossibleValuesParser;
@@ -288,6 +289,10 @@ pub struct DiagnoseArgs {
     /// Another recording of the same motor, never fitted; else the last quarter of the first is held out
     #[arg(long, value_name = "FILE")]
     pub validate: Option<PathBuf>,
+    /// Steps of a model at most, in millions; what is best by then is reported. The usual number takes between one
+    /// and two minutes of one processor core, and few recordings need a tenth of it
+    #[arg(long, default_value_t = USUAL_STEPS / 1_000_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub budget: u64,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,

@@ -4,13 +4,16 @@ use super::diagnosing::{Diagnosed, diagnosed};
 use super::motor;
 use crate::cli::DiagnoseArgs;
 use crate::diagnose::steady::SteadyCurve;
-use crate::diagnose::{HeldOut, holdout, pair, usable};
+use crate::diagnose::{Effort, HeldOut, holdout, pair, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport, SteadyJson, SteadyReport};
 use crate::session::Session;
+
+/// The unit of --budget, steps of a model.
+const MILLION: u64 = 1_000_000;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     motor::check_outputs(
@@ -30,14 +33,15 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         kind,
         remarks,
     } = &recordings;
+    let effort = Effort::of(args.budget.saturating_mul(MILLION), session.stop());
     let Diagnosed {
         diagnosis,
         last,
         findings,
         interrupted,
-    } = diagnosed(session, data, held_out, &options)?;
+    } = diagnosed(session, data, held_out, &options, &effort)?;
     let mut remarks = remarks.clone();
-    if !interrupted {
+    if !interrupted && !diagnosis.ran_out {
         let stop = session.stop();
         remarks.extend(pair::remarks(
             &diagnosis, data, held_out, kind, &options, stop,

@@ -8,6 +8,7 @@
 pub mod advice;
 mod descent;
 mod duel;
+mod effort;
 pub mod evidence;
 mod extend;
 mod findings;
@@ -31,6 +32,7 @@ pub mod usable;
 pub mod whereabouts;
 mod workshop;
 
+pub use effort::{Effort, USUAL_STEPS};
 pub use findings::{Findings, findings};
 pub use holdout::HeldOut;
 pub use missed::{Loss, Losses};
@@ -45,7 +47,6 @@ use crate::fit::Options;
 use crate::problem::Data;
 use extend::extend;
 use shared::effects::Kind;
-use std::sync::atomic::{AtomicBool, Ordering};
 use workshop::Workshop;
 
 /// Most effects that are added.
@@ -121,6 +122,10 @@ pub struct Diagnosis {
     pub not_named: Option<Kind>,
     /// What to do next, in words.
     pub advice: Vec<String>,
+    /// Whether the steps that it may take did not suffice: then not all effects were tried.
+    pub ran_out: bool,
+    /// Steps of a model that it took.
+    pub steps_taken: u64,
 }
 
 impl Diagnosis {
@@ -139,10 +144,10 @@ pub fn diagnose(
     data: &Data,
     held_out: &Data,
     options: &Options,
-    stop: &AtomicBool,
+    effort: &Effort<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let mut workshop = Workshop::new(data, held_out, options, stop);
+    let mut workshop = Workshop::new(data, held_out, options, effort);
     let mut base = workshop.base(options)?;
     let steadied = (!base.free().at_floor())
         .then(|| workshop.steadied(options))
@@ -150,7 +155,7 @@ pub fn diagnose(
     let left = steadied.map_or(f64::INFINITY, |(_, rms)| rms);
     let span = workshop.span.clone().after(data, &base, left);
     if span != workshop.span {
-        workshop = Workshop::over(span, data, held_out, options, stop);
+        workshop = Workshop::over(span, data, held_out, options, effort);
         base = workshop.base(options)?;
     }
     let workshop = workshop;
@@ -159,7 +164,8 @@ pub fn diagnose(
     if let Some((machine, _)) = steadied.filter(|(_, rms)| *rms < STEADIED * base.rms_counts) {
         anchored.candidate.machine = machine;
     }
-    let mut levels = levels(&workshop, &anchored, stop, done);
+    let mut levels = levels(&workshop, &anchored, done);
+    effort.conclude();
     // A search that ended early looks like missing physics: the linear motor is fitted again from where the
     // best model has it.
     if let Some(again) = levels
@@ -179,10 +185,14 @@ pub fn diagnose(
         rivals: Vec::new(),
         not_named: None,
         advice: Vec::new(),
+        ran_out: false,
+        steps_taken: 0,
     };
     if let Some(depth) = chosen {
         conclude(&workshop, &levels[..=depth], &mut diagnosis);
     }
+    diagnosis.ran_out = effort.ran_out();
+    diagnosis.steps_taken = effort.spent();
     let next = levels.get(chosen.map_or(0, |depth| depth + 1));
     diagnosis.not_named = next.and_then(|level| level.best.effects.last().copied());
     if diagnosis.last.judged().at_floor() {
@@ -219,17 +229,12 @@ struct Level {
 
 /// Adds effects one by one until the error is the encoder's own, or none earns its place. The first is not
 /// judged alone: two effects of one size each leave the other's error.
-fn levels(
-    workshop: &Workshop<'_>,
-    base: &Refit,
-    stop: &AtomicBool,
-    done: &(dyn Fn() + Sync),
-) -> Vec<Level> {
+fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     let mut before = base.clone();
     while !before.judged().at_floor()
         && levels.len() < MOST_STEPS
-        && !stop.load(Ordering::Relaxed)
+        && !workshop.effort.halted()
         && levels.iter().skip(1).all(|level| level.believed)
     {
         let parents: Vec<&Refit> = match levels.last() {
@@ -242,8 +247,10 @@ fn levels(
                 level.models.iter().filter(near).take(BEAM).collect()
             }
         };
-        let mut models = extend(workshop, &parents, stop, done);
+        let mut models = extend(workshop, &parents, done);
+        workshop.effort.take_stock();
         duel::duel(workshop, &mut models);
+        workshop.effort.take_stock();
         polish_best(workshop, &mut models);
         let Some(best) = judge::best(&models).cloned() else {
             break;
@@ -298,6 +305,7 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
     if levels.len() > 1 {
         chosen = needless::spared(workshop, chosen, &mut known);
         for place in chosen.effects.clone() {
+            workshop.effort.take_stock();
             let swapped = if chosen.losses.is_some() {
                 missed::beside(workshop, &chosen, |workshop, bare| {
                     swap::swaps(workshop, bare, place, &[])

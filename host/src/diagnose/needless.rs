@@ -20,7 +20,10 @@ pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
             .effects
             .iter()
             .filter(|&&place| place != Kind::MissedCounts)
-            .flat_map(|&place| lessened(workshop, &chosen, place))
+            .flat_map(|&place| {
+                workshop.effort.take_stock();
+                lessened(workshop, &chosen, place)
+            })
             .inspect(|model| known.push(model.clone()))
             .filter(|simpler| !removes(simpler, &chosen))
             .min_by(Refit::by_score);

@@ -1,7 +1,7 @@
 //! One model with one set of effects, fitted to the recording and judged on the other.
 
 use super::NOISE_COUNTS;
-use super::descent::{Descent, Settings, descend};
+use super::descent::{Descent, Settings};
 use super::missed::Losses;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -250,7 +250,7 @@ impl Workshop<'_> {
                 horizon: Horizon::Nudged(memory_s),
                 ..self.problem(structure, self.method)
             };
-            let Some(found) = descend(&problem, &x, FADE, self.stop) else {
+            let Some(found) = self.descended(&problem, &x, FADE, self.method) else {
                 break;
             };
             let rms = (found.squares / self.data.len() as f64).sqrt();
@@ -279,7 +279,7 @@ impl Workshop<'_> {
                 },
                 ..self.problem(&best.structure, method)
             };
-            let Some(found) = descend(&problem, &best.x, LAST, self.stop) else {
+            let Some(found) = self.descended(&problem, &best.x, LAST, method) else {
                 return Ok(best);
             };
             let polished = self.conclude(
@@ -321,7 +321,7 @@ impl Workshop<'_> {
         settings: Settings,
         method: Method,
     ) -> Result<Descent, Error> {
-        descend(&self.problem(structure, method), start, settings, self.stop)
+        self.descended(&self.problem(structure, method), start, settings, method)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))
     }
 

@@ -2,7 +2,7 @@
 //! foresees what the effect can explain, and is where the full fit starts.
 
 use super::NOISE_COUNTS;
-use super::descent::{Settings, descend};
+use super::descent::Settings;
 use super::led::{Led, follows};
 use super::refit::Refit;
 use super::spectrum::spectrum;
@@ -174,7 +174,12 @@ impl Workshop<'_> {
     pub(super) fn sketch_from(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
         let samples = self.data.len() as f64;
         if !structure.effects.iter().all(|&kind| follows(kind)) {
-            let found = descend(&self.problem(structure, self.method), &x, SKETCH, self.stop)?;
+            let found = self.descended(
+                &self.problem(structure, self.method),
+                &x,
+                SKETCH,
+                self.method,
+            )?;
             return Some(Sketch {
                 structure: structure.clone(),
                 x: found.x,
@@ -189,7 +194,7 @@ impl Workshop<'_> {
             structure: structure.clone(),
             method: self.method,
         };
-        let found = descend(&led, &x, SKETCH, self.stop)?;
+        let found = self.descended(&led, &x, SKETCH, self.method)?;
         let mut sketch = Sketch::at(structure.clone(), found.x);
         sketch.led = (found.squares / samples).sqrt();
         sketch.simulated = self.leaves(&sketch);

@@ -40,6 +40,8 @@ pub struct DiagnosisJson {
     recording: String,
     seed: u64,
     interrupted: bool,
+    ran_out: bool,
+    model_steps: u64,
     version: &'static str,
 }
 
@@ -175,6 +177,8 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             recording: report.data.source.clone(),
             seed: report.seed,
             interrupted: report.interrupted,
+            ran_out: diagnosis.ran_out,
+            model_steps: diagnosis.steps_taken,
             version: env!("CARGO_PKG_VERSION"),
         }
     }

@@ -116,6 +116,13 @@ impl DiagnosisReport<'_> {
     /// What to do next.
     fn advice(&self) -> Vec<String> {
         let mut advice = self.diagnosis.advice.clone();
+        if self.diagnosis.ran_out {
+            advice.push(format!(
+                "the work ran out after {} million steps of a model, before all was tried that speaks for or against \
+                 these effects: run it again with a larger --budget",
+                self.diagnosis.steps_taken / 1_000_000
+            ));
+        }
         if let Some(command) = self.next_command() {
             advice.push(match self.json {
                 Some(_) => format!("to plan the recording that separates them: {command}"),
@@ -158,7 +165,9 @@ impl DiagnosisReport<'_> {
     /// The verdict: what was stopped has not said its last word.
     fn verdict(&self) -> Verdict {
         match self.diagnosis.verdict {
-            Verdict::Unexplained if self.interrupted => Verdict::Inconclusive,
+            Verdict::Unexplained if self.interrupted || self.diagnosis.ran_out => {
+                Verdict::Inconclusive
+            }
             verdict => verdict,
         }
     }

@@ -73,6 +73,11 @@ impl DiagnosisReport<'_> {
                  counts RMS, the best model so far by {}. Run it again to its end for a verdict.",
                 counts(fitted)
             ),
+            Verdict::Inconclusive if diagnosis.ran_out => format!(
+                "The work ran out before all effects were tried: the linear motor misses this recording by {base} counts \
+                 RMS, the best model so far by {}. Run it again with a larger --budget for a verdict.",
+                counts(fitted)
+            ),
             Verdict::Inconclusive => format!(
                 "The linear motor misses this recording by {base} counts RMS, so that something is missing, but this \
                  recording cannot tell what. See the advice for what to record."
