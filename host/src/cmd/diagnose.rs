@@ -4,7 +4,7 @@ use super::diagnosing::{Diagnosed, diagnosed};
 use super::motor;
 use crate::cli::DiagnoseArgs;
 use crate::diagnose::steady::SteadyCurve;
-use crate::diagnose::{Effort, HeldOut, holdout, pair, usable};
+use crate::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::output::is_same_file;
@@ -84,7 +84,7 @@ struct Recordings {
     held_out: Data,
     kind: HeldOut,
     /// What was seen in them.
-    remarks: Vec<String>,
+    remarks: Vec<Remark>,
 }
 
 /// Reads what is fitted and what is held out.
@@ -126,11 +126,11 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
     if kind == HeldOut::Nothing {
         remarks.clear();
         remarks.extend(usable::check(&recording)?);
-        remarks.push(
+        remarks.push(Remark::aside(
             "--validate is the recording itself: nothing is held out, and an effect that only bends itself to this one \
              recording would not be found out"
                 .to_owned(),
-        );
+        ));
     }
     let (data, held_out) = (Data::new(&recording)?, Data::new(&other)?);
     for data in [&data, &held_out] {

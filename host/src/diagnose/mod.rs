@@ -21,6 +21,7 @@ mod needless;
 mod orders;
 pub mod pair;
 mod refit;
+mod remark;
 mod settle;
 mod sketch;
 mod span;
@@ -39,6 +40,7 @@ pub use missed::{Loss, Losses};
 pub use orders::Line;
 pub use refit::{Errors, Refit};
 pub use settle::settle;
+pub use remark::Remark;
 pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
 

@@ -2,7 +2,7 @@
 
 use super::whereabouts::{ResidualJson, WhereJson};
 use super::{DiagnosisReport, Role};
-use crate::diagnose::{Errors, HeldOut, Refit, Step};
+use crate::diagnose::{Errors, HeldOut, Refit, Remark, Step};
 use crate::report::json::ParameterJson;
 use serde::Serialize;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -27,6 +27,7 @@ pub struct DiagnosisJson {
     advice: Vec<String>,
     next_command: Option<String>,
     cannot_tell: Vec<String>,
+    cause: Option<String>,
     remarks: Vec<String>,
     residual: ResidualJson,
     held_out: HeldOutJson,
@@ -164,7 +165,8 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             advice: report.advice(),
             next_command: report.next_command(),
             cannot_tell: report.cannot_tell(),
-            remarks: report.remarks.clone(),
+            cause: report.cause().map(Remark::to_string),
+            remarks: report.remarks.iter().map(Remark::to_string).collect(),
             residual: ResidualJson::from(report.findings),
             held_out: held_out(report.held_out),
             window_s: diagnosis.span.window_s.and_then(finite),

@@ -13,7 +13,7 @@ pub use steady::{SteadyJson, SteadyReport};
 
 use crate::bench::Machine;
 use crate::diagnose::advice::cannot_tell;
-use crate::diagnose::{Diagnosis, Findings, HeldOut, Refit, Step, Verdict};
+use crate::diagnose::{Diagnosis, Findings, HeldOut, Refit, Remark, Step, Verdict};
 use crate::fit::Fit;
 use crate::plan::Hypothesis;
 use crate::problem::Data;
@@ -34,7 +34,7 @@ pub struct DiagnosisReport<'a> {
     /// Where the models fail.
     pub findings: &'a Findings,
     /// What a user should know about the two recordings.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Seed of everything random.
     pub seed: u64,
     /// Whether the user stopped the work.
@@ -160,6 +160,15 @@ impl DiagnosisReport<'_> {
     fn effects(&self) -> Vec<&'static str> {
         let effects = self.diagnosis.last.effects.iter();
         effects.map(|kind| kind.name()).collect()
+    }
+
+    /// The fault of the recordings by which any model must fail, where they are not explained; the one that was found
+    /// last, with models at hand, says most.
+    fn cause(&self) -> Option<&Remark> {
+        let unexplained = self.verdict() == Verdict::Unexplained;
+        self.remarks
+            .iter()
+            .rfind(|remark| unexplained && remark.spoils())
     }
 
     /// The verdict: what was stopped has not said its last word.
