@@ -37,7 +37,7 @@ const EXAMPLES: &str = "Examples:
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
   servoid fit bench.csv --with coulomb
   servoid diagnose bench.csv
-  servoid compare bench.csv --seeds 30
+  servoid compare bench.csv --seeds 5 --budget 500
 
 Results go to stdout, progress to stderr. Exit code 0: done; 1: the work failed; 2: wrong use.";
 
@@ -298,7 +298,9 @@ pub struct DiagnoseArgs {
     pub motor: MotorArgs,
 }
 
-const DIAGNOSE_EXAMPLES: &str = "Example:
+const DIAGNOSE_EXAMPLES: &str = "Example, first on a motor of the bench:
+  servoid simulate --hide load_torque --excite steps --out first.csv
+  servoid simulate --hide load_torque --excite steps --seed 2 --out second.csv
   servoid diagnose first.csv --validate second.csv --json diagnosis.json
   servoid simulate --plan --after diagnosis.json --out next.csv";
 
