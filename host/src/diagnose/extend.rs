@@ -157,9 +157,12 @@ fn sort_sketches(sketches: &mut [Sketch]) {
 /// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
 /// look-alikes get a second start there, lest they lose for their start alone.
 fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [Sketch]) {
-    let Some(best) = sketches.first() else { return };
+    let Some((best, others)) = sketches.split_first_mut() else {
+        return;
+    };
     let Some(kind) = best.newest() else { return };
-    let (least, effects) = (best.foreseen(), best.structure.effects.clone());
+    let (best, least) = (&*best, best.foreseen());
+    let effects = best.structure.effects.clone();
     let values = best.structure.values(&best.x);
     let machine = best.structure.candidate(&values).machine;
     let Some(parent) = parents
@@ -170,15 +173,18 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
     };
     let mut parent = (*parent).clone();
     parent.candidate.machine = machine;
-    sketches.par_iter_mut().skip(1).for_each(|sketch| {
+    others.par_iter_mut().for_each(|sketch| {
         let Some(newest) = sketch.newest() else {
             return;
         };
         let beside = sketch.structure.effects.starts_with(&parent.effects);
         if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
+            let with_all = workshop.sketch_again(sketch, &parent, best);
             let again = workshop.sketch(&parent, newest, &[]);
-            if let Some(again) = again.filter(|again| again.foreseen() < sketch.foreseen()) {
-                *sketch = again;
+            for again in [with_all, again].into_iter().flatten() {
+                if again.foreseen() < sketch.foreseen() {
+                    *sketch = again;
+                }
             }
         }
     });

@@ -6,6 +6,7 @@
 //! something is missing and that nothing in the catalogue explains it.
 
 pub mod advice;
+mod carried;
 mod descent;
 mod duel;
 mod effort;

@@ -2,6 +2,7 @@
 //! foresees what the effect can explain, and is where the full fit starts.
 
 use super::NOISE_COUNTS;
+use super::carried::{Found, carried};
 use super::descent::Settings;
 use super::led::{Led, follows};
 use super::refit::Refit;
@@ -64,6 +65,12 @@ impl Sketch {
             led: f64::INFINITY,
             simulated: f64::INFINITY,
         }
+    }
+
+    /// Values of the effects' parameters.
+    fn values(&self) -> Vec<f64> {
+        let values = self.structure.values(&self.x);
+        self.structure.effect_values(&values).to_vec()
     }
 
     /// The effect that was added.
@@ -131,6 +138,27 @@ impl Workshop<'_> {
             }
         }
         best
+    }
+
+    /// A sketch once more, from where `there` stands and with what it has found.
+    pub(super) fn sketch_again(
+        &self,
+        sketch: &Sketch,
+        parent: &Refit,
+        there: &Sketch,
+    ) -> Option<Sketch> {
+        let (own, theirs) = (sketch.values(), there.values());
+        let own = Found {
+            effects: &sketch.structure.effects,
+            values: &own,
+        };
+        let theirs = Found {
+            effects: &there.structure.effects,
+            values: &theirs,
+        };
+        let structure = self.structure(own.effects, parent);
+        let start = Sketch::standing(structure, &parent.candidate, &carried(own, theirs));
+        self.sketch_from(&start.structure, start.x)
     }
 
     /// A model that has lost effects, or has others in their place, where it stands.
