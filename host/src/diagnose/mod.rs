@@ -21,6 +21,7 @@ mod motion;
 mod needless;
 mod orders;
 pub mod pair;
+mod plainer;
 mod refit;
 mod remark;
 mod settle;
@@ -40,8 +41,8 @@ pub use holdout::HeldOut;
 pub use missed::{Loss, Losses};
 pub use orders::Line;
 pub use refit::{Errors, Refit};
-pub use settle::settle;
 pub use remark::Remark;
+pub use settle::settle;
 pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
 
@@ -96,7 +97,8 @@ pub struct Step {
     pub added: Kind,
     /// Effects that explain this recording as well.
     pub indistinguishable_from: Vec<Kind>,
-    /// From one half (no lead over the best rival that is no look-alike) to one.
+    /// From one half (no lead over the best rival that is no look-alike) to one; less where look-alikes stand beside it,
+    /// and by the part of the error that the whole model leaves unexplained.
     pub confidence: f64,
     /// All candidates with their refits, best first.
     pub candidates: Vec<Refit>,
@@ -321,8 +323,17 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
             }
             known.extend(swapped);
         }
+        chosen = plainer::plainer(workshop, chosen, &mut known);
         chosen = needless::spared(workshop, chosen, &mut known);
+    } else {
+        chosen = plainer::plainer(workshop, chosen, &mut known);
     }
+    let mut base = diagnosis.base.clone();
+    if chosen.tracked.is_some() {
+        // A motor that cannot be tracked keeps the errors of its free run.
+        let _ = workshop.track(&mut base);
+    }
+    let explained = judge::explained(&base, &chosen);
     let mut before = diagnosis.base.clone();
     for (depth, &added) in chosen.effects.iter().enumerate() {
         let company = judge::company(&chosen, added, &known);
@@ -360,7 +371,7 @@ fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis
         diagnosis.steps.push(Step {
             added,
             indistinguishable_from: company.alike.clone(),
-            confidence: company.confidence(),
+            confidence: explained * company.confidence(),
             candidates,
             p_values,
             spectrum: (added == Kind::Cogging)
