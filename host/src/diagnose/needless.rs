@@ -3,6 +3,7 @@
 
 use super::judge::removes;
 use super::missed;
+use super::plainer;
 use super::refit::Refit;
 use super::swap::without;
 use super::workshop::Workshop;
@@ -58,7 +59,9 @@ pub fn begun(workshop: &Workshop<'_>, chosen: &Refit, depth: usize) -> Option<Re
 }
 
 fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
-    let mut sketch = workshop.restarted(&without(chosen, place));
+    let mut rest = without(chosen, place);
+    plainer::absorb(&mut rest, place, &super::evidence::values(chosen, place));
+    let mut sketch = workshop.restarted(&rest);
     sketch.simulated = workshop.leaves(&sketch);
     if !sketch.rivals(chosen) {
         sketch = workshop.sketch_from(&sketch.structure, sketch.x)?;

@@ -100,3 +100,22 @@ fn special_values(general: Kind, special: Kind, values: &[f64]) -> Option<Vec<f6
         _ => None,
     }
 }
+
+/// Friction that was beside another one which contains it, and is taken away, leaves its torque to that one.
+pub fn absorb(rest: &mut Refit, gone: Kind, values: &[f64]) {
+    let (Kind::Coulomb, &[torque, ..]) = (gone, values) else {
+        return;
+    };
+    let mut place = 0;
+    for &kind in &rest.structure.effects {
+        let torques = match kind {
+            Kind::Stribeck | Kind::Lugre => 1,
+            Kind::AsymCoulomb => 2,
+            _ => 0,
+        };
+        for own in rest.parameters.iter_mut().skip(place).take(torques) {
+            *own += torque;
+        }
+        place += kind.description().parameters.len();
+    }
+}
