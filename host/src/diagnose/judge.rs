@@ -1,6 +1,7 @@
 //! Which model may be believed, and beside which others.
 
-use super::refit::{Errors, Refit};
+use super::errors::Errors;
+use super::refit::Refit;
 use crate::problem::Data;
 use shared::effects::Kind;
 use statrs::distribution::{ChiSquared, ContinuousCDF};

@@ -7,21 +7,25 @@
 
 pub mod advice;
 mod carried;
+mod conclude;
 mod descent;
 mod duel;
 mod effort;
+mod errors;
 pub mod evidence;
 mod extend;
 mod findings;
 pub mod holdout;
 mod judge;
 mod led;
+mod levels;
 mod missed;
 mod motion;
 mod needless;
 mod orders;
 pub mod pair;
 mod plainer;
+mod polish;
 mod refit;
 mod remark;
 mod settle;
@@ -36,11 +40,12 @@ pub mod whereabouts;
 mod workshop;
 
 pub use effort::{Effort, USUAL_STEPS};
+pub use errors::Errors;
 pub use findings::{Findings, findings};
 pub use holdout::HeldOut;
 pub use missed::{Loss, Losses};
 pub use orders::Line;
-pub use refit::{Errors, Refit};
+pub use refit::Refit;
 pub use remark::Remark;
 pub use settle::settle;
 pub use span::{Span, moves_both_ways};
@@ -49,16 +54,11 @@ pub use spectrum::Spectrum;
 use crate::error::Error;
 use crate::fit::Options;
 use crate::problem::Data;
-use extend::extend;
+use conclude::conclude;
+use levels::levels;
 use shared::effects::Kind;
 use workshop::Workshop;
 
-/// Most effects that are added.
-const MOST_STEPS: usize = 4;
-/// Models of one level that the next one builds on.
-const BEAM: usize = 3;
-/// A model whose score is so far behind the best of its level is not built on.
-const BEAM_WIDTH: f64 = 2.0;
 /// A constant that lowers the linear motor's error to this part shows that the motor is another.
 const STEADIED: f64 = 0.2;
 /// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
@@ -220,165 +220,4 @@ pub fn diagnose(
     }
     advice::advise(&mut diagnosis);
     Ok(diagnosis)
-}
-
-/// Models with one effect more than the level before.
-struct Level {
-    /// Best first.
-    models: Vec<Refit>,
-    /// The simplest of the best.
-    best: Refit,
-    /// Whether its newest effect earned its place.
-    believed: bool,
-}
-
-/// Adds effects one by one until the error is the encoder's own, or none earns its place. The first is not
-/// judged alone: two effects of one size each leave the other's error.
-fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -> Vec<Level> {
-    let mut levels: Vec<Level> = Vec::new();
-    let mut before = base.clone();
-    while !before.judged().at_floor()
-        && levels.len() < MOST_STEPS
-        && !workshop.effort.halted()
-        && levels.iter().skip(1).all(|level| level.believed)
-    {
-        let parents: Vec<&Refit> = match levels.last() {
-            None => vec![base],
-            Some(level) => {
-                let near = |model: &&Refit| {
-                    model.judged().score() - level.models[0].judged().score() < BEAM_WIDTH
-                        && !level.models.iter().any(|m| judge::replaces(m, model))
-                };
-                level.models.iter().filter(near).take(BEAM).collect()
-            }
-        };
-        let mut models = extend(workshop, &parents, done);
-        workshop.effort.take_stock();
-        duel::duel(workshop, &mut models);
-        workshop.effort.take_stock();
-        polish_best(workshop, &mut models);
-        let Some(best) = judge::best(&models).cloned() else {
-            break;
-        };
-        if best.tracked.is_some() && before.tracked.is_none() {
-            let _ = workshop.track(&mut before);
-        }
-        let walled = best.windowed.is_some() && best.at_wall();
-        let believed = judge::removes(&before, &best) && !walled;
-        before = best.clone();
-        levels.push(Level {
-            models,
-            best,
-            believed,
-        });
-    }
-    levels
-}
-
-/// Models of a level whose fit is brought to its end before any more physics is blamed.
-const POLISHED: usize = 2;
-/// A model whose score is so far behind the best is not polished.
-const BEHIND: f64 = 1.0;
-
-/// Polishes the best models of a level that are not at the floor yet.
-fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
-    if models.first().is_none_or(|model| model.judged().at_floor()) {
-        return;
-    }
-    let least = models.first().map_or(0.0, |model| model.judged().score());
-    for model in models.iter_mut().take(POLISHED) {
-        // A model that is far behind, or cannot be polished, stays as it is.
-        if model.judged().score() - least > BEHIND {
-            continue;
-        }
-        // A model with losses was polished with them.
-        if model.losses.is_some() {
-            continue;
-        }
-        if let Ok(polished) = workshop.polish(model) {
-            *model = polished;
-        }
-    }
-    models.sort_by(Refit::by_score);
-}
-
-/// Swaps earlier terms with their look-alikes, and writes down the steps to the model that was chosen.
-fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis) {
-    let Some(last) = levels.last() else { return };
-    let mut chosen = last.best.clone();
-    let mut known = last.models.clone();
-    if levels.len() > 1 {
-        chosen = needless::spared(workshop, chosen, &mut known);
-        for place in chosen.effects.clone() {
-            workshop.effort.take_stock();
-            let swapped = if chosen.losses.is_some() {
-                missed::beside(workshop, &chosen, |workshop, bare| {
-                    swap::swaps(workshop, bare, place, &[])
-                })
-            } else {
-                swap::swaps(workshop, &chosen, place, &known)
-            };
-            if let Some(better) = swap::better(&chosen, &swapped) {
-                chosen = better;
-            }
-            known.extend(swapped);
-        }
-        chosen = plainer::plainer(workshop, chosen, &mut known);
-        chosen = needless::spared(workshop, chosen, &mut known);
-    } else {
-        chosen = plainer::plainer(workshop, chosen, &mut known);
-    }
-    let mut base = diagnosis.base.clone();
-    if chosen.tracked.is_some() {
-        // A motor that cannot be tracked keeps the errors of its free run.
-        let _ = workshop.track(&mut base);
-    }
-    let explained = judge::explained(&base, &chosen);
-    let mut before = diagnosis.base.clone();
-    for (depth, &added) in chosen.effects.iter().enumerate() {
-        let company = judge::company(&chosen, added, &known);
-        // A motor that never reverses cannot tell any of them apart: they are named as one.
-        let one = workshop.span.window_s.is_some() && !moves_both_ways(workshop.data);
-        if !one && !company.allows(added) {
-            diagnosis.not_named = Some(added);
-            break;
-        }
-        let prefix = &chosen.effects[..=depth];
-        let list = levels
-            .get(depth)
-            .map(|level| &level.models[..])
-            .unwrap_or_default();
-        let fitted = |model: &&Refit| swap::same(&model.effects, prefix);
-        let after = if depth + 1 == chosen.effects.len() {
-            Some(chosen.clone())
-        } else {
-            let made = list.iter().chain(&known).find(fitted).cloned();
-            made.or_else(|| needless::begun(workshop, &chosen, depth + 1))
-        };
-        let Some(after) = after.or(list.first().cloned()) else {
-            break;
-        };
-        let mut candidates = vec![after.clone()];
-        candidates.extend(
-            list.iter()
-                .filter(|m| !swap::same(&m.effects, &after.effects))
-                .cloned(),
-        );
-        let p_values = candidates
-            .iter()
-            .map(|c| judge::p_value(workshop.data, &before, c))
-            .collect();
-        diagnosis.steps.push(Step {
-            added,
-            indistinguishable_from: company.alike.clone(),
-            confidence: explained * company.confidence(),
-            candidates,
-            p_values,
-            spectrum: (added == Kind::Cogging)
-                .then(|| spectrum::spectrum(workshop.data, &before.candidate)),
-        });
-        before = after.clone();
-        diagnosis.last = after;
-    }
-    diagnosis.rivals = known;
 }
