@@ -62,16 +62,16 @@ fn a_log_in_milliseconds_is_told_and_read_in_its_unit() {
 #[test]
 fn a_held_out_recording_at_fault_is_named_in_the_verdict() {
     let desk = pair();
-    let faults: [(&str, &dyn Fn(f64) -> f64, &str); 3] = [
-        ("duty.csv", &|volts| volts / 12.0, "looks like a duty"),
+    let faults: [(&str, fn(f64) -> f64, &str); 3] = [
+        ("duty.csv", |volts| volts / 12.0, "looks like a duty"),
         (
             "percent.csv",
-            &|volts| volts / 0.12,
+            |volts| volts / 0.12,
             "looks like a percentage",
         ),
         (
             "clipped.csv",
-            &|volts| volts.clamp(-4.0, 4.0),
+            |volts| volts.clamp(-4.0, 4.0),
             "is cut off at 4.00 V",
         ),
     ];
