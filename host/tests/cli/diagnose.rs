@@ -263,7 +263,7 @@ fn on_a_slow_ramp_friction_and_a_dead_zone_stand_beside_each_other() {
         ));
         let diagnosis = desk.json("diagnose ramp.csv");
         assert_eq!(diagnosis["verdict"], "missing_effects", "{effect}");
-        let [step] = &list(&diagnosis, "steps")[..] else {
+        let [step] = list(&diagnosis, "steps") else {
             panic!("{effect}: {:?}", added(&diagnosis));
         };
         let alike = list(step, "indistinguishable_from").iter();

@@ -59,10 +59,13 @@ fn a_log_in_milliseconds_is_told_and_read_in_its_unit() {
     assert!((error(&told) - error(&plain)).abs() < 1e-6);
 }
 
+/// What a log makes of a voltage.
+type Fault = fn(f64) -> f64;
+
 #[test]
 fn a_held_out_recording_at_fault_is_named_in_the_verdict() {
     let desk = pair();
-    let faults: [(&str, fn(f64) -> f64, &str); 3] = [
+    let faults: [(&str, Fault, &str); 3] = [
         ("duty.csv", |volts| volts / 12.0, "looks like a duty"),
         (
             "percent.csv",
