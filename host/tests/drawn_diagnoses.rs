@@ -1,6 +1,6 @@
 //! Diagnoses of drawn motors whose hidden effect once led the search astray.
 
-use host::diagnose::diagnose;
+use host::diagnose::{Effort, diagnose};
 use host::fit::Options;
 use host::prove::{Case, Excite, HowMany, SetUp};
 use shared::effects::Kind;
@@ -28,7 +28,7 @@ fn a_strong_constant_load_is_named_and_nothing_else() {
             &case.fitted,
             &case.held_out,
             &Options::default(),
-            &stop,
+            &Effort::usual(&stop),
             &|| (),
         )
         .unwrap();

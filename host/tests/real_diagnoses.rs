@@ -7,7 +7,7 @@ mod folder;
 
 use folder::folder;
 use host::diagnose::steady::SteadyCurve;
-use host::diagnose::{Diagnosis, Refit, Verdict, diagnose};
+use host::diagnose::{Diagnosis, Effort, Refit, Verdict, diagnose};
 use host::fit::{Options, scores};
 use host::input::{MotorFile, read_recording};
 use host::problem::Data;
@@ -32,8 +32,14 @@ fn data(recording: &Recording) -> Data {
 /// Diagnoses with the horizon that is chosen when nobody asks for one, and prints what came out.
 fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
     let stop = AtomicBool::new(false);
-    let diagnosis = diagnose(fitted, held_out, &Options::default(), &stop, &|| ())
-        .unwrap_or_else(|error| panic!("{error}"));
+    let diagnosis = diagnose(
+        fitted,
+        held_out,
+        &Options::default(),
+        &Effort::usual(&stop),
+        &|| (),
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
     println!("{:?}", diagnosis.span);
     print(fitted, "linear", &diagnosis.base);
     for step in &diagnosis.steps {

@@ -16,8 +16,8 @@ const EXAMPLES: &str = "Examples:
   servoid device list
   servoid device info --port /dev/ttyACM0
   servoid device commission --port /dev/ttyACM0 --supply-v 24 --counts-per-rev 2000 --out bench3
-  servoid device verify bench3
   servoid device commission --emulate --hide cogging --out trial
+  servoid device verify trial
 
 Ctrl-C stops the motor and keeps what was recorded. A device whose host falls silent stops by itself.";
 

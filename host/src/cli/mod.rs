@@ -7,6 +7,7 @@ pub use device::{
     OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
 
+use crate::diagnose::USUAL_STEPS;
 use crate::prove::{Excite, HowMany, Shard};
 use crate::solve;
 use clap::builder::PossibleValuesParser;
@@ -36,7 +37,7 @@ const EXAMPLES: &str = "Examples:
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
   servoid fit bench.csv --with coulomb
   servoid diagnose bench.csv
-  servoid compare bench.csv --seeds 30
+  servoid compare bench.csv --seeds 5 --budget 500
 
 Results go to stdout, progress to stderr. Exit code 0: done; 1: the work failed; 2: wrong use.";
 
@@ -288,12 +289,18 @@ pub struct DiagnoseArgs {
     /// Another recording of the same motor, never fitted; else the last quarter of the first is held out
     #[arg(long, value_name = "FILE")]
     pub validate: Option<PathBuf>,
+    /// Steps of a model at most, in millions; what is best by then is reported. The usual number takes between one
+    /// and two minutes of one processor core, and few recordings need a tenth of it
+    #[arg(long, default_value_t = USUAL_STEPS / 1_000_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub budget: u64,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
 }
 
-const DIAGNOSE_EXAMPLES: &str = "Example:
+const DIAGNOSE_EXAMPLES: &str = "Example, first on a motor of the bench:
+  servoid simulate --hide load_torque --excite steps --out first.csv
+  servoid simulate --hide load_torque --excite steps --seed 2 --out second.csv
   servoid diagnose first.csv --validate second.csv --json diagnosis.json
   servoid simulate --plan --after diagnosis.json --out next.csv";
 

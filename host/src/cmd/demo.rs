@@ -8,7 +8,7 @@ use super::diagnosing::{Diagnosed, diagnosed};
 use super::simulate::{describe, hidden, wrong_flag};
 use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
-use crate::diagnose::HeldOut;
+use crate::diagnose::{Effort, HeldOut};
 use crate::error::Error;
 use crate::fit::Options;
 use crate::output::write_whole;
@@ -48,7 +48,13 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         last,
         findings,
         interrupted,
-    } = diagnosed(session, &data, &held_out, &options)?;
+    } = diagnosed(
+        session,
+        &data,
+        &held_out,
+        &options,
+        &Effort::usual(session.stop()),
+    )?;
     let kind = HeldOut::Recording(other.to_owned());
     let report = DemoReport {
         diagnosis: DiagnosisReport {

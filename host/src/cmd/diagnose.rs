@@ -4,13 +4,16 @@ use super::diagnosing::{Diagnosed, diagnosed};
 use super::motor;
 use crate::cli::DiagnoseArgs;
 use crate::diagnose::steady::SteadyCurve;
-use crate::diagnose::{HeldOut, holdout, pair, usable};
+use crate::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport, SteadyJson, SteadyReport};
 use crate::session::Session;
+
+/// The unit of --budget, steps of a model.
+const MILLION: u64 = 1_000_000;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     motor::check_outputs(
@@ -30,14 +33,15 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         kind,
         remarks,
     } = &recordings;
+    let effort = Effort::of(args.budget.saturating_mul(MILLION), session.stop());
     let Diagnosed {
         diagnosis,
         last,
         findings,
         interrupted,
-    } = diagnosed(session, data, held_out, &options)?;
+    } = diagnosed(session, data, held_out, &options, &effort)?;
     let mut remarks = remarks.clone();
-    if !interrupted {
+    if !interrupted && !diagnosis.ran_out {
         let stop = session.stop();
         remarks.extend(pair::remarks(
             &diagnosis, data, held_out, kind, &options, stop,
@@ -80,7 +84,7 @@ struct Recordings {
     held_out: Data,
     kind: HeldOut,
     /// What was seen in them.
-    remarks: Vec<String>,
+    remarks: Vec<Remark>,
 }
 
 /// Reads what is fitted and what is held out.
@@ -122,11 +126,11 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
     if kind == HeldOut::Nothing {
         remarks.clear();
         remarks.extend(usable::check(&recording)?);
-        remarks.push(
+        remarks.push(Remark::aside(
             "--validate is the recording itself: nothing is held out, and an effect that only bends itself to this one \
              recording would not be found out"
                 .to_owned(),
-        );
+        ));
     }
     let (data, held_out) = (Data::new(&recording)?, Data::new(&other)?);
     for data in [&data, &held_out] {

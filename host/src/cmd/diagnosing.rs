@@ -1,6 +1,6 @@
 //! A diagnosis with its progress, as every verb that diagnoses needs it.
 
-use crate::diagnose::{self, Diagnosis, Findings};
+use crate::diagnose::{self, Diagnosis, Effort, Findings};
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use crate::problem::Data;
@@ -22,6 +22,7 @@ pub(super) fn diagnosed(
     data: &Data,
     held_out: &Data,
     options: &Options,
+    effort: &Effort<'_>,
 ) -> Result<Diagnosed, Error> {
     let bar = session.progress(0, "diagnose");
     // How many models will be fitted shows only as they are.
@@ -31,10 +32,10 @@ pub(super) fn diagnosed(
             bar.inc_length(1);
         }
     };
-    let stop = session.stop();
-    let diagnosis = diagnose::diagnose(data, held_out, options, stop, &done);
+    let diagnosis = diagnose::diagnose(data, held_out, options, effort, &done);
     bar.finish_and_clear();
     let diagnosis = diagnosis?;
+    let stop = effort.stop();
     let interrupted = stop.load(Ordering::Relaxed);
     let last = diagnose::settle(&diagnosis, data, held_out, options, stop)?;
     let findings = diagnose::findings(&diagnosis, data, held_out)?;

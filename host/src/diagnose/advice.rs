@@ -9,6 +9,14 @@ use shared::effects::{Kind, Place};
 pub(super) fn advise(diagnosis: &mut Diagnosis) {
     let mut advice = Vec::new();
     for step in &diagnosis.steps {
+        if step.added == Kind::AsymCoulomb {
+            advice.push(
+                "unequal friction, and equal friction beside a constant load or an offset, do the same while the shaft \
+                 turns: hold it at rest at several angles, where a load acts and friction only holds, and let it run down \
+                 with the bridge open, where an offset vanishes"
+                    .to_owned(),
+            );
+        }
         for &other in &step.indistinguishable_from {
             advice.extend(split(step.added, other));
         }

@@ -5,9 +5,9 @@
 //! some hundred Jacobians of twenty thousand rows, and their orthogonal decomposition would cost as much
 //! as the simulations.
 
+use super::effort::Effort;
 use crate::solve::Objective;
 use nalgebra::{DMatrix, DVector};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -52,18 +52,18 @@ const BETTER: f64 = 0.02;
 /// Descends from `start`; `None` where the model cannot run there. A search that ends at a wall is begun
 /// once more from a little inside: a coordinate that was driven there early may have no slope back.
 ///
-/// Where `stop` is set the search ends with what it has.
+/// Where `effort` halts the search ends with what it has.
 pub fn descend(
     objective: &dyn Objective,
     start: &[f64],
     settings: Settings,
-    stop: &AtomicBool,
+    effort: &Effort<'_>,
 ) -> Option<Descent> {
-    let mut best = Search::new(objective, start, settings, stop)?.run();
+    let mut best = Search::new(objective, start, settings, effort)?.run();
     let inside = |x: &f64| x.clamp(INSIDE, 1.0 - INSIDE);
     if best.squares > settings.enough && best.x.iter().any(|x| *x == 0.0 || *x == 1.0) {
         let start: Vec<f64> = best.x.iter().map(inside).collect();
-        if let Some(search) = Search::new(objective, &start, settings, stop) {
+        if let Some(search) = Search::new(objective, &start, settings, effort) {
             let again = search.run();
             let evaluations = best.evaluations + again.evaluations;
             if again.squares < best.squares * (1.0 - BETTER) {
@@ -78,7 +78,7 @@ pub fn descend(
 struct Search<'a> {
     objective: &'a dyn Objective,
     settings: Settings,
-    stop: &'a AtomicBool,
+    effort: &'a Effort<'a>,
     x: Vec<f64>,
     residuals: Vec<f64>,
     squares: f64,
@@ -94,14 +94,14 @@ impl<'a> Search<'a> {
         objective: &'a dyn Objective,
         start: &[f64],
         settings: Settings,
-        stop: &'a AtomicBool,
+        effort: &'a Effort<'a>,
     ) -> Option<Self> {
         let x: Vec<f64> = start.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         let (residuals, squares) = objective.residuals_and_cost(&x)?;
         squares.is_finite().then(|| Search {
             objective,
             settings,
-            stop,
+            effort,
             residuals: thinned(residuals, settings.stride),
             x,
             squares,
@@ -149,9 +149,7 @@ impl<'a> Search<'a> {
                     Outcome::Nowhere if self.fresh => return,
                     Outcome::Nowhere => break,
                 }
-                if self.evaluations >= self.settings.evaluations
-                    || self.stop.load(Ordering::Relaxed)
-                {
+                if self.evaluations >= self.settings.evaluations || self.effort.halted() {
                     return;
                 }
             }
@@ -163,7 +161,7 @@ impl<'a> Search<'a> {
         if self.evaluations + self.x.len() > self.settings.evaluations {
             return false;
         }
-        if self.stop.load(Ordering::Relaxed) {
+        if self.effort.halted() {
             return false;
         }
         let step = |x: f64| if x + STEP > 1.0 { -STEP } else { STEP };
@@ -354,6 +352,7 @@ fn thinned(values: Vec<f64>, stride: usize) -> Vec<f64> {
 mod tests {
     use super::*;
     use shared::rng;
+    use std::sync::atomic::AtomicBool;
 
     /// Residuals that are linear in the unknowns, two of which do nearly the same.
     struct Slanted {
@@ -436,9 +435,10 @@ mod tests {
             secant: false,
         };
         let stop = AtomicBool::new(false);
+        let effort = Effort::usual(&stop);
         for seed in 0..40 {
             let problem = Slanted::draw(seed);
-            let found = descend(&problem, &[0.5; UNKNOWNS], settings, &stop).unwrap();
+            let found = descend(&problem, &[0.5; UNKNOWNS], settings, &effort).unwrap();
             let least = problem.least();
             assert!(
                 found.squares < least * 1.001 + 1e-9,

@@ -1,12 +1,12 @@
 //! A search that ended early looks like missing physics. So near winners are each begun once more from where
 //! the other one stands, before one of them is believed.
 
+use super::carried::{Found, carried};
 use super::judge::look_alikes;
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
 use rayon::prelude::*;
-use shared::effects::Kind;
 
 /// A rival whose score is so far behind the best is begun once more.
 const NEAR: f64 = 1.2;
@@ -51,30 +51,16 @@ pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
     models.sort_by(Refit::by_score);
 }
 
+fn found(refit: &Refit) -> Found<'_> {
+    Found {
+        effects: &refit.structure.effects,
+        values: &refit.parameters,
+    }
+}
+
 /// `model`, fitted again from the machine of `other` and those parameters that both know.
 fn from_there(workshop: &Workshop<'_>, model: &Refit, other: &Refit) -> Option<Refit> {
-    let named = |refit: &Refit| -> Vec<(Kind, &'static str)> {
-        let kinds = refit.structure.effects.iter();
-        kinds
-            .flat_map(|&kind| {
-                kind.description()
-                    .parameters
-                    .iter()
-                    .map(move |p| (kind, p.name))
-            })
-            .collect()
-    };
-    let theirs = named(other);
-    let parameters: Vec<f64> = named(model)
-        .iter()
-        .zip(&model.parameters)
-        .map(|(&(kind, name), &own)| {
-            let place = theirs
-                .iter()
-                .position(|&(k, n)| n == name && (k == kind || !model.effects.contains(&k)));
-            place.map_or(own, |place| other.parameters[place])
-        })
-        .collect();
+    let parameters = carried(found(model), found(other));
     let start = Sketch::standing(model.structure.clone(), &other.candidate, &parameters);
     let mut refit = workshop.refit(&start).ok()?;
     refit.foreseen_rms_counts = model.foreseen_rms_counts;

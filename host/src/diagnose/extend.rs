@@ -8,7 +8,6 @@ use super::swap::swapped;
 use super::workshop::Workshop;
 use rayon::prelude::*;
 use shared::effects::{Kind, MAX_EFFECTS};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most refits of one call.
 const MOST_REFITS: usize = 6;
@@ -48,12 +47,7 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
 
 /// Every model that adds one effect to one of the `parents`, as far as it is promising, best first.
 /// `done` is called after each piece of work.
-pub fn extend(
-    workshop: &Workshop<'_>,
-    parents: &[&Refit],
-    stop: &AtomicBool,
-    done: &(dyn Fn() + Sync),
-) -> Vec<Refit> {
+pub fn extend(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
     let mut models: Vec<Refit> = parents
         .iter()
         // In windows a jump is forgotten with the window.
@@ -68,10 +62,10 @@ pub fn extend(
     if models.iter().all(|model| !model.free().at_floor()) {
         for parent in parents.iter().filter(|parent| parent.losses.is_some()) {
             models.extend(missed::beside(workshop, parent, |workshop, bare| {
-                extend(workshop, &[bare], stop, done)
+                extend(workshop, &[bare], done)
             }));
         }
-        models.extend(smooth(workshop, parents, stop, done));
+        models.extend(smooth(workshop, parents, done));
     }
     sort(workshop, &mut models);
     models
@@ -79,18 +73,13 @@ pub fn extend(
 
 /// Every model that adds one effect that can be simulated. Bristles cost much: they, and what builds on them,
 /// are tried where nothing else will do.
-fn smooth(
-    workshop: &Workshop<'_>,
-    parents: &[&Refit],
-    stop: &AtomicBool,
-    done: &(dyn Fn() + Sync),
-) -> Vec<Refit> {
+fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
     let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents).into_iter().partition(|(at, kind)| {
         *kind != Kind::Lugre && !parents[*at].effects.contains(&Kind::Lugre)
     });
     let sketch_all = |sets: &[(usize, Kind)], dry: &[Sketch]| -> Vec<Sketch> {
         sets.par_iter()
-            .filter(|_| !stop.load(Ordering::Relaxed))
+            .filter(|_| !workshop.effort.halted())
             .filter_map(|&(parent, kind)| {
                 let sketch = workshop.sketch(parents[parent], kind, dry);
                 done();
@@ -102,6 +91,7 @@ fn smooth(
     let mut models: Vec<Refit> = Vec::new();
     // The best parent first: where it is half of the truth, the others need not be tried.
     for parent in 0..parents.len() {
+        workshop.effort.take_stock();
         let own: Vec<_> = plain
             .iter()
             .copied()
@@ -110,7 +100,7 @@ fn smooth(
         let mut more = sketch_all(&own, &[]);
         sort_sketches(&mut more);
         again_from_best(workshop, parents, &mut more);
-        models = refits(workshop, &more, models, stop, done);
+        models = refits(workshop, &more, models, done);
         sketches.extend(more);
         if models.first().is_some_and(|model| model.ran().at_floor()) {
             break;
@@ -147,7 +137,7 @@ fn smooth(
         .collect();
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);
-    refits(workshop, &more, models, stop, done)
+    refits(workshop, &more, models, done)
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
@@ -167,9 +157,12 @@ fn sort_sketches(sketches: &mut [Sketch]) {
 /// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
 /// look-alikes get a second start there, lest they lose for their start alone.
 fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [Sketch]) {
-    let Some(best) = sketches.first() else { return };
+    let Some((best, others)) = sketches.split_first_mut() else {
+        return;
+    };
     let Some(kind) = best.newest() else { return };
-    let (least, effects) = (best.foreseen(), best.structure.effects.clone());
+    let (best, least) = (&*best, best.foreseen());
+    let effects = best.structure.effects.clone();
     let values = best.structure.values(&best.x);
     let machine = best.structure.candidate(&values).machine;
     let Some(parent) = parents
@@ -180,15 +173,18 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
     };
     let mut parent = (*parent).clone();
     parent.candidate.machine = machine;
-    sketches.par_iter_mut().skip(1).for_each(|sketch| {
+    others.par_iter_mut().for_each(|sketch| {
         let Some(newest) = sketch.newest() else {
             return;
         };
         let beside = sketch.structure.effects.starts_with(&parent.effects);
         if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
+            let with_all = workshop.sketch_again(sketch, &parent, best);
             let again = workshop.sketch(&parent, newest, &[]);
-            if let Some(again) = again.filter(|again| again.foreseen() < sketch.foreseen()) {
-                *sketch = again;
+            for again in [with_all, again].into_iter().flatten() {
+                if again.foreseen() < sketch.foreseen() {
+                    *sketch = again;
+                }
             }
         }
     });
@@ -200,7 +196,6 @@ fn refits(
     workshop: &Workshop<'_>,
     sketches: &[Sketch],
     made: Vec<Refit>,
-    stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Refit> {
     // In windows more of them are alike.
@@ -213,7 +208,8 @@ fn refits(
     let before = made.len();
     let mut refits = made;
     for chunk in sketches.chunks(AT_A_TIME) {
-        if stop.load(Ordering::Relaxed) || refits.len() >= before + most {
+        workshop.effort.take_stock();
+        if workshop.effort.halted() || refits.len() >= before + most {
             break;
         }
         let best = refits.first();

@@ -1,5 +1,6 @@
 //! Which model may be believed, and beside which others.
 
+use super::errors::Errors;
 use super::refit::Refit;
 use crate::problem::Data;
 use shared::effects::Kind;
@@ -31,12 +32,11 @@ pub fn best(models: &[Refit]) -> Option<&Refit> {
     ))
 }
 
-/// Whether a simpler model will do in the place of another that has a look-alike of one of its effects. Errors
-/// in windows are far above the reading's own, and any further parameter lowers them a little: there the other
-/// must remove as much of the simpler one's excess as a further effect would have to.
+/// Whether a simpler model will do in the place of another that has a look-alike of one of its effects. Where errors
+/// are above the reading's own, any further parameter lowers them a little: the other must remove as much of the
+/// simpler one's excess as a further effect would have to.
 pub fn replaces(simpler: &Refit, other: &Refit) -> bool {
-    simpler.windowed.is_some()
-        && simpler.parameters.len() < other.parameters.len()
+    simpler.parameters.len() < other.parameters.len()
         && akin(simpler, other)
         && !removes(simpler, other)
 }
@@ -52,11 +52,11 @@ fn akin(a: &Refit, b: &Refit) -> bool {
 
 /// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.
 pub fn removes(before: &Refit, after: &Refit) -> bool {
-    // Both in the same measure.
-    let (old, new) = if before.tracked.is_some() && after.tracked.is_some() {
-        (before.judged(), after.judged())
-    } else {
-        (before.ran(), after.ran())
+    // Both in the same measure: a free run is no rival of one that is held to the reading.
+    let (old, new) = match (before.tracked, after.tracked) {
+        _ if before.ran().at_floor() => return false,
+        (Some(old), Some(new)) => (old, new),
+        _ => (before.ran(), after.ran()),
     };
     let removed = 1.0 - new.excess() / old.excess();
     removed > MUST_REMOVE && new.fitted < old.fitted
@@ -114,6 +114,28 @@ impl Company {
     pub fn confidence(&self) -> f64 {
         let sets = 1.0 / (1.0 + self.alike.len() as f64 * 0.1);
         sets / (1.0 + (-self.lead.min(10.0) / MUST_LEAD).exp())
+    }
+}
+
+/// Which part of the way from the error of `base` to the reading's own the `last` model has gone, in the logarithm of
+/// the errors: what stays unexplained may be an effect for which a named one stands in.
+pub fn explained(base: &Refit, last: &Refit) -> f64 {
+    let (from, to) = match (base.tracked, last.tracked) {
+        _ if last.judged().at_floor() => return 1.0,
+        (Some(from), Some(to)) => (from, to),
+        _ => (base.ran(), last.ran()),
+    };
+    let floor = Errors {
+        fitted: 0.0,
+        held_out: 0.0,
+        ..to
+    };
+    let part = (from.score() - to.score()) / (from.score() - floor.score());
+    // A base at the floor has no way to go.
+    if part.is_finite() {
+        part.clamp(0.0, 1.0)
+    } else {
+        1.0
     }
 }
 

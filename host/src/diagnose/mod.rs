@@ -6,20 +6,28 @@
 //! something is missing and that nothing in the catalogue explains it.
 
 pub mod advice;
+mod carried;
+mod conclude;
 mod descent;
 mod duel;
+mod effort;
+mod errors;
 pub mod evidence;
 mod extend;
 mod findings;
 pub mod holdout;
 mod judge;
 mod led;
+mod levels;
 mod missed;
 mod motion;
 mod needless;
 mod orders;
 pub mod pair;
+mod plainer;
+mod polish;
 mod refit;
+mod remark;
 mod settle;
 mod sketch;
 mod span;
@@ -31,11 +39,14 @@ pub mod usable;
 pub mod whereabouts;
 mod workshop;
 
+pub use effort::{Effort, USUAL_STEPS};
+pub use errors::Errors;
 pub use findings::{Findings, findings};
 pub use holdout::HeldOut;
 pub use missed::{Loss, Losses};
 pub use orders::Line;
-pub use refit::{Errors, Refit};
+pub use refit::Refit;
+pub use remark::Remark;
 pub use settle::settle;
 pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
@@ -43,17 +54,11 @@ pub use spectrum::Spectrum;
 use crate::error::Error;
 use crate::fit::Options;
 use crate::problem::Data;
-use extend::extend;
+use conclude::conclude;
+use levels::levels;
 use shared::effects::Kind;
-use std::sync::atomic::{AtomicBool, Ordering};
 use workshop::Workshop;
 
-/// Most effects that are added.
-const MOST_STEPS: usize = 4;
-/// Models of one level that the next one builds on.
-const BEAM: usize = 3;
-/// A model whose score is so far behind the best of its level is not built on.
-const BEAM_WIDTH: f64 = 2.0;
 /// A constant that lowers the linear motor's error to this part shows that the motor is another.
 const STEADIED: f64 = 0.2;
 /// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
@@ -92,7 +97,8 @@ pub struct Step {
     pub added: Kind,
     /// Effects that explain this recording as well.
     pub indistinguishable_from: Vec<Kind>,
-    /// From one half (no lead over the best rival that is no look-alike) to one.
+    /// From one half (no lead over the best rival that is no look-alike) to one; less where look-alikes stand beside it,
+    /// and by the part of the error that the whole model leaves unexplained.
     pub confidence: f64,
     /// All candidates with their refits, best first.
     pub candidates: Vec<Refit>,
@@ -121,6 +127,10 @@ pub struct Diagnosis {
     pub not_named: Option<Kind>,
     /// What to do next, in words.
     pub advice: Vec<String>,
+    /// Whether the steps that it may take did not suffice: then not all effects were tried.
+    pub ran_out: bool,
+    /// Steps of a model that it took.
+    pub steps_taken: u64,
 }
 
 impl Diagnosis {
@@ -139,10 +149,10 @@ pub fn diagnose(
     data: &Data,
     held_out: &Data,
     options: &Options,
-    stop: &AtomicBool,
+    effort: &Effort<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let mut workshop = Workshop::new(data, held_out, options, stop);
+    let mut workshop = Workshop::new(data, held_out, options, effort);
     let mut base = workshop.base(options)?;
     let steadied = (!base.free().at_floor())
         .then(|| workshop.steadied(options))
@@ -150,7 +160,7 @@ pub fn diagnose(
     let left = steadied.map_or(f64::INFINITY, |(_, rms)| rms);
     let span = workshop.span.clone().after(data, &base, left);
     if span != workshop.span {
-        workshop = Workshop::over(span, data, held_out, options, stop);
+        workshop = Workshop::over(span, data, held_out, options, effort);
         base = workshop.base(options)?;
     }
     let workshop = workshop;
@@ -159,7 +169,8 @@ pub fn diagnose(
     if let Some((machine, _)) = steadied.filter(|(_, rms)| *rms < STEADIED * base.rms_counts) {
         anchored.candidate.machine = machine;
     }
-    let mut levels = levels(&workshop, &anchored, stop, done);
+    let mut levels = levels(&workshop, &anchored, done);
+    effort.conclude();
     // A search that ended early looks like missing physics: the linear motor is fitted again from where the
     // best model has it.
     if let Some(again) = levels
@@ -179,10 +190,14 @@ pub fn diagnose(
         rivals: Vec::new(),
         not_named: None,
         advice: Vec::new(),
+        ran_out: false,
+        steps_taken: 0,
     };
     if let Some(depth) = chosen {
         conclude(&workshop, &levels[..=depth], &mut diagnosis);
     }
+    diagnosis.ran_out = effort.ran_out();
+    diagnosis.steps_taken = effort.spent();
     let next = levels.get(chosen.map_or(0, |depth| depth + 1));
     diagnosis.not_named = next.and_then(|level| level.best.effects.last().copied());
     if diagnosis.last.judged().at_floor() {
@@ -205,158 +220,4 @@ pub fn diagnose(
     }
     advice::advise(&mut diagnosis);
     Ok(diagnosis)
-}
-
-/// Models with one effect more than the level before.
-struct Level {
-    /// Best first.
-    models: Vec<Refit>,
-    /// The simplest of the best.
-    best: Refit,
-    /// Whether its newest effect earned its place.
-    believed: bool,
-}
-
-/// Adds effects one by one until the error is the encoder's own, or none earns its place. The first is not
-/// judged alone: two effects of one size each leave the other's error.
-fn levels(
-    workshop: &Workshop<'_>,
-    base: &Refit,
-    stop: &AtomicBool,
-    done: &(dyn Fn() + Sync),
-) -> Vec<Level> {
-    let mut levels: Vec<Level> = Vec::new();
-    let mut before = base.clone();
-    while !before.judged().at_floor()
-        && levels.len() < MOST_STEPS
-        && !stop.load(Ordering::Relaxed)
-        && levels.iter().skip(1).all(|level| level.believed)
-    {
-        let parents: Vec<&Refit> = match levels.last() {
-            None => vec![base],
-            Some(level) => {
-                let near = |model: &&Refit| {
-                    model.judged().score() - level.models[0].judged().score() < BEAM_WIDTH
-                        && !level.models.iter().any(|m| judge::replaces(m, model))
-                };
-                level.models.iter().filter(near).take(BEAM).collect()
-            }
-        };
-        let mut models = extend(workshop, &parents, stop, done);
-        duel::duel(workshop, &mut models);
-        polish_best(workshop, &mut models);
-        let Some(best) = judge::best(&models).cloned() else {
-            break;
-        };
-        if best.tracked.is_some() && before.tracked.is_none() {
-            let _ = workshop.track(&mut before);
-        }
-        let walled = best.windowed.is_some() && best.at_wall();
-        let believed = judge::removes(&before, &best) && !walled;
-        before = best.clone();
-        levels.push(Level {
-            models,
-            best,
-            believed,
-        });
-    }
-    levels
-}
-
-/// Models of a level whose fit is brought to its end before any more physics is blamed.
-const POLISHED: usize = 2;
-/// A model whose score is so far behind the best is not polished.
-const BEHIND: f64 = 1.0;
-
-/// Polishes the best models of a level that are not at the floor yet.
-fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
-    if models.first().is_none_or(|model| model.judged().at_floor()) {
-        return;
-    }
-    let least = models.first().map_or(0.0, |model| model.judged().score());
-    for model in models.iter_mut().take(POLISHED) {
-        // A model that is far behind, or cannot be polished, stays as it is.
-        if model.judged().score() - least > BEHIND {
-            continue;
-        }
-        // A model with losses was polished with them.
-        if model.losses.is_some() {
-            continue;
-        }
-        if let Ok(polished) = workshop.polish(model) {
-            *model = polished;
-        }
-    }
-    models.sort_by(Refit::by_score);
-}
-
-/// Swaps earlier terms with their look-alikes, and writes down the steps to the model that was chosen.
-fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis) {
-    let Some(last) = levels.last() else { return };
-    let mut chosen = last.best.clone();
-    let mut known = last.models.clone();
-    if levels.len() > 1 {
-        chosen = needless::spared(workshop, chosen, &mut known);
-        for place in chosen.effects.clone() {
-            let swapped = if chosen.losses.is_some() {
-                missed::beside(workshop, &chosen, |workshop, bare| {
-                    swap::swaps(workshop, bare, place, &[])
-                })
-            } else {
-                swap::swaps(workshop, &chosen, place, &known)
-            };
-            if let Some(better) = swap::better(&chosen, &swapped) {
-                chosen = better;
-            }
-            known.extend(swapped);
-        }
-        chosen = needless::spared(workshop, chosen, &mut known);
-    }
-    let mut before = diagnosis.base.clone();
-    for (depth, &added) in chosen.effects.iter().enumerate() {
-        let company = judge::company(&chosen, added, &known);
-        // A motor that never reverses cannot tell any of them apart: they are named as one.
-        let one = workshop.span.window_s.is_some() && !moves_both_ways(workshop.data);
-        if !one && !company.allows(added) {
-            diagnosis.not_named = Some(added);
-            break;
-        }
-        let prefix = &chosen.effects[..=depth];
-        let list = levels
-            .get(depth)
-            .map(|level| &level.models[..])
-            .unwrap_or_default();
-        let fitted = |model: &&Refit| swap::same(&model.effects, prefix);
-        let after = if depth + 1 == chosen.effects.len() {
-            Some(chosen.clone())
-        } else {
-            let made = list.iter().chain(&known).find(fitted).cloned();
-            made.or_else(|| needless::begun(workshop, &chosen, depth + 1))
-        };
-        let Some(after) = after.or(list.first().cloned()) else {
-            break;
-        };
-        let mut candidates = vec![after.clone()];
-        candidates.extend(
-            list.iter()
-                .filter(|m| !swap::same(&m.effects, &after.effects))
-                .cloned(),
-        );
-        let p_values = candidates
-            .iter()
-            .map(|c| judge::p_value(workshop.data, &before, c))
-            .collect();
-        diagnosis.steps.push(Step {
-            added,
-            indistinguishable_from: company.alike.clone(),
-            confidence: company.confidence(),
-            candidates,
-            p_values,
-            spectrum: (added == Kind::Cogging)
-                .then(|| spectrum::spectrum(workshop.data, &before.candidate)),
-        });
-        before = after.clone();
-        diagnosis.last = after;
-    }
-    diagnosis.rivals = known;
 }

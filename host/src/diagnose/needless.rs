@@ -3,12 +3,10 @@
 
 use super::judge::removes;
 use super::missed;
+use super::plainer;
 use super::refit::Refit;
-use super::sketch::Sketch;
 use super::swap::without;
 use super::workshop::Workshop;
-use crate::fit::base_for;
-use crate::problem::Structure;
 use shared::effects::Kind;
 
 /// A model with one effect less is brought to its end if its score is no further behind than this.
@@ -23,7 +21,10 @@ pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
             .effects
             .iter()
             .filter(|&&place| place != Kind::MissedCounts)
-            .flat_map(|&place| lessened(workshop, &chosen, place))
+            .flat_map(|&place| {
+                workshop.effort.take_stock();
+                lessened(workshop, &chosen, place)
+            })
             .inspect(|model| known.push(model.clone()))
             .filter(|simpler| !removes(simpler, &chosen))
             .min_by(Refit::by_score);
@@ -54,11 +55,13 @@ pub fn begun(workshop: &Workshop<'_>, chosen: &Refit, depth: usize) -> Option<Re
     }
     let drop = |rest: Refit, &place: &Kind| without(&rest, place);
     let rest = chosen.effects[depth..].iter().fold(chosen.clone(), drop);
-    workshop.refit(&restarted(workshop, &rest)).ok()
+    workshop.refit(&workshop.restarted(&rest)).ok()
 }
 
 fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
-    let mut sketch = restarted(workshop, &without(chosen, place));
+    let mut rest = without(chosen, place);
+    plainer::absorb(&mut rest, place, &super::evidence::values(chosen, place));
+    let mut sketch = workshop.restarted(&rest);
     sketch.simulated = workshop.leaves(&sketch);
     if !sketch.rivals(chosen) {
         sketch = workshop.sketch_from(&sketch.structure, sketch.x)?;
@@ -75,16 +78,4 @@ fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Optio
         refit = workshop.polish(&refit).ok()?;
     }
     Some(refit)
-}
-
-/// A model that has lost effects, where it stands.
-fn restarted(workshop: &Workshop<'_>, rest: &Refit) -> Sketch {
-    let structure = Structure::around(
-        workshop.data,
-        base_for(workshop.data, &rest.structure.effects),
-        &rest.structure.effects,
-        &rest.candidate.machine,
-        rest.structure.start_speed,
-    );
-    Sketch::standing(structure, &rest.candidate, &rest.parameters)
 }

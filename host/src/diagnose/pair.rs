@@ -1,6 +1,6 @@
 //! Whether two recordings belong together: one motor, one encoder that counts all the time, one sign.
 
-use super::{Diagnosis, HeldOut, NOISE_COUNTS};
+use super::{Diagnosis, HeldOut, NOISE_COUNTS, Remark};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, scores};
 use crate::problem::Data;
@@ -19,6 +19,9 @@ const DIFFERENT: f64 = 0.02;
 /// Where no model explains both: constants of the linear motors that differ by this factor are beyond what a
 /// single effect does to them.
 const BEYOND: f64 = 2.0;
+
+/// Ratios nearer to each other than this are those of one motor in two units.
+const SAME_MOTOR: f64 = 0.05;
 
 /// A jump of the error by at least so many counts within a sample that stays is the counter's.
 const JUMP_COUNTS: f64 = 2.0;
@@ -40,14 +43,14 @@ pub fn remarks(
     kind: &HeldOut,
     options: &Options,
     stop: &AtomicBool,
-) -> Result<Vec<String>, Error> {
+) -> Result<Vec<Remark>, Error> {
     let last = &diagnosis.last;
     let strange = last.validate_rms_counts > STRANGE * last.rms_counts.max(NOISE_COUNTS);
     if strange
         && *kind != HeldOut::Nothing
         && let Some(remark) = another_motor(diagnosis, data, held_out, kind, options, stop)
     {
-        return Ok(vec![remark]);
+        return Ok(vec![Remark::cause(remark)]);
     }
     if last.effects.contains(&Kind::MissedCounts) {
         return Ok(Vec::new());
@@ -55,7 +58,7 @@ pub fn remarks(
     let own = scores::whole(data, &last.candidate, last.method)?;
     let other = fit::validation_errors(held_out, &last.candidate, last.method)?;
     let found = [jumps(data, &own), jumps(held_out, &other)];
-    Ok(found.into_iter().flatten().collect())
+    Ok(found.into_iter().flatten().map(Remark::cause).collect())
 }
 
 /// Whether one kind of model explains each recording by itself, with constants that differ.
@@ -80,7 +83,12 @@ fn another_motor(
         };
         let explained = one.rms_counts < EXPLAINED && other.rms_counts < EXPLAINED;
         if explained {
-            differ = differences(&one, &other, DIFFERENT);
+            differ = differences(&one, &other, DIFFERENT).map(|differ| {
+                match in_another_unit(&one, &other, data) {
+                    Some(unit) => format!("{differ}; {unit}"),
+                    None => differ,
+                }
+            });
             break;
         }
         if effects.is_empty() {
@@ -96,6 +104,43 @@ fn another_motor(
         "{what}: fitted by itself it has {differ}; check which recording belongs to which motor, the supply and \
          counts_per_rev"
     ))
+}
+
+/// Two motors with one time constant, whose gains alone differ, by a factor that a unit has.
+fn in_another_unit(one: &Fit, other: &Fit, data: &Data) -> Option<String> {
+    let ratio = |name: &str| {
+        let value = |fit: &Fit| Some(fit.parameters.iter().find(|p| p.name == name)?.value);
+        Some(value(other)? / value(one)?)
+    };
+    let near = |ratio: f64, factor: f64| (ratio / factor - 1.0).abs() < SAME_MOTOR;
+    if !near(ratio("a1")?, 1.0) {
+        return None;
+    }
+    let gain = ratio("gain")?;
+    let turn = data.units.counts_per_rev;
+    let units = [
+        (
+            data.supply,
+            "its command looks like a duty (-1 ... 1) taken for V",
+        ),
+        (
+            data.supply / 100.0,
+            "its command looks like a percentage taken for V",
+        ),
+        (
+            1e3,
+            "its command looks like kV taken for V, or the other one's like mV",
+        ),
+        (1e-3, "its command looks like mV taken for V"),
+        (
+            360.0 / turn,
+            "its angle looks like degrees taken for counts",
+        ),
+        (4.0, "its encoder looks counted four times as finely"),
+        (0.25, "its encoder looks counted a fourth as finely"),
+    ];
+    let (_, what) = units.iter().find(|(factor, _)| near(gain, *factor))?;
+    Some((*what).to_owned())
 }
 
 fn own_fit(data: &Data, effects: &[Kind], options: &Options, stop: &AtomicBool) -> Option<Fit> {

@@ -1,7 +1,8 @@
 //! One model with one set of effects, fitted to the recording and judged on the other.
 
 use super::NOISE_COUNTS;
-use super::descent::{Descent, Settings, descend};
+use super::descent::{Descent, Settings};
+use super::errors::{Errors, ROOM};
 use super::missed::Losses;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -24,15 +25,6 @@ const FULL: Settings = Settings {
     damping: 1e-6,
     secant: true,
 };
-/// Of one that must converge.
-const LAST: Settings = Settings {
-    evaluations: 120,
-    tolerance: 1e-4,
-    stride: 1,
-    enough: 0.0,
-    damping: 1e-9,
-    secant: false,
-};
 /// Of a stage with a short memory.
 const FADE: Settings = Settings {
     evaluations: 40,
@@ -42,50 +34,16 @@ const FADE: Settings = Settings {
     damping: 1e-4,
     secant: true,
 };
-/// Room above the floor, for a recording whose readings dwell in one part of their cells.
-const ROOM: f64 = NOISE_COUNTS / FLOOR_RMS_COUNTS;
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 /// A stage that leaves so many times the error of the one before has lost its way.
 const ASTRAY: f64 = 2.0;
 /// A simulation whose error is so many times the led one's has lost its way.
 const LOST: f64 = 3.0;
-/// The same while they are polished.
-const POLISHED_MEMORY_S: f64 = 0.5;
 /// Tracked scores this near are as good as each other.
 const AS_GOOD: f64 = 0.04;
 /// How long an error is remembered where free runs are chaotic and models are judged nevertheless.
 const JUDGED_MEMORY_S: f64 = 0.1;
-
-/// RMS errors on both recordings, counts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
-    /// On the fitted recording.
-    pub fitted: f64,
-    /// On the held-out recording.
-    pub held_out: f64,
-    /// What the reading's own noise makes of a right model.
-    pub floor: f64,
-}
-
-impl Errors {
-    /// Whether both are the encoder's own.
-    pub fn at_floor(&self) -> bool {
-        let noise = self.floor * ROOM;
-        self.fitted < noise && self.held_out < noise
-    }
-
-    /// Mean square error on the held-out recording beyond the reading's own.
-    pub fn excess(&self) -> f64 {
-        (self.held_out.powi(2) - self.floor.powi(2)).max(0.0)
-    }
-
-    /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.
-    pub fn score(&self) -> f64 {
-        let floored = |rms: f64| rms.max(self.floor);
-        (floored(self.fitted) * floored(self.held_out)).ln()
-    }
-}
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -250,7 +208,7 @@ impl Workshop<'_> {
                 horizon: Horizon::Nudged(memory_s),
                 ..self.problem(structure, self.method)
             };
-            let Some(found) = descend(&problem, &x, FADE, self.stop) else {
+            let Some(found) = self.descended(&problem, &x, FADE, self.method) else {
                 break;
             };
             let rms = (found.squares / self.data.len() as f64).sqrt();
@@ -263,57 +221,6 @@ impl Workshop<'_> {
         x
     }
 
-    /// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
-    /// converged: what is left then is not the arithmetic's.
-    ///
-    /// # Errors
-    /// As [`refit`](Self::refit).
-    pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
-        let mut best = refit.clone();
-        loop {
-            let method = best.method;
-            let problem = FitProblem {
-                horizon: match best.tracked {
-                    Some(_) => Horizon::Nudged(POLISHED_MEMORY_S),
-                    None => self.fitted_horizon.clone(),
-                },
-                ..self.problem(&best.structure, method)
-            };
-            let Some(found) = descend(&problem, &best.x, LAST, self.stop) else {
-                return Ok(best);
-            };
-            let polished = self.conclude(
-                best.structure.clone(),
-                &found,
-                best.foreseen_rms_counts,
-                method,
-            )?;
-            best = Refit {
-                tracked: best.tracked,
-                evaluations: best.evaluations + polished.evaluations,
-                ..polished
-            };
-            if best.tracked.is_some() {
-                self.track(&mut best)?;
-            }
-            let finer = Method {
-                substeps: method.substeps * FINER,
-                ..method
-            };
-            let (again, ran) = (self.runs(&best.candidate, finer)?, best.ran());
-            let change = (again.fitted - ran.fitted)
-                .abs()
-                .max((again.held_out - ran.held_out).abs());
-            if best.judged().at_floor()
-                || change < STEP_ERROR * ran.fitted.max(1.0)
-                || finer.substeps > FINEST
-            {
-                return Ok(best);
-            }
-            best.method = finer;
-        }
-    }
-
     fn descend(
         &self,
         structure: &Structure,
@@ -321,7 +228,7 @@ impl Workshop<'_> {
         settings: Settings,
         method: Method,
     ) -> Result<Descent, Error> {
-        descend(&self.problem(structure, method), start, settings, self.stop)
+        self.descended(&self.problem(structure, method), start, settings, method)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))
     }
 
@@ -343,7 +250,7 @@ impl Workshop<'_> {
     ///
     /// # Errors
     /// As [`refit`](Self::refit).
-    fn runs(&self, candidate: &Candidate, method: Method) -> Result<Errors, Error> {
+    pub(super) fn runs(&self, candidate: &Candidate, method: Method) -> Result<Errors, Error> {
         if self.span.window_s.is_none() {
             return Ok(Errors {
                 fitted: rms_counts(self.data, &scores::whole(self.data, candidate, method)?),
@@ -413,11 +320,3 @@ fn distinct(effects: &[Kind]) -> Vec<Kind> {
     }
     distinct
 }
-
-/// Factor between step sizes that are compared.
-const FINER: u16 = 4;
-/// Most parts to a sample.
-const FINEST: u16 = 16;
-/// A finer step that changes the RMS error by less is not worth its time: counts, or a part of a
-/// larger error.
-const STEP_ERROR: f64 = 0.02;

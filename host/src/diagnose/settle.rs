@@ -46,7 +46,7 @@ pub fn settle(
     };
     let judged_otherwise =
         last.tracked.is_some() || last.windowed.is_some() || last.losses.is_some();
-    let stays = judged_otherwise || stop.load(Ordering::Relaxed);
+    let stays = judged_otherwise || diagnosis.ran_out || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {
             let solver = LevenbergMarquardt::default();

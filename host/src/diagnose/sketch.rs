@@ -2,7 +2,8 @@
 //! foresees what the effect can explain, and is where the full fit starts.
 
 use super::NOISE_COUNTS;
-use super::descent::{Settings, descend};
+use super::carried::{Found, carried};
+use super::descent::Settings;
 use super::led::{Led, follows};
 use super::refit::Refit;
 use super::spectrum::spectrum;
@@ -66,6 +67,12 @@ impl Sketch {
         }
     }
 
+    /// Values of the effects' parameters.
+    fn values(&self) -> Vec<f64> {
+        let values = self.structure.values(&self.x);
+        self.structure.effect_values(&values).to_vec()
+    }
+
     /// The effect that was added.
     pub fn newest(&self) -> Option<Kind> {
         self.structure.effects.last().copied()
@@ -96,16 +103,7 @@ impl Workshop<'_> {
         let own = kind.description().parameters.len();
         let times = starts.first()?.len().div_ceil(own);
         effects.extend(std::iter::repeat_n(kind, times));
-        let mut structure = Structure::around(
-            self.data,
-            base_for(self.data, &effects),
-            &effects,
-            &parent.candidate.machine,
-            parent.structure.start_speed,
-        );
-        if self.span.window_s.is_some() {
-            widen(&mut structure, self.data.supply);
-        }
+        let structure = self.structure(&effects, parent);
         let mut begun: Vec<Sketch> = starts
             .into_iter()
             .map(|start| {
@@ -142,6 +140,48 @@ impl Workshop<'_> {
         best
     }
 
+    /// A sketch once more, from where `there` stands and with what it has found.
+    pub(super) fn sketch_again(
+        &self,
+        sketch: &Sketch,
+        parent: &Refit,
+        there: &Sketch,
+    ) -> Option<Sketch> {
+        let (own, theirs) = (sketch.values(), there.values());
+        let own = Found {
+            effects: &sketch.structure.effects,
+            values: &own,
+        };
+        let theirs = Found {
+            effects: &there.structure.effects,
+            values: &theirs,
+        };
+        let structure = self.structure(own.effects, parent);
+        let start = Sketch::standing(structure, &parent.candidate, &carried(own, theirs));
+        self.sketch_from(&start.structure, start.x)
+    }
+
+    /// A model that has lost effects, or has others in their place, where it stands.
+    pub(super) fn restarted(&self, rest: &Refit) -> Sketch {
+        let structure = self.structure(&rest.structure.effects, rest);
+        Sketch::standing(structure, &rest.candidate, &rest.parameters)
+    }
+
+    /// The unknowns of a model with `effects` and a machine near that of `there`.
+    fn structure(&self, effects: &[Kind], there: &Refit) -> Structure {
+        let mut structure = Structure::around(
+            self.data,
+            base_for(self.data, effects),
+            effects,
+            &there.candidate.machine,
+            there.structure.start_speed,
+        );
+        if self.span.window_s.is_some() {
+            widen(&mut structure, self.data.supply);
+        }
+        structure
+    }
+
     /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
     /// strongest order alone may leave more than it explains.
     fn orders(&self, parent: &Refit, kind: Kind) -> Option<Vec<f64>> {
@@ -162,7 +202,12 @@ impl Workshop<'_> {
     pub(super) fn sketch_from(&self, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
         let samples = self.data.len() as f64;
         if !structure.effects.iter().all(|&kind| follows(kind)) {
-            let found = descend(&self.problem(structure, self.method), &x, SKETCH, self.stop)?;
+            let found = self.descended(
+                &self.problem(structure, self.method),
+                &x,
+                SKETCH,
+                self.method,
+            )?;
             return Some(Sketch {
                 structure: structure.clone(),
                 x: found.x,
@@ -177,7 +222,7 @@ impl Workshop<'_> {
             structure: structure.clone(),
             method: self.method,
         };
-        let found = descend(&led, &x, SKETCH, self.stop)?;
+        let found = self.descended(&led, &x, SKETCH, self.method)?;
         let mut sketch = Sketch::at(structure.clone(), found.x);
         sketch.led = (found.squares / samples).sqrt();
         sketch.simulated = self.leaves(&sketch);

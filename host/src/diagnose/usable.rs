@@ -1,10 +1,14 @@
 //! What can be wrong with one recording before anything is fitted to it.
 
+use super::remark::Remark;
 use crate::error::Error;
 use crate::recording::{Drive, Recording};
 
 /// Shorter than this a recording says little, s.
 const SHORT_S: f64 = 1.0;
+/// Samples so far apart may be of a log in milliseconds, and so far apart they are of hardly any other, s.
+const MAY_BE_MS: f64 = 0.1;
+const MUST_BE_MS: f64 = 0.5;
 /// An encoder that reads the same for so long is stuck, if the motor is driven meanwhile, s.
 const STUCK_S: f64 = 0.2;
 /// Time without a change of sign under such a drive that must move a motor, s.
@@ -27,9 +31,18 @@ const TOPS: usize = 4;
 ///
 /// # Errors
 /// [`Error::Failed`] where its encoder was stuck, or its commands are in another unit.
-pub fn check(recording: &Recording) -> Result<Vec<String>, Error> {
+pub fn check(recording: &Recording) -> Result<Vec<Remark>, Error> {
     let mut remarks = Vec::new();
+    let interval = recording.median_interval_s();
     if let Some((from, to, volts)) = stuck(recording) {
+        if interval >= MAY_BE_MS {
+            return Err(Error::Failed(format!(
+                "{}: samples are {interval:.3} s apart, {:.0} s in all: time looks like milliseconds taken for seconds; \
+                 say --unit time=ms (or us), or time = \"ms\" under [units] in motor.toml",
+                recording.source,
+                recording.duration_s()
+            )));
+        }
         return Err(Error::Failed(format!(
             "{}: the encoder is stuck from {from:.3} to {to:.3} s: it reads the same count while {volts:.2} {} \
              and more are commanded, which moves the motor elsewhere; check the encoder and that the shaft was free, and cut \
@@ -38,12 +51,19 @@ pub fn check(recording: &Recording) -> Result<Vec<String>, Error> {
             unit(recording)
         )));
     }
+    if interval >= MUST_BE_MS {
+        remarks.push(Remark::cause(format!(
+            "{}: samples are {interval:.3} s apart: if that is time in milliseconds, say --unit time=ms (or us); no motor's \
+             time constants show in samples of a second",
+            recording.source
+        )));
+    }
     if recording.duration_s() < SHORT_S {
-        remarks.push(format!(
+        remarks.push(Remark::aside(format!(
             "{}: lasts {:.3} s, less than a second: what acts slowly or seldom cannot show in it",
             recording.source,
             recording.duration_s()
-        ));
+        )));
     }
     let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     if let Some(supply) = recording
@@ -58,20 +78,20 @@ pub fn check(recording: &Recording) -> Result<Vec<String>, Error> {
                 recording.source
             )));
         }
-        remarks.push(format!(
+        remarks.push(Remark::cause(format!(
             "{}: commands reach {largest:.2} V and supply_v is {supply:.2} V: the bridge clips them; log what it can \
              give, or correct supply_v",
             recording.source
-        ));
+        )));
     }
     let tops = cut_tops(recording, largest);
     if tops >= TOPS && !few_levels(recording) {
-        remarks.push(format!(
+        remarks.push(Remark::cause(format!(
             "{}: the command is cut off at {largest:.2} {}, {tops} times: if the motor saw more than the log says, the \
              model is fed wrong; log the command behind its limits and before the log's own",
             recording.source,
             unit(recording)
-        ));
+        )));
     }
     Ok(remarks)
 }

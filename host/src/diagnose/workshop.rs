@@ -1,6 +1,7 @@
 //! The recordings and how models are run: what every fit of a diagnosis needs.
 
 use super::descent::{Descent, Settings, descend};
+use super::effort::Effort;
 use super::motion::Motion;
 use super::refit::Refit;
 use super::span::{Span, floor_counts};
@@ -9,10 +10,10 @@ use crate::fit::{self, Options, SPEED_HALF_WIDTH, base_for, scores};
 use crate::problem::cost::rms_counts;
 use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, FitProblem, Horizon, Structure};
+use crate::solve::Objective;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use shared::motor::Machine;
-use std::sync::atomic::AtomicBool;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
@@ -42,8 +43,8 @@ pub struct Workshop<'a> {
     pub floor: f64,
     /// How models are run at first.
     pub method: Method,
-    /// Set where the user wants no more.
-    pub stop: &'a AtomicBool,
+    /// How much may be computed.
+    pub effort: &'a Effort<'a>,
 }
 
 impl<'a> Workshop<'a> {
@@ -53,9 +54,9 @@ impl<'a> Workshop<'a> {
         data: &'a Data,
         held_out: &'a Data,
         options: &Options,
-        stop: &'a AtomicBool,
+        effort: &'a Effort<'a>,
     ) -> Self {
-        Workshop::over(Span::of(data, options), data, held_out, options, stop)
+        Workshop::over(Span::of(data, options), data, held_out, options, effort)
     }
 
     /// Prepares for runs over a span.
@@ -64,7 +65,7 @@ impl<'a> Workshop<'a> {
         data: &'a Data,
         held_out: &'a Data,
         options: &Options,
-        stop: &'a AtomicBool,
+        effort: &'a Effort<'a>,
     ) -> Self {
         let horizon = |data| match span.window_s {
             Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
@@ -82,8 +83,22 @@ impl<'a> Workshop<'a> {
                 substeps: 1,
                 ..options.method
             },
-            stop,
+            effort,
         }
+    }
+
+    /// Descends, and books what it took. `None` where the model cannot run at the start.
+    pub(super) fn descended(
+        &self,
+        problem: &dyn Objective,
+        start: &[f64],
+        settings: Settings,
+        method: Method,
+    ) -> Option<Descent> {
+        let found = descend(problem, start, settings, self.effort)?;
+        let steps = self.data.len() * usize::from(method.substeps.max(1)) * found.evaluations;
+        self.effort.book(steps as u64);
+        Some(found)
     }
 
     /// The linear motor.
@@ -99,7 +114,8 @@ impl<'a> Workshop<'a> {
         };
         let problem = self.base_problem(&options)?;
         let start = problem.start.clone().unwrap_or_default();
-        let found = descend(&problem, &start, BASE, self.stop)
+        let found = self
+            .descended(&problem, &start, BASE, self.method)
             .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", self.data.source)))?;
         let structure = problem.structure;
         let mut base = self.concluded_base(structure, &found)?;
@@ -119,12 +135,8 @@ impl<'a> Workshop<'a> {
         let structure = Structure::around(self.data, kind, &[], machine, speed);
         let start = structure.values_of(machine, &[], base.candidate.start_speed);
         let start = structure.coordinates(&start);
-        let found = descend(
-            &self.problem(&structure, self.method),
-            &start,
-            BASE,
-            self.stop,
-        )?;
+        let problem = self.problem(&structure, self.method);
+        let found = self.descended(&problem, &start, BASE, self.method)?;
         let again = self.concluded_base(structure, &found).ok()?;
         again.judged().at_floor().then_some(again)
     }

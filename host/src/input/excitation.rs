@@ -2,6 +2,7 @@
 
 use super::place::Place;
 use super::read_error::{ReadError, ReadFault};
+use super::spike::spike;
 use crate::recording::Recording;
 
 /// Least travel of a recording to be fitted, counts. The quantisation of a reading is 1/√12 count, so that
@@ -9,11 +10,12 @@ use crate::recording::Recording;
 pub const MIN_TRAVEL_COUNTS: f64 = 10.0;
 
 impl Recording {
-    /// Refuses a recording without a response: no command, no motion, or a counter that ran over.
+    /// Refuses a recording without a response, or whose reading is broken: no command, no motion, a reading that
+    /// stands alone, or a counter that ran over.
     ///
     /// # Errors
     /// [`ReadFault::NoCommand`], [`ReadFault::NeverMoved`], [`ReadFault::TooLittleTravel`] (less than
-    /// [`MIN_TRAVEL_COUNTS`]), [`ReadFault::CounterRanOver`] or [`ReadFault::Wraps`], with the recording's
+    /// [`MIN_TRAVEL_COUNTS`]), [`ReadFault::Spike`], [`ReadFault::CounterRanOver`] or [`ReadFault::Wraps`], with the recording's
     /// source.
     pub fn check_excited(&self) -> Result<(), ReadError> {
         excitation_fault(self).map_or(Ok(()), |fault| {
@@ -47,9 +49,12 @@ fn excitation_fault(recording: &Recording) -> Option<ReadFault> {
             needed: MIN_TRAVEL_COUNTS,
         });
     }
-    [16, 32]
-        .into_iter()
-        .find_map(|bits| ran_over(recording, travel, bits))
+    spike(recording)
+        .or_else(|| {
+            [16, 32]
+                .into_iter()
+                .find_map(|bits| ran_over(recording, travel, bits))
+        })
         .or_else(|| wraps(recording, travel))
 }
 

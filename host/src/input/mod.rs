@@ -24,6 +24,7 @@ mod sample;
 mod scale;
 mod section;
 mod shown;
+mod spike;
 pub mod suggest;
 
 pub use csv_file::{MAX_ROWS, read_recording, read_recording_from};

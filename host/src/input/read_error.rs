@@ -252,6 +252,26 @@ pub enum ReadFault {
         /// What is needed, counts.
         needed: f64,
     },
+    /// A reading that stands alone.
+    #[error(
+        "the encoder reads {at} counts at t = {time_s} s (sample {sample}), {off:+.0} counts off its neighbours {from} and \
+         {to}: no shaft goes there and back within one sample; it is a glitch, or a counter read while it ran over \
+         (65536 for 16 bits). Correct that reading, or leave its row out"
+    )]
+    Spike {
+        /// Its time, s.
+        time_s: f64,
+        /// Its number, from one.
+        sample: usize,
+        /// Reading before.
+        from: f64,
+        /// The reading.
+        at: f64,
+        /// Reading after.
+        to: f64,
+        /// Its distance from the middle of its neighbours, counts.
+        off: f64,
+    },
     /// A counter of 16 or 32 bits that ran over.
     #[error(
         "the encoder jumps from {from} to {to} counts at t = {time_s} s, as a {bits}-bit counter does when it runs \

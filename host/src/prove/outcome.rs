@@ -4,7 +4,7 @@ use super::SetUp;
 use super::case::{Case, Drawn};
 use super::draws::rounded;
 use super::truth::{self, ParameterError};
-use crate::diagnose::{self, Diagnosis, Refit};
+use crate::diagnose::{self, Diagnosis, Effort, Refit};
 use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::problem::Data;
@@ -65,6 +65,12 @@ pub struct Outcome {
     pub parameters: Vec<ParameterError>,
     /// Model evaluations, where the diagnosis counts them.
     pub evaluations: Option<u64>,
+    /// Steps of a model that it took.
+    #[serde(default)]
+    pub steps: Option<u64>,
+    /// Whether those that it may take did not suffice.
+    #[serde(default)]
+    pub ran_out: bool,
     /// Times that it reported progress: candidates refitted.
     pub refits: u64,
     /// Time that it took in one thread, s.
@@ -92,7 +98,8 @@ impl Outcome {
         // A fault of the diagnosis in one case of a thousand must not lose the others.
         let diagnosed = catch_unwind(AssertUnwindSafe(|| {
             pool.install(|| {
-                diagnose::diagnose(&case.fitted, &case.held_out, &options, stop, &count)
+                let effort = Effort::usual(stop);
+                diagnose::diagnose(&case.fitted, &case.held_out, &options, &effort, &count)
             })
         }));
         let outcome = Outcome {
@@ -107,6 +114,8 @@ impl Outcome {
             last: Errors::default(),
             parameters: Vec::new(),
             evaluations: None,
+            steps: None,
+            ran_out: false,
             refits: refits.load(Ordering::Relaxed),
             seconds: rounded(began.elapsed().as_secs_f64()),
             failure: None,
@@ -155,6 +164,8 @@ impl Outcome {
             verdict: diagnosis.verdict.name().to_owned(),
             last: Errors::of(&diagnosis.last),
             parameters: parameter_errors(&self.drawn, &diagnosis.last)?,
+            steps: Some(diagnosis.steps_taken),
+            ran_out: diagnosis.ran_out,
             ..self
         })
     }

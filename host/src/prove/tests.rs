@@ -43,6 +43,8 @@ fn outcome(set_up: &SetUp, case: u64, named: &[&str]) -> Outcome {
         verdict: "missing_effects".to_owned(),
         last: Errors::default(),
         parameters: Vec::new(),
+        steps: None,
+        ran_out: false,
         evaluations: None,
         refits: 0,
         seconds: 0.1,

@@ -252,3 +252,27 @@ fn a_curve_of_steady_speeds_shows_a_drop_that_no_one_effect_is_named_for() {
         &["--validate"],
     );
 }
+
+/// A motor that turns slowly all the time cannot tell friction from a stage that swallows as many volts.
+#[test]
+fn on_a_slow_ramp_friction_and_a_dead_zone_stand_beside_each_other() {
+    for effect in ["coulomb", "dead_zone"] {
+        let desk = Desk::new();
+        desk.done(&format!(
+            "simulate --hide {effect} --excite triangle --amplitude 0.1 --seconds 20 --out ramp.csv"
+        ));
+        let diagnosis = desk.json("diagnose ramp.csv");
+        assert_eq!(diagnosis["verdict"], "missing_effects", "{effect}");
+        let [step] = list(&diagnosis, "steps") else {
+            panic!("{effect}: {:?}", added(&diagnosis));
+        };
+        let alike = list(step, "indistinguishable_from").iter();
+        let set: Vec<&str> = alike
+            .chain([&step["added"]])
+            .filter_map(Value::as_str)
+            .collect();
+        for name in ["coulomb", "dead_zone"] {
+            assert!(set.contains(&name), "{effect}: {set:?}");
+        }
+    }
+}

@@ -13,7 +13,7 @@ fn pair() -> Desk {
 }
 
 /// Rewrites the cells of a recording, row by row.
-fn rewritten(desk: &Desk, from: &str, to: &str, change: impl Fn(usize, &mut Vec<String>)) {
+pub fn rewritten(desk: &Desk, from: &str, to: &str, change: impl Fn(usize, &mut Vec<String>)) {
     let text = desk.read(from);
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     let mut out = String::new();
@@ -28,7 +28,7 @@ fn rewritten(desk: &Desk, from: &str, to: &str, change: impl Fn(usize, &mut Vec<
     desk.write(to, out);
 }
 
-fn number(cell: &str) -> f64 {
+pub fn number(cell: &str) -> f64 {
     cell.parse().expect("a number")
 }
 

@@ -11,6 +11,8 @@ mod desk;
 mod diagnose;
 mod diagnose_pairs;
 mod foreign_logs;
+mod glitches;
+mod help_examples;
 mod interrupt;
 mod known_facts;
 mod main_job;

@@ -7,7 +7,7 @@
 use super::super::diagnosing::{Diagnosed, diagnosed};
 use crate::cli::VerifyArgs;
 use crate::device::{DeviceError, Folder, Replayed, Saved, SavedOutcome, replay};
-use crate::diagnose::{self, HeldOut, usable};
+use crate::diagnose::{self, Effort, HeldOut, usable};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::input::{MotorFile, read_recording};
@@ -219,7 +219,13 @@ fn diagnose(
         last,
         findings,
         interrupted,
-    } = diagnosed(session, &data, &rest, &options)?;
+    } = diagnosed(
+        session,
+        &data,
+        &rest,
+        &options,
+        &Effort::usual(session.stop()),
+    )?;
     let kind = HeldOut::Recording(other.source.clone());
     let report = DiagnosisReport {
         data: &data,

@@ -1,6 +1,7 @@
 //! Laws of the losses that are found, against the virtual bench, where the truth is the difference between
 //! a counter that loses and one that does not.
 
+use super::super::effort::Effort;
 use super::{Loss, Losses, found};
 use crate::bench::{Bench, DriveSample, Hidden, Machine, PRESETS};
 use crate::diagnose::workshop::Workshop;
@@ -47,7 +48,8 @@ fn truth(lossless: &Data, with_losses: &Data) -> Vec<Loss> {
 fn losses(data: &Data, held_out: &Data) -> Option<(Losses, f64)> {
     let options = Options::default();
     let stop = AtomicBool::new(false);
-    let mut workshop = Workshop::new(data, held_out, &options, &stop);
+    let effort = Effort::usual(&stop);
+    let mut workshop = Workshop::new(data, held_out, &options, &effort);
     let base = workshop.base(&options).unwrap();
     if base.free().at_floor() {
         return None;

@@ -20,7 +20,7 @@ mod step;
 
 pub use detect::Loss;
 
-use super::descent::{Settings, descend};
+use super::descent::Settings;
 use super::motion::Motion;
 use super::refit::Refit;
 use super::workshop::Workshop;
@@ -178,13 +178,8 @@ fn settled(
             break;
         }
         let data = repaired(workshop.data, &losses);
-        x = descend(
-            &problem(&data, structure, parent.method),
-            &x,
-            FIT,
-            workshop.stop,
-        )?
-        .x;
+        let problem = problem(&data, structure, parent.method);
+        x = workshop.descended(&problem, &x, FIT, parent.method)?.x;
     }
     Some((losses, x))
 }
@@ -316,7 +311,7 @@ impl Repaired {
             held_out_horizon: of.held_out_horizon.clone(),
             floor: of.floor,
             method: of.method,
-            stop: of.stop,
+            effort: of.effort,
         }
     }
 }

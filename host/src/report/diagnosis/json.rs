@@ -2,7 +2,7 @@
 
 use super::whereabouts::{ResidualJson, WhereJson};
 use super::{DiagnosisReport, Role};
-use crate::diagnose::{Errors, HeldOut, Refit, Step};
+use crate::diagnose::{Errors, HeldOut, Refit, Remark, Step};
 use crate::report::json::ParameterJson;
 use serde::Serialize;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -27,6 +27,7 @@ pub struct DiagnosisJson {
     advice: Vec<String>,
     next_command: Option<String>,
     cannot_tell: Vec<String>,
+    cause: Option<String>,
     remarks: Vec<String>,
     residual: ResidualJson,
     held_out: HeldOutJson,
@@ -40,6 +41,8 @@ pub struct DiagnosisJson {
     recording: String,
     seed: u64,
     interrupted: bool,
+    ran_out: bool,
+    model_steps: u64,
     version: &'static str,
 }
 
@@ -162,7 +165,8 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             advice: report.advice(),
             next_command: report.next_command(),
             cannot_tell: report.cannot_tell(),
-            remarks: report.remarks.clone(),
+            cause: report.cause().map(Remark::to_string),
+            remarks: report.remarks.iter().map(Remark::to_string).collect(),
             residual: ResidualJson::from(report.findings),
             held_out: held_out(report.held_out),
             window_s: diagnosis.span.window_s.and_then(finite),
@@ -175,6 +179,8 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             recording: report.data.source.clone(),
             seed: report.seed,
             interrupted: report.interrupted,
+            ran_out: diagnosis.ran_out,
+            model_steps: diagnosis.steps_taken,
             version: env!("CARGO_PKG_VERSION"),
         }
     }

@@ -13,7 +13,7 @@ pub use steady::{SteadyJson, SteadyReport};
 
 use crate::bench::Machine;
 use crate::diagnose::advice::cannot_tell;
-use crate::diagnose::{Diagnosis, Findings, HeldOut, Refit, Step, Verdict};
+use crate::diagnose::{Diagnosis, Findings, HeldOut, Refit, Remark, Step, Verdict};
 use crate::fit::Fit;
 use crate::plan::Hypothesis;
 use crate::problem::Data;
@@ -34,7 +34,7 @@ pub struct DiagnosisReport<'a> {
     /// Where the models fail.
     pub findings: &'a Findings,
     /// What a user should know about the two recordings.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Seed of everything random.
     pub seed: u64,
     /// Whether the user stopped the work.
@@ -116,6 +116,13 @@ impl DiagnosisReport<'_> {
     /// What to do next.
     fn advice(&self) -> Vec<String> {
         let mut advice = self.diagnosis.advice.clone();
+        if self.diagnosis.ran_out {
+            advice.push(format!(
+                "the work ran out after {} million steps of a model, before all was tried that speaks for or against \
+                 these effects: run it again with a larger --budget",
+                self.diagnosis.steps_taken / 1_000_000
+            ));
+        }
         if let Some(command) = self.next_command() {
             advice.push(match self.json {
                 Some(_) => format!("to plan the recording that separates them: {command}"),
@@ -155,10 +162,21 @@ impl DiagnosisReport<'_> {
         effects.map(|kind| kind.name()).collect()
     }
 
+    /// The fault of the recordings by which any model must fail, where they are not explained; the one that was found
+    /// last, with models at hand, says most.
+    fn cause(&self) -> Option<&Remark> {
+        let unexplained = self.verdict() == Verdict::Unexplained;
+        self.remarks
+            .iter()
+            .rfind(|remark| unexplained && remark.spoils())
+    }
+
     /// The verdict: what was stopped has not said its last word.
     fn verdict(&self) -> Verdict {
         match self.diagnosis.verdict {
-            Verdict::Unexplained if self.interrupted => Verdict::Inconclusive,
+            Verdict::Unexplained if self.interrupted || self.diagnosis.ran_out => {
+                Verdict::Inconclusive
+            }
             verdict => verdict,
         }
     }

@@ -44,7 +44,7 @@ impl DiagnosisReport<'_> {
         writeln!(out, "\n{}", folded(&white, ""))?;
         self.parameters(out)?;
         for remark in &self.remarks {
-            out.push_str(&wrapped(remark));
+            out.push_str(&wrapped(&remark.to_string()));
         }
         writeln!(out, "\nwhat these recordings cannot tell:")?;
         for text in self.cannot_tell() {

@@ -37,18 +37,23 @@ impl DiagnosisReport<'_> {
                 self.where_held_out(),
                 self.chaos_text() + &self.look_alikes_text()
             ),
-            Verdict::Unexplained if diagnosis.fits_only_its_own() => format!(
-                "{} explains the recording that it was fitted to down to the encoder ({} counts RMS), but errs by {} \
+            Verdict::Unexplained if diagnosis.fits_only_its_own() => {
+                format!(
+                    "{} explains the recording that it was fitted to down to the encoder ({} counts RMS), but errs by {} \
                  counts {}. The two are not of one motor in one state, or the second shows what the first does not{}.",
-                match self.names() {
-                    Some(names) => format!("The linear motor with {names}"),
-                    None => "The linear motor".to_owned(),
-                },
-                counts(fitted),
-                counts(held_out),
-                self.where_held_out(),
-                largest(&self.findings.held_out).map_or(String::new(), |text| format!(": {text}"))
-            ),
+                    match self.names() {
+                        Some(names) => format!("The linear motor with {names}"),
+                        None => "The linear motor".to_owned(),
+                    },
+                    counts(fitted),
+                    counts(held_out),
+                    self.where_held_out(),
+                    largest(&self.findings.held_out)
+                        .map_or(String::new(), |text| format!(": {text}"))
+                ) + &self
+                    .cause()
+                    .map_or(String::new(), |cause| format!(" {cause}."))
+            }
             Verdict::Unexplained => {
                 let begins = match diagnosis.steps.len() {
                     0 => format!("The linear motor misses this recording by {base} counts RMS"),
@@ -58,6 +63,13 @@ impl DiagnosisReport<'_> {
                         counts(fitted)
                     ),
                 };
+                if let Some(cause) = self.cause() {
+                    return format!(
+                        "{begins} ({} {}). Before physics is blamed for the rest, see to the recording: {cause}.",
+                        counts(held_out),
+                        self.where_held_out()
+                    );
+                }
                 format!(
                     "{begins} ({} {}), and no effect of the catalogue explains the rest, which is {:.0} times what the \
                      encoder alone leaves.{}",
@@ -71,6 +83,11 @@ impl DiagnosisReport<'_> {
             Verdict::Inconclusive if self.interrupted => format!(
                 "The work was stopped before all effects were tried: the linear motor misses this recording by {base} \
                  counts RMS, the best model so far by {}. Run it again to its end for a verdict.",
+                counts(fitted)
+            ),
+            Verdict::Inconclusive if diagnosis.ran_out => format!(
+                "The work ran out before all effects were tried: the linear motor misses this recording by {base} counts \
+                 RMS, the best model so far by {}. Run it again with a larger --budget for a verdict.",
                 counts(fitted)
             ),
             Verdict::Inconclusive => format!(

@@ -1,0 +1,93 @@
+//! The search: effects are added one by one, each level of models building on the best of the one before.
+
+use super::extend::extend;
+use super::refit::Refit;
+use super::workshop::Workshop;
+use super::{duel, judge};
+
+/// Most effects that are added.
+const MOST_STEPS: usize = 4;
+/// Models of one level that the next one builds on.
+const BEAM: usize = 3;
+/// A model whose score is so far behind the best of its level is not built on.
+const BEAM_WIDTH: f64 = 2.0;
+
+/// Models with one effect more than the level before.
+pub struct Level {
+    /// Best first.
+    pub models: Vec<Refit>,
+    /// The simplest of the best.
+    pub best: Refit,
+    /// Whether its newest effect earned its place.
+    pub believed: bool,
+}
+
+/// Adds effects one by one until the error is the encoder's own, or none earns its place. The first is not
+/// judged alone: two effects of one size each leave the other's error.
+pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    let mut before = base.clone();
+    while !before.judged().at_floor()
+        && levels.len() < MOST_STEPS
+        && !workshop.effort.halted()
+        && levels.iter().skip(1).all(|level| level.believed)
+    {
+        let parents: Vec<&Refit> = match levels.last() {
+            None => vec![base],
+            Some(level) => {
+                let near = |model: &&Refit| {
+                    model.judged().score() - level.models[0].judged().score() < BEAM_WIDTH
+                        && !level.models.iter().any(|m| judge::replaces(m, model))
+                };
+                level.models.iter().filter(near).take(BEAM).collect()
+            }
+        };
+        let mut models = extend(workshop, &parents, done);
+        workshop.effort.take_stock();
+        duel::duel(workshop, &mut models);
+        workshop.effort.take_stock();
+        polish_best(workshop, &mut models);
+        let Some(best) = judge::best(&models).cloned() else {
+            break;
+        };
+        if best.tracked.is_some() && before.tracked.is_none() {
+            let _ = workshop.track(&mut before);
+        }
+        let walled = best.windowed.is_some() && best.at_wall();
+        let believed = judge::removes(&before, &best) && !walled;
+        before = best.clone();
+        levels.push(Level {
+            models,
+            best,
+            believed,
+        });
+    }
+    levels
+}
+
+/// Models of a level whose fit is brought to its end before any more physics is blamed.
+const POLISHED: usize = 2;
+/// A model whose score is so far behind the best is not polished.
+const BEHIND: f64 = 1.0;
+
+/// Polishes the best models of a level that are not at the floor yet.
+fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
+    if models.first().is_none_or(|model| model.judged().at_floor()) {
+        return;
+    }
+    let least = models.first().map_or(0.0, |model| model.judged().score());
+    for model in models.iter_mut().take(POLISHED) {
+        // A model that is far behind, or cannot be polished, stays as it is.
+        if model.judged().score() - least > BEHIND {
+            continue;
+        }
+        // A model with losses was polished with them.
+        if model.losses.is_some() {
+            continue;
+        }
+        if let Ok(polished) = workshop.polish(model) {
+            *model = polished;
+        }
+    }
+    models.sort_by(Refit::by_score);
+}

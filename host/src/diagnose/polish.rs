@@ -1,0 +1,80 @@
+//! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
+
+use super::descent::Settings;
+use super::refit::Refit;
+use super::workshop::Workshop;
+use crate::error::Error;
+use crate::problem::simulate::Method;
+use crate::problem::{FitProblem, Horizon};
+
+/// Of one that must converge.
+const LAST: Settings = Settings {
+    evaluations: 120,
+    tolerance: 1e-4,
+    stride: 1,
+    enough: 0.0,
+    damping: 1e-9,
+    secant: false,
+};
+/// How long an error is remembered while a model whose free run is chaotic is polished.
+const POLISHED_MEMORY_S: f64 = 0.5;
+/// Factor between step sizes that are compared.
+const FINER: u16 = 4;
+/// Most parts to a sample.
+const FINEST: u16 = 16;
+/// A finer step that changes the RMS error by less is not worth its time: counts, or a part of a
+/// larger error.
+const STEP_ERROR: f64 = 0.02;
+
+impl Workshop<'_> {
+    /// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
+    /// converged: what is left then is not the arithmetic's.
+    ///
+    /// # Errors
+    /// Where the model cannot run, which it could before.
+    pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
+        let mut best = refit.clone();
+        loop {
+            let method = best.method;
+            let problem = FitProblem {
+                horizon: match best.tracked {
+                    Some(_) => Horizon::Nudged(POLISHED_MEMORY_S),
+                    None => self.fitted_horizon.clone(),
+                },
+                ..self.problem(&best.structure, method)
+            };
+            let Some(found) = self.descended(&problem, &best.x, LAST, method) else {
+                return Ok(best);
+            };
+            let polished = self.conclude(
+                best.structure.clone(),
+                &found,
+                best.foreseen_rms_counts,
+                method,
+            )?;
+            best = Refit {
+                tracked: best.tracked,
+                evaluations: best.evaluations + polished.evaluations,
+                ..polished
+            };
+            if best.tracked.is_some() {
+                self.track(&mut best)?;
+            }
+            let finer = Method {
+                substeps: method.substeps * FINER,
+                ..method
+            };
+            let (again, ran) = (self.runs(&best.candidate, finer)?, best.ran());
+            let change = (again.fitted - ran.fitted)
+                .abs()
+                .max((again.held_out - ran.held_out).abs());
+            if best.judged().at_floor()
+                || change < STEP_ERROR * ran.fitted.max(1.0)
+                || finer.substeps > FINEST
+            {
+                return Ok(best);
+            }
+            best.method = finer;
+        }
+    }
+}
