@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use host::compare::{self, Contest};
-use host::diagnose::diagnose;
+use host::diagnose::{Effort, diagnose};
 use host::fit::{self, Fit, Options};
 use host::prove::{Case, Excite, HowMany, SetUp};
 use host::solve;
@@ -89,7 +89,14 @@ fn diagnoses_do_not_depend_on_the_number_of_threads() {
         same(hidden, || {
             let stop = AtomicBool::new(false);
             let options = Options::default();
-            diagnose(&case.fitted, &case.held_out, &options, &stop, &|| ()).expect("a diagnosis")
+            diagnose(
+                &case.fitted,
+                &case.held_out,
+                &options,
+                &Effort::usual(&stop),
+                &|| (),
+            )
+            .expect("a diagnosis")
         });
     }
 }

@@ -12,7 +12,7 @@ use serde_json::Value;
 
 /// Time between two looks at the bridge and two moves of the encoder, µs: at 50 the encoder of a fast motor with 16,384
 /// counts moves 40 of them at once, and the error that is left is the bench's.
-const STEP_US: &str = "10";
+const STEP_US: &str = "4";
 
 /// A motor and its encoder, SI.
 struct Motor {

@@ -3,6 +3,7 @@
 //! A board keeps its own electrical limits (shoot-through, dead time, over-current); it does not know the motor, and
 //! nothing above it names a pin. To add one, write a file here and a `main` of a few lines in `src/bin`.
 
+pub mod current;
 pub mod entropy;
 pub mod half_bridges;
 #[cfg(all(target_os = "none", feature = "cortex-m"))]

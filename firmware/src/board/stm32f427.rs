@@ -21,6 +21,7 @@ use embassy_stm32::usart::{self, BufferedUart};
 use embassy_stm32::{Peri, bind_interrupts};
 use static_cell::ConstStaticCell;
 
+use super::current::CurrentSensor;
 use super::link;
 use super::stm32::{self, Bridge, BridgePins, Stm32, Wiring};
 use super::stm32f4;
@@ -35,13 +36,14 @@ bind_interrupts!(struct Interrupts {
 static SEND: ConstStaticCell<[u8; link::SEND_BUFFER]> = ConstStaticCell::new([0; _]);
 static RECEIVE: ConstStaticCell<[u8; link::RECEIVE_BUFFER]> = ConstStaticCell::new([0; _]);
 
+const SAMPLING: SampleTime = SampleTime::CYCLES15;
+
 /// The pins that are not one timer's or the link's.
 pub struct Connections {
     enable: Output<'static>,
     adc: Adc<'static, ADC1>,
     current: Peri<'static, PC0>,
-    /// The reading at zero current, with its fraction in 64ths.
-    zero: i32,
+    sensor: CurrentSensor,
 }
 
 impl Stm32f427 {
@@ -62,23 +64,22 @@ impl Stm32f427 {
             stm32::uart(),
         )
         .expect("the clock suits the link's speed");
-        let adc = Adc::new(p.ADC1);
-        let mut wiring = Connections {
+        let (mut adc, mut current) = (Adc::new(p.ADC1), p.PC0);
+        // The bridge is open: no current flows.
+        let sensor = CurrentSensor::new(|| adc.blocking_read(&mut current, SAMPLING));
+        let wiring = Connections {
             enable,
             adc,
-            current: p.PC0,
-            zero: 0,
+            current,
+            sensor,
         };
-        // The bridge is open: no current flows.
-        wiring.zero = (0..64).map(|_| wiring.reading()).sum();
         Stm32::new(bridge, encoder, uart, wiring)
     }
 }
 
 impl Connections {
-    fn reading(&mut self) -> i32 {
-        let time = SampleTime::CYCLES15;
-        self.adc.blocking_read(&mut self.current, time).into()
+    fn reading(&mut self) -> u16 {
+        self.adc.blocking_read(&mut self.current, SAMPLING)
     }
 }
 
@@ -93,11 +94,11 @@ impl Wiring for Connections {
     }
 
     fn noise(&mut self) -> u16 {
-        self.reading() as u16
+        self.reading()
     }
 
     fn current_ma(&mut self) -> i32 {
-        // 3300 mV is 4096 steps; 100 mV is 1 A.
-        (self.reading() * 64 - self.zero) * 33_000 / (64 * 4096)
+        let reading = self.reading();
+        self.sensor.ma(reading)
     }
 }

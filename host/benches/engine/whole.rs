@@ -1,7 +1,7 @@
 //! A whole fit and whole diagnoses, CPU seconds on one core.
 
 use super::clock;
-use host::diagnose::diagnose;
+use host::diagnose::{Effort, diagnose};
 use host::fit::{self, Fit, Options};
 use host::prove::{Case, Excite, HowMany, SetUp};
 use host::solve;
@@ -59,7 +59,15 @@ pub fn rows() {
                     let case = case(hidden, number);
                     let stop = AtomicBool::new(false);
                     let options = Options::default();
-                    let work = || diagnose(&case.fitted, &case.held_out, &options, &stop, &|| ());
+                    let work = || {
+                        diagnose(
+                            &case.fitted,
+                            &case.held_out,
+                            &options,
+                            &Effort::usual(&stop),
+                            &|| (),
+                        )
+                    };
                     clock::once(work).0
                 })
                 .collect();
