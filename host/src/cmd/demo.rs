@@ -4,7 +4,7 @@
 //! recording and fails; the diagnosis sees where, names what is missing and adds it, and the error falls to the
 //! encoder's own, on both. Then the bench tells the truth.
 
-use super::diagnosing::{Diagnosed, diagnosed};
+use super::diagnosing::diagnosed;
 use super::simulate::{describe, hidden, wrong_flag};
 use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
@@ -16,7 +16,6 @@ use crate::problem::Data;
 use crate::prove::surprise;
 use crate::recording::Recording;
 use crate::report::demo::{DemoJson, DemoReport};
-use crate::report::diagnosis::DiagnosisReport;
 use crate::session::Session;
 use shared::excite::{COMMISSIONING, commands};
 
@@ -43,12 +42,7 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         seed: session.seed,
         ..Options::default()
     };
-    let Diagnosed {
-        diagnosis,
-        last,
-        findings,
-        interrupted,
-    } = diagnosed(
+    let diagnosed = diagnosed(
         session,
         &data,
         &held_out,
@@ -57,17 +51,7 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
     )?;
     let kind = HeldOut::Recording(other.to_owned());
     let report = DemoReport {
-        diagnosis: DiagnosisReport {
-            data: &data,
-            held_out: &kind,
-            diagnosis: &diagnosis,
-            last: &last,
-            findings: &findings,
-            remarks: Vec::new(),
-            seed: session.seed,
-            interrupted,
-            json: session.json_file(),
-        },
+        diagnosis: diagnosed.report(session, &data, &kind, Vec::new()),
         machine,
         hidden: &secret,
         described: describe(&secret),

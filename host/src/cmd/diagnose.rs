@@ -1,6 +1,6 @@
 //! `servoid diagnose`: where the linear motor fails, and what is missing.
 
-use super::diagnosing::{Diagnosed, diagnosed};
+use super::diagnosing::diagnosed;
 use super::motor;
 use crate::cli::DiagnoseArgs;
 use crate::diagnose::steady::SteadyCurve;
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
-use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport, SteadyJson, SteadyReport};
+use crate::report::diagnosis::{DiagnosisJson, SteadyJson, SteadyReport};
 use crate::session::Session;
 
 /// The unit of --budget, steps of a model.
@@ -34,30 +34,20 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         remarks,
     } = &recordings;
     let effort = Effort::of(args.budget.saturating_mul(MILLION), session.stop());
-    let Diagnosed {
-        diagnosis,
-        last,
-        findings,
-        interrupted,
-    } = diagnosed(session, data, held_out, &options, &effort)?;
+    let diagnosed = diagnosed(session, data, held_out, &options, &effort)?;
     let mut remarks = remarks.clone();
-    if !interrupted && !diagnosis.ran_out {
+    if !diagnosed.interrupted && !diagnosed.diagnosis.ran_out {
         let stop = session.stop();
         remarks.extend(pair::remarks(
-            &diagnosis, data, held_out, kind, &options, stop,
+            &diagnosed.diagnosis,
+            data,
+            held_out,
+            kind,
+            &options,
+            stop,
         )?);
     }
-    let report = DiagnosisReport {
-        data,
-        held_out: kind,
-        diagnosis: &diagnosis,
-        last: &last,
-        findings: &findings,
-        remarks,
-        seed: session.seed,
-        interrupted,
-        json: session.json_file(),
-    };
+    let report = diagnosed.report(session, data, kind, remarks);
     session.deliver(&report.text(), &DiagnosisJson::from(&report))
 }
 

@@ -1,9 +1,10 @@
 //! A diagnosis with its progress, as every verb that diagnoses needs it.
 
-use crate::diagnose::{self, Diagnosis, Effort, Findings};
+use crate::diagnose::{self, Diagnosis, Effort, Findings, HeldOut, Remark};
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use crate::problem::Data;
+use crate::report::diagnosis::DiagnosisReport;
 use crate::session::Session;
 use std::sync::atomic::Ordering;
 
@@ -14,6 +15,29 @@ pub(super) struct Diagnosed {
     pub(super) findings: Findings,
     /// Whether the user stopped the search for effects.
     pub(super) interrupted: bool,
+}
+
+impl Diagnosed {
+    /// As it is reported.
+    pub(super) fn report<'a>(
+        &'a self,
+        session: &'a Session,
+        data: &'a Data,
+        held_out: &'a HeldOut,
+        remarks: Vec<Remark>,
+    ) -> DiagnosisReport<'a> {
+        DiagnosisReport {
+            data,
+            held_out,
+            diagnosis: &self.diagnosis,
+            last: &self.last,
+            findings: &self.findings,
+            remarks,
+            seed: session.seed,
+            interrupted: self.interrupted,
+            json: session.json_file(),
+        }
+    }
 }
 
 /// Diagnoses `data`, judged by `held_out`, and shows that it goes on.

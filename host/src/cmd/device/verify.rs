@@ -4,7 +4,7 @@
 //! least squares in double precision on the same recording. Then its physics: the diagnosis of the long recording, judged by
 //! the verification, neither of which the device fitted.
 
-use super::super::diagnosing::{Diagnosed, diagnosed};
+use super::super::diagnosing::diagnosed;
 use crate::cli::VerifyArgs;
 use crate::device::{DeviceError, Folder, Replayed, Saved, SavedOutcome, replay};
 use crate::diagnose::{self, Effort, HeldOut, usable};
@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::input::{MotorFile, read_recording};
 use crate::problem::Data;
-use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use crate::report::diagnosis::DiagnosisJson;
 use crate::session::Session;
 use serde::Serialize;
 use shared::effects::Kind;
@@ -214,12 +214,7 @@ fn diagnose(
         seed: session.seed,
         ..Options::default()
     };
-    let Diagnosed {
-        diagnosis,
-        last,
-        findings,
-        interrupted,
-    } = diagnosed(
+    let diagnosed = diagnosed(
         session,
         &data,
         &rest,
@@ -227,17 +222,8 @@ fn diagnose(
         &Effort::usual(session.stop()),
     )?;
     let kind = HeldOut::Recording(other.source.clone());
-    let report = DiagnosisReport {
-        data: &data,
-        held_out: &kind,
-        diagnosis: &diagnosis,
-        last: &last,
-        findings: &findings,
-        remarks,
-        seed: session.seed,
-        interrupted,
-        json: session.json_file(),
-    };
+    let report = diagnosed.report(session, &data, &kind, remarks);
+    let diagnosis = &diagnosed.diagnosis;
     Ok(Account {
         text: report.text(),
         json: DiagnosisJson::from(&report),
