@@ -1,9 +1,8 @@
 //! The step of a motor without effects as what it is: a linear map. For those who take many steps at once.
 
+use super::Plan;
 use super::rung::rung;
-use super::{Motion, Plan};
 use crate::error::ModelError;
-use crate::scalar::Scalar;
 
 /// What a step with the bridge closed adds to the state, per unit; to the angle, counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,24 +26,14 @@ impl Increments {
         plan.machine.check()?;
         let machine = plan.machine.lower(&plan.units);
         let rung = rung::<f64, f64>(&machine, 1.0, plan.discretisation)?;
-        let by = |current, speed, command| {
-            let from = Motion {
-                current,
-                speed,
-                ..Motion::default()
-            };
-            rung.slide(&from, command, f64::zero(), false)
-        };
-        let [current, speed, command] = [by(1.0, 0.0, 0.0), by(0.0, 1.0, 0.0), by(0.0, 0.0, 1.0)];
+        let [current, speed, angle] = rung.increments();
         let counts = plan.units.counts_per_unit();
+        let [by_current, by_speed, by_command] = angle.map(|by| by * counts);
         Ok(Increments {
-            state: [
-                [current.current, speed.current],
-                [current.speed, speed.speed],
-            ],
-            state_by_command: [command.current, command.speed],
-            angle: [current.angle * counts, speed.angle * counts],
-            angle_by_command: command.angle * counts,
+            state: [[current[0], current[1]], [speed[0], speed[1]]],
+            state_by_command: [current[2], speed[2]],
+            angle: [by_current, by_speed],
+            angle_by_command: by_command,
         })
     }
 }
