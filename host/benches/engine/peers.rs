@@ -16,15 +16,7 @@ pub fn rows() {
     let data = STEP.record().expect("the paper's step");
     let variant = Variant::all().next().expect("a variant");
     let problem = paper_problem(&data, variant, BOX);
-    let truth = &PRINTED[0].physical;
-    let truth = [
-        truth.inductance,
-        truth.resistance,
-        truth.kt,
-        truth.inertia,
-        truth.viscous,
-        truth.kb,
-    ];
+    let truth = PRINTED[0].values();
     let quick = Quick::new(&problem);
     let target = WITHIN * quick.cost(&problem.structure.coordinates(&truth));
     let swarm = |population| ParticleSwarm {

@@ -89,15 +89,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
 
 /// Cost of the true motor.
 fn truth_cost(problem: &FitProblem<'_>) -> f64 {
-    let truth = &PRINTED[0].physical;
-    let values = [
-        truth.inductance,
-        truth.resistance,
-        truth.kt,
-        truth.inertia,
-        truth.viscous,
-        truth.kb,
-    ];
+    let values = PRINTED[0].values();
     let inside = problem
         .structure
         .unknowns

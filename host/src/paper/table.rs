@@ -76,6 +76,19 @@ impl Printed {
         self.physical.machine()
     }
 
+    /// The six parameters in the order of the table, which is that of the search.
+    pub fn values(&self) -> [f64; 6] {
+        let Physical {
+            resistance,
+            inductance,
+            kt,
+            kb,
+            inertia,
+            viscous,
+        } = self.physical;
+        [inductance, resistance, kt, inertia, viscous, kb]
+    }
+
     /// The margins that follow from the printed parameters.
     pub fn computed_margins(&self) -> Option<Margins> {
         Loop::from(&self.machine()).margins()
