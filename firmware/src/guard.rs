@@ -185,14 +185,9 @@ mod tests {
 
     const PERIOD_US: u32 = 1000;
     const FREE: Limits = Limits {
-        duty: i16::MAX,
-        travel: 0,
-        speed: 0,
-        current_ma: 0,
-        continuous_ma: 0,
         thermal: 1000,
-        stall_ma: 0,
         time: 1_000_000,
+        ..Limits::NONE
     };
 
     /// Periods until the guard trips, with the fault; the motion and the current are given by the period.

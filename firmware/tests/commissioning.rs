@@ -108,13 +108,9 @@ fn job() -> Job {
         fit: Settings::default(),
         limits: Limits {
             duty: 32_000,
-            travel: 0,
-            speed: 0,
             current_ma: 20_000,
-            continuous_ma: 0,
-            thermal: 0,
-            stall_ma: 0,
             time: 60_000,
+            ..Limits::NONE
         },
     }
 }

@@ -94,13 +94,8 @@ fn job() -> Job {
         },
         limits: Limits {
             duty: 32_000,
-            travel: 0,
-            speed: 0,
-            current_ma: 0,
-            continuous_ma: 0,
-            thermal: 0,
-            stall_ma: 0,
             time: 60_000,
+            ..Limits::NONE
         },
     }
 }

@@ -155,13 +155,9 @@ impl Trial {
     fn job(&self) -> Job {
         let mut limits = Limits {
             duty: 32_000,
-            travel: 0,
-            speed: 0,
             current_ma: 20_000,
-            continuous_ma: 0,
-            thermal: 0,
-            stall_ma: 0,
             time: 60_000,
+            ..Limits::NONE
         };
         if let Mischief::Limit(fault) = self.mischief {
             match fault {

@@ -206,6 +206,20 @@ pub struct Limits {
     pub time: u32,
 }
 
+impl Limits {
+    /// Nothing is watched.
+    pub const NONE: Limits = Limits {
+        duty: i16::MAX,
+        travel: 0,
+        speed: 0,
+        current_ma: 0,
+        continuous_ma: 0,
+        thermal: 0,
+        stall_ma: 0,
+        time: u32::MAX,
+    };
+}
+
 /// A stretch of a plan: one duty ([`OPEN`](crate::trace::OPEN) for an open bridge) for so many periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Segment {
