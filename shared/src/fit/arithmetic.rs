@@ -208,7 +208,7 @@ fn by_duty(a: i32, duty: i16) -> i64 {
 
 /// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
 #[inline(always)]
-fn shifted(x: i64, n: i32) -> i64 {
+fn raised(x: i64, n: i32) -> i64 {
     let (high, low) = ((x >> 32) as u32, x as u32);
     let high = (high << n) | (low >> (32 - n));
     (i64::from(high as i32) << 32) | i64::from(low << n)
@@ -253,8 +253,8 @@ impl Arithmetic for Fixed {
         // Upper words have 28 bits below the point, leads 32.
         let travel = sum(&rows.travel) >> (TRAVEL_POINT - 4);
         (
-            current + Fixed::from_bits(shifted(sum(&rows.current), CURRENT_SHIFT)),
-            speed + Fixed::from_bits(shifted(sum(&rows.speed), SPEED_SHIFT)),
+            current + Fixed::from_bits(raised(sum(&rows.current), CURRENT_SHIFT)),
+            speed + Fixed::from_bits(raised(sum(&rows.speed), SPEED_SHIFT)),
             lead.wrapping_add(travel)
                 .wrapping_sub(i64::from(step) << 32),
         )
