@@ -14,6 +14,7 @@ pub mod diagnose;
 pub mod error;
 pub mod fit;
 pub mod input;
+pub mod kept;
 pub mod lanes;
 pub mod output;
 pub mod paper;

@@ -9,6 +9,16 @@ pub enum Drive {
     Current,
 }
 
+impl Drive {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Drive::Voltage => "voltage",
+            Drive::Current => "current",
+        }
+    }
+}
+
 /// One recording, in SI units and encoder counts, checked on entry: all columns have equal length,
 /// every number is finite and time increases.
 #[derive(Clone, Debug, PartialEq)]

@@ -51,6 +51,10 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     }
     session.deliver(
         &report::text::fit(&fit, &data),
-        &report::json::FitJson::from(&fit),
+        &report::json::FitJson::new(
+            &fit,
+            &data,
+            validation.as_ref().map(|data| data.source.as_str()),
+        ),
     )
 }

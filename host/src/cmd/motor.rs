@@ -83,10 +83,7 @@ pub(super) fn recording(args: &MotorArgs, path: &Path) -> Result<(Recording, Mot
 /// What the flags say, read as lines of a motor file: its reader has all the checks and suggestions. Each
 /// flag is read alone first, so that a refusal names it. `drive` is the motor file's, for the units.
 fn from_flags(args: &MotorArgs, drive: Drive) -> Result<MotorFile, Error> {
-    let drive = args.drive.as_deref().unwrap_or(match drive {
-        Drive::Voltage => "voltage",
-        Drive::Current => "current",
-    });
+    let drive = args.drive.as_deref().unwrap_or(drive.name());
     let drive_line = format!("drive.kind = {}\n", toml::Value::from(drive));
     parse(&format!("--drive {drive}"), &drive_line)?;
     let mut text = drive_line.clone();

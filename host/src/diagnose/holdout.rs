@@ -40,6 +40,14 @@ impl HeldOut {
             HeldOut::Nothing => "nothing",
         }
     }
+
+    /// The other recording, if it is one.
+    pub fn source(&self) -> Option<&str> {
+        match self {
+            HeldOut::Recording(source) => Some(source),
+            HeldOut::End { .. } | HeldOut::Nothing => None,
+        }
+    }
 }
 
 /// Cuts the last quarter off, at a rest of the motor near there if it has one: then nothing of the start is

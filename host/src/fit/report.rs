@@ -8,6 +8,7 @@ use super::{Options, remarks, validate};
 use crate::error::Error;
 use crate::input::Known;
 use crate::problem::cost::rms_counts;
+use crate::problem::simulate::Method;
 use crate::problem::{Base, Candidate, Data, FitProblem};
 use crate::recording::Drive;
 use crate::solve::Found;
@@ -56,6 +57,8 @@ pub struct Fit {
     pub cost_kind: &'static str,
     /// The model.
     pub candidate: Candidate,
+    /// How it was run.
+    pub method: Method,
     /// RMS of model minus measurement over the whole recording, open loop, counts.
     pub rms_counts: f64,
     /// The same on another recording.
@@ -146,6 +149,7 @@ impl Fit {
             cost: found.cost,
             cost_kind,
             candidate,
+            method: options.method,
             rms_counts,
             validate_rms_counts: validation
                 .map(|data| validate(data, &candidate, options.method))

@@ -1,6 +1,7 @@
 //! What can be wrong with a diagnosis that a plan is to be made from, each with its remedy.
 
 use super::diagnosis::SCHEMA;
+use crate::kept::ModelFault;
 use std::io;
 use std::path::PathBuf;
 
@@ -42,51 +43,9 @@ pub enum DiagnosisFault {
         ": has no `{0}`: it was written by an older servoid; run `servoid diagnose REC --json FILE` again"
     )]
     Missing(&'static str),
-    /// A number that no motor and no drive has.
-    #[error(": `{key}` is {value}, needed is {need}; run `servoid diagnose REC --json FILE` again")]
-    Number {
-        /// Where it stands.
-        key: String,
-        /// What was seen.
-        value: f64,
-        /// What would do.
-        need: &'static str,
-    },
-    /// An effect that is not in the catalogue.
-    #[error(": models[{model}] has the effect `{name}`, which is unknown; {remedy}")]
-    Effect {
-        /// Index of the model.
-        model: usize,
-        /// The effect.
-        name: String,
-        /// The nearest name, or all of them.
-        remedy: String,
-    },
-    /// A parameter that is not there.
-    #[error(
-        ": models[{model}] lacks the parameter `{name}`; run `servoid diagnose REC --json FILE` again"
-    )]
-    Parameter {
-        /// Index of the model.
-        model: usize,
-        /// The parameter, as in `coulomb.torque`.
-        name: String,
-    },
-    /// A parameter in another unit than the model computes with.
-    #[error(
-        ": models[{model}] gives {name} in `{unit}`, needed is `{needed}` (torques in volts referred to the winding); \
-         run `servoid diagnose REC --json FILE` again"
-    )]
-    Unit {
-        /// Index of the model.
-        model: usize,
-        /// The parameter.
-        name: String,
-        /// Its unit in the file.
-        unit: String,
-        /// The unit that the model computes with.
-        needed: &'static str,
-    },
+    /// Something that is of no model.
+    #[error(": {0}; run `servoid diagnose REC --json FILE` again")]
+    Model(#[from] ModelFault),
     /// Nothing to separate.
     #[error(
         ": holds only one model ({0}): nothing else of the catalogue explains the recording as well, so that there is \

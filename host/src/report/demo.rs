@@ -45,7 +45,11 @@ impl From<&DemoReport<'_>> for DemoJson {
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let [gain, a1] = report.response_errors();
         DemoJson {
-            fit: FitJson::from(report.diagnosis.last),
+            fit: FitJson::new(
+                report.diagnosis.last,
+                report.diagnosis.data,
+                report.diagnosis.held_out.source(),
+            ),
             hidden: report.described.clone(),
             named: report.named(),
             parameter_errors: report.parameter_errors(),

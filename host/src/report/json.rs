@@ -3,9 +3,12 @@
 use crate::compare::{Contest, Row, quantile};
 use crate::fit::margins::{Loop, Margins};
 use crate::fit::{Fit, Parameter};
+use crate::kept::KeptModel;
 use crate::paper::{PRINTED, Printed};
+use crate::problem::Data;
 use crate::report::paper::{Round, Strong, optimum};
 use serde::Serialize;
+use shared::motor::Response;
 use std::collections::BTreeMap;
 
 /// Margins.
@@ -48,11 +51,23 @@ impl From<&Parameter> for ParameterJson {
     }
 }
 
+/// What voltage and angle determine.
 #[derive(Debug, Serialize)]
-struct IdentifiableJson {
+pub(super) struct IdentifiableJson {
     gain_rad_s_v: Option<f64>,
     a1_s: Option<f64>,
     a2_s2: Option<f64>,
+}
+
+impl From<Response<f64>> for IdentifiableJson {
+    fn from(response: Response<f64>) -> Self {
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        IdentifiableJson {
+            gain_rad_s_v: finite(response.gain),
+            a1_s: finite(response.a1),
+            a2_s2: finite(response.a2),
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -84,6 +99,13 @@ pub struct FitJson {
     effective_samples: f64,
     notes: Vec<String>,
     ladder: Vec<RungJson>,
+    model: KeptModel,
+    recording: String,
+    validate: Option<String>,
+    drive: &'static str,
+    supply_v: f64,
+    counts_per_rev: f64,
+    sample_s: f64,
     interrupted: bool,
     version: &'static str,
 }
@@ -95,8 +117,9 @@ struct RungJson {
     validate_rms_counts: Option<f64>,
 }
 
-impl From<&Fit> for FitJson {
-    fn from(fit: &Fit) -> Self {
+impl FitJson {
+    /// From a fit of `data`, judged also on the recording called `validate`.
+    pub fn new(fit: &Fit, data: &Data, validate: Option<&str>) -> Self {
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         FitJson {
             schema: "servoid.fit/1",
@@ -116,11 +139,7 @@ impl From<&Fit> for FitJson {
             equation_error_relative: fit.equation_error,
             effects: fit.effects.clone(),
             parameters: fit.parameters.iter().map(ParameterJson::from).collect(),
-            identifiable: IdentifiableJson {
-                gain_rad_s_v: finite(fit.response.gain),
-                a1_s: finite(fit.response.a1),
-                a2_s2: finite(fit.response.a2),
-            },
+            identifiable: fit.response.into(),
             margins: fit.margins.map(MarginsJson::from),
             converged: fit.converged,
             effective_samples: fit.effective_samples,
@@ -132,6 +151,13 @@ impl From<&Fit> for FitJson {
                     validate_rms_counts: rung.validate_rms_counts.and_then(finite),
                 })
                 .collect(),
+            model: KeptModel::of(&fit.candidate, fit.method),
+            recording: data.source.clone(),
+            validate: validate.map(str::to_owned),
+            drive: data.drive.name(),
+            supply_v: data.supply,
+            counts_per_rev: data.units.counts_per_rev,
+            sample_s: data.units.interval,
             interrupted: fit.interrupted,
             version: env!("CARGO_PKG_VERSION"),
         }

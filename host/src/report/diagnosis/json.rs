@@ -3,7 +3,8 @@
 use super::whereabouts::{ResidualJson, WhereJson};
 use super::{DiagnosisReport, Role};
 use crate::diagnose::{Errors, HeldOut, Refit, Remark, Step};
-use crate::report::json::ParameterJson;
+use crate::kept::{KeptMachine, KeptModel, KeptParameter};
+use crate::report::json::{IdentifiableJson, MarginsJson, ParameterJson};
 use serde::Serialize;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -39,6 +40,7 @@ pub struct DiagnosisJson {
     counts_per_rev: f64,
     sample_s: f64,
     recording: String,
+    drive: &'static str,
     seed: u64,
     interrupted: bool,
     ran_out: bool,
@@ -49,6 +51,7 @@ pub struct DiagnosisJson {
 #[derive(Debug, Serialize)]
 struct BaseJson {
     effects: Vec<&'static str>,
+    model: KeptModel,
     rms_counts: Option<f64>,
     validate_rms_counts: Option<f64>,
 }
@@ -71,6 +74,7 @@ struct StepJson {
     tracked: Option<ErrorsJson>,
     windowed: Option<ErrorsJson>,
     evidence: String,
+    model: Option<KeptModel>,
     #[serde(rename = "where")]
     whereabouts: Option<WhereJson>,
     candidates: Vec<CandidateJson>,
@@ -97,6 +101,9 @@ struct FinalJson {
     parameters: Vec<ParameterJson>,
     converged: bool,
     notes: Vec<String>,
+    model: KeptModel,
+    identifiable: IdentifiableJson,
+    margins: Option<MarginsJson>,
 }
 
 #[derive(Debug, Serialize)]
@@ -112,25 +119,10 @@ struct HeldOutJson {
 struct ModelJson {
     effects: Vec<&'static str>,
     role: &'static str,
-    machine: MachineJson,
-    parameters: Vec<ModelParameterJson>,
+    machine: KeptMachine,
+    parameters: Vec<KeptParameter>,
     rms_counts: Option<f64>,
     validate_rms_counts: Option<f64>,
-}
-
-#[derive(Debug, Serialize)]
-struct MachineJson {
-    kb_v_s_rad: f64,
-    damping_v_s_rad: f64,
-    inertia_v_s2_rad: f64,
-    electrical_s: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct ModelParameterJson {
-    name: String,
-    value: f64,
-    unit: &'static str,
 }
 
 impl From<&DiagnosisReport<'_>> for DiagnosisJson {
@@ -145,6 +137,7 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             quantization_floor_counts: FLOOR_RMS_COUNTS,
             base: BaseJson {
                 effects: Vec::new(),
+                model: kept(&diagnosis.base),
                 rms_counts: finite(diagnosis.base.rms_counts),
                 validate_rms_counts: finite(diagnosis.base.validate_rms_counts),
             },
@@ -160,6 +153,9 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
                 parameters: report.last.parameters.iter().map(Into::into).collect(),
                 converged: report.last.converged,
                 notes: report.last.notes.clone(),
+                model: KeptModel::of(&report.last.candidate, report.last.method),
+                identifiable: IdentifiableJson::from(report.last.response),
+                margins: report.last.margins.map(MarginsJson::from),
             },
             not_named: diagnosis.not_named.map(|kind| kind.name()),
             advice: report.advice(),
@@ -177,6 +173,7 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             counts_per_rev: report.data.units.counts_per_rev,
             sample_s: report.data.units.interval,
             recording: report.data.source.clone(),
+            drive: report.data.drive.name(),
             seed: report.seed,
             interrupted: report.interrupted,
             ran_out: diagnosis.ran_out,
@@ -202,6 +199,7 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         tracked: after.and_then(|refit| refit.tracked).map(errors),
         windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
+        model: after.map(kept),
         whereabouts: (report.findings.steps.get(index))
             .and_then(Option::as_ref)
             .map(WhereJson::from),
@@ -264,29 +262,28 @@ fn held_out(held_out: &HeldOut) -> HeldOutJson {
     }
 }
 
+/// A model that can be run again; counts that were lost are not put back.
+fn kept(refit: &Refit) -> KeptModel {
+    KeptModel::of(&refit.candidate, refit.method)
+}
+
 fn model(role: &Role<'_>) -> ModelJson {
     let model = role.model;
-    let machine = &model.candidate.machine;
     let mut values = model.parameters.iter();
     let mut parameters = Vec::new();
     for kind in &model.effects {
         for parameter in kind.description().parameters {
-            parameters.extend(values.next().map(|value| ModelParameterJson {
+            parameters.extend(values.next().map(|value| KeptParameter {
                 name: format!("{}.{}", kind.name(), parameter.name),
                 value: *value,
-                unit: parameter.quantity.unit(),
+                unit: parameter.quantity.unit().to_owned(),
             }));
         }
     }
     ModelJson {
         effects: model.effects.iter().map(|kind| kind.name()).collect(),
         role: role.name,
-        machine: MachineJson {
-            kb_v_s_rad: machine.kb,
-            damping_v_s_rad: machine.damping,
-            inertia_v_s2_rad: machine.inertia,
-            electrical_s: machine.electrical,
-        },
+        machine: KeptMachine::from(&model.candidate.machine),
         parameters,
         rms_counts: finite(model.rms_counts),
         validate_rms_counts: finite(model.validate_rms_counts),
