@@ -4,6 +4,7 @@ use crate::bench::BenchError;
 use crate::device::DeviceError;
 use crate::diagnose::steady::SteadyError;
 use crate::input::{MotorFileError, ReadError};
+use crate::kept::KeptError;
 use crate::output::WriteError;
 use crate::prove::StoreError;
 use shared::error::ModelError;
@@ -36,6 +37,9 @@ pub enum Error {
     /// A curve of steady speeds that cannot be read or used.
     #[error(transparent)]
     Steady(#[from] SteadyError),
+    /// A result of another verb that cannot be read.
+    #[error(transparent)]
+    Kept(#[from] KeptError),
     /// A device, or the link to it.
     #[error(transparent)]
     Device(#[from] DeviceError),

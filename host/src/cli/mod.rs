@@ -1,11 +1,17 @@
 //! The shape of the command line, and nothing else.
 
+mod bench;
 mod device;
+mod report;
+
+pub use bench::BenchArgs;
 
 pub use device::{
     CommissionArgs, DeviceArgs, DeviceMethod, DeviceVerb, EmulateArgs, EmulationArgs, LimitArgs,
     OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
+
+pub use report::{ReportArgs, SheetArgs};
 
 use crate::diagnose::USUAL_STEPS;
 use crate::prove::{Excite, HowMany, Shard};
@@ -70,6 +76,10 @@ pub enum Verb {
     Compare(CompareArgs),
     /// Reproduces the paper: its motor, its step, its bounds, its table beside ours
     Paper(PaperArgs),
+    /// The workbench: a page on this machine to fit, compare, name what is missing and add it
+    Bench(BenchArgs),
+    /// The pictures, the tables and the verdict of a result as one HTML file
+    Report(ReportArgs),
     /// Diagnoses random motors with random hidden effects, and says how good that was
     Prove(ProveArgs),
     /// Talks to the firmware: commissions a motor on its own controller, and checks what it found
@@ -275,6 +285,9 @@ pub struct FitArgs {
     /// The model.
     #[command(flatten)]
     pub model: ModelArgs,
+    /// The page.
+    #[command(flatten)]
+    pub sheet: SheetArgs,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
@@ -293,6 +306,9 @@ pub struct DiagnoseArgs {
     /// and two minutes of one processor core, and few recordings need a tenth of it
     #[arg(long, default_value_t = USUAL_STEPS / 1_000_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub budget: u64,
+    /// The page.
+    #[command(flatten)]
+    pub sheet: SheetArgs,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
@@ -324,6 +340,9 @@ pub struct CompareArgs {
     /// The model.
     #[command(flatten)]
     pub model: ModelArgs,
+    /// The page.
+    #[command(flatten)]
+    pub sheet: SheetArgs,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
@@ -344,6 +363,9 @@ pub struct PaperArgs {
     /// Folder for the Bode plot and the cost curves (SVG)
     #[arg(long, value_name = "FOLDER")]
     pub plots: Option<PathBuf>,
+    /// The page.
+    #[command(flatten)]
+    pub sheet: SheetArgs,
     /// Length of the step response, s
     #[arg(long, default_value_t = 10.0, value_name = "S")]
     pub seconds: f64,

@@ -1,6 +1,6 @@
 //! `servoid compare`: search methods side by side on one recording.
 
-use super::{model, motor};
+use super::{model, motor, report as sheet};
 use crate::cli::CompareArgs;
 use crate::compare::{self, Contest};
 use crate::error::Error;
@@ -9,12 +9,14 @@ use crate::output::write_whole;
 use crate::plot;
 use crate::problem::Data;
 use crate::report;
+use crate::report::sheet::Recordings;
 use crate::session::Session;
 use crate::solve;
 
 pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
-    motor::check_outputs(session, plot.as_slice(), &args.motor, &args.recording, None)?;
+    let outputs: Vec<_> = plot.into_iter().chain(sheet::output(&args.sheet)).collect();
+    motor::check_outputs(session, &outputs, &args.motor, &args.recording, None)?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
     let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;
@@ -43,5 +45,7 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
         session.remark(&format!("plot: {}", path.display()));
     }
     let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
-    session.deliver(&text, &report::json::CompareJson::new(&contest, &rows))
+    let json = report::json::CompareJson::new(&contest, &rows);
+    sheet::write(session, &args.sheet, &json, Recordings::default())?;
+    session.deliver(&text, &json)
 }

@@ -5,6 +5,7 @@
 //! encoder's own, on both. Then the bench tells the truth.
 
 use super::diagnosing::diagnosed;
+use super::report;
 use super::simulate::{describe, hidden, wrong_flag};
 use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
@@ -16,6 +17,7 @@ use crate::problem::Data;
 use crate::prove::surprise;
 use crate::recording::Recording;
 use crate::report::demo::{DemoJson, DemoReport};
+use crate::report::sheet::{self, Recordings};
 use crate::session::Session;
 use shared::excite::{COMMISSIONING, commands};
 
@@ -50,7 +52,7 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         &Effort::usual(session.stop()),
     )?;
     let kind = HeldOut::Recording(other.to_owned());
-    let report = DemoReport {
+    let story = DemoReport {
         diagnosis: diagnosed.report(session, &data, &kind, Vec::new()),
         machine,
         hidden: &secret,
@@ -58,14 +60,19 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         blind: args.blind,
         counts_per_rev: COUNTS_PER_REV,
     };
-    let page = report.page()?;
+    let json = DemoJson::from(&story);
+    let drawn = Recordings {
+        fitted: Some(&data),
+        held_out: Some(&held_out),
+    };
+    let page = sheet::page(&report::kept(&json)?, drawn)?;
     write_whole(&args.out, |out| out.write_all(page.render().as_bytes()))?;
     let text = format!(
         "{}\npage with the drawings: {}\n",
-        report.text(),
+        story.text(),
         args.out.display()
     );
-    session.deliver(&text, &DemoJson::from(&report))
+    session.deliver(&text, &json)
 }
 
 fn record(machine: Machine, secret: &Hidden, seed: u64, name: &str) -> Result<Recording, Error> {

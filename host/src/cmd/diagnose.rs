@@ -1,7 +1,7 @@
 //! `servoid diagnose`: where the linear motor fails, and what is missing.
 
 use super::diagnosing::diagnosed;
-use super::motor;
+use super::{motor, report};
 use crate::cli::DiagnoseArgs;
 use crate::diagnose::steady::SteadyCurve;
 use crate::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable};
@@ -10,15 +10,17 @@ use crate::fit::{self, Options};
 use crate::output::is_same_file;
 use crate::problem::Data;
 use crate::report::diagnosis::{DiagnosisJson, SteadyJson, SteadyReport};
+use crate::report::sheet;
 use crate::session::Session;
 
 /// The unit of --budget, steps of a model.
 const MILLION: u64 = 1_000_000;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
+    let page = report::output(&args.sheet);
     motor::check_outputs(
         session,
-        &[],
+        page.as_slice(),
         &args.motor,
         &args.recording,
         args.validate.as_deref(),
@@ -32,6 +34,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         held_out,
         kind,
         remarks,
+        whole,
     } = &recordings;
     let effort = Effort::of(args.budget.saturating_mul(MILLION), session.stop());
     let diagnosed = diagnosed(session, data, held_out, &options, &effort)?;
@@ -47,12 +50,24 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
             stop,
         )?);
     }
-    let report = diagnosed.report(session, data, kind, remarks);
-    session.deliver(&report.text(), &DiagnosisJson::from(&report))
+    let told = diagnosed.report(session, data, kind, remarks);
+    let json = DiagnosisJson::from(&told);
+    let drawn = sheet::Recordings {
+        fitted: Some(whole.as_ref().unwrap_or(data)),
+        held_out: kind.source().map(|_| held_out),
+    };
+    report::write(session, &args.sheet, &json, drawn)?;
+    session.deliver(&told.text(), &json)
 }
 
 /// A curve of steady speeds in the place of a recording.
 fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
+    if args.sheet.report.is_some() {
+        return Err(Error::Usage(format!(
+            "--report: {} is a curve of steady speeds, of which there is no page yet; leave --report away",
+            args.recording.display()
+        )));
+    }
     if args.validate.is_some() {
         return Err(Error::Usage(format!(
             "--validate: {} is a curve of steady speeds, which is diagnosed on its own; leave --validate away",
@@ -75,6 +90,8 @@ struct Recordings {
     kind: HeldOut,
     /// What was seen in them.
     remarks: Vec<Remark>,
+    /// The only recording, where its end is held out.
+    whole: Option<Data>,
 }
 
 /// Reads what is fitted and what is held out.
@@ -102,6 +119,7 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
             held_out: Data::new(&rest)?,
             kind,
             remarks,
+            whole: Some(Data::new(&recording)?),
         };
         return Ok((options, recordings));
     };
@@ -134,6 +152,7 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
         held_out,
         kind,
         remarks,
+        whole: None,
     };
     Ok((options, recordings))
 }

@@ -1,21 +1,26 @@
 //! `servoid fit`: a model of one recording.
 
 use super::search::search;
-use super::{model, motor};
+use super::{model, motor, report};
 use crate::cli::FitArgs;
 use crate::error::Error;
 use crate::fit::{self, Fit};
 use crate::output::write_whole;
 use crate::plot;
 use crate::problem::Data;
-use crate::report;
+use crate::report::json::FitJson;
+use crate::report::{sheet, text};
 use crate::session::Session;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
+    let outputs: Vec<_> = plot
+        .into_iter()
+        .chain(report::output(&args.sheet))
+        .collect();
     motor::check_outputs(
         session,
-        plot.as_slice(),
+        &outputs,
         &args.motor,
         &args.recording,
         args.validate.as_deref(),
@@ -49,12 +54,12 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
         session.remark(&format!("plot: {}", path.display()));
     }
-    session.deliver(
-        &report::text::fit(&fit, &data),
-        &report::json::FitJson::new(
-            &fit,
-            &data,
-            validation.as_ref().map(|data| data.source.as_str()),
-        ),
-    )
+    let source = validation.as_ref().map(|data| data.source.as_str());
+    let json = FitJson::new(&fit, &data, source);
+    let drawn = sheet::Recordings {
+        fitted: Some(&data),
+        held_out: validation.as_ref(),
+    };
+    report::write(session, &args.sheet, &json, drawn)?;
+    session.deliver(&text::fit(&fit, &data), &json)
 }

@@ -1,5 +1,6 @@
 //! One verb a file: read, call, write.
 
+mod bench;
 mod compare;
 mod completions;
 mod demo;
@@ -13,6 +14,7 @@ mod motor_beside;
 mod paper;
 mod plan;
 mod prove;
+mod report;
 mod search;
 mod simulate;
 mod simulate_list;
@@ -34,6 +36,8 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Fit(args) => fit::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
+        Verb::Bench(args) => bench::run(&session, &args),
+        Verb::Report(args) => report::run(&session, &args),
         Verb::Prove(args) => prove::run(&session, &args),
         Verb::Device(args) => device::run(&session, &args),
         Verb::Completions { shell } => completions::run(shell),

@@ -1,6 +1,7 @@
 //! `servoid paper`: the paper's table from its own digits, and its contest run again.
 
 use super::model::range;
+use super::report as sheet;
 use crate::cli::PaperArgs;
 use crate::compare::{self, Contest, Row};
 use crate::error::Error;
@@ -12,6 +13,7 @@ use crate::problem::{Candidate, Data, FitProblem};
 use crate::report;
 use crate::report::json::{PaperJson, least_cost};
 use crate::report::paper::{PrintedCosts, Round, Strong};
+use crate::report::sheet::Recordings;
 use crate::session::Session;
 use crate::solve::{self, Objective};
 use shared::effects::EffectSet;
@@ -39,7 +41,11 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     }
     let drawing = args.plots.as_ref().map(|folder| folder.join("bode.svg"));
     let drawing = drawing.as_deref().map(|path| ("--plots", path));
-    session.check_outputs(drawing.as_slice(), &[])?;
+    let outputs: Vec<_> = drawing
+        .into_iter()
+        .chain(sheet::output(&args.sheet))
+        .collect();
+    session.check_outputs(&outputs, &[])?;
     let data = Experiment {
         seconds: args.seconds,
         sample_s: args.sample,
@@ -84,7 +90,9 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
         draw(folder, &rounds, budget, session)?;
     }
     let text = report::paper::text(&rounds, &strong, &printed_costs(&data));
-    session.deliver(&text, &PaperJson::new(&rounds, &strong))
+    let json = PaperJson::new(&rounds, &strong);
+    sheet::write(session, &args.sheet, &json, Recordings::default())?;
+    session.deliver(&text, &json)
 }
 
 /// Cost of the true motor.

@@ -54,7 +54,7 @@ pub fn values(refit: &Refit, kind: Kind) -> Vec<f64> {
 }
 
 /// The model less one effect.
-fn without(candidate: &Candidate, kind: Kind) -> Candidate {
+pub(super) fn without(candidate: &Candidate, kind: Kind) -> Candidate {
     let mut effects = EffectSet::default();
     for (own, values) in candidate.effects.iter() {
         if own != kind {

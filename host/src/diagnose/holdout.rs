@@ -19,6 +19,8 @@ pub enum HeldOut {
     Recording(String),
     /// The end of the fitted recording.
     End {
+        /// The whole recording.
+        of: String,
         /// Where it begins, s after the first sample.
         from_s: f64,
         /// Its length, s.
@@ -38,6 +40,14 @@ impl HeldOut {
             HeldOut::Recording(_) => "recording",
             HeldOut::End { .. } => "end",
             HeldOut::Nothing => "nothing",
+        }
+    }
+
+    /// The whole recording whose end it is.
+    pub fn whole(&self) -> Option<&str> {
+        match self {
+            HeldOut::End { of, .. } => Some(of),
+            HeldOut::Recording(_) | HeldOut::Nothing => None,
         }
     }
 
@@ -62,6 +72,7 @@ pub fn cut(recording: &Recording) -> Option<(Recording, Recording, HeldOut)> {
         fitted,
         held_out,
         HeldOut::End {
+            of: recording.source.clone(),
             from_s,
             seconds,
             at_rest: rest.is_some(),

@@ -34,6 +34,7 @@ mod span;
 mod spectrum;
 mod starts;
 pub mod steady;
+mod suggest;
 mod swap;
 pub mod usable;
 pub mod whereabouts;
@@ -50,6 +51,7 @@ pub use remark::Remark;
 pub use settle::settle;
 pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
+pub use suggest::{Suggestion, Suggestions, suggest};
 
 use crate::error::Error;
 use crate::fit::Options;

@@ -1,12 +1,9 @@
 //! The story of the demonstration, as text, as a page and as JSON.
 
 use super::diagnosis::{DiagnosisJson, DiagnosisReport};
-use super::html::{Page, Section};
 use super::json::FitJson;
 use crate::bench::{Hidden, Machine};
 use crate::diagnose::evidence::values;
-use crate::error::Error;
-use crate::plot;
 use crate::prove::truth::{self, ParameterError};
 use serde::Serialize;
 use shared::effects::Kind;
@@ -69,38 +66,6 @@ impl DemoReport<'_> {
             self.diagnosis.text(),
             self.truth()
         )
-    }
-
-    /// As a page with drawings.
-    ///
-    /// # Errors
-    /// Where nothing can be drawn.
-    pub fn page(&self) -> Result<Page, Error> {
-        let (data, found) = (self.diagnosis.data, self.diagnosis.diagnosis);
-        let base = &found.base;
-        let last = &found.last;
-        let mut sections = vec![Section {
-            heading: "A motor on the virtual bench, and the linear model: it fails".to_owned(),
-            text: format!("{}\n{}", self.opening(), self.diagnosis.where_text()),
-            drawing: Some(plot::overlay(data, &base.candidate, base.method)?),
-        }];
-        sections.push(Section {
-            heading: match self.diagnosis.names() {
-                Some(names) => format!("With {names} the error falls"),
-                None => "What the diagnosis says".to_owned(),
-            },
-            text: self.diagnosis.text(),
-            drawing: Some(plot::overlay(data, &last.candidate, last.method)?),
-        });
-        sections.push(Section {
-            heading: "The truth".to_owned(),
-            text: self.truth(),
-            drawing: None,
-        });
-        Ok(Page {
-            title: "servoid demo".to_owned(),
-            sections,
-        })
     }
 
     fn opening(&self) -> String {

@@ -188,7 +188,25 @@ pub struct CompareRowJson {
     /// Of the best run.
     parameters: BTreeMap<String, f64>,
     margins: Option<MarginsJson>,
+    /// Of the best run.
+    #[serde(rename = "loop")]
+    position_loop: Option<LoopJson>,
     curve: Vec<(usize, f64)>,
+    /// The quartiles beside it.
+    curve_band: Vec<(usize, f64, f64)>,
+}
+
+#[derive(Debug, Serialize)]
+struct LoopJson {
+    a3: f64,
+    a2: f64,
+    a1: f64,
+}
+
+impl From<Loop> for LoopJson {
+    fn from(Loop { a3, a2, a1 }: Loop) -> Self {
+        LoopJson { a3, a2, a1 }
+    }
 }
 
 impl CompareJson {
@@ -227,6 +245,13 @@ impl CompareRowJson {
             .unknowns
             .iter()
             .map(|unknown| unknown.name.clone());
+        let position_loop = values
+            .as_ref()
+            .map(|v| Loop::from(&structure.candidate(v).machine));
+        let curve = |q: f64| row.curve(contest.budget, q).into_iter();
+        let band = curve(0.25)
+            .zip(curve(0.75))
+            .map(|(low, high)| (low.0, low.1, high.1));
         let quartiles = [quantile(&costs, 0.25), quantile(&costs, 0.75)];
         CompareRowJson {
             algorithm: row.algorithm.clone(),
@@ -237,16 +262,13 @@ impl CompareRowJson {
             quartiles_cost: quartiles.iter().all(|q| q.is_finite()).then_some(quartiles),
             median_evaluations_to_1pct: row.median_evaluations_to(1.01 * least),
             wall_s: row.wall_s,
-            margins: values
-                .as_ref()
-                .and_then(|v| Loop::from(&structure.candidate(v).machine).margins())
+            margins: position_loop
+                .and_then(|l| l.margins())
                 .map(MarginsJson::from),
+            position_loop: position_loop.map(LoopJson::from),
             parameters: names.zip(values.unwrap_or_default()).collect(),
-            curve: row
-                .curve(contest.budget, 0.5)
-                .into_iter()
-                .filter(|p| p.1.is_finite())
-                .collect(),
+            curve: curve(0.5).filter(|p| p.1.is_finite()).collect(),
+            curve_band: band.filter(|p| p.2.is_finite()).collect(),
         }
     }
 }

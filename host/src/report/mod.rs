@@ -2,9 +2,9 @@
 
 pub mod demo;
 pub mod diagnosis;
-pub mod html;
 pub mod json;
 pub mod paper;
 pub mod plan;
 pub mod prove;
+pub mod sheet;
 pub mod text;

@@ -237,7 +237,9 @@ pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
 pub fn short(x: f64) -> String {
     if !x.is_finite() {
         "-".to_owned()
-    } else if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+    } else if x == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&x.abs()) {
         let digits = (4 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 7) as usize;
         format!("{x:.digits$}")
     } else {

@@ -13,6 +13,11 @@ fn a_missing_folder_is_named_and_nothing_is_left() {
         "demo --out",
         "fit rec.csv --plot",
         "compare rec.csv --seeds 1 --budget 5 --plot",
+        "fit rec.csv --report",
+        "diagnose rec.csv --report",
+        "compare rec.csv --seeds 1 --budget 5 --report",
+        "paper --report",
+        "report fit.json --out",
     ] {
         desk.refused(
             &format!("{line} missing/out"),

@@ -21,5 +21,6 @@ mod pipes;
 mod plan;
 mod prove;
 mod repeatable;
+mod report;
 mod searches;
 mod simulate;

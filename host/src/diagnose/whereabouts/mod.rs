@@ -7,7 +7,7 @@ pub mod whiteness;
 
 pub use bins::{Against, Bin, Map};
 pub use spectrum::{Line, Spectrum};
-pub use whiteness::{Whiteness, whiteness};
+pub use whiteness::{Correlations, Whiteness, correlations, whiteness};
 
 use crate::error::Error;
 use crate::fit::scores::{EquationResidual, equation_residuals, whole};

@@ -10,6 +10,8 @@ use crate::problem::Data;
 /// Lags, in picked samples, over which the autocorrelation is averaged: a sawtooth is as often against itself
 /// as with itself, an error of the model keeps its sign.
 const LAGS: usize = 8;
+/// Lags that are drawn.
+const DRAWN_LAGS: usize = 40;
 /// Lags at which the correlation with the input is taken.
 const INPUT_LAGS: usize = 20;
 /// Counts by which the reading must have moved for the next sample to be picked.
@@ -50,8 +52,21 @@ impl Whiteness {
     }
 }
 
+/// An error's correlations with itself and with the command, lag by lag, for a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correlations {
+    /// Samples that were picked.
+    pub samples: usize,
+    /// How many of them count as independent.
+    pub effective_samples: f64,
+    /// With itself, from lag 0 on.
+    pub own: Vec<f64>,
+    /// With the command, which is ahead of the error by -[`INPUT_LAGS`] to [`INPUT_LAGS`] picked samples.
+    pub input: Vec<f64>,
+}
+
 /// Correlations of `errors`, model minus reading. `None` where the motor moved too little.
-pub fn whiteness(data: &Data, errors: &[f64]) -> Option<Whiteness> {
+pub fn correlations(data: &Data, errors: &[f64]) -> Option<Correlations> {
     let picked = picked(data);
     let n = picked.len();
     if n < FEWEST {
@@ -69,16 +84,28 @@ pub fn whiteness(data: &Data, errors: &[f64]) -> Option<Whiteness> {
         return None;
     }
     let at = |lag: usize| dot(&error, &error[lag..]) / square;
-    let correlations: Vec<f64> = (1..=LAGS).map(at).collect();
     let positive = (1..n / 2).map(at).take_while(|r| *r > 0.05);
-    let effective_samples = n as f64 / (1.0 + 2.0 * positive.sum::<f64>());
     let scale = (square * input_square).sqrt().max(f64::MIN_POSITIVE);
-    let with_input = (0..=INPUT_LAGS).map(|lag| (dot(&input, &error[lag..]) / scale).abs());
-    Some(Whiteness {
+    let behind = (1..=INPUT_LAGS).rev().map(|lag| dot(&input[lag..], &error));
+    let ahead = (0..=INPUT_LAGS).map(|lag| dot(&input, &error[lag..]));
+    Some(Correlations {
         samples: n,
-        effective_samples,
-        autocorrelation: correlations.iter().sum::<f64>() / LAGS as f64,
-        input: with_input.fold(0.0, f64::max) * effective_samples.sqrt(),
+        effective_samples: n as f64 / (1.0 + 2.0 * positive.sum::<f64>()),
+        own: (0..=DRAWN_LAGS).map(at).collect(),
+        input: behind.chain(ahead).map(|sum| sum / scale).collect(),
+    })
+}
+
+/// What the correlations of `errors` come to. `None` where the motor moved too little.
+pub fn whiteness(data: &Data, errors: &[f64]) -> Option<Whiteness> {
+    let found = correlations(data, errors)?;
+    let ahead = found.input[INPUT_LAGS..].iter();
+    let largest = ahead.fold(0.0, |most: f64, r| most.max(r.abs()));
+    Some(Whiteness {
+        samples: found.samples,
+        effective_samples: found.effective_samples,
+        autocorrelation: found.own[1..=LAGS].iter().sum::<f64>() / LAGS as f64,
+        input: largest * found.effective_samples.sqrt(),
     })
 }
 

@@ -172,7 +172,9 @@ impl From<&DiagnosisReport<'_>> for DiagnosisJson {
             no_load_rad_s: finite(no_load),
             counts_per_rev: report.data.units.counts_per_rev,
             sample_s: report.data.units.interval,
-            recording: report.data.source.clone(),
+            recording: (report.held_out.whole())
+                .unwrap_or(&report.data.source)
+                .to_owned(),
             drive: report.data.drive.name(),
             seed: report.seed,
             interrupted: report.interrupted,
@@ -245,6 +247,7 @@ fn held_out(held_out: &HeldOut) -> HeldOutJson {
             from_s,
             seconds,
             at_rest,
+            ..
         } => HeldOutJson {
             kind,
             source: None,

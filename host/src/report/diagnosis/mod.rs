@@ -1,6 +1,6 @@
 //! A diagnosis as text and as JSON.
 
-pub(super) mod bars;
+pub mod bars;
 mod evidence;
 mod json;
 mod steady;

@@ -67,6 +67,7 @@ impl DiagnosisReport<'_> {
                 from_s,
                 seconds,
                 at_rest,
+                ..
             } => {
                 let at = if *at_rest {
                     "where the motor stood still"

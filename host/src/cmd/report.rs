@@ -1,0 +1,154 @@
+//! `servoid report`: a result as a page, from its JSON and its recordings.
+
+use super::motor;
+use crate::cli::{ReportArgs, SheetArgs};
+use crate::error::Error;
+use crate::kept::{Kept, KeptDiagnosis};
+use crate::output::write_whole;
+use crate::problem::Data;
+use crate::report::sheet::{self, Recordings};
+use crate::session::Session;
+use serde::Serialize;
+use shared::wire::Stage;
+use std::path::{Path, PathBuf};
+
+/// What is told with `--json`.
+#[derive(Serialize)]
+struct ReportJson {
+    schema: &'static str,
+    page: String,
+    title: String,
+    words: Vec<String>,
+    recording: Option<String>,
+    validate: Option<String>,
+}
+
+pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
+    session.check_outputs(&[("--out", &args.out)], &[("the result", &args.result)])?;
+    if let Some(recording) = &args.recording {
+        let outputs = [("--out", args.out.as_path())];
+        let validate = args.validate.as_deref();
+        motor::check_outputs(session, &outputs, &args.motor, recording, validate)?;
+    }
+    let kept = Kept::read(&args.result)?;
+    let (fitted, held_out) = sources(&kept);
+    let fitted = found(
+        session,
+        args,
+        "--recording",
+        args.recording.as_deref(),
+        fitted,
+    )?;
+    let held_out = found(
+        session,
+        args,
+        "--validate",
+        args.validate.as_deref(),
+        held_out,
+    )?;
+    let recordings = Recordings {
+        fitted: fitted.as_ref(),
+        held_out: held_out.as_ref(),
+    };
+    let page = sheet::page(&kept, recordings)?;
+    write_whole(&args.out, |out| out.write_all(page.render().as_bytes()))?;
+    let json = ReportJson {
+        schema: "servoid.report/1",
+        page: args.out.display().to_string(),
+        title: page.title.clone(),
+        words: page.lead.clone(),
+        recording: fitted.map(|data| data.source),
+        validate: held_out.map(|data| data.source),
+    };
+    let mut text = format!("{}\n", page.title);
+    for words in &page.lead {
+        text += &format!("{words}\n");
+    }
+    text += &format!("page with the drawings: {}\n", args.out.display());
+    session.deliver(&text, &json)
+}
+
+/// Where a verb's own page goes, for the check of its outputs.
+pub(super) fn output(args: &SheetArgs) -> Option<(&'static str, &Path)> {
+    args.report.as_deref().map(|path| ("--report", path))
+}
+
+/// Writes the page of a verb's own result, if it is asked for.
+pub(super) fn write(
+    session: &Session,
+    args: &SheetArgs,
+    json: &impl Serialize,
+    recordings: Recordings<'_>,
+) -> Result<(), Error> {
+    let Some(path) = &args.report else {
+        return Ok(());
+    };
+    let page = sheet::page(&kept(json)?, recordings)?;
+    write_whole(path, |out| out.write_all(page.render().as_bytes()))?;
+    session.remark(&format!("page: {}", path.display()));
+    Ok(())
+}
+
+/// A result as it will be read again from its file: a page made now is the page made from the file.
+pub(super) fn kept(json: &impl Serialize) -> Result<Kept, Error> {
+    let failed = |error: &dyn std::fmt::Display| {
+        Error::Failed(format!("the result cannot be made a page: {error}"))
+    };
+    let value = serde_json::to_value(json).map_err(|error| failed(&error))?;
+    Kept::from_json(value).map_err(|fault| failed(&fault))
+}
+
+/// The recordings that a result was made from.
+fn sources(kept: &Kept) -> (Option<PathBuf>, Option<PathBuf>) {
+    let diagnosed = |diagnosis: &KeptDiagnosis| {
+        let source = diagnosis.held_out.source.as_ref();
+        (
+            Some(PathBuf::from(&diagnosis.recording)),
+            source.map(PathBuf::from),
+        )
+    };
+    match kept {
+        Kept::Fit(fit) => (
+            Some(PathBuf::from(&fit.recording)),
+            fit.validate.as_ref().map(PathBuf::from),
+        ),
+        Kept::Diagnosis(diagnosis) => diagnosed(diagnosis),
+        Kept::Verification(verification) => verification
+            .diagnosis
+            .as_ref()
+            .map_or((None, None), |diagnosis| diagnosed(diagnosis)),
+        Kept::Device(_, folder) => (
+            folder.recording_of(Stage::Record),
+            folder.recording_of(Stage::Verify),
+        ),
+        Kept::Contest(_) => (None, None),
+    }
+}
+
+/// Reads the recording that is named, or the one that the result names: where that was, or beside the result.
+fn found(
+    session: &Session,
+    args: &ReportArgs,
+    flag: &str,
+    named: Option<&Path>,
+    source: Option<PathBuf>,
+) -> Result<Option<Data>, Error> {
+    if let Some(path) = named {
+        return Ok(Some(Data::new(&motor::recording(&args.motor, path)?.0)?));
+    }
+    let Some(source) = source else {
+        return Ok(None);
+    };
+    let beside = source
+        .file_name()
+        .map(|name| args.result.with_file_name(name));
+    let places = std::iter::once(source.clone()).chain(beside);
+    let Some(path) = places.into_iter().find(|path| path.is_file()) else {
+        session.remark(&format!(
+            "{} is not there: the drawings that need it are left out; name it with {flag}",
+            source.display()
+        ));
+        return Ok(None);
+    };
+    Ok(Some(Data::new(&motor::recording(&args.motor, &path)?.0)?))
+}

@@ -1,0 +1,120 @@
+//! Words, tables and pictures as HTML.
+
+use super::{Block, Section};
+use crate::picture::{Drawing, Picture, Table};
+
+/// Text made safe inside HTML.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// Names and values in a grid.
+pub(super) fn facts(facts: &[(String, String)]) -> String {
+    if facts.is_empty() {
+        return String::new();
+    }
+    let cells: String = facts
+        .iter()
+        .map(|(name, value)| {
+            format!(
+                "<div><dt>{}</dt><dd>{}</dd></div>",
+                escaped(name),
+                escaped(value)
+            )
+        })
+        .collect();
+    format!("<dl class=\"facts\">{cells}</dl>\n")
+}
+
+/// Links to the sections.
+pub(super) fn contents(sections: &[Section]) -> String {
+    let links: String = sections
+        .iter()
+        .map(|s| format!("<a href=\"#{}\">{}</a>", s.id, escaped(&s.heading)))
+        .collect();
+    format!("<nav class=\"contents no-print\" aria-label=\"Contents\">{links}</nav>\n")
+}
+
+/// A section with its heading.
+pub fn section(section: &Section) -> String {
+    let blocks: String = section.blocks.iter().map(block).collect();
+    format!(
+        "<section id=\"{}\">\n<h2>{}</h2>\n{blocks}</section>\n",
+        section.id,
+        escaped(&section.heading)
+    )
+}
+
+fn block(block: &Block) -> String {
+    match block {
+        Block::Text(text) => format!("<p>{}</p>\n", escaped(text)),
+        Block::List(points) => {
+            let points: String = points
+                .iter()
+                .map(|point| format!("<li>{}</li>", escaped(point)))
+                .collect();
+            format!("<ul>{points}</ul>\n")
+        }
+        Block::Verbatim(text) => format!("<pre tabindex=\"0\">{}</pre>\n", escaped(text)),
+        Block::Table(caption, content) => table(caption, content),
+        Block::Picture(one) => picture(one),
+        Block::Pictures(several) => {
+            let pictures: String = several.iter().map(picture).collect();
+            format!("<div class=\"pictures\">{pictures}</div>\n")
+        }
+    }
+}
+
+/// A table under its caption.
+fn table(caption: &str, table: &Table) -> String {
+    let head: String = table
+        .head
+        .iter()
+        .map(|name| format!("<th scope=\"col\">{}</th>", escaped(name)))
+        .collect();
+    let rows: String = table
+        .rows
+        .iter()
+        .map(|row| {
+            let cells: String = row
+                .iter()
+                .map(|cell| format!("<td>{}</td>", escaped(cell)))
+                .collect();
+            format!("<tr>{cells}</tr>\n")
+        })
+        .collect();
+    let caption = if caption.is_empty() {
+        String::new()
+    } else {
+        format!("<caption>{}</caption>", escaped(caption))
+    };
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"table\"><table>{caption}<thead><tr>{head}</tr></thead>\n<tbody>{rows}</tbody></table></div>\n"
+    )
+}
+
+/// A figure with the place for its drawing; its numbers folded beneath.
+fn picture(picture: &Picture) -> String {
+    let (title, caption) = (escaped(&picture.title), escaped(&picture.caption));
+    let (class, cursors) = match picture.drawing {
+        Drawing::Chart(_) => ("", ""),
+        Drawing::Timeline(_) => (
+            " data-time=\"yes\"",
+            "<div class=\"cursors scroll\" aria-live=\"polite\"></div>",
+        ),
+    };
+    let numbers = picture.table.as_ref().map_or(String::new(), |content| {
+        format!(
+            "<details><summary>The numbers</summary>{}</details>",
+            table("", content)
+        )
+    });
+    format!(
+        "<figure id=\"figure-{0}\"><figcaption><h3>{title}</h3><p>{caption}</p></figcaption>\
+         <div class=\"plot\" id=\"{0}\" role=\"group\" aria-label=\"{title}\"{class}></div>{cursors}{numbers}</figure>\n",
+        picture.id
+    )
+}

@@ -1,0 +1,132 @@
+//! A page that stands alone: words, tables and drawings in one file, of which no request leaves.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `body` | words, tables and pictures as HTML |
+//! | `assets` | style and scripts; plotly itself comes from its crate |
+
+pub mod assets;
+mod body;
+
+pub use body::{escaped, section};
+
+use crate::picture::{Drawing, Picture, Table};
+use serde_json::{Map, Value, json};
+
+/// A page of a title, words, facts and sections.
+pub struct Page {
+    /// Title.
+    pub title: String,
+    /// What it comes to, in a few sentences.
+    pub lead: Vec<String>,
+    /// Names and values.
+    pub facts: Vec<(String, String)>,
+    /// Sections in order.
+    pub sections: Vec<Section>,
+}
+
+/// One section of a [`Page`].
+pub struct Section {
+    /// Unique on the page.
+    pub id: String,
+    /// Heading.
+    pub heading: String,
+    /// Its content.
+    pub blocks: Vec<Block>,
+}
+
+impl Section {
+    /// A section with nothing in it yet.
+    pub fn new(id: &str, heading: &str) -> Self {
+        Section {
+            id: id.to_owned(),
+            heading: heading.to_owned(),
+            blocks: Vec::new(),
+        }
+    }
+}
+
+/// A piece of a section.
+pub enum Block {
+    /// A paragraph.
+    Text(String),
+    /// Points.
+    List(Vec<String>),
+    /// Text as it stands, as in a terminal.
+    Verbatim(String),
+    /// A table under its caption.
+    Table(String, Table),
+    /// A drawing.
+    Picture(Picture),
+    /// Small drawings side by side.
+    Pictures(Vec<Picture>),
+}
+
+/// Nothing may be fetched, whatever the file is asked to do.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+
+impl Page {
+    /// The page as HTML.
+    pub fn render(&self) -> String {
+        let title = escaped(&self.title);
+        let mut out = format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <title>{title}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
+             <div class=\"top\"><h1>{title}</h1>\
+             <button type=\"button\" class=\"no-print\" data-switch-theme>Light / dark</button></div>\n",
+            assets::STYLE
+        );
+        for text in &self.lead {
+            out += &format!("<p class=\"lead\">{}</p>\n", escaped(text));
+        }
+        out += &body::facts(&self.facts);
+        out += &body::contents(&self.sections);
+        for section in &self.sections {
+            out += &body::section(section);
+        }
+        out += &format!(
+            "</main>\n<footer>Made by servoid {}.</footer>\n",
+            env!("CARGO_PKG_VERSION")
+        );
+        out += &format!(
+            "<script type=\"application/json\" id=\"drawings\">{}</script>\n",
+            inside_script(&self.drawings())
+        );
+        for script in [assets::plotly(), assets::PLOTS, assets::REPORT] {
+            out += &format!("<script>{script}</script>\n");
+        }
+        out += "</body>\n</html>\n";
+        out
+    }
+
+    fn drawings(&self) -> Value {
+        let mut all = Map::new();
+        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
+        for block in blocks {
+            let pictures = match block {
+                Block::Picture(picture) => std::slice::from_ref(picture),
+                Block::Pictures(pictures) => pictures,
+                _ => &[],
+            };
+            for picture in pictures {
+                all.insert(picture.id.clone(), drawing(&picture.drawing));
+            }
+        }
+        Value::Object(all)
+    }
+}
+
+/// A drawing as the page's script takes it.
+pub fn drawing(drawing: &Drawing) -> Value {
+    match drawing {
+        Drawing::Chart(plot) => json!({ "chart": plot }),
+        Drawing::Timeline(timeline) => json!({ "timeline": timeline }),
+    }
+}
+
+/// JSON that ends no script.
+fn inside_script(value: &Value) -> String {
+    value.to_string().replace('<', "\\u003c")
+}

@@ -1,0 +1,98 @@
+//! Parameters with intervals, several estimates side by side: each as a part of the first one's value, since units and
+//! sizes differ.
+
+use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
+use crate::kept::KeptEstimate;
+use crate::report::text::with_error;
+use plotly::common::{ErrorData, ErrorType, Marker, Mode};
+use plotly::{Plot, Scatter};
+
+/// Half the width of a drawn interval, standard errors.
+const WIDE: f64 = 1.96;
+
+/// Estimates of one source.
+pub struct Estimates<'a> {
+    /// The source, as in `device`.
+    pub name: String,
+    /// The parameters.
+    pub parameters: &'a [KeptEstimate],
+}
+
+/// Draws the parameters of all sources that are determined; the table has all.
+pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
+    let first = sources.first()?;
+    let reference = |name: &str| {
+        let found = first.parameters.iter().find(|p| p.name == name);
+        found.filter(|p| p.identifiable && p.std.is_some() && p.value != 0.0)
+    };
+    let mut table = Table::new(&["parameter", "source", "value", "unit", "interval of 95 %"]);
+    let mut plot = Plot::new();
+    let mut drawn = 0;
+    for (k, source) in sources.iter().enumerate() {
+        let (mut x, mut y, mut wide) = (Vec::new(), Vec::new(), Vec::new());
+        for parameter in source.parameters {
+            table.row(cells(&source.name, parameter));
+            let (Some(around), Some(std)) = (reference(&parameter.name), parameter.std) else {
+                continue;
+            };
+            if !parameter.identifiable {
+                continue;
+            }
+            x.push(rounded(100.0 * (parameter.value / around.value - 1.0)));
+            wide.push(rounded(100.0 * WIDE * std / around.value.abs()));
+            y.push(parameter.name.clone());
+        }
+        drawn = drawn.max(x.len());
+        plot.add_trace(
+            Scatter::new(x, y)
+                .name(&source.name)
+                .mode(Mode::Markers)
+                .marker(Marker::new().color(colour::LIST[k % 8]).size(9))
+                .error_x(ErrorData::new(ErrorType::Data).array(wide).thickness(2.0)),
+        );
+    }
+    if table.rows.is_empty() {
+        return None;
+    }
+    plot.set_layout(
+        layout(130 + 34 * drawn)
+            .x_axis(axis(&format!("off {}, %", first.name)).zero_line(true))
+            // The first on top.
+            .y_axis(axis("").range(vec![drawn as f64 - 0.5, -0.5])),
+    );
+    Some(Picture {
+        id: id.to_owned(),
+        title: "Parameters".to_owned(),
+        caption: format!(
+            "Each parameter that the data determine with its interval of 95 %, in parts of what {} found. What is not \
+             determined is in the table only, and says so.",
+            first.name
+        ),
+        drawing: Drawing::Chart(Box::new(plot)),
+        table: Some(table),
+    })
+}
+
+fn cells(source: &str, parameter: &KeptEstimate) -> [String; 5] {
+    let (value, interval) = match (parameter.std, parameter.identifiable) {
+        (Some(std), true) => (
+            with_error(parameter.value, parameter.std),
+            format!("± {}", crate::report::text::short(WIDE * std)),
+        ),
+        (Some(std), false) => (
+            format!(
+                "below {}",
+                crate::report::text::short(parameter.value.abs() + 2.0 * std)
+            ),
+            "not seen".to_owned(),
+        ),
+        (None, _) => ("-".to_owned(), "not determined".to_owned()),
+    };
+    [
+        parameter.name.clone(),
+        source.to_owned(),
+        value,
+        parameter.unit.clone(),
+        interval,
+    ]
+}

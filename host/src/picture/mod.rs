@@ -1,0 +1,137 @@
+//! Drawings of a result for a page, interactive, by plotly: one idea a file. The same drawings stand in the report and
+//! on the workbench.
+//!
+//! | file | shows |
+//! |---|---|
+//! | `timeline` | measured against model, the residual with the quantiser's band, the command |
+//! | `ladder` | the error as effects are added, down to the encoder's own |
+//! | `maps` | the volts that a model misses against speed, current, voltage, time, time since reversal |
+//! | `orders` | their lines in the angle, forward and backward |
+//! | `correlations` | the residual's correlation with itself and with the command |
+//! | `intervals` | how even the samples are |
+//! | `forest` | parameters with intervals |
+//! | `bode` | position loops with the lines at which margins are read |
+//! | `curves` | best cost against model evaluations |
+//! | `histogram` | counting values into bins |
+
+mod bode;
+mod correlations;
+mod curves;
+mod forest;
+mod histogram;
+mod intervals;
+mod ladder;
+mod maps;
+mod orders;
+mod timeline;
+
+pub use bode::bode;
+pub use correlations::correlations;
+pub use curves::cost_curves;
+pub use forest::{Estimates, forest};
+pub use intervals::intervals;
+pub use ladder::{Rung, ladder};
+pub use maps::maps;
+pub use orders::orders;
+pub use timeline::{Run, Timeline, timeline};
+
+use plotly::Plot;
+use plotly::common::{Font, Title};
+use plotly::layout::{Axis, Legend, Margin};
+
+/// A drawing with its words and its numbers.
+pub struct Picture {
+    /// Unique on its page.
+    pub id: String,
+    /// What it shows.
+    pub title: String,
+    /// How to read it.
+    pub caption: String,
+    /// The drawing.
+    pub drawing: Drawing,
+    /// Its numbers, for those who cannot see it or want them.
+    pub table: Option<Table>,
+}
+
+/// What is drawn.
+pub enum Drawing {
+    /// A chart that the page hands to plotly as it is.
+    Chart(Box<Plot>),
+    /// Long series, which the page thins for the width that is seen.
+    Timeline(Box<Timeline>),
+}
+
+/// Rows of text under a head.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Names of the columns.
+    pub head: Vec<String>,
+    /// Rows as long as the head.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with this head and no rows.
+    pub fn new(head: &[&str]) -> Self {
+        Table {
+            head: head.iter().map(|name| (*name).to_owned()).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+}
+
+/// Colours that are told apart by the colour-blind (Okabe and Ito, 2008) and show on white and on black.
+pub(crate) mod colour {
+    pub const MEASURED: &str = "#0072b2";
+    pub const BASE: &str = "#cc79a7";
+    pub const MODEL: &str = "#d55e00";
+    pub const FLOOR: &str = "#009e73";
+    pub const OTHER: &str = "#e69f00";
+    pub const QUIET: &str = "#7f8790";
+    /// For as many series as come.
+    pub const LIST: [&str; 8] = [
+        MEASURED, MODEL, FLOOR, BASE, OTHER, "#56b4e9", "#8a6d3b", QUIET,
+    ];
+}
+
+/// An axis with its title; the page gives it the colours of light or dark.
+fn axis(title: &str) -> Axis {
+    Axis::new()
+        .title(Title::with_text(title))
+        .zero_line(false)
+        .auto_margin(true)
+}
+
+/// A legend above the drawing, where it hides nothing.
+fn legend_above() -> Legend {
+    Legend::new()
+        .orientation(plotly::common::Orientation::Horizontal)
+        .x(0.0)
+        .y(1.02)
+        .x_anchor(plotly::common::Anchor::Left)
+        .y_anchor(plotly::common::Anchor::Bottom)
+}
+
+/// What all charts share.
+fn layout(height: usize) -> plotly::Layout {
+    plotly::Layout::new()
+        .height(height)
+        .margin(Margin::new().left(64).right(16).top(36).bottom(48))
+        .legend(legend_above())
+        .font(Font::new().family("system-ui, sans-serif").size(13))
+}
+
+/// Four digits are more than a drawing shows.
+fn rounded(x: f64) -> f64 {
+    if x == 0.0 || !x.is_finite() {
+        return x;
+    }
+    let scale = 10f64.powi(5 - x.abs().log10().floor() as i32);
+    let rounded = (x * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { x }
+}

@@ -1,0 +1,31 @@
+//! The workbench: a page on the loopback address on which a recording is fitted, the model compared with it, what is
+//! missing added, and the result taken away.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `loaded` | a recording as it came, and as it is fitted |
+//! | `model` | a fitted model on the bench |
+//! | `state` | what lies on the bench, and how the page is told of it |
+//! | `job` | one piece of work at a time, which stops when nobody watches |
+//! | `work` | the pieces of work: fit, suggest, diagnose, race |
+//! | `preview` | the first rows of a file, and which column may be what |
+//! | `shown` | what the page draws |
+//! | `session_file` | the bench as a file |
+//! | `routes`, `guard` | what the page may ask, and who may ask |
+//! | `server` | listening and stopping |
+
+mod guard;
+mod job;
+mod loaded;
+mod model;
+mod preview;
+mod routes;
+mod server;
+mod session_file;
+mod shown;
+mod state;
+mod work;
+
+pub use loaded::{Loaded, Source};
+pub use server::{Opening, Server};
+pub use session_file::{SCHEMA, SessionFile};

@@ -1,0 +1,163 @@
+//! A fitted model on the bench.
+
+use super::loaded::Loaded;
+use crate::error::Error;
+use crate::fit::{self, Fit, Options};
+use crate::kept::KeptModel;
+use crate::problem::{Candidate, Data};
+use crate::report::json::FitJson;
+use crate::solve::Found;
+use serde_json::Value;
+use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
+use std::sync::Arc;
+
+/// A fitted model.
+#[derive(Clone)]
+pub(super) struct Model {
+    /// Its number on the bench.
+    pub(super) id: usize,
+    /// Effects in the order in which they were added.
+    pub(super) effects: Vec<Kind>,
+    /// The fit, with parameters and their errors.
+    pub(super) fit: Arc<Fit>,
+    /// RMS error that was foreseen before the fit, counts.
+    pub(super) foreseen: Option<f64>,
+}
+
+/// Recordings of one piece of work.
+#[derive(Clone)]
+pub(super) struct Recordings {
+    /// The fitted one, whole.
+    pub(super) fitted: Arc<Loaded>,
+    /// Another one, never fitted.
+    pub(super) held_out: Option<Arc<Loaded>>,
+}
+
+impl Recordings {
+    /// What is fitted and what is held out: the other recording, or the end of the only one where it is long enough.
+    pub(super) fn parts(&self) -> Parts<'_> {
+        if let Some(other) = &self.held_out {
+            return Parts::Two(&self.fitted.data, &other.data);
+        }
+        match self.fitted.cut() {
+            Some((first, rest, _)) => Parts::Cut(Box::new((first, rest))),
+            None => Parts::Two(&self.fitted.data, &self.fitted.data),
+        }
+    }
+
+    /// Where the held-out end of the only recording begins, s.
+    pub(super) fn held_out_from(&self) -> Option<f64> {
+        if self.held_out.is_some() {
+            return None;
+        }
+        self.fitted.cut().map(|(_, _, from)| from)
+    }
+}
+
+/// Data to fit and data to judge by.
+pub(super) enum Parts<'a> {
+    /// Of two recordings.
+    Two(&'a Data, &'a Data),
+    /// Of one that was cut.
+    Cut(Box<(Data, Data)>),
+}
+
+impl Parts<'_> {
+    pub(super) fn fitted(&self) -> &Data {
+        match self {
+            Parts::Two(fitted, _) => fitted,
+            Parts::Cut(both) => &both.0,
+        }
+    }
+
+    pub(super) fn held_out(&self) -> &Data {
+        match self {
+            Parts::Two(_, held_out) => held_out,
+            Parts::Cut(both) => &both.1,
+        }
+    }
+}
+
+impl Model {
+    /// A model that was kept, with its errors and intervals found again.
+    pub(super) fn again(
+        id: usize,
+        kept: &KeptModel,
+        algorithm: &str,
+        recordings: &Recordings,
+    ) -> Result<Self, Error> {
+        let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
+        let candidate = kept
+            .candidate("models[].model")
+            .map_err(|fault| failed(&fault))?;
+        let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
+        let options = options(&recordings.fitted, &effects, 1);
+        let parts = recordings.parts();
+        let mut problem = fit::problem(parts.fitted(), &options)?;
+        problem.structure = crate::problem::Structure::around(
+            parts.fitted(),
+            fit::base_for(parts.fitted(), &effects),
+            &effects,
+            &candidate.machine,
+            candidate.start_speed != 0.0,
+        );
+        let x = point(&problem.structure, &candidate);
+        let found = Found {
+            cost: crate::solve::Objective::cost(&problem, &x),
+            x,
+            evaluations: 0,
+            curve: Vec::new(),
+            interrupted: false,
+        };
+        let held_out = Some(parts.held_out());
+        let fit = Fit::conclude(&problem, algorithm, "squared", &found, &options, held_out)?;
+        Ok(Model {
+            id,
+            effects,
+            fit: Arc::new(fit),
+            foreseen: None,
+        })
+    }
+
+    /// As `servoid.fit/1`.
+    pub(super) fn json(&self, recordings: &Recordings) -> Result<Value, Error> {
+        let other = recordings.held_out.as_ref();
+        let validate = other.map(|loaded| loaded.source.name.as_str());
+        let json = FitJson::new(&self.fit, &recordings.fitted.data, validate);
+        serde_json::to_value(json).map_err(|error| Error::Failed(error.to_string()))
+    }
+
+    /// What it is called.
+    pub(super) fn name(&self) -> String {
+        let names: Vec<&str> = self.effects.iter().map(|kind| kind.name()).collect();
+        if names.is_empty() {
+            "linear motor".to_owned()
+        } else {
+            format!("motor with {}", names.join(", "))
+        }
+    }
+
+    /// Whether it leaves more than the encoder's own error.
+    pub(super) fn leaves_something(&self) -> bool {
+        self.fit.rms_counts > 1.15 * FLOOR_RMS_COUNTS
+    }
+}
+
+/// Options of a fit on the bench.
+pub(super) fn options(loaded: &Loaded, effects: &[Kind], seed: u64) -> Options {
+    Options {
+        effects: effects.to_vec(),
+        known: loaded.known.clone(),
+        seed,
+        ..Options::default()
+    }
+}
+
+/// A model as a point of the search.
+pub(super) fn point(structure: &crate::problem::Structure, candidate: &Candidate) -> Vec<f64> {
+    let values: Vec<f64> = (candidate.effects.iter())
+        .flat_map(|(_, values)| values.to_vec())
+        .collect();
+    structure.coordinates(&structure.values_of(&candidate.machine, &values, candidate.start_speed))
+}

@@ -1,0 +1,512 @@
+//! What the page may ask.
+
+use super::job::{self, Watch};
+use super::loaded::{Loaded, Source};
+use super::model::Recordings;
+use super::preview::{Mapping, preview};
+use super::session_file::SessionFile;
+use super::state::{Bench, Secret, Telling};
+use super::{guard, shown, work};
+use crate::bench::{Bench as VirtualBench, DriveSample, Machine};
+use crate::error::Error;
+use crate::page::assets;
+use crate::prove::surprise;
+use crate::report::text::short;
+use axum::extract::{DefaultBodyLimit, Query, State};
+use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
+use axum::http::{HeaderValue, StatusCode};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router, middleware};
+use futures_util::stream::{self, Stream};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use shared::effects::Kind;
+use shared::excite::{COMMISSIONING, commands};
+use std::convert::Infallible;
+use std::sync::Arc;
+use tokio::sync::broadcast::error::RecvError;
+
+/// Most bytes of a recording that a page may send.
+const MOST_BYTES: usize = 1 << 30;
+const PAGE: &str = include_str!("assets/bench.html");
+const SCRIPT: &str = include_str!("assets/bench.js");
+const STYLE: &str = include_str!("assets/bench.css");
+
+/// The demonstration's recordings.
+const INTERVAL_S: f64 = 1e-3;
+const COUNTS_PER_REV: u32 = 2000;
+
+type Shared = State<Arc<Bench>>;
+
+/// Everything under the secret.
+pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
+    let text = |kind: &'static str, content: &'static str| {
+        get(move || async move { ([(CONTENT_TYPE, kind)], content) })
+    };
+    let script = "text/javascript; charset=utf-8";
+    let style = "text/css; charset=utf-8";
+    let page = Router::new()
+        .route("/", text("text/html; charset=utf-8", PAGE))
+        .route("/bench.js", text(script, SCRIPT))
+        .route("/plots.js", text(script, assets::PLOTS))
+        .route("/plotly.js", text(script, assets::plotly()))
+        .route("/page.css", text(style, assets::STYLE))
+        .route("/bench.css", text(style, STYLE))
+        .route("/state", get(state))
+        .route("/events", get(events))
+        .route("/pictures", get(pictures))
+        .route("/preview", post(previewed))
+        .route("/recording", post(recording))
+        .route("/session", post(session))
+        .route("/demo", post(demo))
+        .route("/reveal", post(reveal))
+        .route("/work", post(begin))
+        .route("/stop", post(stop))
+        .route("/choose", post(choose))
+        .route("/remove", post(remove))
+        .route("/trial", post(trial))
+        .route("/export", get(export))
+        .layer(DefaultBodyLimit::max(MOST_BYTES))
+        .with_state(bench);
+    Router::new()
+        .nest(&format!("/{secret}/"), page)
+        .layer(middleware::from_fn(guard::check))
+}
+
+/// An error as the page shows it: the same words as in a terminal.
+struct Refusal(Error);
+
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Refusal(error)
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response {
+        let body = Json(json!({ "error": self.0.to_string() }));
+        (StatusCode::UNPROCESSABLE_ENTITY, body).into_response()
+    }
+}
+
+type Answer = Result<Json<Value>, Refusal>;
+
+fn done() -> Answer {
+    Ok(Json(json!({})))
+}
+
+/// Work of more than a moment must not hold up the server.
+async fn aside<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
+) -> Result<T, Refusal> {
+    let done = tokio::task::spawn_blocking(work).await;
+    Ok(done.map_err(|error| Error::Failed(format!("the work broke off: {error}")))??)
+}
+
+async fn state(State(bench): Shared) -> Json<Value> {
+    Json(shown::view(&bench))
+}
+
+/// Tells of changes and progress until the page is closed.
+async fn events(State(bench): Shared) -> Sse<impl Stream<Item = Result<Event, Infallible>>> {
+    let receiver = bench.tellings.subscribe();
+    let watch = Watch::new(&bench);
+    let first = Some(Event::default().event("changed").data("{}"));
+    let tellings = stream::unfold(
+        (receiver, watch, first),
+        |(mut receiver, watch, mut first)| async move {
+            let event = match first.take() {
+                Some(event) => event,
+                None => match receiver.recv().await {
+                    Ok(Telling::Progress(value)) => {
+                        Event::default().event("progress").data(value.to_string())
+                    }
+                    // What was missed shows in the state.
+                    Ok(Telling::Changed) | Err(RecvError::Lagged(_)) => {
+                        Event::default().event("changed").data("{}")
+                    }
+                    Err(RecvError::Closed) => return None,
+                },
+            };
+            Some((Ok(event), (receiver, watch, first)))
+        },
+    );
+    Sse::new(tellings).keep_alive(KeepAlive::default())
+}
+
+async fn pictures(State(bench): Shared) -> Answer {
+    Ok(Json(aside(move || shown::pictures(&bench)).await?))
+}
+
+async fn previewed(body: String) -> Json<Value> {
+    Json(json!(preview(&body)))
+}
+
+#[derive(Deserialize)]
+struct Sent {
+    name: String,
+    csv: String,
+    #[serde(default)]
+    held_out: bool,
+    mapping: Option<Mapping>,
+    /// A `motor.toml` in the place of a mapping.
+    motor: Option<String>,
+    /// Whether it is only tried.
+    #[serde(default)]
+    check: bool,
+}
+
+async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> Answer {
+    aside(move || {
+        let mapping = sent.mapping.map(|mapping| mapping.motor());
+        let motor = sent.motor.or(mapping).unwrap_or_default();
+        let loaded = Arc::new(Loaded::read(Source {
+            name: sent.name,
+            csv: sent.csv,
+            motor,
+        })?);
+        if sent.check {
+            return Ok(());
+        }
+        let before = bench.state().recordings.clone();
+        let recordings = match (sent.held_out, before) {
+            (true, Some(before)) => Recordings {
+                held_out: Some(loaded),
+                ..before
+            },
+            _ => Recordings {
+                fitted: loaded,
+                held_out: None,
+            },
+        };
+        free(&bench)?;
+        bench.change(|state| state.begin(recordings));
+        Ok(())
+    })
+    .await?;
+    done()
+}
+
+/// Recordings are not changed under work that is going on.
+fn free(bench: &Bench) -> Result<(), Error> {
+    match bench.job.running() {
+        None => Ok(()),
+        Some(what) => Err(Error::Usage(format!(
+            "the bench is busy ({what}): wait for it, or stop it first"
+        ))),
+    }
+}
+
+async fn session(State(bench): Shared, body: String) -> Answer {
+    aside(move || {
+        let file = SessionFile::parse(&body, "the session")?;
+        free(&bench)?;
+        bench.change(|state| file.lay(state))
+    })
+    .await?;
+    done()
+}
+
+#[derive(Deserialize)]
+struct Drawn {
+    seed: Option<u64>,
+}
+
+async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answer {
+    aside(move || {
+        free(&bench)?;
+        let seed = match drawn.seed {
+            Some(seed) => seed,
+            None => u64::from(
+                getrandom::u32().map_err(|error| Error::Failed(error.to_string()))? % 10_000,
+            ),
+        };
+        let machine = Machine::gearmotor();
+        let hidden = surprise(&machine, seed)?;
+        let record = |seed: u64, name: &str| -> Result<Arc<Loaded>, Error> {
+            let mut plant = VirtualBench::new(machine);
+            plant.counts_per_rev = COUNTS_PER_REV;
+            plant.sample_s = INTERVAL_S;
+            plant.seed = seed;
+            plant.effects = vec![hidden.clone()];
+            let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, INTERVAL_S, seed)
+                .map(|c| DriveSample {
+                    volts: c.drive * machine.supply_v,
+                    enabled: c.enabled,
+                })
+                .collect();
+            let recording = plant.record(&drive, name, false)?;
+            let mut csv = "t_s,voltage_v,angle_counts\n".to_owned();
+            for k in 0..recording.len() {
+                csv += &format!(
+                    "{},{},{}\n",
+                    recording.time_s[k], recording.command[k], recording.counts[k]
+                );
+            }
+            Ok(Arc::new(Loaded::read(Source {
+                name: name.to_owned(),
+                csv,
+                motor: format!(
+                    "counts_per_rev = {COUNTS_PER_REV}\nsupply_v = {:?}\n",
+                    machine.supply_v
+                ),
+            })?))
+        };
+        let recordings = Recordings {
+            fitted: record(seed, &format!("blind demo {seed}"))?,
+            held_out: Some(record(seed.wrapping_add(1), "its second recording")?),
+        };
+        bench.change(|state| {
+            state.begin(recordings);
+            state.secret = Some(Secret {
+                hidden,
+                seed,
+                told: false,
+            });
+        });
+        Ok(())
+    })
+    .await?;
+    done()
+}
+
+async fn reveal(State(bench): Shared) -> Answer {
+    bench.change(|state| {
+        if let Some(secret) = &mut state.secret {
+            secret.told = true;
+        }
+    });
+    done()
+}
+
+/// A piece of work.
+#[derive(Deserialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+enum Work {
+    Fit {
+        #[serde(default)]
+        effects: Vec<String>,
+        #[serde(default)]
+        algorithm: Option<String>,
+    },
+    Suggest {
+        model: usize,
+    },
+    Diagnose,
+    Race {
+        #[serde(default)]
+        effects: Vec<String>,
+        algorithms: Vec<String>,
+        budget: usize,
+        seeds: u64,
+    },
+}
+
+/// Most evaluations and seeds of a race on the page; `servoid compare` has no such limit.
+const MOST_BUDGET: usize = 20_000;
+const MOST_SEEDS: u64 = 100;
+
+async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answer {
+    match asked {
+        Work::Fit { effects, algorithm } => {
+            let effects = kinds(&effects)?;
+            let algorithm = algorithm.unwrap_or_else(|| "lm".to_owned());
+            job::start(&bench, "fit", move |bench| {
+                work::fit(bench, &effects, &algorithm)
+            })?;
+        }
+        Work::Suggest { model } => {
+            job::start(&bench, "suggest", move |bench| work::suggest(bench, model))?;
+        }
+        Work::Diagnose => job::start(&bench, "diagnose", work::diagnose)?,
+        Work::Race {
+            effects,
+            algorithms,
+            budget,
+            seeds,
+        } => {
+            let effects = kinds(&effects)?;
+            if algorithms.is_empty()
+                || !(1..=MOST_BUDGET).contains(&budget)
+                || !(1..=MOST_SEEDS).contains(&seeds)
+            {
+                return Err(Error::Usage(format!(
+                    "a race needs a search method, 1 to {MOST_BUDGET} evaluations and 1 to {MOST_SEEDS} seeds"
+                ))
+                .into());
+            }
+            job::start(&bench, "race", move |bench| {
+                work::race(bench, &effects, &algorithms, budget, seeds)
+            })?;
+        }
+    }
+    done()
+}
+
+fn kinds(names: &[String]) -> Result<Vec<Kind>, Error> {
+    let mut kinds = Vec::new();
+    for name in names {
+        let kind = Kind::by_name(name)
+            .ok_or_else(|| Error::Usage(format!("there is no effect `{name}`")))?;
+        if kinds.contains(&kind) {
+            return Err(Error::Usage(format!("{name} is in the model already")));
+        }
+        kinds.push(kind);
+    }
+    Ok(kinds)
+}
+
+async fn stop(State(bench): Shared) -> Answer {
+    bench.job.stop();
+    done()
+}
+
+#[derive(Deserialize)]
+struct Choice {
+    chosen: usize,
+    #[serde(default)]
+    against: Option<usize>,
+}
+
+async fn choose(State(bench): Shared, Json(choice): Json<Choice>) -> Answer {
+    bench.change(|state| -> Result<(), Error> {
+        state.model(choice.chosen)?;
+        if let Some(other) = choice.against {
+            state.model(other)?;
+        }
+        state.chosen = Some(choice.chosen);
+        state.against = choice.against.filter(|other| *other != choice.chosen);
+        Ok(())
+    })?;
+    done()
+}
+
+#[derive(Deserialize)]
+struct Which {
+    model: usize,
+}
+
+async fn remove(State(bench): Shared, Json(which): Json<Which>) -> Answer {
+    bench.change(|state| -> Result<(), Error> {
+        state.model(which.model)?;
+        state.models.retain(|model| model.id != which.model);
+        if state.against == Some(which.model) {
+            state.against = None;
+        }
+        if state.chosen == Some(which.model) {
+            state.chosen = state.models.last().map(|model| model.id);
+            state.against = None;
+        }
+        Ok(())
+    })?;
+    done()
+}
+
+#[derive(Deserialize)]
+struct Trial {
+    model: usize,
+    values: Map<String, Value>,
+}
+
+/// A model with some of its constants moved by hand, beside the model.
+async fn trial(State(bench): Shared, Json(trial): Json<Trial>) -> Answer {
+    let answer = aside(move || {
+        let (recordings, model) = {
+            let state = bench.state();
+            (state.recordings()?, state.model(trial.model)?.clone())
+        };
+        let mut by_hand = shown::drawn("moved by hand", &model);
+        by_hand.candidate = shown::moved(&by_hand.candidate, &trial.values)?;
+        let data = &recordings.fitted.data;
+        let run = by_hand.run(data)?;
+        let squares: f64 = run.residual.iter().map(|e| e * e).sum();
+        let rms = (squares / data.len() as f64).sqrt();
+        let models = [shown::drawn(&model.name(), &model), by_hand];
+        Ok(json!({
+            "rms_counts": rms,
+            "said": short(rms),
+            "timeline": shown::timeline(&recordings, &models)?,
+        }))
+    })
+    .await?;
+    Ok(Json(answer))
+}
+
+#[derive(Deserialize)]
+struct Wanted {
+    format: String,
+}
+
+/// The result as a file.
+async fn export(State(bench): Shared, Query(wanted): Query<Wanted>) -> Result<Response, Refusal> {
+    let (name, kind, text) = aside(move || exported(&bench, &wanted.format)).await?;
+    let disposition = HeaderValue::from_static(match name {
+        "report.html" => "attachment; filename=\"servoid-report.html\"",
+        "session.json" => "attachment; filename=\"servoid-session.json\"",
+        "fit.json" => "attachment; filename=\"servoid-fit.json\"",
+        "diagnosis.json" => "attachment; filename=\"servoid-diagnosis.json\"",
+        _ => "attachment; filename=\"servoid-parameters.csv\"",
+    });
+    let kind = HeaderValue::from_static(kind);
+    Ok((
+        [(CONTENT_TYPE, kind), (CONTENT_DISPOSITION, disposition)],
+        text,
+    )
+        .into_response())
+}
+
+fn exported(bench: &Bench, format: &str) -> Result<(&'static str, &'static str, String), Error> {
+    let pretty = |value: &Value| format!("{value:#}\n");
+    let nothing = || Error::Usage("nothing is fitted yet; fit first".to_owned());
+    let chosen = || -> Result<Value, Error> {
+        let state = bench.state();
+        let recordings = state.recordings()?;
+        let id = state.chosen.ok_or_else(nothing)?;
+        state.model(id)?.json(&recordings)
+    };
+    match format {
+        "report" => Ok((
+            "report.html",
+            "text/html; charset=utf-8",
+            shown::report(bench)?,
+        )),
+        "session" => Ok((
+            "session.json",
+            "application/json",
+            SessionFile::of(&bench.state()).text()?,
+        )),
+        "json" => Ok(("fit.json", "application/json", pretty(&chosen()?))),
+        "diagnosis" => {
+            let state = bench.state();
+            let diagnosis = state.diagnosis.as_ref().ok_or_else(|| {
+                Error::Usage("nothing is diagnosed yet; name what is missing first".to_owned())
+            })?;
+            Ok(("diagnosis.json", "application/json", pretty(diagnosis)))
+        }
+        "csv" => {
+            let fit = chosen()?;
+            let mut writer = csv::Writer::from_writer(Vec::new());
+            let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
+            writer
+                .write_record(["name", "value", "unit", "std", "identifiable"])
+                .map_err(|error| failed(&error))?;
+            for p in fit["parameters"].as_array().into_iter().flatten() {
+                let cell = |key: &str| match &p[key] {
+                    Value::String(text) => text.clone(),
+                    Value::Null => String::new(),
+                    other => other.to_string(),
+                };
+                let row = ["name", "value", "unit", "std", "identifiable"].map(cell);
+                writer.write_record(row).map_err(|error| failed(&error))?;
+            }
+            let bytes = writer.into_inner().map_err(|error| failed(&error))?;
+            let text = String::from_utf8(bytes).map_err(|error| failed(&error))?;
+            Ok(("parameters.csv", "text/csv; charset=utf-8", text))
+        }
+        other => Err(Error::Usage(format!(
+            "there is no format `{other}`; there are report, session, json, diagnosis and csv"
+        ))),
+    }
+}

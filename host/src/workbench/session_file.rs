@@ -1,0 +1,158 @@
+//! The bench as a file that can be opened again, or sent to somebody: recordings, models, and what is looked at.
+
+use super::loaded::{Loaded, Source};
+use super::model::{Model, Recordings};
+use super::state::{Secret, State};
+use crate::bench::{Hidden, Machine};
+use crate::error::Error;
+use crate::kept::KeptModel;
+use crate::output::write_whole;
+use crate::prove::surprise;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What the file calls itself.
+pub const SCHEMA: &str = "servoid.session/1";
+
+/// The bench as a file.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SessionFile {
+    schema: String,
+    #[serde(default)]
+    version: String,
+    fitted: Option<Source>,
+    #[serde(default)]
+    held_out: Option<Source>,
+    #[serde(default)]
+    models: Vec<SavedModel>,
+    #[serde(default)]
+    chosen: Option<usize>,
+    #[serde(default)]
+    against: Option<usize>,
+    #[serde(default)]
+    race: Option<Value>,
+    #[serde(default)]
+    diagnosis: Option<Value>,
+    /// Seed of a blind demonstration, and whether its secret is out.
+    #[serde(default)]
+    blind: Option<(u64, bool)>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct SavedModel {
+    algorithm: String,
+    evaluations: usize,
+    foreseen_rms_counts: Option<f64>,
+    model: KeptModel,
+}
+
+impl SessionFile {
+    /// The bench as it is.
+    pub(super) fn of(state: &State) -> Self {
+        let place = |id: Option<usize>| {
+            id.and_then(|id| state.models.iter().position(|model| model.id == id))
+        };
+        let source = |loaded: &Arc<Loaded>| loaded.source.clone();
+        let recordings = state.recordings.as_ref();
+        SessionFile {
+            schema: SCHEMA.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            fitted: recordings.map(|r| source(&r.fitted)),
+            held_out: recordings.and_then(|r| r.held_out.as_ref().map(source)),
+            models: state
+                .models
+                .iter()
+                .map(|model| SavedModel {
+                    algorithm: model.fit.algorithm.clone(),
+                    evaluations: model.fit.evaluations,
+                    foreseen_rms_counts: model.foreseen,
+                    model: KeptModel::of(&model.fit.candidate, model.fit.method),
+                })
+                .collect(),
+            chosen: place(state.chosen),
+            against: place(state.against),
+            race: state.race.clone(),
+            diagnosis: state.diagnosis.clone(),
+            blind: (state.secret.as_ref()).map(|secret| (secret.seed, secret.told)),
+        }
+    }
+
+    /// As text.
+    pub(super) fn text(&self) -> Result<String, Error> {
+        serde_json::to_string_pretty(self)
+            .map(|text| text + "\n")
+            .map_err(|error| Error::Failed(format!("the session cannot be written: {error}")))
+    }
+
+    /// Reads one.
+    ///
+    /// # Errors
+    /// What is no session, with the reason.
+    pub fn parse(text: &str, source: &str) -> Result<Self, Error> {
+        let failed = |what: String| {
+            Error::Failed(format!(
+                "{source}: {what}; a session is what the workbench saved, a recording is a CSV file"
+            ))
+        };
+        let file: SessionFile =
+            serde_json::from_str(text).map_err(|error| failed(error.to_string()))?;
+        if file.schema != SCHEMA {
+            return Err(failed(format!("schema is `{}`", file.schema)));
+        }
+        Ok(file)
+    }
+
+    /// Lays it on a bench. Models that cannot be run along the recording are left out, and said.
+    pub(super) fn lay(self, state: &mut State) -> Result<(), Error> {
+        let Some(fitted) = self.fitted else {
+            state.clear();
+            return Ok(());
+        };
+        let held_out = self.held_out.map(Loaded::read).transpose()?;
+        let recordings = Recordings {
+            fitted: Arc::new(Loaded::read(fitted)?),
+            held_out: held_out.map(Arc::new),
+        };
+        state.begin(recordings.clone());
+        let mut ids = Vec::new();
+        let mut faults = Vec::new();
+        for saved in self.models {
+            let id = state.number();
+            match Model::again(id, &saved.model, &saved.algorithm, &recordings) {
+                Ok(mut model) => {
+                    model.foreseen = saved.foreseen_rms_counts;
+                    let mut fit = (*model.fit).clone();
+                    fit.evaluations = saved.evaluations;
+                    model.fit = Arc::new(fit);
+                    state.models.push(model);
+                    ids.push(Some(id));
+                }
+                Err(error) => {
+                    faults.push(error.to_string());
+                    ids.push(None);
+                }
+            }
+        }
+        let id = |place: Option<usize>| place.and_then(|place| ids.get(place).copied().flatten());
+        state.chosen = id(self.chosen);
+        state.against = id(self.against);
+        state.race = self.race;
+        state.diagnosis = self.diagnosis;
+        state.secret = self.blind.and_then(|(seed, told)| {
+            let hidden: Hidden = surprise(&Machine::gearmotor(), seed).ok()?;
+            Some(Secret { hidden, seed, told })
+        });
+        if !faults.is_empty() {
+            state.fault = Some(format!("left out: {}", faults.join("; ")));
+        }
+        Ok(())
+    }
+}
+
+/// Writes the bench to a file, whole or not at all.
+pub(super) fn write(path: &Path, state: &State) -> Result<(), Error> {
+    let text = SessionFile::of(state).text()?;
+    Ok(write_whole(path, |out| out.write_all(text.as_bytes()))?)
+}

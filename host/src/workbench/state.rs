@@ -1,0 +1,170 @@
+//! What lies on the bench, and how the page is told of it.
+
+use super::job::Job;
+use super::model::{Model, Recordings};
+use crate::bench::Hidden;
+use crate::diagnose::Suggestion;
+use crate::error::Error;
+use serde_json::Value;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use tokio::sync::broadcast;
+
+/// Tellings that a slow page may miss; it asks for the state anyhow.
+const TELLINGS: usize = 256;
+
+/// The bench, shared by the pages that show it and the work that is done on it.
+pub(super) struct Bench {
+    state: Mutex<State>,
+    /// Tells every page that the bench has changed, and how work goes on.
+    pub(super) tellings: broadcast::Sender<Telling>,
+    /// What is being done.
+    pub(super) job: Job,
+    /// Where the bench is kept after every change.
+    file: Option<PathBuf>,
+}
+
+/// What pages are told without asking.
+#[derive(Clone, Debug)]
+pub(super) enum Telling {
+    /// The bench has changed.
+    Changed,
+    /// Work goes on: what there is to show of it.
+    Progress(Value),
+}
+
+/// What lies on the bench.
+#[derive(Default)]
+pub(super) struct State {
+    /// Counts changes.
+    pub(super) revision: u64,
+    /// Recordings, if there are any.
+    pub(super) recordings: Option<Recordings>,
+    /// Fitted models, in the order in which they were made.
+    pub(super) models: Vec<Model>,
+    /// The one that is looked at.
+    pub(super) chosen: Option<usize>,
+    /// The one that it is compared with.
+    pub(super) against: Option<usize>,
+    /// What would explain more than the chosen model, once it was looked for.
+    pub(super) suggested: Option<(usize, Vec<Suggestion>)>,
+    /// The last race of search methods, `servoid.compare/1`.
+    pub(super) race: Option<Value>,
+    /// The last diagnosis, `servoid.diagnosis/1`.
+    pub(super) diagnosis: Option<Value>,
+    /// What is hidden in the motor of a blind demonstration.
+    pub(super) secret: Option<Secret>,
+    /// What went wrong last, in words.
+    pub(super) fault: Option<String>,
+    next: usize,
+}
+
+/// What is hidden in a blind demonstration.
+#[derive(Clone)]
+pub(super) struct Secret {
+    pub(super) hidden: Hidden,
+    pub(super) seed: u64,
+    pub(super) told: bool,
+}
+
+impl State {
+    /// An empty bench.
+    pub(super) fn clear(&mut self) {
+        *self = State {
+            revision: self.revision,
+            next: self.next,
+            ..State::default()
+        };
+    }
+
+    /// Other recordings: nothing that was found in the old ones holds.
+    pub(super) fn begin(&mut self, recordings: Recordings) {
+        self.clear();
+        self.recordings = Some(recordings);
+    }
+
+    /// A number for the next model.
+    pub(super) fn number(&mut self) -> usize {
+        self.next += 1;
+        self.next
+    }
+
+    /// Puts a model on the bench; one with the same effects and method is replaced. It is looked at next, beside the
+    /// one that was.
+    pub(super) fn put(&mut self, mut model: Model) -> usize {
+        let same = |other: &Model| {
+            other.effects == model.effects && other.fit.algorithm == model.fit.algorithm
+        };
+        if let Some(place) = self.models.iter().position(same) {
+            model.id = self.models[place].id;
+            let id = model.id;
+            self.models[place] = model;
+            self.choose(id);
+            return id;
+        }
+        model.id = self.number();
+        let id = model.id;
+        self.models.push(model);
+        self.choose(id);
+        id
+    }
+
+    /// Looks at a model, beside the one that was looked at.
+    pub(super) fn choose(&mut self, id: usize) {
+        if self.chosen != Some(id) {
+            self.against = self.chosen;
+            self.chosen = Some(id);
+        }
+    }
+
+    /// The model of that number.
+    pub(super) fn model(&self, id: usize) -> Result<&Model, Error> {
+        self.models
+            .iter()
+            .find(|model| model.id == id)
+            .ok_or_else(|| Error::Usage(format!("there is no model {id} on the bench")))
+    }
+
+    /// The recordings.
+    pub(super) fn recordings(&self) -> Result<Recordings, Error> {
+        self.recordings.clone().ok_or_else(|| {
+            Error::Usage("there is no recording on the bench; load one first".to_owned())
+        })
+    }
+}
+
+impl Bench {
+    pub(super) fn new(file: Option<PathBuf>) -> Arc<Self> {
+        Arc::new(Bench {
+            state: Mutex::default(),
+            tellings: broadcast::channel(TELLINGS).0,
+            job: Job::default(),
+            file,
+        })
+    }
+
+    /// What lies on the bench; whoever held it before cannot have left it half done.
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Changes what lies on the bench, keeps it, and tells every page.
+    pub(super) fn change<T>(&self, change: impl FnOnce(&mut State) -> T) -> T {
+        let mut state = self.state();
+        let result = change(&mut state);
+        state.revision += 1;
+        if let Some(path) = &self.file
+            && let Err(error) = super::session_file::write(path, &state)
+        {
+            state.fault = Some(error.to_string());
+        }
+        drop(state);
+        self.tell(Telling::Changed);
+        result
+    }
+
+    /// Tells every page; that nobody listens is no fault.
+    pub(super) fn tell(&self, telling: Telling) {
+        let _ = self.tellings.send(telling);
+    }
+}

@@ -1,0 +1,307 @@
+//! The pieces of work on the bench.
+
+use super::job::Teller;
+use super::model::{Model, Recordings, options, point};
+use super::state::Bench;
+use crate::compare::{self, Contest};
+use crate::diagnose::{self, Diagnosis, Effort, HeldOut, Suggestion};
+use crate::error::Error;
+use crate::fit::{self, Fit};
+use crate::problem::{Candidate, FitProblem};
+use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use crate::report::json::CompareJson;
+use crate::solve::{self, Found, Objective};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use shared::effects::Kind;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Evaluations of a fit at most.
+const BUDGET: usize = 20_000;
+/// Cost of a found model beyond which a better start is worth another fit, in parts of what was foreseen.
+const LOST: f64 = 1.05;
+
+/// Fits a model with these effects, and puts it on the bench.
+pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<(), Error> {
+    let (recordings, suggestion) = {
+        let state = bench.state();
+        let suggestion = (state.suggested.iter())
+            .flat_map(|(_, list)| list)
+            .find(|suggestion| same(&suggestion.refit.effects, effects))
+            .cloned();
+        (state.recordings()?, suggestion)
+    };
+    let fit = fitted(bench, &recordings, effects, algorithm, suggestion.as_ref())?;
+    let model = Model {
+        id: 0,
+        effects: effects.to_vec(),
+        fit: Arc::new(fit),
+        foreseen: suggestion.map(|s| s.refit.foreseen_rms_counts),
+    };
+    bench.change(|state| {
+        state.put(model);
+        state.suggested = None;
+    });
+    Ok(())
+}
+
+/// Whether two models have the same effects, in whatever order.
+fn same(a: &[Kind], b: &[Kind]) -> bool {
+    let mut sorted = [a.to_vec(), b.to_vec()];
+    for kinds in &mut sorted {
+        kinds.sort_unstable();
+    }
+    sorted[0] == sorted[1]
+}
+
+fn fitted(
+    bench: &Bench,
+    recordings: &Recordings,
+    effects: &[Kind],
+    algorithm: &str,
+    suggestion: Option<&Suggestion>,
+) -> Result<Fit, Error> {
+    let mut options = options(&recordings.fitted, effects, 1);
+    options.budget = BUDGET;
+    let parts = recordings.parts();
+    let data = parts.fitted();
+    let solver = solve::by_name(algorithm)
+        .ok_or_else(|| Error::Usage(format!("there is no search method `{algorithm}`")))?;
+    let teller = Teller::new(bench);
+    let samples = data.len() as f64;
+    let mut spent = 0;
+    let mut search = |problem: &FitProblem<'_>| -> Found {
+        let before = spent;
+        let found = fit::search(
+            problem,
+            solver.as_ref(),
+            &options,
+            bench.job.flag(),
+            &mut |count, cost| {
+                let rms = (cost / samples).sqrt();
+                teller.tell(|| json!({ "evaluations": before + count, "rms_counts": finite(rms) }));
+            },
+        );
+        spent += found.evaluations;
+        found
+    };
+    let mut problem = fit::problem(data, &options)?;
+    let mut found = search(&problem);
+    // Regression may start in another valley than the one that was foreseen.
+    if let Some(suggestion) = suggestion {
+        let best = suggestion.refit.rms_counts.powi(2) * samples;
+        if found.cost > LOST * best && algorithm == "lm" {
+            let start = started_at(&problem, &suggestion.refit.candidate);
+            let again = search(&start);
+            if again.cost < found.cost {
+                problem = start;
+                found = again;
+            }
+        }
+    }
+    Fit::conclude(
+        &problem,
+        algorithm,
+        "squared",
+        &found,
+        &options,
+        Some(parts.held_out()),
+    )
+}
+
+/// The same problem, begun at a model.
+fn started_at<'a>(problem: &FitProblem<'a>, candidate: &Candidate) -> FitProblem<'a> {
+    let mut structure = problem.structure.clone();
+    structure.start_speed = problem.structure.start_speed;
+    let x = point(&structure, candidate);
+    FitProblem {
+        data: problem.data,
+        structure,
+        cost: problem.cost,
+        weight: problem.weight,
+        horizon: problem.horizon.clone(),
+        start_angle: problem.start_angle,
+        method: problem.method,
+        start: Some(x),
+    }
+}
+
+/// Looks for what would explain more than a model does.
+pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
+    let (recordings, candidate) = {
+        let state = bench.state();
+        (state.recordings()?, state.model(id)?.fit.candidate)
+    };
+    let parts = recordings.parts();
+    let options = options(&recordings.fitted, &[], 1);
+    let teller = Teller::new(bench);
+    let tried = AtomicUsize::new(0);
+    let done = || {
+        let tried = tried.fetch_add(1, Ordering::Relaxed) + 1;
+        teller.tell(|| json!({ "tried": tried }));
+    };
+    let found = diagnose::suggest(
+        parts.fitted(),
+        parts.held_out(),
+        &candidate,
+        &options,
+        &Effort::usual(bench.job.flag()),
+        &done,
+    )?;
+    bench.change(|state| state.suggested = Some((id, found.list)));
+    Ok(())
+}
+
+/// Names everything that is missing, step by step; each step becomes a model on the bench.
+pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
+    let recordings = bench.state().recordings()?;
+    let parts = recordings.parts();
+    let (data, held_out) = (parts.fitted(), parts.held_out());
+    let options = options(&recordings.fitted, &[], 1);
+    let teller = Teller::new(bench);
+    let tried = AtomicUsize::new(0);
+    let done = || {
+        let tried = tried.fetch_add(1, Ordering::Relaxed) + 1;
+        teller.tell(|| json!({ "tried": tried }));
+    };
+    let stop = bench.job.flag();
+    let found = diagnose::diagnose(data, held_out, &options, &Effort::usual(stop), &done)?;
+    let interrupted = stop.load(Ordering::Relaxed);
+    let last = diagnose::settle(&found, data, held_out, &options, stop)?;
+    let findings = diagnose::findings(&found, data, held_out)?;
+    let kind = kind(&recordings);
+    let report = DiagnosisReport {
+        data,
+        held_out: &kind,
+        diagnosis: &found,
+        last: &last,
+        findings: &findings,
+        remarks: Vec::new(),
+        seed: options.seed,
+        interrupted,
+        json: None,
+    };
+    let json = serde_json::to_value(DiagnosisJson::from(&report))
+        .map_err(|error| Error::Failed(error.to_string()))?;
+    let models = on_the_way(bench, &recordings, &found, last)?;
+    bench.change(|state| {
+        for model in models {
+            state.put(model);
+        }
+        // The whole way is what is looked at: the last model beside the linear motor.
+        state.against = (state.models.iter())
+            .find(|model| model.effects.is_empty())
+            .map(|model| model.id)
+            .filter(|id| state.chosen != Some(*id));
+        state.suggested = None;
+        state.diagnosis = Some(json);
+    });
+    Ok(())
+}
+
+/// What is held out, in the words of a diagnosis.
+fn kind(recordings: &Recordings) -> HeldOut {
+    match (&recordings.held_out, recordings.fitted.cut()) {
+        (Some(other), _) => HeldOut::Recording(other.source.name.clone()),
+        (None, Some(_)) => diagnose::holdout::cut(&recordings.fitted.recording)
+            .map_or(HeldOut::Nothing, |(_, _, kind)| kind),
+        (None, None) => HeldOut::Nothing,
+    }
+}
+
+/// The models of a diagnosis' steps, from the linear motor on.
+fn on_the_way(
+    bench: &Bench,
+    recordings: &Recordings,
+    found: &Diagnosis,
+    last: Fit,
+) -> Result<Vec<Model>, Error> {
+    let mut models = vec![Model {
+        id: 0,
+        effects: Vec::new(),
+        fit: Arc::new(fitted(bench, recordings, &[], "lm", None)?),
+        foreseen: None,
+    }];
+    let mut effects = Vec::new();
+    for (depth, step) in found.steps.iter().enumerate() {
+        effects.push(step.added);
+        let Some(after) = step.candidates.first() else {
+            continue;
+        };
+        let fit = if depth + 1 == found.steps.len() {
+            last.clone()
+        } else {
+            let suggestion = Suggestion {
+                effect: step.added,
+                refit: after.clone(),
+                evidence: None,
+                p_value: 0.0,
+                believed: true,
+            };
+            fitted(bench, recordings, &effects, "lm", Some(&suggestion))?
+        };
+        models.push(Model {
+            id: 0,
+            effects: effects.clone(),
+            fit: Arc::new(fit),
+            foreseen: Some(after.foreseen_rms_counts),
+        });
+    }
+    Ok(models)
+}
+
+/// Search methods side by side on the chosen model's unknowns, told as they go.
+pub(super) fn race(
+    bench: &Arc<Bench>,
+    effects: &[Kind],
+    algorithms: &[String],
+    budget: usize,
+    seeds: u64,
+) -> Result<(), Error> {
+    let recordings = bench.state().recordings()?;
+    let mut options = options(&recordings.fitted, effects, 1);
+    options.budget = budget;
+    let parts = recordings.parts();
+    let problem = fit::problem(parts.fitted(), &options)?;
+    let mut solvers = Vec::new();
+    for name in algorithms {
+        solvers.push(
+            solve::by_name(name)
+                .ok_or_else(|| Error::Usage(format!("there is no search method `{name}`")))?,
+        );
+    }
+    let seeds: Vec<u64> = (1..=seeds).collect();
+    // The first seed is run where everyone can watch; it is run again among all for the table.
+    let samples = parts.fitted().len() as f64;
+    solvers.par_iter().for_each(|solver| {
+        let teller = Teller::new(bench);
+        let quick = crate::problem::Quick::new(&problem);
+        let mut observer = |count: usize, cost: f64| {
+            let rms = finite((cost / samples).sqrt());
+            let name = solver.name();
+            teller.tell(|| json!({ "algorithm": name, "evaluations": count, "rms_counts": rms }));
+        };
+        let mut evaluator = solve::Evaluator::new(
+            &quick as &dyn Objective,
+            budget,
+            bench.job.flag(),
+            &mut observer,
+        );
+        solver.search(&mut evaluator, seeds[0]);
+    });
+    let contest = Contest {
+        problem: &problem,
+        budget,
+        seeds,
+    };
+    let rows = compare::run(&contest, &solvers, bench.job.flag(), &|| {});
+    let json = serde_json::to_value(CompareJson::new(&contest, &rows))
+        .map_err(|error| Error::Failed(error.to_string()))?;
+    bench.change(|state| state.race = Some(json));
+    Ok(())
+}
+
+fn finite(x: f64) -> Value {
+    if x.is_finite() { json!(x) } else { Value::Null }
+}
