@@ -12,6 +12,7 @@ use crate::problem::Data;
 use crate::report::diagnosis::{DiagnosisJson, SteadyJson, SteadyReport};
 use crate::report::sheet;
 use crate::session::Session;
+use std::sync::Arc;
 
 /// The unit of --budget, steps of a model.
 const MILLION: u64 = 1_000_000;
@@ -53,7 +54,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let told = diagnosed.report(session, data, kind, remarks);
     let json = DiagnosisJson::from(&told);
     let drawn = sheet::Recordings {
-        fitted: Some(whole.as_ref().unwrap_or(data)),
+        fitted: Some(whole.as_deref().unwrap_or(data)),
         held_out: kind.source().map(|_| held_out),
     };
     report::write(session, &args.sheet, &json, drawn)?;
@@ -91,7 +92,7 @@ struct Recordings {
     /// What was seen in them.
     remarks: Vec<Remark>,
     /// The only recording, where its end is held out.
-    whole: Option<Data>,
+    whole: Option<Arc<Data>>,
 }
 
 /// Reads what is fitted and what is held out.
@@ -114,12 +115,13 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
         })?;
         first.check_excited()?;
         rest.check_excited()?;
+        let whole = Arc::new(Data::new(&recording)?);
         let recordings = Recordings {
             data: Data::new(&first)?,
-            held_out: Data::new(&rest)?,
+            held_out: Data::new(&rest)?.at_end_of(Arc::clone(&whole)),
             kind,
             remarks,
-            whole: Some(Data::new(&recording)?),
+            whole: Some(whole),
         };
         return Ok((options, recordings));
     };

@@ -32,6 +32,9 @@ const SELDOM: usize = 100;
 /// Samples to each side over which a jump must stay, and which part of it.
 const STAYS: (usize, f64) = (40, 0.7);
 
+/// Samples to each side in which nothing else may change, beyond this part of the jump.
+const ALONE: (usize, f64) = (3, 0.5);
+
 /// What the two recordings say of each other once a diagnosis is made.
 ///
 /// # Errors
@@ -197,8 +200,14 @@ fn jumps(data: &Data, errors: &[f64]) -> Option<String> {
         let stayed = mean(k + 1) - mean(k + 1 - width);
         stayed * jump.signum() > STAYS.1 * jump.abs()
     };
+    // A counter errs between two samples. A rotor that slips where the model's does not takes several for it.
+    let alone = |k: usize| {
+        let around = (k - ALONE.0..=k + ALONE.0).filter(|&j| j != k);
+        let most = around.fold(0.0, |most: f64, j| most.max(change[j].abs()));
+        most < ALONE.1 * change[k].abs()
+    };
     let found: Vec<usize> = (STAYS.0..errors.len() - STAYS.0 - 1)
-        .filter(|&k| change[k].abs() > least && stays(k))
+        .filter(|&k| change[k].abs() > least && alone(k) && stays(k))
         .collect();
     let &first = found.first()?;
     if found.len() * SELDOM > errors.len() {

@@ -1,6 +1,6 @@
 //! A fitted model on another recording, whose start is its own.
 
-use super::{SPEED_HALF_WIDTH, may_start_moving};
+use super::{SPEED_HALF_WIDTH, may_start_moving, scores};
 use crate::error::Error;
 use crate::problem::cost::{Horizon, errors, rms_counts};
 use crate::problem::simulate::Method;
@@ -70,7 +70,20 @@ pub fn validation_errors(
             }
         }
     }
+    if let Some(led) = led(data, candidate, method)
+        && rms(&led) < rms(&best)
+    {
+        best = led;
+    }
     Ok(best)
+}
+
+/// Model minus reading at the end of a whole recording, for a model that ran along it from its begin.
+fn led(data: &Data, candidate: &Candidate, method: Method) -> Option<Vec<f64>> {
+    let whole = data.end_of.as_ref()?;
+    let mut errors = scores::whole(whole, candidate, method).ok()?;
+    let before = errors.len().checked_sub(data.len())?;
+    Some(errors.split_off(before))
 }
 
 /// Speeds at the first sample, rad/s: a few readings tell it roughly; the whole recording tells it by least

@@ -99,5 +99,6 @@ pub fn record(
         supply: setup.supply_v,
         lengths: vec![1.0],
         length_of: vec![0; drive.len()],
+        end_of: None,
     })
 }

@@ -4,6 +4,7 @@
 use crate::recording::{Drive, Recording};
 use shared::error::ModelError;
 use shared::units::PerUnit;
+use std::sync::Arc;
 
 /// Sample times are rounded so that the fastest motion moves less than this many counts by it.
 const TIME_ERROR_COUNTS: f64 = 0.01;
@@ -37,6 +38,9 @@ pub struct Data {
     pub lengths: Vec<f64>,
     /// Index into `lengths` of the interval that begins at each sample.
     pub length_of: Vec<u32>,
+    /// The whole recording, where this is its end: a model that runs along it from its begin comes here in a state
+    /// that a few readings could not tell.
+    pub end_of: Option<Arc<Data>>,
 }
 
 impl Data {
@@ -81,12 +85,19 @@ impl Data {
             units,
             lengths,
             length_of,
+            end_of: None,
         })
     }
 
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.counts.len()
+    }
+
+    /// As the end of a whole recording.
+    pub fn at_end_of(mut self, whole: Arc<Data>) -> Self {
+        self.end_of = Some(whole);
+        self
     }
 
     /// Whether there is none.

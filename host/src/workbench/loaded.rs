@@ -6,6 +6,7 @@ use crate::input::{Known, MotorFile, read_recording_from};
 use crate::problem::Data;
 use crate::recording::Recording;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A file and what is known of it: all that is needed to read it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +27,7 @@ pub struct Loaded {
     /// Read.
     pub recording: Recording,
     /// As it is fitted.
-    pub data: Data,
+    pub data: Arc<Data>,
     /// Facts about the motor.
     pub known: Known,
 }
@@ -41,7 +42,7 @@ impl Loaded {
         let recording = read_recording_from(source.csv.as_bytes(), &source.name, &motor)?;
         recording.check_excited()?;
         Ok(Loaded {
-            data: Data::new(&recording)?,
+            data: Arc::new(Data::new(&recording)?),
             known: motor.known,
             recording,
             source,
@@ -54,6 +55,8 @@ impl Loaded {
         let holdout::HeldOut::End { from_s, .. } = kind else {
             return None;
         };
-        Some((Data::new(&first).ok()?, Data::new(&rest).ok()?, from_s))
+        let rest = Data::new(&rest).ok()?;
+        let rest = rest.at_end_of(Arc::clone(&self.data));
+        Some((Data::new(&first).ok()?, rest, from_s))
     }
 }

@@ -44,7 +44,9 @@ const WORDS: [(&str, &[&str]); 5] = [
     ),
     (
         "angle",
-        &["angle", "count", "encoder", "position", "pos", "theta", "q"],
+        &[
+            "angle", "count", "encoder", "position", "enc", "pos", "theta", "q",
+        ],
     ),
     ("current", &["current", "amp", "i_a"]),
     ("enabled", &["enabled", "enable"]),

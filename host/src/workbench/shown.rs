@@ -318,7 +318,7 @@ pub(super) fn report(bench: &Bench) -> Result<String, Error> {
     let kept = Kept::from_json(json).map_err(|fault| Error::Failed(fault.to_string()))?;
     let drawn = sheet::Recordings {
         fitted: Some(&recordings.fitted.data),
-        held_out: recordings.held_out.as_ref().map(|other| &other.data),
+        held_out: recordings.held_out.as_ref().map(|other| &*other.data),
     };
     Ok(sheet::page(&kept, drawn)?.render())
 }

@@ -223,7 +223,7 @@
       try {
         const answer = await ask("trial", { model: chosen.id, values: moved });
         at("by-hand").textContent = `moved by hand: ${answer.said} counts RMS (fitted: ${counts(chosen.rms_counts)})`;
-        await servoid.draw(at("bench-timeline"), { timeline: answer.timeline });
+        await servoid.draw(at("bench-timeline"), answer.timeline);
       } catch (error) {
         say(error);
       }
@@ -257,7 +257,7 @@
     try {
       const answer = await ask("pictures");
       if (asked !== picturesAsked) return;
-      await servoid.draw(at("bench-timeline"), { timeline: answer.timeline });
+      await servoid.draw(at("bench-timeline"), answer.timeline);
       for (const div of document.querySelectorAll("#pictures .plot")) servoid.forget(div);
       at("pictures").innerHTML = answer.html;
       for (const [id, drawing] of Object.entries(answer.drawings)) await servoid.draw(at(id), drawing);

@@ -1,0 +1,55 @@
+// The report in a real browser, from a double click.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Desk, browser, open, outside } from "./bench.mjs";
+
+let chrome;
+let desk;
+before(async () => {
+  chrome = await browser();
+  desk = new Desk();
+  desk.run("demo --out demo.html");
+});
+after(async () => {
+  await chrome?.close();
+  desk?.clear();
+});
+
+// Scrolls through the page until every picture is drawn.
+async function drawn(page) {
+  const places = await page.locator(".plot").count();
+  for (let k = 0; k < places; k += 1) {
+    await page.locator(".plot").nth(k).scrollIntoViewIfNeeded();
+    await page.waitForFunction((k) => document.querySelectorAll(".plot")[k].querySelector(".main-svg"), k);
+  }
+  return places;
+}
+
+test("it draws everything, offline, and nothing is asked for", async () => {
+  const url = `file://${desk.path("demo.html")}`;
+  const page = await open(chrome, url);
+  await page.context().setOffline(true);
+  assert.ok((await drawn(page)) >= 8);
+  assert.deepEqual(outside(page, url), []);
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
+
+test("cursors show values and their difference, and time axes go together", async () => {
+  const page = await open(chrome, `file://${desk.path("demo.html")}`);
+  await drawn(page);
+  const first = page.locator("#timeline");
+  await first.focus();
+  await page.keyboard.press("a");
+  await page.keyboard.press("b");
+  for (let k = 0; k < 5; k += 1) await page.keyboard.press("ArrowRight");
+  const row = await page.locator("#figure-timeline .cursors tr").nth(1).innerText();
+  const [a, b, difference] = row.split("\t").slice(1).map(Number);
+  assert.ok(difference > 0 && Math.abs(b - a - difference) < 2e-4, row);
+  await page.evaluate(() => Plotly.relayout("timeline", { "xaxis.range": [2, 4] }));
+  await page.waitForFunction(() => {
+    const range = document.getElementById("timeline-held-out").layout.xaxis.range;
+    return range && Math.abs(range[0] - 2) < 1e-6 && Math.abs(range[1] - 4) < 1e-6;
+  });
+  await page.context().close();
+});
