@@ -4,10 +4,16 @@
 //! |---|---|
 //! | `model` | a model with all its numbers, as `fit` and `diagnose` write it |
 //! | `fault` | what can be wrong with one, with the remedy |
+//! | `result` | what was found and how well it is known, from a fit, a diagnosis, a verification or a device's report |
+//! | `result_fault` | what can be wrong with that |
 
 mod fault;
 mod model;
+mod result;
+mod result_fault;
 
 pub use fault::ModelFault;
 pub(crate) use fault::number;
 pub use model::{Integrator, KeptMachine, KeptModel, KeptParameter};
+pub use result::{KeptEstimate, KeptResult};
+pub use result_fault::{ResultError, ResultFault};
