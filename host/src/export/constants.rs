@@ -108,7 +108,7 @@ pub(super) fn constants(
         "  w'     = w     + STEP_W_BY_C*c     + STEP_W_BY_W*w     + STEP_W_BY_V*v     + STEP_W_BY_T*t".to_owned(),
         "  theta' = theta + STEP_THETA_BY_C*c + STEP_THETA_BY_W*w + STEP_THETA_BY_V*v + STEP_THETA_BY_T*t".to_owned(),
         format!("c = R*i is the current in {volt}, w the speed in rad/s, theta the angle in rad, v the command in {volt}, and t a torque"),
-        format!("against positive rotation in {volt}, T*R/Kt: Coulomb friction is t = COULOMB_TORQUE*sign(w) in {volt}."),
+        format!("against positive rotation as T*R/Kt in {volt}: with Coulomb friction Tc it is t = Tc*sign(w), a Tc in N*m times R/Kt."),
     ];
     if subject.drive == Drive::Voltage && subject.determined("electrical_time_constant").is_none() {
         step.push(

@@ -14,7 +14,7 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     text += "name,value,unit,std,identifiable,side\n";
     let number = |number: Option<f64>| number.map_or_else(String::new, |x| format!("{x:?}"));
     for row in rows {
-        // Names and units hold neither commas nor quotes.
+        // Names and units are those of servoid and hold neither commas nor quotes.
         text += &format!(
             "{},{},{},{},{},{}\n",
             row.name,

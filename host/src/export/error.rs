@@ -27,9 +27,9 @@ pub enum ExportError {
     /// A loop that cannot be closed as asked.
     #[error("{0}")]
     Loop(String),
-    /// A unit that nobody knows how to refer to the output.
+    /// A unit that nobody knows.
     #[error(
-        "`{name}` is in `{unit}`, which servoid cannot refer to the output; export it on the motor's side"
+        "`{name}` is in `{unit}`, a unit that servoid does not know; run the verb that wrote the result again"
     )]
     Unit {
         /// The parameter.

@@ -92,7 +92,9 @@ impl Options {
     /// # Errors
     /// Neither the user nor the result says it.
     pub fn period(&self, subject: &Subject, format: &'static str) -> Result<f64, ExportError> {
-        let period = self.sample_s.or(subject.sample_s);
+        // The recording's is the median of rounded times; nine digits of it mean something.
+        let rounded = |s: f64| format!("{s:.8e}").parse().unwrap_or(s);
+        let period = self.sample_s.or(subject.sample_s.map(rounded));
         period.ok_or_else(|| ExportError::Undetermined {
             format,
             needs: "the sample interval".to_owned(),

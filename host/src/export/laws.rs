@@ -361,6 +361,11 @@ fn feed_forward_asks_for_the_voltage_that_moved_the_motor() {
             {
                 continue;
             }
+            // A dead zone has the sign of the command, and kS that of the speed: driving they are one.
+            let drives = [k, k + 1].map(command);
+            if kinds.contains(&Kind::DeadZone) && drives.iter().any(|u| u * speed <= speed.abs()) {
+                continue;
+            }
             let (k_s, k_g) = (feed.k_s.unwrap_or(0.0), feed.k_g.unwrap_or(0.0));
             let asked =
                 k_s * speed.signum() + k_g + feed.k_v * speed + feed.k_a * (after - before) / 2e-3;
@@ -400,6 +405,53 @@ fn the_output_s_numbers_are_those_of_the_motor_behind_its_gear() {
     // With a ratio of one, both sides are one.
     let one = subject(&kept, Side::Output { ratio: 1.0 });
     assert_eq!(one.values, here.values);
+}
+
+/// An attribute of an element of a MuJoCo model.
+fn attribute(text: &str, element: &str, name: &str) -> Option<f64> {
+    let document = roxmltree::Document::parse(text).expect("XML");
+    let node = document.descendants().find(|n| n.has_tag_name(element))?;
+    let value = node.attribute(name)?.split(' ').next()?;
+    Some(value.parse().expect("a number"))
+}
+
+#[test]
+fn a_mujoco_motor_has_the_torque_and_the_friction_of_ours() {
+    let format = Format::by_name("mujoco").expect("a format");
+    for name in bench::PRESETS {
+        let motor = bench::Machine {
+            kt_n_m_a: 0.8 * bench::Machine::preset(name).expect("a preset").kt_n_m_a,
+            ..bench::Machine::preset(name).expect("a preset")
+        };
+        for side in [Side::Motor, OUTPUT] {
+            let turns = if side == Side::Motor { 1.0 } else { 30.0 };
+            let both = [Kind::Lugre, Kind::Coulomb];
+            let subject = subject(&result(&motor, &both, Known::All), side);
+            let text = write(format, &subject).expect("a model").text;
+            let of_motor = |name| attribute(&text, "dcmotor", name).expect(name);
+            let of_joint = |name| attribute(&text, "joint", name).expect(name);
+            let (resistance, k) = (of_motor("resistance"), of_motor("motorconst"));
+            // One volt at rest, and one radian a second without a volt.
+            let torque = motor.kt_n_m_a / motor.resistance_ohm * turns;
+            assert!((k / resistance / torque - 1.0).abs() < 1e-9, "{name}");
+            let brake = torque * motor.kb_v_s_rad * turns;
+            assert!((k * k / resistance / brake - 1.0).abs() < 1e-9, "{name}");
+            let inertia = motor.inertia_kg_m2 * turns * turns;
+            assert!(
+                (of_joint("armature") / inertia - 1.0).abs() < 1e-9,
+                "{name}"
+            );
+            let viscous = motor.viscous_n_m_s * turns * turns;
+            assert!((of_joint("damping") / viscous - 1.0).abs() < 1e-9, "{name}");
+            // The bristles' friction stands once.
+            let coulomb = subject.terms[1].values[0] * torque;
+            assert!(
+                (of_joint("frictionloss") / coulomb - 1.0).abs() < 1e-9,
+                "{name}"
+            );
+            assert!(of_motor("lugre") > 0.0, "{name}");
+        }
+    }
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //! `R' = ρ·Kb` the two are the same, whatever `Kt` is; where `Kt = Kb`, `R'` is the resistance itself. If viscous friction is
 //! not told apart from back-EMF, all of it stands as back-EMF, which moves the joint alike. The inductance is given by the
 //! electrical time constant. For a MuJoCo without `dcmotor` the same motor stands beside it as `general`, with `gain = 1/ρ`
-//! and `bias = −Kb/ρ`; that one has no inductance.
+//! and `bias = −Kb/ρ`; that one has no inductance. (MuJoCo 4.0.0 was seen to reach the speeds, and to give the cogging and LuGre
+//! torques, of these equations.)
 
 use super::comment::{head, xml};
 use super::error::ExportError;
@@ -17,6 +18,10 @@ use shared::effects::Kind;
 const FORMAT: &str = "mujoco";
 /// Orders nearer to a whole number than this are one.
 const WHOLE: f64 = 1e-3;
+/// Inertia of the body that carries the joint, as a part of the armature.
+const LITTLE: f64 = 1e-6;
+/// The least that MuJoCo takes is 1e-15 kg·m².
+const LEAST_INERTIA: f64 = 1e-14;
 /// Motor constants that differ by less than this part are one.
 const SAME: f64 = 1e-3;
 
@@ -25,7 +30,16 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     subject.needs_response(FORMAT)?;
     let ratio = subject.needs_torques(FORMAT)?;
     let mut written = Written::new(subject);
-    let friction = Friction::of(subject, &mut written);
+    let bristles = bristles(subject, ratio);
+    let mut friction = Friction::of(subject, &mut written);
+    if let Some((torque, _)) = &bristles {
+        // It stands as bristles, and not once more as a constant.
+        friction.sliding -= torque;
+        let lugre = |name: &&str| *name == Kind::Lugre.name();
+        if let Some(place) = friction.slides.iter().position(lugre) {
+            friction.slides.remove(place);
+        }
+    }
     let machine = &subject.machine;
     let (emf, viscous) = if subject.viscous_is_apart() {
         (machine.kb, machine.damping)
@@ -80,9 +94,10 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         ));
     }
     let cogging = cogging(subject, ratio);
-    let bristles = bristles(subject, ratio);
     if let Some((_, text)) = &cogging {
         motor.push(("cogging", "N*m 1 rad", "cogging", text.clone()));
+        let place = "cogging: the joint's angle is zero where the encoder counts from";
+        written.remarks.push(place.to_owned());
     }
     if let Some((_, text)) = &bristles {
         motor.push((
@@ -91,8 +106,6 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             "lugre",
             text.clone(),
         ));
-        // Either stands for the sliding friction, not both.
-        joint.retain(|(name, ..)| *name != "frictionloss");
     }
     let (mut coggings, mut lugres, mut limits) = (0, 0, 0);
     for term in &subject.terms {
@@ -140,7 +153,11 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     for (name, _, _, value) in &joint {
         text += &format!(" {name}=\"{value:?}\"");
     }
-    text += "/>\n      <geom type=\"cylinder\" size=\"0.01 0.01\" mass=\"0\" contype=\"0\" conaffinity=\"0\"/>\n    </body>\n  </worldbody>\n";
+    // MuJoCo wants some inertia in every body that moves.
+    let least = (LITTLE * machine.inertia / ratio).max(LEAST_INERTIA);
+    text += &format!(
+        "/>\n      <inertial pos=\"0 0 0\" mass=\"1e-6\" diaginertia=\"{least:?} {least:?} {least:?}\"/>\n    </body>\n  </worldbody>\n"
+    );
     text += "  <actuator>\n    <dcmotor name=\"motor\" joint=\"shaft\"";
     for (name, _, _, value) in &motor {
         text += &format!(" {name}=\"{value}\"");
@@ -192,8 +209,8 @@ fn cogging(subject: &Subject, ratio: f64) -> Option<(Kind, String)> {
     })
 }
 
-/// `stiffness damping coulomb static stribeck`, with `σ0 = Tc·(1 + r)/z(0)` and `σ1 = σ0·t1`.
-fn bristles(subject: &Subject, ratio: f64) -> Option<(Kind, String)> {
+/// The sliding friction (V), and `stiffness damping coulomb static stribeck`, with `σ0 = Tc·(1 + r)/z(0)` and `σ1 = σ0·t1`.
+fn bristles(subject: &Subject, ratio: f64) -> Option<(f64, String)> {
     let term = first(subject, Kind::Lugre)?;
     let [torque, excess, speed, presliding, time] = term.values[..] else {
         return None;
@@ -205,6 +222,6 @@ fn bristles(subject: &Subject, ratio: f64) -> Option<(Kind, String)> {
     fits.then(|| {
         let damping = stiffness * time;
         let text = format!("{stiffness:?} {damping:?} {sliding:?} {holding:?} {speed:?}");
-        (term.kind, text)
+        (torque, text)
     })
 }

@@ -75,7 +75,7 @@ impl Subject {
         let refer = |name: &str, value: f64, unit: &str| {
             let factor = side.factor(unit).ok_or_else(|| ExportError::Unit {
                 name: name.to_owned(),
-                unit: unit.to_owned(),
+                unit: unit.escape_debug().to_string(),
             });
             factor.map(|factor| value * factor)
         };

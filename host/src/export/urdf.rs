@@ -2,7 +2,7 @@
 //! URDF has no rotor inertia, no winding and no Stribeck effect.
 
 use super::comment::{head, xml};
-use super::error::{ExportError, NAME_RESISTANCE};
+use super::error::ExportError;
 use super::format::Options;
 use super::friction::{Friction, carried};
 use super::subject::Subject;
@@ -34,7 +34,7 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         return Err(ExportError::Undetermined {
             format: FORMAT,
             needs: "some friction".to_owned(),
-            remedy: NAME_RESISTANCE,
+            remedy: "fit again with --with coulomb, or record a stretch of coasting with the bridge open",
         });
     }
     for (name, from, unit, _) in &attributes {

@@ -1,5 +1,6 @@
 //! What a format wrote: its text, where each number went, and what it has no place for.
 
+use super::side::Side;
 use super::subject::Subject;
 use serde::Serialize;
 use shared::effects::Kind;
@@ -54,11 +55,19 @@ pub struct Written {
 impl Written {
     /// Nothing yet.
     pub fn new(subject: &Subject) -> Self {
+        let mut remarks = Vec::new();
+        let once = [Kind::Unbalance, Kind::EncEcc];
+        for term in &subject.terms {
+            if subject.side != Side::Motor && once.contains(&term.kind) {
+                let name = term.kind.name();
+                remarks.push(format!("{name}: its angle theta stays the motor's"));
+            }
+        }
         Written {
             text: String::new(),
             mapping: Vec::new(),
             cannot_carry: Vec::new(),
-            remarks: Vec::new(),
+            remarks,
             side: subject.side.name(),
         }
     }

@@ -279,6 +279,12 @@ impl KeptResult {
             }
         }
         for found in &self.parameters {
+            // Names become those of other languages.
+            let of_name = |c: char| c.is_ascii_alphanumeric() || "_.".contains(c);
+            let begins = found.name.starts_with(|c: char| c.is_ascii_alphabetic());
+            if !(begins && found.name.chars().all(of_name)) {
+                return Err(ResultFault::Name(shown(&found.name)));
+            }
             let key = format!("parameters, {}", shown(&found.name));
             super::number(&key, found.value, true, "a finite number")?;
             let std = found.std.unwrap_or(0.0);

@@ -48,6 +48,11 @@ pub enum ResultFault {
     /// A drive that nobody knows.
     #[error(": drive is `{0}`, needed is `voltage` or `current`")]
     Drive(String),
+    /// A parameter whose name is none.
+    #[error(
+        ": a parameter is called `{0}`, which no servoid writes; run the verb that wrote it again"
+    )]
+    Name(String),
     /// A curve of steady speeds.
     #[error(
         ": is the diagnosis of a curve of steady speeds, which says nothing of inertia and time constants; record an \

@@ -91,24 +91,30 @@ impl Task<'_> {
                 }
             },
         };
-        let closed = (crossover < self.open.fastest())
+        let limit = self.open.highest(LEAST_MARGIN, &rate);
+        let closed = (limit.is_some_and(|limit| crossover <= limit))
             .then(|| self.open.close(rate(crossover), crossover))
             .flatten();
-        let margin = closed.map_or(f64::NEG_INFINITY, |closed| closed.phase_margin);
-        let Some(closed) = closed.filter(|_| margin >= LEAST_MARGIN) else {
+        let Some(closed) = closed else {
             let can = self.open.highest(GOOD_MARGIN, &rate);
             let can = can.map_or_else(
-                || "none does at this control period".to_owned(),
-                |omega| format!("the highest that does is {:.3} Hz", hz(omega)),
+                || format!("none leaves {GOOD_MARGIN}"),
+                |omega| {
+                    format!(
+                        "the highest that leaves {GOOD_MARGIN} is {:.3} Hz",
+                        hz(omega)
+                    )
+                },
             );
             return refuse(format!(
-                "{} {:?}: the {} needs a phase margin of {GOOD_MARGIN} degrees at a control period of {period} s ({LEAST_MARGIN} at \
-                 least); {can}; ask for less or give a shorter --sample",
+                "{} {:?}: the {} would have less than {LEAST_MARGIN} degrees of phase margin at a control period of {period:?} s; \
+                 {can}; ask for less or give a shorter --sample",
                 self.flag,
                 hz(crossover),
                 self.name
             ));
         };
+        let margin = closed.phase_margin;
         let warning = (margin < GOOD_MARGIN - 0.01).then(|| {
             format!(
                 "{}: a phase margin of {margin:.0} degrees is little; expect overshoot",

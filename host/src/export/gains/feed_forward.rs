@@ -20,6 +20,10 @@ pub struct FeedForward {
     pub k_g: Option<f64>,
     /// The effects that make it.
     pub k_g_from: String,
+    /// The part of `k_s` that is friction, without the dead zone, V.
+    pub sliding: Option<f64>,
+    /// Of friction alone, without back-EMF, V per rad/s; none where they are not told apart.
+    pub viscous: Option<f64>,
     /// V per rad/s.
     pub k_v: f64,
     /// V per rad/s².
@@ -70,6 +74,8 @@ impl FeedForward {
                 (sliding, dead) => Some(sliding.unwrap_or(0.0) + dead.unwrap_or(0.0)),
             },
             k_s_from: dead_from.join(", "),
+            sliding: slides,
+            viscous: (subject.viscous_is_apart()).then_some(machine.damping + friction.viscous),
             k_g: constant,
             k_g_from: constant_from.join(", "),
             k_v: machine.kb + machine.damping + friction.viscous,

@@ -195,21 +195,19 @@ impl Open<'_> {
         Some(high)
     }
 
-    /// The highest crossover that leaves this phase margin, degrees, if the controller's rate follows from it, rad/s.
+    /// The highest crossover up to which all leave this phase margin, degrees, if the controller's rate follows from it,
+    /// rad/s. Beyond it the phase may turn once around and seem to be back; there the loop is not stable.
     pub fn highest(&self, margin: f64, rate: &dyn Fn(f64) -> f64) -> Option<f64> {
-        let enough = |omega: f64| {
-            let found = self.margin(self.pi(rate(omega), omega), omega);
-            found >= margin
-        };
+        let enough = |omega: f64| self.margin(self.pi(rate(omega), omega), omega) >= margin;
         let step = 10f64.powf(1.0 / TO_A_DECADE);
-        let mut low = self.fastest() / step;
-        while !enough(low) {
-            low /= step;
-            if low < LOWEST * self.fastest() {
-                return None;
-            }
+        let mut low = LOWEST * self.fastest();
+        if !enough(low) {
+            return None;
         }
-        let mut high = low * step;
+        while low * step < self.fastest() && enough(low * step) {
+            low *= step;
+        }
+        let mut high = (low * step).min(self.fastest());
         for _ in 0..60 {
             let middle = (low * high).sqrt();
             *(if enough(middle) { &mut low } else { &mut high }) = middle;

@@ -299,7 +299,7 @@ impl Controllers {
 pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, ExportError> {
     let controllers = design(subject, options)?;
     let mut written = Written::new(subject);
-    written.remarks = controllers.remarks.clone();
+    written.remarks.extend(controllers.remarks.iter().cloned());
     let feed = FeedForward::of(subject, &mut written);
     let is_delay = |lack: &&mut Lack| lack.what == Kind::Delay.name();
     for lack in written.cannot_carry.iter_mut().filter(is_delay) {
@@ -310,25 +310,41 @@ pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, Exp
         body += &text(section, subject, &mut written);
     }
     let volt = subject.unit_shown("V");
-    body += "\n# the command that a motion needs: u = k_s*sign(w) + k_g + k_v*w + k_a*dw/dt, added to the speed loop's output\n";
-    if subject.drive == Drive::Voltage && controllers.section("current_loop").is_some() {
-        body += "# (in volts; around the current loop divide k_s, k_g and k_a by the resistance and leave k_v out but for viscous friction)\n";
-    }
-    body += "[feed_forward]\n";
+    body += "\n# the command that a motion needs: u = k_s*sign(w) + k_g + k_v*w + k_a*dw/dt, without a current loop added to the\n\
+             # speed loop's output\n[feed_forward]\n";
+    let per = |unit: &str| {
+        [
+            unit.to_owned(),
+            format!("{unit} per rad/s"),
+            format!("{unit} per rad/s^2"),
+        ]
+    };
+    let [constant, rate, second] = per(&volt);
     for (key, from, number, unit) in [
-        ("k_s", feed.k_s_from.as_str(), feed.k_s, volt.clone()),
-        ("k_g", &feed.k_g_from, feed.k_g, volt.clone()),
-        ("k_v", "gain", Some(feed.k_v), format!("{volt} per rad/s")),
-        (
-            "k_a",
-            "a1, gain",
-            Some(feed.k_a),
-            format!("{volt} per rad/s^2"),
-        ),
+        ("k_s", feed.k_s_from.as_str(), feed.k_s, &constant),
+        ("k_g", &feed.k_g_from, feed.k_g, &constant),
+        ("k_v", "gain", Some(feed.k_v), &rate),
+        ("k_a", "a1, gain", Some(feed.k_a), &second),
     ] {
         if let Some(number) = number {
-            written.map(from, &format!("feed_forward.{key}"), &unit);
+            written.map(from, &format!("feed_forward.{key}"), unit);
             body += &format!("{key} = {number:?} # {unit}\n");
+        }
+    }
+    let ohm = subject.physical("resistance", "ohm");
+    if let Some(ohm) = ohm.filter(|_| controllers.section("current_loop").is_some()) {
+        // Behind the current loop back-EMF, offsets and dead zone are its own affair.
+        body += "\n# the current that a motion needs, added to the speed loop's output\n[feed_forward_current]\n";
+        let [constant, rate, second] = per("A");
+        for (key, from, number, unit) in [
+            ("k_s", "friction", feed.sliding, &constant),
+            ("k_v", "viscous", feed.viscous, &rate),
+            ("k_a", "inertia", Some(subject.machine.inertia), &second),
+        ] {
+            if let Some(number) = number {
+                written.map(from, &format!("feed_forward_current.{key}"), unit);
+                body += &format!("{key} = {:?} # {unit}\n", number / ohm);
+            }
         }
     }
     let mut text = marked(&head(subject, &written), "# ");

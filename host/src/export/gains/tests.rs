@@ -196,7 +196,7 @@ fn what_is_asked_too_fast_is_refused_and_the_highest_that_is_named_can_be_had() 
                     "{error}"
                 );
                 let highest = error
-                    .split("the highest that does is ")
+                    .split("the highest that leaves 45 is ")
                     .nth(1)
                     .expect(&error);
                 let highest: f64 = highest

@@ -95,6 +95,7 @@ fn what_is_no_result_is_refused_with_its_place_and_never_read() {
             "[\"colomb\"],\n    \"m",
             "coulomb",
         ),
+        ("\"gain\"", "\"ga,in\"", "`ga,in`"),
         ("\"std\": 0.001", "\"std\": -1", "at least 0"),
     ] {
         let error = KeptResult::parse(&FIT.replace(from, to)).expect_err(to);
