@@ -9,6 +9,9 @@ use crate::output::write_whole;
 use crate::session::Session;
 use serde::Serialize;
 
+/// Ratios of gears, generously.
+const RATIOS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
 /// `servoid.export/1`.
 #[derive(Serialize)]
 struct ExportJson<'a> {
@@ -87,6 +90,13 @@ fn summary(format: &Format, written: &Written, path: &std::path::Path) -> String
 
 fn side(args: &ExportArgs) -> Result<Side, Error> {
     let ratio = positive("--ratio", args.ratio)?;
+    if let Some(ratio) = ratio.filter(|ratio| !RATIOS.contains(ratio)) {
+        return Err(Error::Usage(format!(
+            "--ratio {ratio}: must be between {:e} and {:e}",
+            RATIOS.start(),
+            RATIOS.end()
+        )));
+    }
     match (args.side, ratio) {
         (SideName::Motor, None) => Ok(Side::Motor),
         (SideName::Output, Some(ratio)) => Ok(Side::Output { ratio }),

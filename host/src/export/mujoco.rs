@@ -86,12 +86,13 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     }
     let limit = limit(subject);
     if let Some(limit) = limit {
-        motor.push((
-            "ctrlrange",
-            "V",
-            "supply, voltage_sat",
-            format!("-{limit:?} {limit:?}"),
-        ));
+        let clips = subject.terms.iter().any(|t| t.kind == Kind::VoltageSat);
+        let from = if clips {
+            "supply, voltage_sat"
+        } else {
+            "supply"
+        };
+        motor.push(("ctrlrange", "V", from, format!("-{limit:?} {limit:?}")));
     }
     let cogging = cogging(subject, ratio);
     if let Some((_, text)) = &cogging {

@@ -63,6 +63,8 @@ pub struct Subject {
     pub terms: Vec<Term>,
 }
 
+/// No resistance, motor constant or inertia is smaller.
+const LEAST: f64 = 1e-30;
 /// Names that describe a recording and not the motor.
 const NUISANCES: [&str; 2] = ["start_speed", "start_offset"];
 
@@ -184,7 +186,9 @@ impl Subject {
             .values
             .iter()
             .find(|v| v.name == name && v.unit == unit);
-        found.filter(|v| v.determined).map(|v| v.value)
+        let value = found.filter(|v| v.determined).map(|v| v.value);
+        // Others are divided by it.
+        value.filter(|x| x.abs() > LEAST)
     }
 
     /// Volts at the winding per newton metre on the shaft, `R/Kt`, V/(N·m).
@@ -197,7 +201,7 @@ impl Subject {
         let ratio = constants.map(|(r, kt)| r / kt);
         ratio
             .or(inertia.map(|j| self.machine.inertia / j))
-            .filter(|x| x.is_finite() && *x > 0.0)
+            .filter(|x| *x > LEAST && *x < 1.0 / LEAST)
     }
 
     /// Whether viscous friction is known apart from back-EMF.

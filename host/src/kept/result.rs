@@ -104,6 +104,8 @@ struct DeviceParameter {
 
 /// The file of a device's folder.
 const DEVICE: &str = "device.json";
+/// No number of a motor is as large, and what is computed from smaller ones stays finite.
+const HUGE: f64 = 1e30;
 /// Beyond this part of the value a standard deviation leaves the value open, as in a fit.
 const OPEN: f64 = 0.5;
 
@@ -286,11 +288,25 @@ impl KeptResult {
                 return Err(ResultFault::Name(shown(&found.name)));
             }
             let key = format!("parameters, {}", shown(&found.name));
-            super::number(&key, found.value, true, "a finite number")?;
+            super::number(
+                &key,
+                found.value,
+                found.value.abs() < HUGE,
+                "less than 1e30",
+            )?;
             let std = found.std.unwrap_or(0.0);
             super::number(&key, std, std >= 0.0, "a standard deviation of at least 0")?;
         }
-        self.model.candidate(self.place)?;
+        let machine = self.model.candidate(self.place)?.machine;
+        for value in [
+            machine.kb,
+            machine.damping,
+            machine.inertia,
+            machine.electrical,
+        ] {
+            let key = format!("{}.machine", self.place);
+            super::number(&key, value, value < HUGE, "less than 1e30")?;
+        }
         Ok(self)
     }
 }

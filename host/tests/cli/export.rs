@@ -142,6 +142,10 @@ fn wrong_use_is_refused_by_the_flag_s_name() {
         ("--to c --side output", &["--side output", "--ratio"]),
         ("--to c --side output --ratio 0", &["--ratio 0", "positive"]),
         ("--to c --side output --ratio nan", &["--ratio", "positive"]),
+        (
+            "--to c --side output --ratio 1e200",
+            &["--ratio", "between"],
+        ),
         ("--to c --sample -1", &["--sample -1", "positive"]),
         ("--to csv --sample 1e-3", &["--sample", "gains"]),
         ("--to c --method cancel", &["--method", "--to gains"]),

@@ -67,6 +67,8 @@ pub struct Task<'a> {
     pub open: Open<'a>,
     /// Whether it is a current loop.
     pub inner: bool,
+    /// What may help where it cannot be as fast as asked, beside asking for less.
+    pub helps: &'static str,
 }
 
 impl Task<'_> {
@@ -84,9 +86,8 @@ impl Task<'_> {
                 Some(usual) => usual,
                 None => {
                     return refuse(format!(
-                        "{}: no gain leaves a phase margin of {GOOD_MARGIN} degrees at a control period of {period} s; give a shorter \
-                         --sample",
-                        self.name
+                        "{}: no gain leaves a phase margin of {GOOD_MARGIN} degrees at a control period of {period} s; give {}",
+                        self.name, self.helps
                     ));
                 }
             },
@@ -108,10 +109,11 @@ impl Task<'_> {
             );
             return refuse(format!(
                 "{} {:?}: the {} would have less than {LEAST_MARGIN} degrees of phase margin at a control period of {period:?} s; \
-                 {can}; ask for less or give a shorter --sample",
+                 {can}; ask for less or give {}",
                 self.flag,
                 hz(crossover),
-                self.name
+                self.name,
+                self.helps
             ));
         };
         let margin = closed.phase_margin;

@@ -2,6 +2,7 @@
 
 use super::super::samples::{Known, linear, result, subject};
 use super::super::side::Side;
+use super::loops::{C, Pi, hz};
 use super::*;
 use crate::bench;
 use shared::model::{Model, Plan, State};
@@ -326,4 +327,29 @@ fn delay_costs_margin_and_a_second_inertia_is_warned_of() {
             .iter()
             .any(|r| r.contains("resonance"))
     );
+}
+
+#[test]
+fn behind_a_gear_counts_stay_counts_and_radians_weigh_more() {
+    let kept = linear(&bench::Machine::gearmotor(), Known::All);
+    for loops in [Loops::Cascade, Loops::Voltage] {
+        let sides = [Side::Motor, Side::Output { ratio: 30.0 }];
+        let [motor, output] = sides.map(|side| {
+            let subject = subject(&kept, side);
+            let gains = Asked {
+                loops: Some(loops),
+                ..Asked::default()
+            };
+            let found = design(&subject, &asked(gains)).expect("loops");
+            let speed = found.section("speed_loop").expect("a loop").closed;
+            let per_count = TAU / subject.counts_per_rev.expect("counts");
+            [speed.pi.kp, speed.pi.kp * per_count, speed.phase_margin]
+        });
+        for (found, factor) in [(0, 30.0), (1, 1.0), (2, 1.0)] {
+            assert!(
+                (output[found] / motor[found] / factor - 1.0).abs() < 1e-6,
+                "{loops:?}"
+            );
+        }
+    }
 }

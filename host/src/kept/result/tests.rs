@@ -110,3 +110,11 @@ fn what_is_no_result_is_refused_with_its_place_and_never_read() {
     let error = KeptResult::parse(&unfitted).expect_err("no fit");
     assert!(error.to_string().contains("did not fit"), "{error}");
 }
+
+#[test]
+fn numbers_that_no_motor_has_are_refused_before_anything_is_computed_from_them() {
+    for (from, to) in [("58.0", "1e200"), ("4.3e-4", "1e40"), ("0.017", "1e301")] {
+        let error = KeptResult::parse(&FIT.replace(from, to)).expect_err(to);
+        assert!(error.to_string().contains("1e30"), "{error}");
+    }
+}
