@@ -3,8 +3,9 @@
 use crate::bench::BenchError;
 use crate::device::DeviceError;
 use crate::diagnose::steady::SteadyError;
+use crate::export::ExportError;
 use crate::input::{MotorFileError, ReadError};
-use crate::kept::KeptError;
+use crate::kept::{KeptError, ResultError};
 use crate::output::WriteError;
 use crate::prove::StoreError;
 use shared::error::ModelError;
@@ -43,6 +44,12 @@ pub enum Error {
     /// A device, or the link to it.
     #[error(transparent)]
     Device(#[from] DeviceError),
+    /// A result that cannot be read again.
+    #[error(transparent)]
+    Result(#[from] ResultError),
+    /// A format that cannot take what was found.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// The work was done as far as it goes, and it does not go far enough.
     #[error("{0}")]
     Failed(String),

@@ -12,6 +12,7 @@ pub mod compare;
 pub mod device;
 pub mod diagnose;
 pub mod error;
+pub mod export;
 pub mod fit;
 pub mod input;
 pub mod kept;

@@ -2,15 +2,15 @@
 
 mod bench;
 mod device;
+mod export;
 mod report;
 
 pub use bench::BenchArgs;
-
 pub use device::{
     CommissionArgs, DeviceArgs, DeviceMethod, DeviceVerb, EmulateArgs, EmulationArgs, LimitArgs,
     OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
-
+pub use export::{ExportArgs, GainsArgs, SideName};
 pub use report::{ReportArgs, SheetArgs};
 
 use crate::diagnose::USUAL_STEPS;
@@ -41,7 +41,8 @@ const EXAMPLES: &str = "Examples:
   servoid demo --hide cogging
   servoid simulate --machine gearmotor --hide coulomb --out bench.csv
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
-  servoid fit bench.csv --with coulomb
+  servoid fit bench.csv --with coulomb --json fit.json
+  servoid export fit.json --to wpilib
   servoid diagnose bench.csv
   servoid compare bench.csv --seeds 5 --budget 500
 
@@ -72,6 +73,8 @@ pub enum Verb {
     Fit(FitArgs),
     /// Finds where the linear motor fails, names the missing effects and adds them one by one
     Diagnose(DiagnoseArgs),
+    /// Writes what was found for other programs: constants, simulators, controllers
+    Export(ExportArgs),
     /// Compares search methods at an equal budget over many seeds
     Compare(CompareArgs),
     /// Reproduces the paper: its motor, its step, its bounds, its table beside ours

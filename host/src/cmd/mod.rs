@@ -7,6 +7,7 @@ mod demo;
 mod device;
 mod diagnose;
 mod diagnosing;
+mod export;
 mod fit;
 mod model;
 mod motor;
@@ -34,6 +35,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Simulate(args) => simulate::run(&session, &args),
         Verb::Diagnose(args) => diagnose::run(&session, &args),
         Verb::Fit(args) => fit::run(&session, &args),
+        Verb::Export(args) => export::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
         Verb::Bench(args) => bench::run(&session, &args),

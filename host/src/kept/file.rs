@@ -1,7 +1,7 @@
 //! One result, read from the file that a verb wrote with `--json`.
 
 use super::ModelFault;
-use super::results::{KeptContest, KeptDiagnosis, KeptFit, KeptVerification};
+use super::told::{KeptContest, KeptDiagnosis, KeptFit, KeptVerification};
 use crate::device::{Folder, Saved};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;

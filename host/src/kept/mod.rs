@@ -3,21 +3,26 @@
 //! | file | holds |
 //! |---|---|
 //! | `file` | one result of any verb |
-//! | `results` | what is read of each |
+//! | `told` | what a page tells of each |
 //! | `model` | a model with all its numbers, as `fit` and `diagnose` write it |
 //! | `fault` | what can be wrong with one, with the remedy |
+//! | `result` | what was found and how well it is known, from a fit, a diagnosis, a verification or a device's report |
+//! | `result_fault` | what can be wrong with that |
 
 mod fault;
 mod file;
 mod model;
-mod results;
+mod result;
+mod result_fault;
+mod told;
 
 pub use fault::ModelFault;
 pub(crate) use fault::number;
 pub use file::{Kept, KeptError, KeptFault};
 pub use model::{Integrator, KeptMachine, KeptModel, KeptParameter};
-pub use results::{
-    KeptBase, KeptCandidate, KeptContest, KeptDiagnosis, KeptEstimate, KeptFinal, KeptFit,
-    KeptHeldOut, KeptLoop, KeptMargins, KeptMiss, KeptPrinted, KeptRow, KeptRung, KeptStep,
-    KeptVariant, KeptVerification,
+pub use result::{KeptEstimate, KeptResult};
+pub use result_fault::{ResultError, ResultFault};
+pub use told::{
+    KeptBase, KeptCandidate, KeptContest, KeptDiagnosis, KeptFinal, KeptFit, KeptHeldOut, KeptLoop,
+    KeptMargins, KeptMiss, KeptPrinted, KeptRow, KeptRung, KeptStep, KeptVariant, KeptVerification,
 };

@@ -97,7 +97,8 @@ impl KeptMachine {
             number(&key(name), value, value >= 0.0, "zero or a positive number")
         };
         Ok(Machine {
-            kb: positive("kb_v_s_rad", self.kb_v_s_rad)?,
+            // Behind an amplifier with a current loop there is none.
+            kb: at_least_zero("kb_v_s_rad", self.kb_v_s_rad)?,
             damping: at_least_zero("damping_v_s_rad", self.damping_v_s_rad)?,
             inertia: positive("inertia_v_s2_rad", self.inertia_v_s2_rad)?,
             electrical: at_least_zero("electrical_s", self.electrical_s)?,

@@ -89,9 +89,13 @@ fn hypothesis(index: usize, model: &KeptModel) -> Result<Hypothesis, ModelFault>
         effects.push(kind);
         values.extend(own);
     }
+    let machine = model.machine.machine(&place)?;
+    // A plan is of voltages.
+    let key = format!("{place}.machine.kb_v_s_rad");
+    number(&key, machine.kb, machine.kb > 0.0, "a positive number")?;
     Ok(Hypothesis {
         effects,
-        machine: model.machine.machine(&place)?,
+        machine,
         values,
     })
 }

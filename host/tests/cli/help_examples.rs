@@ -30,3 +30,8 @@ fn the_examples_of_the_first_help_run_as_printed() {
 fn the_examples_of_diagnose_run_as_printed() {
     run("diagnose --help");
 }
+
+#[test]
+fn the_examples_of_export_run_as_printed() {
+    run("export --help");
+}

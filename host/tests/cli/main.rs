@@ -10,6 +10,7 @@ mod contract;
 mod desk;
 mod diagnose;
 mod diagnose_pairs;
+mod export;
 mod foreign_logs;
 mod glitches;
 mod help_examples;

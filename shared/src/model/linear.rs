@@ -15,6 +15,8 @@ pub struct Increments {
     pub angle: [f64; 2],
     /// To the angle by the command.
     pub angle_by_command: f64,
+    /// To current, speed and angle by a held torque against positive rotation.
+    pub by_torque: [f64; 3],
 }
 
 impl Increments {
@@ -29,11 +31,13 @@ impl Increments {
         let [current, speed, angle] = rung.increments();
         let counts = plan.units.counts_per_unit();
         let [by_current, by_speed, by_command] = angle.map(|by| by * counts);
+        let [current_by_torque, speed_by_torque, angle_by_torque] = rung.by_torque(1.0);
         Ok(Increments {
             state: [[current[0], current[1]], [speed[0], speed[1]]],
             state_by_command: [current[2], speed[2]],
             angle: [by_current, by_speed],
             angle_by_command: by_command,
+            by_torque: [current_by_torque, speed_by_torque, angle_by_torque * counts],
         })
     }
 }

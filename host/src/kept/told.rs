@@ -1,6 +1,6 @@
 //! What is read again of the results that other verbs wrote; keys that are not named here are ignored.
 
-use super::KeptModel;
+use super::{KeptEstimate, KeptModel};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -60,21 +60,6 @@ pub struct KeptMiss {
     pub parameter: String,
     /// Per cent.
     pub percent: f64,
-}
-
-/// One parameter as it was estimated.
-#[derive(Clone, Debug, Deserialize)]
-pub struct KeptEstimate {
-    /// Its name.
-    pub name: String,
-    /// Its value.
-    pub value: f64,
-    /// Its unit.
-    pub unit: String,
-    /// Its standard error, where there is one.
-    pub std: Option<f64>,
-    /// Whether the data determine it.
-    pub identifiable: bool,
 }
 
 /// Errors of a model on the way.

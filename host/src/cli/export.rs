@@ -1,0 +1,73 @@
+//! `servoid export`.
+
+use crate::export::FORMATS;
+use crate::export::gains::Loops;
+use crate::export::gains::design::Method;
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// `servoid export`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct ExportArgs {
+    /// What `fit`, `diagnose`, `demo` or `device verify` wrote with --json, or the folder of a device's run
+    pub result: PathBuf,
+    /// The format
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    pub to: String,
+    /// Where it goes; stdout if not given
+    #[arg(long, short, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Which shaft the numbers speak of
+    #[arg(long, value_enum, default_value_t = SideName::Motor)]
+    pub side: SideName,
+    /// Turns of the motor a turn of the output, for --side output
+    #[arg(long, value_name = "N")]
+    pub ratio: Option<f64>,
+    /// Period of the program that the export is for, s (c, rust, gains); the recording's if not given
+    #[arg(long, value_name = "S")]
+    pub sample: Option<f64>,
+    /// Controllers.
+    #[command(flatten)]
+    pub gains: GainsArgs,
+}
+
+/// What `--to gains` takes.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Controllers (--to gains)")]
+pub struct GainsArgs {
+    /// Where the current loop passes one, Hz; a twentieth of the sampling rate if not given
+    #[arg(long, value_name = "HZ")]
+    pub current_bandwidth: Option<f64>,
+    /// Where the speed loop passes one, Hz; as high as a good phase margin lets it if not given
+    #[arg(long, value_name = "HZ")]
+    pub speed_bandwidth: Option<f64>,
+    /// How the speed loop's zero is placed; on a speed loop that gives volts cancel, else symmetrical
+    #[arg(long, value_enum)]
+    pub method: Option<Method>,
+    /// Which loops; a cascade where the resistance is known
+    #[arg(long, value_enum)]
+    pub loops: Option<Loops>,
+}
+
+/// Sides of a gear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SideName {
+    /// The shaft whose encoder was recorded
+    Motor,
+    /// The shaft behind a gear of --ratio
+    Output,
+}
+
+const EXAMPLES: &str = "Example, first on a motor of the bench:
+  servoid simulate --hide coulomb --excite commissioning-coast --out bench.csv
+  servoid fit bench.csv --with coulomb --known resistance_ohm=2.3 --kt-equals-kb --json fit.json
+  servoid export fit.json --to c --out motor.h
+  servoid export fit.json --to mujoco --side output --ratio 30 --out motor.xml
+  servoid export fit.json --to gains --speed-bandwidth 10";
+
+fn formats() -> PossibleValuesParser {
+    let formats = FORMATS.iter();
+    PossibleValuesParser::new(formats.map(|f| PossibleValue::new(f.name).help(f.about)))
+}

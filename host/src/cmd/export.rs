@@ -1,0 +1,151 @@
+//! `servoid export`: what was found, in another program's words.
+
+use crate::cli::{ExportArgs, SideName};
+use crate::error::Error;
+use crate::export::gains::Asked;
+use crate::export::{Format, Lack, Mapped, Options, Side, Subject, SubjectError, Written};
+use crate::kept::{KeptResult, ResultError, ResultFault};
+use crate::output::write_whole;
+use crate::session::Session;
+use serde::Serialize;
+
+/// Ratios of gears, generously.
+const RATIOS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
+/// `servoid.export/1`.
+#[derive(Serialize)]
+struct ExportJson<'a> {
+    schema: &'static str,
+    format: &'static str,
+    source: &'a str,
+    out: Option<String>,
+    side: Side,
+    text: &'a str,
+    mapping: &'a [Mapped],
+    cannot_carry: &'a [Lack],
+    remarks: &'a [String],
+    version: &'static str,
+}
+
+pub(super) fn run(session: &Session, args: &ExportArgs) -> Result<(), Error> {
+    let out = args.out.as_deref().map(|path| ("--out", path));
+    let report = args.result.join("device.json");
+    let inputs = [
+        ("the result", args.result.as_path()),
+        ("the result", &report),
+    ];
+    session.check_outputs(out.as_slice(), &inputs)?;
+    let side = side(args)?;
+    let options = options(args)?;
+    let unknown = || Error::Usage(format!("--to {}: no such format", args.to));
+    let format = Format::by_name(&args.to).ok_or_else(unknown)?;
+    let kept = KeptResult::read(&args.result)?;
+    let source = args.result.display().to_string();
+    let subject = Subject::new(&kept, &source, side).map_err(|error| match error {
+        SubjectError::Export(error) => Error::from(error),
+        SubjectError::Model(fault) => Error::from(ResultError {
+            path: args.result.clone(),
+            fault: ResultFault::Model(fault),
+        }),
+    })?;
+    let written = (format.write)(&subject, &options)?;
+    for line in written.lines() {
+        session.remark(&line);
+    }
+    if let Some(path) = &args.out {
+        write_whole(path, |out| out.write_all(written.text.as_bytes()))?;
+    }
+    let text = match &args.out {
+        Some(path) => summary(format, &written, path),
+        None => written.text.clone(),
+    };
+    session.deliver(
+        &text,
+        &ExportJson {
+            schema: "servoid.export/1",
+            format: format.name,
+            source: &source,
+            out: args.out.as_ref().map(|path| path.display().to_string()),
+            side,
+            text: &written.text,
+            mapping: &written.mapping,
+            cannot_carry: &written.cannot_carry,
+            remarks: &written.remarks,
+            version: env!("CARGO_PKG_VERSION"),
+        },
+    )
+}
+
+/// Where each number went, a line each.
+fn summary(format: &Format, written: &Written, path: &std::path::Path) -> String {
+    let mut text = format!("{}: {}\n", path.display(), format.name);
+    for mapped in &written.mapping {
+        text += &format!(
+            "  {} -> {} ({}, {} side)\n",
+            mapped.from, mapped.to, mapped.unit, mapped.side
+        );
+    }
+    text
+}
+
+fn side(args: &ExportArgs) -> Result<Side, Error> {
+    let ratio = positive("--ratio", args.ratio)?;
+    if let Some(ratio) = ratio.filter(|ratio| !RATIOS.contains(ratio)) {
+        return Err(Error::Usage(format!(
+            "--ratio {ratio}: must be between {:e} and {:e}",
+            RATIOS.start(),
+            RATIOS.end()
+        )));
+    }
+    match (args.side, ratio) {
+        (SideName::Motor, None) => Ok(Side::Motor),
+        (SideName::Output, Some(ratio)) => Ok(Side::Output { ratio }),
+        (SideName::Motor, Some(ratio)) => Err(Error::Usage(format!(
+            "--ratio {ratio}: changes nothing on the motor's side; add --side output"
+        ))),
+        (SideName::Output, None) => Err(Error::Usage(
+            "--side output: needs --ratio N, the turns of the motor a turn of the output".into(),
+        )),
+    }
+}
+
+fn options(args: &ExportArgs) -> Result<Options, Error> {
+    let gains = &args.gains;
+    let given = [
+        ("--current-bandwidth", gains.current_bandwidth.is_some()),
+        ("--speed-bandwidth", gains.speed_bandwidth.is_some()),
+        ("--method", gains.method.is_some()),
+        ("--loops", gains.loops.is_some()),
+    ];
+    if let Some((flag, _)) = given.iter().find(|(_, given)| *given && args.to != "gains") {
+        return Err(Error::Usage(format!(
+            "{flag}: is for --to gains, not for --to {}",
+            args.to
+        )));
+    }
+    let sampled = ["c", "rust", "gains"];
+    if args.sample.is_some() && !sampled.contains(&args.to.as_str()) {
+        return Err(Error::Usage(format!(
+            "--sample: is for --to c, rust and gains, not for --to {}",
+            args.to
+        )));
+    }
+    Ok(Options {
+        sample_s: positive("--sample", args.sample)?,
+        gains: Asked {
+            current_hz: positive("--current-bandwidth", gains.current_bandwidth)?,
+            speed_hz: positive("--speed-bandwidth", gains.speed_bandwidth)?,
+            method: gains.method,
+            loops: gains.loops,
+        },
+    })
+}
+
+fn positive(flag: &str, value: Option<f64>) -> Result<Option<f64>, Error> {
+    match value {
+        Some(value) if !(value > 0.0 && value.is_finite()) => Err(Error::Usage(format!(
+            "{flag} {value}: must be a positive number"
+        ))),
+        value => Ok(value),
+    }
+}

@@ -1,0 +1,31 @@
+//! A C header (C99 and later, C++ too) with constants in single precision and the exact step.
+
+use super::comment::{head, marked, plain};
+use super::constants::constants;
+use super::error::ExportError;
+use super::format::Options;
+use super::subject::Subject;
+use super::written::Written;
+
+pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, ExportError> {
+    let mut written = Written::new(subject);
+    let constants = constants(subject, options, "c", &mut written)?;
+    let mut text = String::from("/*\n");
+    text += &marked(&head(subject, &written), " * ");
+    text += " */\n#ifndef SERVOID_MOTOR_H\n#define SERVOID_MOTOR_H\n\n";
+    for constant in &constants.list {
+        let about = plain(&constant.about);
+        text += &format!(
+            "#define SERVOID_{} ({:?}f) /* {about} */\n",
+            constant.name, constant.value
+        );
+    }
+    text += "\n/*\n";
+    text += &marked(&constants.step, " * ");
+    text += " */\n\n#endif\n";
+    for mapped in &mut written.mapping {
+        mapped.to = format!("SERVOID_{}", mapped.to);
+    }
+    written.text = text;
+    Ok(written)
+}

@@ -1,0 +1,104 @@
+//! The list of formats: the command line, the help, the tests and the documentation follow from it.
+
+use super::error::ExportError;
+use super::gains::Asked;
+use super::subject::Subject;
+use super::written::Written;
+use super::{c, csv, gains, json, modelica, mujoco, rust, toml, urdf, wpilib};
+
+/// What a user chooses beside the format.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Period of the program that the export is for, s; the recording's if none.
+    pub sample_s: Option<f64>,
+    /// Controllers.
+    pub gains: Asked,
+}
+
+/// One format.
+pub struct Format {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub about: &'static str,
+    /// Writes it.
+    pub write: fn(&Subject, &Options) -> Result<Written, ExportError>,
+}
+
+/// Every format.
+pub const FORMATS: &[Format] = &[
+    Format {
+        name: "toml",
+        about: "all parameters; its [known] section fits into a motor.toml",
+        write: toml::write,
+    },
+    Format {
+        name: "json",
+        about: "all parameters",
+        write: json::write,
+    },
+    Format {
+        name: "csv",
+        about: "all parameters, a row each",
+        write: csv::write,
+    },
+    Format {
+        name: "c",
+        about: "a header with constants and the exact step at the sample interval",
+        write: c::write,
+    },
+    Format {
+        name: "rust",
+        about: "a module with the same",
+        write: rust::write,
+    },
+    Format {
+        name: "mujoco",
+        about: "joint and dcmotor actuator of MuJoCo; needs torques in N*m",
+        write: mujoco::write,
+    },
+    Format {
+        name: "urdf",
+        about: "<dynamics> of a joint; needs torques in N*m",
+        write: urdf::write,
+    },
+    Format {
+        name: "modelica",
+        about: "a record in SI units",
+        write: modelica::write,
+    },
+    Format {
+        name: "wpilib",
+        about: "kS, kV, kA in volts, as Java constants",
+        write: wpilib::write,
+    },
+    Format {
+        name: "gains",
+        about: "PI controllers and feed-forward with their margins, as TOML",
+        write: gains::write,
+    },
+];
+
+impl Format {
+    /// The format of this name.
+    pub fn by_name(name: &str) -> Option<&'static Format> {
+        FORMATS.iter().find(|format| format.name == name)
+    }
+}
+
+impl Options {
+    /// The period, s.
+    ///
+    /// # Errors
+    /// Neither the user nor the result says it.
+    pub fn period(&self, subject: &Subject, format: &'static str) -> Result<f64, ExportError> {
+        // The recording's is the median of rounded times; nine digits of it mean something.
+        let rounded = |s: f64| format!("{s:.8e}").parse().unwrap_or(s);
+        let period = self.sample_s.or(subject.sample_s.map(rounded));
+        period.ok_or_else(|| ExportError::Undetermined {
+            format,
+            needs: "the sample interval".to_owned(),
+            remedy: "give it with --sample S",
+        })
+    }
+}

@@ -1,0 +1,48 @@
+//! What was found, in the words of other programs.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `subject` | what is exported: the model with its numbers, on one side of a gear |
+//! | `side` | from the motor's side of a gear to the output's |
+//! | `format` | the list of formats: everything else follows from it |
+//! | `written` | what a format wrote, where each number went, and what it has no place for |
+//! | `friction` | friction in the two numbers that most programs have for it |
+//! | `discrete` | the exact step of the linear machine, in SI |
+//! | `table` | every number with unit, error, side, and whether it is determined |
+//! | one file a format | its text |
+//! | `gains/` | controllers for the motor |
+//!
+//! A number that the data do not determine is never written as one that they do, and what a format has no place for is
+//! named, in the file where it takes comments and beside it in any case.
+
+mod c;
+mod comment;
+mod constants;
+mod csv;
+mod discrete;
+mod error;
+mod format;
+mod friction;
+pub mod gains;
+mod json;
+mod modelica;
+mod mujoco;
+mod rust;
+mod side;
+mod subject;
+mod table;
+mod toml;
+mod urdf;
+mod wpilib;
+mod written;
+
+pub use error::ExportError;
+pub use format::{FORMATS, Format, Options};
+pub use side::Side;
+pub use subject::{Subject, SubjectError, Term, Value};
+pub use written::{Lack, Mapped, Written};
+
+#[cfg(test)]
+mod laws;
+#[cfg(test)]
+mod samples;
