@@ -9,12 +9,14 @@ use super::state::{Bench, Secret, Telling};
 use super::{guard, shown, work};
 use crate::bench::{Bench as VirtualBench, DriveSample, Machine};
 use crate::error::Error;
+use crate::export::{Format, Options, Side, Subject};
+use crate::kept::KeptResult;
 use crate::page::assets;
 use crate::prove::surprise;
 use crate::report::text::short;
 use axum::extract::{DefaultBodyLimit, Query, State};
+use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
-use axum::http::{HeaderValue, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
@@ -441,72 +443,70 @@ struct Wanted {
 
 /// The result as a file.
 async fn export(State(bench): Shared, Query(wanted): Query<Wanted>) -> Result<Response, Refusal> {
-    let (name, kind, text) = aside(move || exported(&bench, &wanted.format)).await?;
-    let disposition = HeaderValue::from_static(match name {
-        "report.html" => "attachment; filename=\"servoid-report.html\"",
-        "session.json" => "attachment; filename=\"servoid-session.json\"",
-        "fit.json" => "attachment; filename=\"servoid-fit.json\"",
-        "diagnosis.json" => "attachment; filename=\"servoid-diagnosis.json\"",
-        _ => "attachment; filename=\"servoid-parameters.csv\"",
-    });
-    let kind = HeaderValue::from_static(kind);
+    let (name, text) = aside(move || exported(&bench, &wanted.format)).await?;
+    let kind = match name.rsplit('.').next() {
+        Some("html") => "text/html; charset=utf-8",
+        Some("json") => "application/json",
+        _ => "text/plain; charset=utf-8",
+    };
+    let disposition = format!("attachment; filename=\"{name}\"");
     Ok((
-        [(CONTENT_TYPE, kind), (CONTENT_DISPOSITION, disposition)],
+        [(CONTENT_TYPE, kind), (CONTENT_DISPOSITION, &disposition)],
         text,
     )
         .into_response())
 }
 
-fn exported(bench: &Bench, format: &str) -> Result<(&'static str, &'static str, String), Error> {
+/// The file's name, and its text.
+fn exported(bench: &Bench, format: &str) -> Result<(String, String), Error> {
     let pretty = |value: &Value| format!("{value:#}\n");
-    let nothing = || Error::Usage("nothing is fitted yet; fit first".to_owned());
     let chosen = || -> Result<Value, Error> {
         let state = bench.state();
         let recordings = state.recordings()?;
-        let id = state.chosen.ok_or_else(nothing)?;
+        let id = state
+            .chosen
+            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
         state.model(id)?.json(&recordings)
     };
+    let named = |name: &str, text: String| Ok((name.to_owned(), text));
     match format {
-        "report" => Ok((
-            "report.html",
-            "text/html; charset=utf-8",
-            shown::report(bench)?,
-        )),
-        "session" => Ok((
-            "session.json",
-            "application/json",
+        "report" => named("servoid-report.html", shown::report(bench)?),
+        "session" => named(
+            "servoid-session.json",
             SessionFile::of(&bench.state()).text()?,
-        )),
-        "json" => Ok(("fit.json", "application/json", pretty(&chosen()?))),
+        ),
+        "fit" => named("servoid-fit.json", pretty(&chosen()?)),
         "diagnosis" => {
             let state = bench.state();
             let diagnosis = state.diagnosis.as_ref().ok_or_else(|| {
                 Error::Usage("nothing is diagnosed yet; name what is missing first".to_owned())
             })?;
-            Ok(("diagnosis.json", "application/json", pretty(diagnosis)))
+            named("servoid-diagnosis.json", pretty(diagnosis))
         }
-        "csv" => {
-            let fit = chosen()?;
-            let mut writer = csv::Writer::from_writer(Vec::new());
+        other => {
+            let format = Format::by_name(other)
+                .ok_or_else(|| Error::Usage(format!("there is no format `{other}`")))?;
             let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-            writer
-                .write_record(["name", "value", "unit", "std", "identifiable"])
+            let kept = KeptResult::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
+            let subject = Subject::new(&kept, "the workbench", Side::Motor)
                 .map_err(|error| failed(&error))?;
-            for p in fit["parameters"].as_array().into_iter().flatten() {
-                let cell = |key: &str| match &p[key] {
-                    Value::String(text) => text.clone(),
-                    Value::Null => String::new(),
-                    other => other.to_string(),
-                };
-                let row = ["name", "value", "unit", "std", "identifiable"].map(cell);
-                writer.write_record(row).map_err(|error| failed(&error))?;
-            }
-            let bytes = writer.into_inner().map_err(|error| failed(&error))?;
-            let text = String::from_utf8(bytes).map_err(|error| failed(&error))?;
-            Ok(("parameters.csv", "text/csv; charset=utf-8", text))
+            let written = (format.write)(&subject, &Options::default())?;
+            Ok((
+                format!("servoid-motor.{}", ending(format.name)),
+                written.text,
+            ))
         }
-        other => Err(Error::Usage(format!(
-            "there is no format `{other}`; there are report, session, json, diagnosis and csv"
-        ))),
+    }
+}
+
+/// What files of a format usually end in.
+fn ending(format: &str) -> &str {
+    match format {
+        "c" => "h",
+        "rust" => "rs",
+        "mujoco" | "urdf" => "xml",
+        "modelica" => "mo",
+        "wpilib" | "gains" => "txt",
+        same => same,
     }
 }

@@ -3,6 +3,7 @@
 use super::model::{Model, Recordings};
 use super::state::{Bench, State};
 use crate::error::Error;
+use crate::export::FORMATS;
 use crate::fit::margins::Loop;
 use crate::kept::{Kept, KeptEstimate};
 use crate::page::{Block, Section, drawing, section};
@@ -43,6 +44,7 @@ pub(super) fn view(bench: &Bench) -> Value {
             "name": kind.name(), "title": kind.description().title,
         })).collect::<Vec<_>>(),
         "algorithms": crate::solve::names(),
+        "formats": FORMATS.iter().map(|format| format.name).collect::<Vec<_>>(),
         "version": env!("CARGO_PKG_VERSION"),
     })
 }

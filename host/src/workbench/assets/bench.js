@@ -90,7 +90,6 @@
     if (!job) at("progress").textContent = "";
     else if (!at("progress").textContent) at("progress").textContent = `${job} …`;
     at("verdict").textContent = bench.diagnosis ? bench.diagnosis.summary : "";
-    at("get-diagnosis").hidden = !bench.diagnosis;
     showSecret();
     showModels();
     showEffects(chosen);
@@ -236,6 +235,9 @@
       select.replaceChildren(...names.map(([value, text]) => element("option", { value }, text)));
     };
     fill(at("effect"), bench.effects.map((one) => [one.name, `${one.name}: ${one.title}`]));
+    for (const name of bench.formats) {
+      if (!at("format").querySelector(`option[value="${name}"]`)) at("format").append(element("option", { value: name }, name));
+    }
     fill(at("algorithm"), bench.algorithms.map((name) => [name, name]));
     if (!at("racers").childElementCount) {
       const usual = ["ga", "pso", "firefly"];
@@ -463,6 +465,17 @@
     showSliders(model(bench.chosen));
     shown = null;
     drawAll();
+  });
+  at("take").addEventListener("click", async () => {
+    const answer = await fetch(`export?format=${at("format").value}`);
+    if (!answer.ok) {
+      say((await answer.json()).error);
+      return;
+    }
+    const name = /filename="([^"]+)"/.exec(answer.headers.get("content-disposition"))[1];
+    const link = element("a", { href: URL.createObjectURL(await answer.blob()), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   });
   at("race").addEventListener("click", () => {
     const algorithms = Array.from(document.querySelectorAll("#racers input:checked"), (box) => box.value);
