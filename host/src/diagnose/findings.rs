@@ -20,6 +20,10 @@ pub struct Findings {
     pub base_whiteness: Option<Whiteness>,
     /// What is left of the last model's error.
     pub last_whiteness: Option<Whiteness>,
+    /// Error of the linear motor's free run at each sample, model less measured, counts.
+    pub base_errors: Vec<f64>,
+    /// The same of the last model.
+    pub last_errors: Vec<f64>,
 }
 
 /// Looks at the fitted recording, and with the last model at what was held out.
@@ -29,10 +33,13 @@ pub struct Findings {
 pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<Findings, Error> {
     let complete = &diagnosis.last.candidate;
     let look = |refit: &Refit| whereabouts(data, &refit.candidate, complete, diagnosis.last.method);
-    let white = |refit: &Refit| -> Result<Option<Whiteness>, Error> {
+    let centre = data.centre(0) - data.counts[0];
+    let errors = |refit: &Refit| -> Result<Vec<f64>, Error> {
         let errors = scores::whole(data, &refit.candidate, refit.method)?;
-        Ok(whiteness(data, &errors))
+        Ok(errors.into_iter().map(|error| error - centre).collect())
     };
+    let base_errors = errors(&diagnosis.base)?;
+    let last_errors = errors(&diagnosis.last)?;
     let steps = 0..diagnosis.steps.len();
     Ok(Findings {
         base: look(&diagnosis.base)?,
@@ -41,7 +48,9 @@ pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<F
             .collect::<Result<_, _>>()?,
         last: look(&diagnosis.last)?,
         held_out: whereabouts(held_out, complete, complete, diagnosis.last.method)?,
-        base_whiteness: white(&diagnosis.base)?,
-        last_whiteness: white(&diagnosis.last)?,
+        base_whiteness: whiteness(data, &base_errors),
+        last_whiteness: whiteness(data, &last_errors),
+        base_errors,
+        last_errors,
     })
 }

@@ -6,7 +6,7 @@ use super::state::Bench;
 use crate::compare::{self, Contest};
 use crate::diagnose::{self, Diagnosis, Effort, HeldOut, Suggestion};
 use crate::error::Error;
-use crate::fit::{self, Fit};
+use crate::fit::{self, Fit, Options};
 use crate::problem::{Candidate, FitProblem};
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
 use crate::report::json::CompareJson;
@@ -14,12 +14,17 @@ use crate::solve::{self, Found, Objective};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Evaluations of a fit at most.
-const BUDGET: usize = 20_000;
-/// Cost of a found model beyond which a better start is worth another fit, in parts of what was foreseen.
+/// Evaluations of a fit at most; least squares needs a tenth of it where it gets anywhere at all.
+const BUDGET: usize = 5000;
+/// Evaluations from regression, where a look for effects has found a better start.
+const FIRST: usize = 60;
+/// Evaluations from there.
+const SECOND: usize = 400;
+/// Cost of a found model beyond which the better start is worth another fit, in parts of what was found there.
 const LOST: f64 = 1.05;
 
 /// Fits a model with these effects, and puts it on the bench.
@@ -63,41 +68,39 @@ fn fitted(
     suggestion: Option<&Suggestion>,
 ) -> Result<Fit, Error> {
     let mut options = options(&recordings.fitted, effects, 1);
-    options.budget = BUDGET;
     let parts = recordings.parts();
     let data = parts.fitted();
     let solver = solve::by_name(algorithm)
         .ok_or_else(|| Error::Usage(format!("there is no search method `{algorithm}`")))?;
+    // Only least squares begins anywhere in particular.
+    let suggestion = suggestion.filter(|_| algorithm == "lm");
+    options.budget = if suggestion.is_some() { FIRST } else { BUDGET };
     let teller = Teller::new(bench);
     let samples = data.len() as f64;
     let mut spent = 0;
-    let mut search = |problem: &FitProblem<'_>| -> Found {
+    let mut search = |problem: &FitProblem<'_>, options: &Options| -> Found {
         let before = spent;
-        let found = fit::search(
-            problem,
-            solver.as_ref(),
-            &options,
-            bench.job.flag(),
-            &mut |count, cost| {
-                let rms = (cost / samples).sqrt();
-                teller.tell(|| json!({ "evaluations": before + count, "rms_counts": finite(rms) }));
-            },
-        );
+        let mut observer = |count: usize, cost: f64| {
+            let rms = finite((cost / samples).sqrt());
+            teller.tell(|| json!({ "evaluations": before + count, "rms_counts": rms }));
+        };
+        let stop = bench.job.flag();
+        let found = fit::search(problem, solver.as_ref(), options, stop, &mut observer);
         spent += found.evaluations;
         found
     };
     let mut problem = fit::problem(data, &options)?;
-    let mut found = search(&problem);
-    // Regression may start in another valley than the one that was foreseen.
-    if let Some(suggestion) = suggestion {
-        let best = suggestion.refit.rms_counts.powi(2) * samples;
-        if found.cost > LOST * best && algorithm == "lm" {
-            let start = started_at(&problem, &suggestion.refit.candidate);
-            let again = search(&start);
-            if again.cost < found.cost {
-                problem = start;
-                found = again;
-            }
+    let mut found = search(&problem, &options);
+    // Regression may start in another valley than the one that was found.
+    if let Some(suggestion) = suggestion
+        && found.cost > LOST * FLOOR_RMS_COUNTS.powi(2) * samples
+    {
+        let start = started_at(&problem, &suggestion.refit.candidate);
+        options.budget = SECOND;
+        let again = search(&start, &options);
+        if again.cost < found.cost {
+            problem = start;
+            found = again;
         }
     }
     Fit::conclude(

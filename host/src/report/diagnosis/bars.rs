@@ -13,6 +13,25 @@ pub fn bar(rms: f64, most: f64) -> String {
     "#".repeat(length)
 }
 
+/// Heights of a line of text.
+const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+
+/// Sizes of an error over time in so many characters, logarithmic from the encoder's own to `most`: the RMS of each
+/// stretch.
+pub fn sparkline(errors: &[f64], most: f64, characters: usize) -> String {
+    let stretch = errors.len().div_ceil(characters.max(1)).max(1);
+    let span = (most / FLOOR_RMS_COUNTS).ln().max(f64::MIN_POSITIVE);
+    errors
+        .chunks(stretch)
+        .map(|part| {
+            let square = part.iter().map(|e| e * e).sum::<f64>() / part.len() as f64;
+            let above = (square.sqrt() / FLOOR_RMS_COUNTS).ln().max(0.0) / span;
+            let height = (above * (HEIGHTS.len() - 1) as f64).round() as usize;
+            HEIGHTS[height.min(HEIGHTS.len() - 1)]
+        })
+        .collect()
+}
+
 /// An error with the digits that tell.
 pub fn counts(rms: f64) -> String {
     if !rms.is_finite() {
@@ -51,4 +70,22 @@ pub fn ladder(rungs: &[(String, f64, f64)]) -> String {
         out.push('\n');
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_as_wide_as_asked_and_as_high_as_the_error() {
+        for (samples, wide) in [(1, 1), (10, 10), (1000, 50), (1001, 48), (0, 0)] {
+            let errors = vec![FLOOR_RMS_COUNTS; samples];
+            let line = sparkline(&errors, 100.0, 50);
+            assert_eq!(line.chars().count(), wide, "{samples}");
+            assert!(line.chars().all(|c| c == HEIGHTS[0]));
+        }
+        let rising: Vec<f64> = (0..800).map(|k| 0.3 * 1.01f64.powi(k)).collect();
+        let line: Vec<char> = sparkline(&rising, rising[799], 8).chars().collect();
+        assert!(line.is_sorted() && line[0] == HEIGHTS[0] && line[7] == HEIGHTS[7]);
+    }
 }

@@ -1,6 +1,6 @@
 //! A diagnosis as text for a terminal of 80 columns.
 
-use super::bars::counts;
+use super::bars::{counts, sparkline};
 use super::whereabouts::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::diagnose::{HeldOut, Step, Verdict};
@@ -10,6 +10,8 @@ use std::fmt::Write;
 
 /// Width of the text.
 const WIDTH: usize = 78;
+/// Characters of the residual over time.
+const LINE: usize = 60;
 
 impl DiagnosisReport<'_> {
     /// As text for a terminal.
@@ -28,6 +30,7 @@ impl DiagnosisReport<'_> {
         let verdict = format!("{}: {}", self.verdict().name(), self.verdict_text());
         writeln!(out, "{}\n", folded(&verdict, ""))?;
         self.ladder(out)?;
+        self.over_time(out)?;
         for index in 0..self.diagnosis.steps.len() {
             self.step(out, index)?;
         }
@@ -110,6 +113,26 @@ impl DiagnosisReport<'_> {
         ));
         out.push_str(&super::bars::ladder(&rungs));
         Ok(())
+    }
+
+    /// The residual over time, of the linear motor and of the last model.
+    fn over_time(&self, out: &mut String) -> std::fmt::Result {
+        let (base, last) = (&self.findings.base_errors, &self.findings.last_errors);
+        let size = |errors: &[f64]| errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        let most = size(base);
+        writeln!(
+            out,
+            "residual over time, logarithmic up to {}",
+            counts(most)
+        )?;
+        let mut line = |name: &str, errors: &[f64]| {
+            writeln!(out, "  {name:14}{}", sparkline(errors, most, LINE))
+        };
+        line("linear motor", base)?;
+        if self.diagnosis.steps.is_empty() {
+            return Ok(());
+        }
+        line("last model", last)
     }
 
     fn step(&self, out: &mut String, index: usize) -> std::fmt::Result {
