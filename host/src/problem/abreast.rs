@@ -128,7 +128,7 @@ impl Run<'_> {
             .map(Iterator::collect)
             .collect();
         let mut errors = vec![[0.0; SOME]; 1 + others.len()];
-        let sink = |range: Range<usize>, sights: &[Sights]| {
+        let mut sink = |range: Range<usize>, sights: &[Sights]| {
             for (places, sights) in places.iter().zip(sights) {
                 for (lane, &k) in places.iter().enumerate() {
                     for (change, sights) in errors[1 + k].iter_mut().zip(sights) {
@@ -146,7 +146,7 @@ impl Run<'_> {
         let run = Together {
             run: self,
             groups: &groups,
-            sink,
+            sink: &mut sink,
         };
         work(run).flatten().is_some()
     }
@@ -163,7 +163,7 @@ impl Run<'_> {
         }
         let data = self.data;
         let mut errors = vec![vec![0.0; data.len()]; able.len()];
-        let sink = |range: Range<usize>, sights: &[Sights]| {
+        let mut sink = |range: Range<usize>, sights: &[Sights]| {
             hand_over(
                 &sights[0],
                 &data.counts[range.clone()],
@@ -174,7 +174,7 @@ impl Run<'_> {
         let run = Together {
             run: self,
             groups: &[able.to_vec()],
-            sink,
+            sink: &mut sink,
         };
         work(run).flatten()?;
         Some(errors)
@@ -214,11 +214,11 @@ fn hand_over(sights: &Sights, readings: &[f64], at: usize, errors: &mut [Vec<f64
 }
 
 /// Candidates to be run abreast in groups; lanes that are left over repeat a group's first one.
-struct Together<'t, 'a, F> {
+struct Together<'t, 'a> {
     run: &'t Run<'a>,
     groups: &'t [Vec<&'t (Simulation<'a>, Vec<Leg>)>],
-    /// Takes what the lanes of each group see at a range of samples.
-    sink: F,
+    /// Takes what the lanes of each group see at a range of samples. All of the model is compiled in around it: once.
+    sink: &'t mut dyn FnMut(Range<usize>, &[Sights]),
 }
 
 /// One of something for each lane of a group.
@@ -229,12 +229,12 @@ fn each<'s, 't, 'a, A>(
     std::array::from_fn(|lane| of(group.get(lane).unwrap_or(&group[0])))
 }
 
-impl<F: FnMut(Range<usize>, &[Sights])> Work for Together<'_, '_, F> {
+impl Work for Together<'_, '_> {
     /// `None` where they are too different.
     type Output = Option<()>;
 
     #[inline(always)]
-    fn run<T: Token, const M: usize>(mut self) -> Self::Output {
+    fn run<T: Token, const M: usize>(self) -> Self::Output {
         let data = self.run.data;
         let models = |group: &Vec<_>| -> Option<Vec<Model<Lanes<T, M>>>> {
             (0..data.lengths.len())
