@@ -118,37 +118,55 @@ fn plus<const L: usize>(a: [f64; L], b: [f64; L]) -> [f64; L] {
     from_fn(|l| a[l] + b[l])
 }
 
-/// What is behind an input after that jumped by `rise`.
-fn jump(behind: &mut Behind<1>, rise: f64) {
-    for stage in behind {
-        stage[0] -= rise;
+/// A signal as it passes a filter, sample by sample.
+pub(super) struct Passing<'a> {
+    data: &'a Data,
+    filter: Filter<1>,
+    behind: Behind<1>,
+    /// Constant between samples; else straight.
+    held: bool,
+}
+
+impl<'a> Passing<'a> {
+    /// A signal that begins at rest.
+    pub(super) fn new(data: &'a Data, time: f64, held: bool) -> Self {
+        Passing {
+            data,
+            filter: Filter::new(data, [time]),
+            behind: Behind::default(),
+            held,
+        }
+    }
+
+    /// What is filtered at sample `k`, where the signal is `now`, the `next` of which comes in its turn.
+    pub(super) fn at(&mut self, k: usize, now: f64, next: Option<f64>) -> Filtered {
+        let at = self.filter.output(&self.behind, [now]);
+        if let Some(next) = next {
+            let rise = next - now;
+            if self.held {
+                self.filter.pass(self.data, k, &mut self.behind, [0.0]);
+                // The input jumps, the lags do not.
+                for stage in &mut self.behind {
+                    stage[0] -= rise;
+                }
+            } else {
+                self.filter.pass(self.data, k, &mut self.behind, [rise]);
+            }
+        }
+        Filtered {
+            value: at.value[0],
+            rate: at.rate[0],
+            acceleration: at.acceleration[0],
+            jerk: at.jerk[0],
+        }
     }
 }
 
 /// Filters a signal that is sampled (straight between samples) or `held` (constant between them).
 pub(super) fn filtered(data: &Data, time: f64, signal: &[f64], held: bool) -> Vec<Filtered> {
-    let filter = Filter::new(data, [time]);
-    let mut behind = Behind::default();
-    let mut out = Vec::with_capacity(signal.len());
-    for (k, &now) in signal.iter().enumerate() {
-        let at = filter.output(&behind, [now]);
-        out.push(Filtered {
-            value: at.value[0],
-            rate: at.rate[0],
-            acceleration: at.acceleration[0],
-            jerk: at.jerk[0],
-        });
-        if let Some(next) = signal.get(k + 1) {
-            let rise = next - now;
-            if held {
-                filter.pass(data, k, &mut behind, [0.0]);
-                jump(&mut behind, rise);
-            } else {
-                filter.pass(data, k, &mut behind, [rise]);
-            }
-        }
-    }
-    out
+    let mut passing = Passing::new(data, time, held);
+    let at = |(k, now): (usize, &f64)| passing.at(k, *now, signal.get(k + 1).copied());
+    signal.iter().enumerate().map(at).collect()
 }
 
 #[cfg(test)]
