@@ -80,14 +80,14 @@ pub fn rows() {
     let baseline = least(data.len(), || euler::cost(&MACHINE, black_box(&data)));
     println!("scalar Euler in f64: {baseline:.2} ns a step");
     println!(
-        "{:16} {:>8} {:>8} {:>8} {:>10}",
-        "", "alone", "abreast", "gain", "of Euler"
+        "{:16} {:>8} {:>8} {:>8} {:>10} {:>8}",
+        "", "alone", "abreast", "gain", "of Euler", "in lists"
     );
     let kinds = Kind::ALL.iter().map(std::slice::from_ref);
     for kinds in std::iter::once(&[][..]).chain(kinds) {
-        let [alone, abreast] = steps(&data, kinds);
+        let [alone, abreast, listed] = steps(&data, kinds);
         println!(
-            "{:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x",
+            "{:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x {listed:8.1}",
             kinds.first().map_or("linear", |kind| kind.name()),
             alone / abreast,
             abreast / baseline
@@ -102,17 +102,18 @@ pub fn rows() {
         Kind::BrushDrop,
     ];
     for many in 0..=some.len() {
-        let [alone, abreast] = steps(&data, &some[..many]);
+        let [alone, abreast, listed] = steps(&data, &some[..many]);
         println!(
-            "{many:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x",
+            "{many:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x {listed:8.1}",
             alone / abreast,
             abreast / baseline
         );
     }
 }
 
-/// ns a step of a candidate, alone and side by side with others.
-fn steps(data: &Data, kinds: &[Kind]) -> [f64; 2] {
+/// ns a step of a candidate: alone and side by side with others, errors handed over as they come; and the latter with lists
+/// of all errors made of them.
+fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
     let run = Run {
         data,
         method: Method::default(),
@@ -124,11 +125,24 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 2] {
     let group: Vec<Candidate> = (0..LANES)
         .map(|k| candidate(data, kinds, k as f64 * 1e-5))
         .collect();
-    let one = &group[0];
+    let (one, others) = group.split_first().expect("some candidates");
     let alone = least(data.len(), || {
         let simulation = Simulation::new(data, one, run.method).expect("a valid model");
-        simulation.errors(run.manner, &legs(one))
+        let mut sum = 0.0;
+        simulation.stream(run.manner, &legs(one), |errors| sum += errors[0]);
+        sum
     });
-    let abreast = least(data.len() * LANES, || run.errors(&group, &legs));
-    [alone, abreast]
+    let abreast = least(data.len() * LANES, || {
+        let mut sum = 0.0;
+        let together = run.stream(one, others, legs, |errors, changes| {
+            sum += errors[0] + changes[0][0];
+        });
+        // Whole samples of a delay are no number: such candidates are run one by one.
+        if !together {
+            sum += run.errors(&group, &legs).len() as f64;
+        }
+        sum
+    });
+    let listed = least(data.len() * LANES, || run.errors(&group, &legs));
+    [alone, abreast, listed]
 }

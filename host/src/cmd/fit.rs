@@ -27,6 +27,8 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     )?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
+    // Of an hour it is as large as what it was lowered to.
+    drop(recording);
     let validation = match &args.validate {
         Some(path) => Some(Data::new(&motor::recording(&args.motor, path)?.0)?),
         None => None,

@@ -18,7 +18,8 @@ use crate::problem::simulate::Method;
 use crate::problem::{Base, Data, FitProblem, Quick, StartAngle, Structure};
 use crate::recording::Drive;
 use crate::solve::nelder_mead::NelderMead;
-use crate::solve::{Evaluator, Found, Objective, Solver};
+use crate::solve::{Evaluator, Found, Solver};
+use regression::Guess;
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
 use shared::effects::{Kind, Place};
@@ -74,23 +75,29 @@ pub const SPEED_HALF_WIDTH: usize = 4;
 /// [`Error::Failed`] where no regression gives a machine: the recording does not excite the motor.
 pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
     check(data, options)?;
-    let still = candidate_problem(data, options, false);
+    let starts = starts(data, options);
+    let still = starts.best(false);
     let moving = if may_start_moving(data) && options.window_s.is_none() {
-        candidate_problem(data, options, true)
+        starts.best(true)
     } else {
         None
     };
-    let started = |p: &FitProblem<'_>| p.start.as_ref().map_or(f64::INFINITY, |x| p.cost(x));
-    match (still, moving) {
+    let best = match (still, moving) {
         // A start in motion must earn its unknown.
-        (Some(still), Some(moving)) => Ok(if started(&moving) < EARNED * started(&still) {
-            moving
-        } else {
-            still
-        }),
-        (Some(only), None) | (None, Some(only)) => Ok(only),
-        (None, None) => Err(no_motor(data, options)),
-    }
+        (Some(still), Some(moving)) => {
+            if moving.cost < EARNED * still.cost {
+                moving
+            } else {
+                still
+            }
+        }
+        (Some(only), None) | (None, Some(only)) => only,
+        (None, None) => return Err(no_motor(data, options)),
+    };
+    let mut problem = starts.problem;
+    problem.structure = best.structure;
+    problem.start = Some(best.x);
+    Ok(problem)
 }
 
 /// A speed at the first sample is searched for if it lowers the cost of the start at least to this part.
@@ -125,8 +132,7 @@ pub fn is_reversed(data: &Data, options: &Options) -> bool {
     for count in &mut reversed.counts {
         *count = -*count;
     }
-    candidate_problem(data, options, false).is_none()
-        && candidate_problem(&reversed, options, false).is_some()
+    starts(data, options).best(false).is_none() && starts(&reversed, options).best(false).is_some()
 }
 
 /// Why no regression gave a machine.
@@ -144,12 +150,21 @@ fn no_motor(data: &Data, options: &Options) -> Error {
     Error::Failed(format!("{}: {reason}", data.source))
 }
 
-/// The problem with its best start from regression; `None` where no regression gives a machine.
-fn candidate_problem<'a>(
-    data: &'a Data,
-    options: &Options,
-    start_speed: bool,
-) -> Option<FitProblem<'a>> {
+/// A problem, and what regression guesses at.
+struct Starts<'a> {
+    problem: FitProblem<'a>,
+    guesses: Vec<Guess>,
+}
+
+/// A place to begin at.
+struct Start {
+    cost: f64,
+    x: Vec<f64>,
+    structure: Structure,
+}
+
+/// The problem, without a start, and the guesses for one.
+fn starts<'a>(data: &'a Data, options: &Options) -> Starts<'a> {
     let base = base_for(data, &options.effects);
     let unit = Machine {
         kb: 1.0,
@@ -157,13 +172,11 @@ fn candidate_problem<'a>(
         inertia: 1.0,
         electrical: 0.0,
     };
-    let sketch = Structure::around(data, base, &options.effects, &unit, start_speed);
-    let guesses = regression::guesses(data, &sketch);
-    let speed_now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
-        * core::f64::consts::TAU;
-    let mut problem = FitProblem {
+    let structure = Structure::around(data, base, &options.effects, &unit, false);
+    let guesses = regression::guesses(data, &structure);
+    let problem = FitProblem {
         data,
-        structure: sketch,
+        structure,
         cost: options.cost,
         weight: 1.0,
         horizon: match options.window_s {
@@ -174,22 +187,34 @@ fn candidate_problem<'a>(
         method: options.method,
         start: None,
     };
-    let mut best: Option<(f64, Vec<f64>, Structure)> = None;
-    for guess in guesses {
-        let structure =
-            Structure::around(data, base, &options.effects, &guess.machine, start_speed);
-        let x =
-            structure.coordinates(&structure.values_of(&guess.machine, &guess.effects, speed_now));
-        problem.structure = structure;
-        let cost = problem.cost(&x);
-        if cost.is_finite() && best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-            best = Some((cost, x, problem.structure.clone()));
-        }
+    Starts { problem, guesses }
+}
+
+impl Starts<'_> {
+    /// The guess that costs least, at rest or in motion at the first sample; `None` where no guess is a motor.
+    fn best(&self, start_speed: bool) -> Option<Start> {
+        let FitProblem {
+            data, structure, ..
+        } = &self.problem;
+        let quick = Quick::new(&self.problem);
+        let speed_now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
+            * core::f64::consts::TAU;
+        let start = |guess: &Guess| {
+            let Guess { machine, effects } = guess;
+            let (base, kinds) = (structure.base, &structure.effects);
+            let structure = Structure::around(data, base, kinds, machine, start_speed);
+            let x = structure.coordinates(&structure.values_of(machine, effects, speed_now));
+            Start {
+                cost: quick.cost_of(&structure.candidate(&structure.values(&x))),
+                x,
+                structure,
+            }
+        };
+        let starts = self.guesses.iter().map(start);
+        starts
+            .filter(|start| start.cost.is_finite())
+            .min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
-    let (_, start, structure) = best?;
-    problem.structure = structure;
-    problem.start = Some(start);
-    Some(problem)
 }
 
 /// Viscous friction is searched for apart from back-EMF where something can tell the two apart:

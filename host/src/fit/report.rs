@@ -111,11 +111,14 @@ impl Fit {
         let data = problem.data;
         let values = problem.structure.values(&found.x);
         let candidate = problem.structure.candidate(&values);
-        let whole = scores::whole(data, &candidate, options.method)?;
-        let fitted = problem.errors(&candidate)?;
+        let rms_counts = rms_counts(data, &scores::whole(data, &candidate, options.method)?);
         let centre = data.centre(0) - data.counts[0];
-        let residuals: Vec<f64> = fitted.iter().map(|e| e - centre).collect();
+        let mut residuals = problem.errors(&candidate)?;
+        for residual in &mut residuals {
+            *residual -= centre;
+        }
         let spread = uncertainty(problem, &values, &residuals);
+        drop(residuals);
         let mut notes = Vec::new();
         let reconciled = spread
             .as_ref()
@@ -131,7 +134,6 @@ impl Fit {
         if let Some(reconciled) = &reconciled {
             describe(problem, reconciled, &options.known, &mut notes);
         }
-        let rms_counts = rms_counts(data, &whole);
         let windowed = scores::windowed(data, &candidate, options);
         remarks::remarks(
             problem,

@@ -1,6 +1,6 @@
 //! Errors of a fitted model, in the several ways that people measure them.
 
-use super::filter::filtered;
+use super::filter::{Passing, filtered};
 use super::physical::Estimate;
 use super::uncertainty::SEGMENTS;
 use super::{Options, SPEED_HALF_WIDTH};
@@ -85,10 +85,10 @@ pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option
 pub fn equation_error(data: &Data, candidate: &Candidate) -> Option<f64> {
     let time = EQUATION_FILTER_SAMPLES * data.units.interval;
     let (mut wrong, mut driven) = (0.0, 0.0);
-    for left in equation_residuals(data, candidate, time) {
+    each_equation_residual(data, candidate, time, |left| {
         wrong += left.volts.powi(2);
         driven += left.command.powi(2);
-    }
+    });
     (driven > 0.0).then(|| (wrong / driven).sqrt())
 }
 
@@ -126,31 +126,39 @@ pub fn filtered_values(data: &Data, time: f64, signal: &[f64]) -> Vec<f64> {
 /// The volts that the model's equation leaves unexplained along the measured motion, filtered with
 /// `time` (s); samples with the bridge open, just closed, or held by friction are left out.
 pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<EquationResidual> {
+    let mut residuals = Vec::with_capacity(data.len());
+    each_equation_residual(data, candidate, time, |left| residuals.push(left));
+    residuals
+}
+
+/// The same, one after the other.
+fn each_equation_residual(
+    data: &Data,
+    candidate: &Candidate,
+    time: f64,
+    mut each: impl FnMut(EquationResidual),
+) {
     let radians = core::f64::consts::TAU / data.units.counts_per_rev;
-    let angle: Vec<f64> = (0..data.len())
-        .map(|k| (data.centre(k) - data.centre(0)) * radians)
-        .collect();
-    let motion = filtered(data, time, &angle, false);
+    let angle = |k: usize| (data.centre(k) - data.centre(0)) * radians;
     let lowered = Lowered::<f64>::new(&candidate.effects, &data.units);
     // What the effects leave of the drive, less what they take from it.
-    let net: Vec<f64> = (0..data.len())
-        .map(|k| {
-            let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
-            // As it is now: what passes the filter below must not be late before.
-            let speed = speed(data, k) * radians;
-            let drive = lowered.drive(data.command[k]);
-            let current = drive - candidate.machine.kb * speed / data.units.volts;
-            let mut shaft = Shaft::at(turns, speed / data.units.speed, current);
-            let torque = lowered.torque(&shaft, &Default::default());
-            shaft.transmitted = current + torque;
-            let budget = lowered.friction(&shaft);
-            let friction = budget.moving * shaft.speed.signum() + budget.bias;
-            (drive - torque - friction) * data.units.volts
-        })
-        .collect();
-    let net = filtered(data, time, &net, true);
-    let command: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
-    let command = filtered(data, time, &command, true);
+    let net = |k: usize| {
+        let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
+        // As it is now: what passes the filter below must not be late before.
+        let speed = speed(data, k) * radians;
+        let drive = lowered.drive(data.command[k]);
+        let current = drive - candidate.machine.kb * speed / data.units.volts;
+        let mut shaft = Shaft::at(turns, speed / data.units.speed, current);
+        let torque = lowered.torque(&shaft, &Default::default());
+        shaft.transmitted = current + torque;
+        let budget = lowered.friction(&shaft);
+        let friction = budget.moving * shaft.speed.signum() + budget.bias;
+        (drive - torque - friction) * data.units.volts
+    };
+    let command = |k: usize| data.command[k] * data.units.volts;
+    let mut passing_angle = Passing::new(data, time, false);
+    let mut passing_net = Passing::new(data, time, true);
+    let mut passing_command = Passing::new(data, time, true);
     let holds = candidate
         .effects
         .iter()
@@ -159,27 +167,31 @@ pub fn equation_residuals(data: &Data, candidate: &Candidate, time: f64) -> Vec<
     let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
     let third = m.electrical * m.inertia;
     let mut closed_since = 0.0;
-    let mut residuals = Vec::with_capacity(data.len());
+    let mut net_now = if data.is_empty() { 0.0 } else { net(0) };
     for k in 0..data.len() {
+        let next = (k + 1 < data.len()).then_some(k + 1);
+        let net_next = next.map(net);
+        let f = passing_angle.at(k, angle(k), next.map(angle));
+        let net = passing_net.at(k, net_now, net_next);
+        let command = passing_command.at(k, command(k), next.map(command));
+        net_now = net_next.unwrap_or(net_now);
         if data.is_open(k) {
             closed_since = data.time_s[k];
         } else if data.time_s[k] - closed_since > 6.0 * time {
-            let f = &motion[k];
             // Near rest friction is whatever holds the shaft: the equation says nothing there.
             if holds && f.rate.abs() < AT_REST * data.units.speed {
                 continue;
             }
-            residuals.push(EquationResidual {
+            each(EquationResidual {
                 sample: k,
-                volts: net[k].value - total * f.rate - second * f.acceleration - third * f.jerk,
+                volts: net.value - total * f.rate - second * f.acceleration - third * f.jerk,
                 angle: f.value,
                 speed: f.rate,
-                command: command[k].value,
+                command: command.value,
                 acceleration: f.acceleration,
             });
         }
     }
-    residuals
 }
 
 /// Resistance from a measured current, Ω. The model's `R·i` has no noise, the sensor's `i` has: so

@@ -96,16 +96,16 @@ pub fn uncertainty(
     values: &[f64],
     residuals: &[f64],
 ) -> Option<Uncertainty> {
-    let jacobian = jacobian(problem, values)?;
-    let (rows, columns) = jacobian.shape();
-    let scales: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
-    let scaled = DMatrix::from_fn(rows, columns, |i, k| {
-        if scales[k] > 0.0 {
-            jacobian[(i, k)] / scales[k]
+    let mut scaled = jacobian(problem, values)?;
+    let (rows, columns) = scaled.shape();
+    let scales: Vec<f64> = scaled.column_iter().map(|c| c.norm()).collect();
+    for (mut column, &scale) in scaled.column_iter_mut().zip(&scales) {
+        if scale > 0.0 {
+            column /= scale;
         } else {
-            0.0
+            column.fill(0.0);
         }
-    });
+    }
     let hessian = scaled.tr_mul(&scaled);
     let eigen = hessian.symmetric_eigen();
     let mut inverse = DMatrix::zeros(columns, columns);

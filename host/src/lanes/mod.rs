@@ -6,10 +6,12 @@
 
 mod number;
 mod token;
+mod triangles;
 
 use core::marker::PhantomData;
 pub use number::{LANES, LaneMask, Lanes};
 pub use token::Token;
+pub use triangles::Triangles;
 
 /// Something to be computed in lanes.
 pub trait Work {

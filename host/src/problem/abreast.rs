@@ -99,13 +99,85 @@ impl Run<'_> {
             .collect()
     }
 
+    /// The same changes, and the errors of `here` that they are changes of, only handed over, some samples at a time, and not
+    /// centred. False, and nothing is called, where they cannot be run abreast.
+    pub fn stream(
+        &self,
+        here: &Candidate,
+        others: &[Candidate],
+        legs: impl Fn(&Candidate) -> Vec<Leg>,
+        mut each: impl FnMut(&[f64], &[&[f64]]),
+    ) -> bool {
+        let ready = |candidate: &Candidate| {
+            let simulation = Simulation::new(self.data, candidate, self.method).ok()?;
+            Some((simulation, legs(candidate)))
+        };
+        let Some(own) = ready(here) else {
+            return false;
+        };
+        let Some(ready) = others.iter().map(ready).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
+        let places = groups(others, LANES - 1);
+        if !self.suits(1 + others.len().div_ceil(places.len().max(1))) {
+            return false;
+        }
+        let groups: Vec<Vec<_>> = places
+            .iter()
+            .map(|places| std::iter::once(&own).chain(places.iter().map(|&k| &ready[k])))
+            .map(Iterator::collect)
+            .collect();
+        let mut errors = vec![[0.0; SOME]; 1 + others.len()];
+        let mut sink = |range: Range<usize>, sights: &[Sights]| {
+            for (places, sights) in places.iter().zip(sights) {
+                for (lane, &k) in places.iter().enumerate() {
+                    for (change, sights) in errors[1 + k].iter_mut().zip(sights) {
+                        *change = sights[1 + lane] - sights[0];
+                    }
+                }
+            }
+            let readings = &self.data.counts[range.clone()];
+            for ((error, sights), reading) in errors[0].iter_mut().zip(&sights[0]).zip(readings) {
+                *error = sights[0] - reading;
+            }
+            let some: Vec<&[f64]> = errors.iter().map(|e| &e[..range.len()]).collect();
+            each(some[0], &some[1..]);
+        };
+        let run = Together {
+            run: self,
+            groups: &groups,
+            sink: &mut sink,
+        };
+        work(run).flatten().is_some()
+    }
+
+    /// Whether so many are worth running abreast.
+    fn suits(&self, candidates: usize) -> bool {
+        candidates >= FEWEST && self.data.lengths.len() <= MOST_LENGTHS
+    }
+
     /// `None` where they cannot be run abreast, or had better not.
     fn abreast(&self, able: &[&(Simulation<'_>, Vec<Leg>)]) -> Option<Vec<Vec<f64>>> {
-        let fits = (FEWEST..=LANES).contains(&able.len());
-        if !fits || self.data.lengths.len() > MOST_LENGTHS {
+        if !self.suits(able.len()) || able.len() > LANES {
             return None;
         }
-        work(Together { run: self, able }).flatten()
+        let data = self.data;
+        let mut errors = vec![vec![0.0; data.len()]; able.len()];
+        let mut sink = |range: Range<usize>, sights: &[Sights]| {
+            hand_over(
+                &sights[0],
+                &data.counts[range.clone()],
+                range.start,
+                &mut errors,
+            );
+        };
+        let run = Together {
+            run: self,
+            groups: &[able.to_vec()],
+            sink: &mut sink,
+        };
+        work(run).flatten()?;
+        Some(errors)
     }
 }
 
@@ -125,72 +197,75 @@ fn groups(candidates: &[Candidate], most: usize) -> Vec<Vec<usize>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Candidates to be run abreast; lanes that are left over repeat the first one.
-struct Together<'t, 'a> {
-    run: &'t Run<'a>,
-    able: &'t [&'t (Simulation<'a>, Vec<Leg>)],
-}
-
-impl Together<'_, '_> {
-    /// One of something for each lane.
-    fn each<'s, A>(&'s self, of: impl Fn(&'s (Simulation<'_>, Vec<Leg>)) -> A) -> [A; LANES] {
-        std::array::from_fn(|lane| of(self.able.get(lane).unwrap_or(&self.able[0])))
-    }
-}
-
-/// Samples that are handed over at a time.
+/// Samples that are handed over at a time: one by one, eight places would be written to by turns.
 const SOME: usize = 64;
 
-/// Writes what the lanes saw at the samples of a `range`, less the readings, to each candidate's errors.
-fn hand_over(
-    sights: &[[f64; LANES]],
-    readings: &[f64],
-    range: Range<usize>,
-    errors: &mut [Vec<f64>],
-) {
+/// What the encoders of the candidates in the lanes see at some samples, counts.
+type Sights = [[f64; LANES]; SOME];
+
+/// Writes what the lanes saw, less the readings, to each candidate's errors from a place on.
+fn hand_over(sights: &Sights, readings: &[f64], at: usize, errors: &mut [Vec<f64>]) {
     for (lane, errors) in errors.iter_mut().enumerate() {
-        let readings = &readings[range.clone()];
-        for ((error, sights), reading) in errors[range.clone()].iter_mut().zip(sights).zip(readings)
-        {
+        let errors = &mut errors[at..at + readings.len()];
+        for ((error, sights), reading) in errors.iter_mut().zip(sights).zip(readings) {
             *error = sights[lane] - reading;
         }
     }
 }
 
+/// Candidates to be run abreast in groups; lanes that are left over repeat a group's first one.
+struct Together<'t, 'a> {
+    run: &'t Run<'a>,
+    groups: &'t [Vec<&'t (Simulation<'a>, Vec<Leg>)>],
+    /// Takes what the lanes of each group see at a range of samples. All of the model is compiled in around it: once.
+    sink: &'t mut dyn FnMut(Range<usize>, &[Sights]),
+}
+
+/// One of something for each lane of a group.
+fn each<'s, 't, 'a, A>(
+    group: &'s [&'t (Simulation<'a>, Vec<Leg>)],
+    of: impl Fn(&'t (Simulation<'a>, Vec<Leg>)) -> A,
+) -> [A; LANES] {
+    std::array::from_fn(|lane| of(group.get(lane).unwrap_or(&group[0])))
+}
+
 impl Work for Together<'_, '_> {
-    type Output = Option<Vec<Vec<f64>>>;
+    /// `None` where they are too different.
+    type Output = Option<()>;
 
     #[inline(always)]
     fn run<T: Token, const M: usize>(self) -> Self::Output {
         let data = self.run.data;
-        let models: Vec<Model<Lanes<T, M>>> = (0..data.lengths.len())
-            .map(|length| Model::abreast(self.each(|(simulation, _)| &simulation.models()[length])))
-            .collect::<Option<_>>()?;
-        let course = Course {
-            data,
-            models: &models,
+        let models = |group: &Vec<_>| -> Option<Vec<Model<Lanes<T, M>>>> {
+            (0..data.lengths.len())
+                .map(|k| Model::abreast(each(group, |(simulation, _)| &simulation.models()[k])))
+                .collect()
         };
-        let mut errors = vec![vec![0.0; data.len()]; self.able.len()];
-        // Samples are handed over some at a time: one by one, eight places would be written to by turns.
-        let mut some = [[0.0; LANES]; SOME];
-        for (index, leg) in self.able[0].1.iter().enumerate() {
-            let states = self.each(|(simulation, legs)| simulation.begin(&legs[index]));
-            let state = State::<Lanes<T, M>>::abreast(states.each_ref())?;
-            let (first, end) = (leg.range.start, leg.range.end);
-            course.run(
-                self.run.manner,
-                state,
-                leg.range.clone(),
-                #[inline(always)]
-                |k, sight| {
-                    let place = (k - first) % SOME;
-                    some[place] = sight.each();
-                    if place + 1 == SOME || k + 1 == end {
-                        hand_over(&some, &data.counts, k - place..k + 1, &mut errors);
-                    }
-                },
-            );
+        let models: Vec<_> = self.groups.iter().map(models).collect::<Option<_>>()?;
+        let mut sights = vec![[[0.0; LANES]; SOME]; self.groups.len()];
+        for (index, leg) in self.groups[0][0].1.iter().enumerate() {
+            let begin = |group: &Vec<_>| {
+                let states = each(group, |(simulation, legs): &(Simulation<'_>, Vec<Leg>)| {
+                    simulation.begin(&legs[index])
+                });
+                State::<Lanes<T, M>>::abreast(states.each_ref())
+            };
+            let mut states: Vec<_> = self.groups.iter().map(begin).collect::<Option<_>>()?;
+            for from in leg.range.clone().step_by(SOME) {
+                let range = from..(from + SOME).min(leg.range.end);
+                for ((state, models), sights) in states.iter_mut().zip(&models).zip(&mut sights) {
+                    let course = Course { data, models };
+                    *state = course.run(
+                        self.run.manner,
+                        *state,
+                        range.clone(),
+                        #[inline(always)]
+                        |k, sight| sights[k - from] = sight.each(),
+                    );
+                }
+                (self.sink)(range, &sights);
+            }
         }
-        Some(errors)
+        Some(())
     }
 }

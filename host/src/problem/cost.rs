@@ -1,11 +1,13 @@
 //! The cost of a point of the unit cube, and the residuals behind it.
 
 use super::abreast::Run;
+use super::compress::Compress;
 use super::course::{Manner, legs};
 use super::data::Data;
 use super::simulate::{Candidate, Method, Simulation};
+use super::spread::Spread;
 use super::unknowns::Structure;
-use crate::solve::Objective;
+use crate::solve::{Compressed, Objective, Tangent};
 use shared::cost::Cost;
 use shared::error::ModelError;
 use std::ops::Range;
@@ -46,7 +48,9 @@ impl Horizon {
         while from + 1 < data.len() {
             let end = data.time_s[from] + seconds;
             let to = from + data.time_s[from..].partition_point(|&t| t < end);
-            let to = to.max(from + 2).min(data.len());
+            let to = to.max(from + 2);
+            // A last sample alone would be in no window.
+            let to = if to + 1 < data.len() { to } else { data.len() };
             let counts_s = data.speed_counts_s(from, half);
             let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
             windows.push(Window {
@@ -116,18 +120,17 @@ impl FitProblem<'_> {
         let simulation = Simulation::new(data, candidate, self.method).ok()?;
         let legs = legs(data, candidate, horizon, start_angle);
         let centred = is_centred(data, candidate, horizon, start_angle);
-        let zero = shared::encoder::FLOOR_OFFSET_COUNTS - reading_shift(data);
+        let zero = self.zero();
         // About their mean, errors so far never have more squares than all of them.
-        let (mut samples, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        let mut spread = Spread::default();
         let too_many = |errors: &[f64]| {
-            for error in errors {
-                let error = error - zero;
-                sum += error;
-                squares += error * error;
-            }
-            samples += errors.len() as f64;
-            let mean = if centred { sum / samples } else { 0.0 };
-            squares - sum * mean > limit * (1.0 + ROUNDING) + ROUNDING * squares
+            spread.add(errors);
+            let squares = if centred {
+                spread.about_mean()
+            } else {
+                spread.about(zero)
+            };
+            squares > limit * (1.0 + ROUNDING)
         };
         let mut errors = simulation.errors_unless(horizon.manner(), &legs, too_many)?;
         centre(
@@ -139,6 +142,11 @@ impl FitProblem<'_> {
             &mut errors,
         );
         Some(errors)
+    }
+
+    /// Where residuals are zero, counts above the reading.
+    fn zero(&self) -> f64 {
+        shared::encoder::FLOOR_OFFSET_COUNTS - reading_shift(self.data)
     }
 
     /// Residuals and cost of a model's errors.
@@ -303,7 +311,64 @@ impl Objective for FitProblem<'_> {
         )
     }
 
+    fn compressed(&self) -> Option<&dyn Compressed> {
+        (self.cost == Cost::Squared).then_some(self)
+    }
+
     fn start(&self) -> Option<Vec<f64>> {
         self.start.clone()
+    }
+}
+
+impl Compressed for FitProblem<'_> {
+    fn squares_and_cost(&self, x: &[f64]) -> Option<(f64, f64)> {
+        let candidate = &self.candidate(x);
+        let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
+        let simulation = Simulation::new(data, candidate, self.method).ok()?;
+        let legs = legs(data, candidate, horizon, start_angle);
+        let mut spread = Spread::default();
+        simulation.stream(horizon.manner(), &legs, |errors| spread.add(errors));
+        let squares = if is_centred(data, candidate, horizon, start_angle) {
+            spread.about_mean()
+        } else {
+            spread.about(self.zero())
+        };
+        squares
+            .is_finite()
+            .then_some((squares, squares * self.weight))
+    }
+
+    fn tangent(&self, x: &[f64], moved: &[Vec<f64>]) -> Option<Tangent> {
+        let here = self.candidate(x);
+        let others: Vec<Candidate> = moved.iter().map(|x| self.candidate(x)).collect();
+        let (horizon, start_angle) = (&self.horizon, self.start_angle);
+        let centred = is_centred(self.data, &here, horizon, start_angle);
+        let run = Run {
+            data: self.data,
+            method: self.method,
+            manner: horizon.manner(),
+        };
+        let legs = |candidate: &Candidate| legs(self.data, candidate, horizon, start_angle);
+        let mut compress = Compress::new(moved.len(), (!centred).then(|| self.zero()));
+        if run.stream(&here, &others, legs, |here, changes| {
+            compress.add(here, changes);
+        }) && let Some(tangent) = compress.tangent()
+        {
+            return Some(tangent);
+        }
+        // One by one: some may be impossible.
+        let (residuals, _) = self.residuals_and_cost(x)?;
+        let nothing = vec![0.0; residuals.len()];
+        let changes = self.changes(x, moved);
+        let columns: Vec<&[f64]> = changes
+            .iter()
+            .map(|change| change.as_ref().map_or(&nothing[..], |change| change))
+            .collect();
+        // Residuals are about their zero already.
+        let mut compress = Compress::new(moved.len(), Some(0.0));
+        compress.add(&residuals, &columns);
+        let mut tangent = compress.tangent()?;
+        tangent.possible = changes.iter().map(Option::is_some).collect();
+        Some(tangent)
     }
 }

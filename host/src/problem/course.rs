@@ -118,7 +118,14 @@ impl<S: Number> Course<'_, S> {
         memory_s: Option<f64>,
         mut each: impl FnMut(usize, S),
     ) -> State<S> {
-        for k in range {
+        let mut k = range.start;
+        while k < range.end {
+            if memory_s.is_none() {
+                k = self.glide(&mut state, k..range.end, &mut each);
+                if k == range.end {
+                    break;
+                }
+            }
             let model = self.model(k);
             let sight = model.reading(&state);
             each(k, sight);
@@ -126,8 +133,44 @@ impl<S: Number> Course<'_, S> {
                 self.pull(&mut state, k, sight, memory_s);
             }
             model.step(&mut state, self.command(k), self.data.is_open(k));
+            k += 1;
         }
         state
+    }
+
+    /// Runs as long as the shaft only slides on; gives the sample at which more must be looked at.
+    #[inline(always)]
+    fn glide(
+        &self,
+        state: &mut State<S>,
+        range: Range<usize>,
+        each: &mut impl FnMut(usize, S),
+    ) -> usize {
+        let data = self.data;
+        let Some(mut glide) = self.model(range.start).glide(state) else {
+            return range.start;
+        };
+        let length = data.length_of[range.start];
+        let mut motion = state.motion;
+        // No command equals it.
+        let mut command = f64::NAN;
+        let mut k = range.start;
+        while k < range.end && data.length_of[k] == length && !data.is_open(k) {
+            if data.command[k] != command {
+                command = data.command[k];
+                glide.set(self.command(k));
+            }
+            let Some(next) = glide.step(&motion) else {
+                break;
+            };
+            each(k, motion.angle);
+            motion = next;
+            k += 1;
+        }
+        if k > range.start {
+            glide.leave(state, motion);
+        }
+        k
     }
 
     /// Pulls a model that sees `sight` at sample `k` towards the reading.

@@ -6,12 +6,14 @@
 //! [`held`].
 
 pub mod abreast;
+mod compress;
 pub mod cost;
 pub mod course;
 pub mod data;
 pub mod held;
 pub mod quick;
 pub mod simulate;
+mod spread;
 pub mod unknowns;
 
 pub use cost::{FitProblem, Horizon, StartAngle};

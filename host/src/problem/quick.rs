@@ -5,16 +5,20 @@
 //! only the line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
 //! that follows from the block's ends. Whoever only compares costs loses nothing by it.
 
+mod errors;
 mod sum;
 
+use super::compress::Compress;
 use super::cost::reading_shift;
 use super::course::legs;
 use super::data::Data;
 use super::held::{Held, Path, Place, STRIDE};
 use super::simulate::Candidate;
 use super::{FitProblem, Horizon, StartAngle};
-use crate::solve::Objective;
+use crate::solve::{Compressed, Objective, Tangent};
+use errors::errors;
 use shared::cost::Cost;
+use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::model::{Increments, Plan};
 use std::ops::Range;
 use sum::{Floored, Plain, Squares, Sum};
@@ -82,8 +86,19 @@ impl<'a> Quick<'a> {
         self.blocks.is_some()
     }
 
-    /// The cost, or more than `limit` where that is less; `None` where it must be summed sample by sample.
-    fn held(&self, candidate: &Candidate, limit: f64) -> Option<f64> {
+    /// The cost of a model; infinite where it cannot run.
+    pub fn cost_of(&self, candidate: &Candidate) -> f64 {
+        self.cost_of_within(candidate, f64::INFINITY)
+    }
+
+    fn cost_of_within(&self, candidate: &Candidate, limit: f64) -> f64 {
+        self.held(candidate, limit)
+            .unwrap_or_else(|| self.problem.cost_of(candidate))
+    }
+
+    /// The motor and its path, as far as needed to see that the cost, without its weight, is above `limit`; and what it
+    /// costs at least. `None` where it must be run sample by sample.
+    fn course(&self, candidate: &Candidate, limit: f64) -> Option<(Held, Vec<Piece>, f64)> {
         let blocks = self.blocks.as_ref()?;
         let problem = self.problem;
         let data = problem.data;
@@ -100,15 +115,23 @@ impl<'a> Quick<'a> {
             state: [0.0, leg.speed / data.units.speed],
             angle: leg.angle + reading_shift(data),
         };
-        let limit = limit / problem.weight;
         let (pieces, least) = self.pieces(blocks, &held, start, limit)?;
+        Some((held, pieces, least))
+    }
+
+    /// The cost, or more than `limit` where that is less; `None` where it must be summed sample by sample.
+    fn held(&self, candidate: &Candidate, limit: f64) -> Option<f64> {
+        let problem = self.problem;
+        let data = problem.data;
+        let limit = limit / problem.weight;
+        let (held, pieces, least) = self.course(candidate, limit)?;
         if least * (1.0 - SLACK) > limit {
             return Some(least * problem.weight);
         }
         let run = Sum {
             data,
             held: &held,
-            blocks,
+            blocks: self.blocks.as_ref()?,
             pieces: &pieces,
             least,
             limit,
@@ -207,10 +230,7 @@ impl Objective for Quick<'_> {
     }
 
     fn cost_within(&self, x: &[f64], limit: f64) -> f64 {
-        let structure = &self.problem.structure;
-        let candidate = structure.candidate(&structure.values(x));
-        self.held(&candidate, limit)
-            .unwrap_or_else(|| self.problem.cost_of(&candidate))
+        self.cost_of_within(&self.candidate(x), limit)
     }
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
@@ -221,8 +241,64 @@ impl Objective for Quick<'_> {
         self.problem.changes(x, moved)
     }
 
+    fn compressed(&self) -> Option<&dyn Compressed> {
+        self.problem.compressed()?;
+        Some(self)
+    }
+
     fn start(&self) -> Option<Vec<f64>> {
         self.problem.start()
+    }
+}
+
+impl Quick<'_> {
+    fn candidate(&self, x: &[f64]) -> Candidate {
+        let structure = &self.problem.structure;
+        structure.candidate(&structure.values(x))
+    }
+
+    /// The tangent at a model; `None` where a model must be run sample by sample.
+    fn held_tangent(&self, candidates: &[Candidate]) -> Option<Tangent> {
+        let problem = self.problem;
+        let courses: Vec<(Held, Vec<Piece>, f64)> = candidates
+            .iter()
+            .map(|candidate| self.course(candidate, f64::INFINITY))
+            .collect::<Option<_>>()?;
+        let zero = (problem.start_angle == StartAngle::Known).then_some(FLOOR_OFFSET_COUNTS);
+        let mut compress = Compress::new(candidates.len() - 1, zero);
+        let mut some = vec![[0.0; BLOCK]; candidates.len()];
+        for (number, block) in self.blocks.as_ref()?.iter().enumerate() {
+            let readings = &problem.data.counts[block.range.clone()];
+            for ((held, pieces, _), some) in courses.iter().zip(&mut some) {
+                errors(held, &pieces[number], readings, &mut some[..readings.len()]);
+            }
+            let (here, others) = some.split_at_mut(1);
+            let here = &here[0][..readings.len()];
+            let changes = others.iter_mut().map(|change| {
+                for (change, here) in change.iter_mut().zip(here) {
+                    *change -= here;
+                }
+                &change[..here.len()]
+            });
+            compress.add(here, &changes.collect::<Vec<_>>());
+        }
+        compress.tangent()
+    }
+}
+
+impl Compressed for Quick<'_> {
+    fn squares_and_cost(&self, x: &[f64]) -> Option<(f64, f64)> {
+        match self.held(&self.candidate(x), f64::INFINITY) {
+            Some(cost) => Some((cost / self.problem.weight, cost)),
+            None => self.problem.squares_and_cost(x),
+        }
+    }
+
+    fn tangent(&self, x: &[f64], moved: &[Vec<f64>]) -> Option<Tangent> {
+        let points = std::iter::once(x).chain(moved.iter().map(|x| &x[..]));
+        let candidates: Vec<Candidate> = points.map(|x| self.candidate(x)).collect();
+        let tangent = self.held_tangent(&candidates);
+        tangent.or_else(|| self.problem.tangent(x, moved))
     }
 }
 

@@ -103,11 +103,8 @@ impl<'a> Simulation<'a> {
             let mut state = self.begin(leg);
             for from in leg.range.clone().step_by(SOME) {
                 let range = from..(from + SOME).min(leg.range.end);
-                state = self.go_on(manner, state, range.clone(), &mut errors);
                 let some = &mut errors[range.clone()];
-                for (error, reading) in some.iter_mut().zip(&self.data.counts[range]) {
-                    *error -= reading;
-                }
+                state = self.errors_of(manner, state, range, some);
                 if give_up(some) {
                     return None;
                 }
@@ -116,12 +113,42 @@ impl<'a> Simulation<'a> {
         Some(errors)
     }
 
+    /// The same, only handed over, some samples at a time.
+    pub fn stream(&self, manner: Manner<'_>, legs: &[Leg], mut each: impl FnMut(&[f64])) {
+        let mut errors = [0.0; SOME];
+        for leg in legs {
+            let mut state = self.begin(leg);
+            for from in leg.range.clone().step_by(SOME) {
+                let range = from..(from + SOME).min(leg.range.end);
+                let some = &mut errors[..range.len()];
+                state = self.errors_of(manner, state, range, some);
+                each(some);
+            }
+        }
+    }
+
+    /// Model minus reading at some samples, from a state on; gives the state behind them.
+    fn errors_of(
+        &self,
+        manner: Manner<'_>,
+        state: State<f64>,
+        range: Range<usize>,
+        errors: &mut [f64],
+    ) -> State<f64> {
+        let state = self.go_on(manner, state, range.clone(), errors);
+        for (error, reading) in errors.iter_mut().zip(&self.data.counts[range]) {
+            *error -= reading;
+        }
+        state
+    }
+
     /// Runs over a leg; writes what the model's encoder sees at each of its samples, counts.
     pub fn run(&self, manner: Manner<'_>, leg: &Leg, sights: &mut [f64]) {
+        let sights = &mut sights[leg.range.clone()];
         self.go_on(manner, self.begin(leg), leg.range.clone(), sights);
     }
 
-    /// The same from a state over some samples; gives the state behind them.
+    /// The same from a state over some samples, one sight each; gives the state behind them.
     fn go_on(
         &self,
         manner: Manner<'_>,
@@ -129,13 +156,14 @@ impl<'a> Simulation<'a> {
         range: Range<usize>,
         sights: &mut [f64],
     ) -> State<f64> {
+        let from = range.start;
         let course = Course {
             data: self.data,
             models: &self.models,
         };
         with_vectors(
             #[inline(always)]
-            || course.run(manner, state, range, |k, sight| sights[k] = sight),
+            || course.run(manner, state, range, |k, sight| sights[k - from] = sight),
         )
     }
 

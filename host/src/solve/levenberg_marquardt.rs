@@ -9,12 +9,14 @@
 //! Sources: D. W. Marquardt, *J. SIAM* 11, 431, 1963, doi:10.1137/0111030; J. J. Moré, *Numerical
 //! Analysis*, Lecture Notes in Mathematics 630, 105, 1978, doi:10.1007/BFb0067700.
 
+mod compact;
 mod residuals;
 
 use super::{Evaluator, Solver};
+use compact::Compact;
 use levenberg_marquardt::LevenbergMarquardt as Minpack;
 use nalgebra::DVector;
-use residuals::Residuals;
+use residuals::{Descended, Residuals};
 use shared::rng;
 
 /// Where the differences of the Jacobian are taken.
@@ -88,8 +90,19 @@ impl LevenbergMarquardt {
         let mut x = DVector::from_vec(start);
         let mut last = f64::INFINITY;
         while evaluator.left() > 0 {
-            let (end, report) = minpack.minimize(Residuals::new(self, evaluator, x));
-            let squares = report.objective_function;
+            let forward = self.differences == Differences::Forward;
+            let compressed = evaluator.objective().compressed().filter(|_| forward);
+            let (end, squares): (Box<dyn Descended + '_>, f64) = match compressed {
+                Some(compressed) => {
+                    let problem = Compact::new(self.step, compressed, evaluator, x);
+                    let (end, report) = minpack.minimize(problem);
+                    (Box::new(end), report.objective_function)
+                }
+                None => {
+                    let (end, report) = minpack.minimize(Residuals::new(self, evaluator, x));
+                    (Box::new(end), report.objective_function)
+                }
+            };
             let again = end.met_wall() && squares < last * (1.0 - WORTHWHILE);
             let begun = end.evaluated();
             x = end.inside();

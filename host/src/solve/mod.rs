@@ -2,6 +2,7 @@
 //! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
 
 pub mod cma_es;
+mod compressed;
 mod cube;
 pub mod differential_evolution;
 pub mod ga;
@@ -15,6 +16,7 @@ mod test_problems;
 #[cfg(test)]
 mod tests;
 
+pub use compressed::{Compressed, Tangent};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The search is over: the budget is spent or the user asked to stop. Solvers return at once.
@@ -51,6 +53,11 @@ pub trait Objective: Sync {
             Some(there.iter().zip(here).map(|(t, h)| t - h).collect())
         };
         moved.iter().map(change).collect()
+    }
+    /// The same residuals compressed, if they can be had: where there are many, or where their squares are quicker than
+    /// they are.
+    fn compressed(&self) -> Option<&dyn Compressed> {
+        None
     }
     /// A start from the data (regression), if there is one.
     fn start(&self) -> Option<Vec<f64>> {
@@ -162,6 +169,23 @@ impl<'a> Evaluator<'a> {
         };
         self.record(&x, cost);
         Ok(residuals)
+    }
+
+    /// Sum of the squares of the residuals at `x`, as [`evaluate_residuals`](Self::evaluate_residuals) has them.
+    pub fn evaluate_squares(
+        &mut self,
+        compressed: &dyn Compressed,
+        x: &[f64],
+    ) -> Result<Option<f64>, Stop> {
+        if self.left() == 0 {
+            return Err(Stop);
+        }
+        let x = clamped(x);
+        let finite = |(squares, _): &(f64, f64)| squares.is_finite();
+        let found = compressed.squares_and_cost(&x).filter(finite);
+        let cost = found.map_or(f64::INFINITY, |(_, cost)| finite_or_infinite(cost));
+        self.record(&x, cost);
+        Ok(found.map(|(squares, _)| squares))
     }
 
     /// Books one evaluation that was made elsewhere (a residual vector, a lane of a batch).

@@ -268,8 +268,46 @@ impl<S: Scalar> Rung<S> {
     }
 
     /// What a held torque adds to current, speed and angle, with the bridge closed.
+    #[inline(always)]
     pub fn by_torque(&self, torque: S) -> [S; 3] {
-        [&self.current, &self.speed, &self.angle].map(|by| torque.times(by[3]))
+        [
+            torque.times(self.current[3]),
+            torque.times(self.speed[3]),
+            torque.times(self.angle[3]),
+        ]
+    }
+
+    /// What a held voltage adds to current, speed and angle, with the bridge closed.
+    #[inline(always)]
+    pub fn by_volts(&self, volts: S) -> [S; 3] {
+        [
+            volts.times(self.current[2]),
+            volts.times(self.speed[2]),
+            volts.times(self.angle[2]),
+        ]
+    }
+
+    /// What current and speed add to current, speed and angle, with the bridge closed.
+    #[inline(always)]
+    pub fn by_state(&self, from: &Motion<S>) -> [S; 3] {
+        let (current, speed) = (from.current, from.speed);
+        [
+            current.times(self.current[0]) + speed.times(self.current[1]),
+            current.times(self.speed[0]) + speed.times(self.speed[1]),
+            current.times(self.angle[0]) + speed.times(self.angle[1]),
+        ]
+    }
+
+    /// What a held voltage adds to the current of a shaft that friction holds, with the bridge closed.
+    #[inline(always)]
+    pub fn held_by_volts(&self, volts: S) -> S {
+        volts.times(self.held[1])
+    }
+
+    /// What the current adds to itself there.
+    #[inline(always)]
+    pub fn held_by_current(&self, current: S) -> S {
+        current.times(self.held[0])
     }
 
     /// Everything that one held voltage and one held torque (against positive rotation) do.

@@ -7,7 +7,17 @@ use nalgebra::{DMatrix, DVector, Dyn, Owned};
 use std::cell::{Cell, RefCell};
 
 /// Residual where the model is impossible: so large that the step is refused.
-const IMPOSSIBLE: f64 = 1e100;
+pub(super) const IMPOSSIBLE: f64 = 1e100;
+
+/// A problem after it has been descended on.
+pub(super) trait Descended {
+    /// The point, projected onto the cube.
+    fn inside(&self) -> DVector<f64>;
+    /// Whether a step or a coordinate was held back by the cube.
+    fn met_wall(&self) -> bool;
+    /// Whether there were residuals anywhere.
+    fn evaluated(&self) -> bool;
+}
 
 /// The evaluator as a least-squares problem over the whole space.
 pub(super) struct Residuals<'s, 'a> {
@@ -32,21 +42,6 @@ impl<'s, 'a> Residuals<'s, 'a> {
             here: RefCell::new(DVector::zeros(0)),
             met_wall: Cell::new(false),
         }
-    }
-
-    /// The point, projected onto the cube.
-    pub(super) fn inside(&self) -> DVector<f64> {
-        self.x.map(|x| x.clamp(0.0, 1.0))
-    }
-
-    /// Whether a step or a coordinate was held back by the cube.
-    pub(super) fn met_wall(&self) -> bool {
-        self.met_wall.get()
-    }
-
-    /// Whether there were residuals anywhere.
-    pub(super) fn evaluated(&self) -> bool {
-        !self.here.borrow().is_empty()
     }
 
     fn at(&self, x: &DVector<f64>) -> Result<Option<DVector<f64>>, Stop> {
@@ -109,6 +104,20 @@ impl<'s, 'a> Residuals<'s, 'a> {
             }
         }
         Ok(jacobian)
+    }
+}
+
+impl Descended for Residuals<'_, '_> {
+    fn inside(&self) -> DVector<f64> {
+        self.x.map(|x| x.clamp(0.0, 1.0))
+    }
+
+    fn met_wall(&self) -> bool {
+        self.met_wall.get()
+    }
+
+    fn evaluated(&self) -> bool {
+        !self.here.borrow().is_empty()
     }
 }
 
