@@ -3,6 +3,7 @@
 mod filter;
 mod ladder;
 pub mod margins;
+pub mod memory;
 pub mod physical;
 pub mod regression;
 mod remarks;

@@ -7,6 +7,7 @@
 //! Liang, Zeger, 1986), where `gₛ` is a segment's part of the gradient: whatever the correlation
 //! within a segment, it is counted once.
 
+use super::memory::memory;
 use crate::problem::{Data, FitProblem};
 use nalgebra::{DMatrix, DVector};
 
@@ -166,8 +167,7 @@ pub fn uncertainty(
     })
 }
 
-/// Samples divided by the sum of the residuals' autocorrelation (as far as it is positive: Geyer,
-/// *Statistical Science* 7(4), 1992), and never more than the changes of the reading.
+/// Samples divided by the sum of the residuals' autocorrelation ([`memory`]), and never more than the changes of the reading.
 pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     let n = residuals.len();
     let mean = residuals.iter().sum::<f64>() / n.max(1) as f64;
@@ -182,14 +182,7 @@ pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     if n < 2 || variance <= 0.0 {
         return n as f64;
     }
-    let mut sum = 0.0;
-    for lag in 1..n / 2 {
-        let correlation = product(lag) / variance;
-        if correlation <= 0.05 {
-            break;
-        }
-        sum += correlation;
-    }
+    let sum = memory(n / 2, |lag| product(lag) / variance);
     let independent = n as f64 / (1.0 + 2.0 * sum);
     if data.quantised {
         independent.min(data.transitions().max(1) as f64)

@@ -23,7 +23,7 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
     let first = sources.first()?;
     let reference = |name: &str| {
         let found = first.parameters.iter().find(|p| p.name == name);
-        found.filter(|p| p.identifiable && p.std.is_some() && p.value != 0.0)
+        found.filter(|p| p.identifiable && p.std.is_some_and(f64::is_finite) && p.value != 0.0)
     };
     let mut table = Table::new(&["parameter", "source", "value", "unit", "interval of 95 %"]);
     let mut plot = Plot::new();

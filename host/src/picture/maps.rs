@@ -105,7 +105,9 @@ fn lines(against: Against, map: &Map, model: &str, colour: &'static str) -> Vec<
         .map(|(part, (name, bins))| {
             let x: Vec<f64> = bins.iter().map(|bin| rounded(middle(bin))).collect();
             let y: Vec<f64> = bins.iter().map(|bin| rounded(bin.mean_v)).collect();
-            let wide: Vec<f64> = bins.iter().map(|bin| rounded(WIDE * bin.error_v)).collect();
+            // A bin whose error is not known is drawn without.
+            let known = |x: f64| if x.is_finite() { rounded(x) } else { 0.0 };
+            let wide: Vec<f64> = bins.iter().map(|bin| known(WIDE * bin.error_v)).collect();
             let symbol = if part == 0 && against == Against::Speed {
                 plotly::common::MarkerSymbol::TriangleLeft
             } else if against == Against::Speed {

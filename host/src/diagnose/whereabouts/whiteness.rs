@@ -5,6 +5,7 @@
 //! times. Even so the errors of a counter at steady speed are a sawtooth and no noise, so that textbook limits
 //! would be far too narrow: see [`AUTOCORRELATION_LIMIT`].
 
+use crate::fit::memory::memory;
 use crate::problem::Data;
 
 /// Lags, in picked samples, over which the autocorrelation is averaged: a sawtooth is as often against itself
@@ -84,13 +85,13 @@ pub fn correlations(data: &Data, errors: &[f64]) -> Option<Correlations> {
         return None;
     }
     let at = |lag: usize| dot(&error, &error[lag..]) / square;
-    let positive = (1..n / 2).map(at).take_while(|r| *r > 0.05);
+    let remembered = memory(n / 2, at);
     let scale = (square * input_square).sqrt().max(f64::MIN_POSITIVE);
     let behind = (1..=INPUT_LAGS).rev().map(|lag| dot(&input[lag..], &error));
     let ahead = (0..=INPUT_LAGS).map(|lag| dot(&input, &error[lag..]));
     Some(Correlations {
         samples: n,
-        effective_samples: n as f64 / (1.0 + 2.0 * positive.sum::<f64>()),
+        effective_samples: n as f64 / (1.0 + 2.0 * remembered),
         own: (0..=DRAWN_LAGS).map(at).collect(),
         input: behind.chain(ahead).map(|sum| sum / scale).collect(),
     })

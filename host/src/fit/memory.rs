@@ -1,0 +1,52 @@
+//! How long an error remembers itself: the sum of its autocorrelation as far as it is positive (Geyer, *Statistical
+//! Science* 7(4), 1992).
+
+/// Correlations below this count as none.
+const NONE: f64 = 0.05;
+/// Lags that are each looked at; beyond them every one in so many of the lag itself, with straight lines between: what is
+/// remembered for long changes slowly, and an hour's error would else take an hour.
+const EACH: usize = 400;
+const PART: usize = 32;
+
+/// Sum of `correlation` over the lags from 1 to below `most`, up to the first that is none.
+pub fn memory(most: usize, correlation: impl Fn(usize) -> f64) -> f64 {
+    let mut sum = 0.0;
+    let (mut lag, mut last) = (1, 1.0);
+    let mut step = 1;
+    while lag < most {
+        let here = correlation(lag);
+        if here <= NONE {
+            break;
+        }
+        // The lags between, and this one.
+        let between = (step - 1) as f64;
+        sum += here + 0.5 * between * (here + last);
+        last = here;
+        step = if lag < EACH { 1 } else { lag / PART };
+        lag += step;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_the_sum_over_each_lag_within_a_few_thousandths() {
+        for decay in [0.5, 3.0, 40.0, 700.0, 9000.0, 1e5] {
+            let correlation = |lag: usize| (-(lag as f64) / decay).exp();
+            let each: f64 = (1..200_000)
+                .map(correlation)
+                .take_while(|r| *r > NONE)
+                .sum();
+            let found = memory(200_000, correlation);
+            assert!(
+                (found - each).abs() <= 0.01 * each,
+                "{decay}: {found} for {each}"
+            );
+        }
+        assert_eq!(memory(1, |_| 1.0), 0.0);
+        assert_eq!(memory(300, |_| 1.0), 299.0);
+    }
+}
