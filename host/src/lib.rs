@@ -28,5 +28,6 @@ pub mod prove;
 pub mod recording;
 pub mod report;
 pub mod session;
+pub mod showcase;
 pub mod solve;
 pub mod workbench;

@@ -7,7 +7,6 @@
 use super::diagnosing::diagnosed;
 use super::report;
 use super::simulate::{describe, hidden, wrong_flag};
-use crate::bench::{Bench, DriveSample, Hidden, Machine};
 use crate::cli::DemoArgs;
 use crate::diagnose::{Effort, HeldOut};
 use crate::error::Error;
@@ -15,31 +14,26 @@ use crate::fit::Options;
 use crate::output::write_whole;
 use crate::problem::Data;
 use crate::prove::surprise;
-use crate::recording::Recording;
 use crate::report::demo::{DemoJson, DemoReport};
 use crate::report::sheet::{self, Recordings};
 use crate::session::Session;
-use shared::excite::{COMMISSIONING, commands};
-
-const INTERVAL_S: f64 = 1e-3;
-const COUNTS_PER_REV: u32 = 2000;
+use crate::showcase;
 
 pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
     session.check_outputs(&[("--out", &args.out)], &[])?;
-    let machine = Machine::gearmotor();
+    let machine = showcase::machine();
     let secret = if args.blind {
         surprise(&machine, session.seed)?
     } else {
         hidden(&args.hide, &machine)?
     };
-    let data = Data::new(&record(machine, &secret, session.seed, "demo recording")?)?;
+    let record = |seed: u64, name: &str| -> Result<Data, Error> {
+        let recording = showcase::record(&secret, seed, name).map_err(wrong_flag)?;
+        Ok(Data::new(&recording)?)
+    };
+    let data = record(session.seed, "demo recording")?;
     let other = "held-out recording";
-    let held_out = Data::new(&record(
-        machine,
-        &secret,
-        session.seed.wrapping_add(1),
-        other,
-    )?)?;
+    let held_out = record(session.seed.wrapping_add(1), other)?;
     let options = Options {
         seed: session.seed,
         ..Options::default()
@@ -58,7 +52,7 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         hidden: &secret,
         described: describe(&secret),
         blind: args.blind,
-        counts_per_rev: COUNTS_PER_REV,
+        counts_per_rev: showcase::COUNTS_PER_REV,
     };
     let json = DemoJson::from(&story);
     let drawn = Recordings {
@@ -73,19 +67,4 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         args.out.display()
     );
     session.deliver(&text, &json)
-}
-
-fn record(machine: Machine, secret: &Hidden, seed: u64, name: &str) -> Result<Recording, Error> {
-    let mut bench = Bench::new(machine);
-    bench.counts_per_rev = COUNTS_PER_REV;
-    bench.sample_s = INTERVAL_S;
-    bench.seed = seed;
-    bench.effects = vec![secret.clone()];
-    let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, INTERVAL_S, seed)
-        .map(|c| DriveSample {
-            volts: c.drive * machine.supply_v,
-            enabled: c.enabled,
-        })
-        .collect();
-    bench.record(&drive, name, false).map_err(wrong_flag)
 }

@@ -11,6 +11,7 @@ use crate::recording::Drive;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::{Serialize, Serializer};
+use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// More samples than this are thinned before they go into a page.
 const MOST_SAMPLES: usize = 400_000;
@@ -78,6 +79,8 @@ pub struct Timeline {
     /// Half a count either way if the readings are floored.
     band: f64,
     held_out_from: Option<f64>,
+    /// Where the last run fails most, s, if it fails anywhere.
+    worst: Option<(f64, f64)>,
 }
 
 #[derive(Serialize)]
@@ -153,6 +156,7 @@ pub fn timeline(
         current: (data.current_a.as_ref()).map(|current| pick(&|k| current[k])),
         band: if data.quantised { 0.5 } else { 0.0 },
         held_out_from,
+        worst: runs.last().and_then(|run| worst(data, run)),
     };
     let thinned = if kept.len() < data.len() {
         format!(
@@ -168,12 +172,33 @@ pub fn timeline(
         title: title.to_owned(),
         caption: format!(
             "The shaft's angle as measured and as the model runs on its own from the start; beneath, model less \
-             measured with the band of half a count that the encoder alone leaves, and the command. Drag to zoom, double \
-             click for the whole; click for cursor A, with shift for B.{thinned}"
+             measured with the band of half a count that the encoder alone leaves (the stretch in which the best model \
+             fails most is tinted), and the command. Drag to zoom, double click for the whole; click for cursor A, with \
+             shift for B.{thinned}"
         ),
         drawing: Drawing::Timeline(Box::new(timeline)),
         table: None,
     }
+}
+
+/// Stretches of a recording that are compared.
+const STRETCHES: usize = 24;
+/// The worst one is marked where it has so many times the encoder's own error.
+const FAILS: f64 = 3.0;
+
+/// The stretch in which a run fails most, s.
+fn worst(data: &Data, run: &Run) -> Option<(f64, f64)> {
+    let long = run.residual.len().div_ceil(STRETCHES).max(1);
+    let square = |part: &[f64]| part.iter().map(|e| e * e).sum::<f64>() / part.len() as f64;
+    let (place, most) = run
+        .residual
+        .chunks(long)
+        .map(square)
+        .enumerate()
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let from = place * long;
+    let to = (from + long).min(data.len()) - 1;
+    (most.sqrt() > FAILS * FLOOR_RMS_COUNTS).then(|| (data.time_s[from], data.time_s[to]))
 }
 
 /// Samples to draw: all, or the extremes of the last run's residual in blocks.

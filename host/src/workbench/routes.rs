@@ -7,13 +7,13 @@ use super::preview::{Mapping, preview};
 use super::session_file::SessionFile;
 use super::state::{Bench, Secret, Telling};
 use super::{guard, shown, work};
-use crate::bench::{Bench as VirtualBench, DriveSample, Machine};
 use crate::error::Error;
 use crate::export::{Format, Options, Side, Subject};
 use crate::kept::KeptResult;
 use crate::page::assets;
 use crate::prove::surprise;
 use crate::report::text::short;
+use crate::showcase;
 use axum::extract::{DefaultBodyLimit, Query, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -25,7 +25,6 @@ use futures_util::stream::{self, Stream};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use shared::effects::Kind;
-use shared::excite::{COMMISSIONING, commands};
 use std::convert::Infallible;
 use std::sync::Arc;
 use tokio::sync::broadcast::error::RecvError;
@@ -35,10 +34,6 @@ const MOST_BYTES: usize = 1 << 30;
 const PAGE: &str = include_str!("assets/bench.html");
 const SCRIPT: &str = include_str!("assets/bench.js");
 const STYLE: &str = include_str!("assets/bench.css");
-
-/// The demonstration's recordings.
-const INTERVAL_S: f64 = 1e-3;
-const COUNTS_PER_REV: u32 = 2000;
 
 type Shared = State<Arc<Bench>>;
 
@@ -225,21 +220,10 @@ async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answer {
                 getrandom::u32().map_err(|error| Error::Failed(error.to_string()))? % 10_000,
             ),
         };
-        let machine = Machine::gearmotor();
+        let machine = showcase::machine();
         let hidden = surprise(&machine, seed)?;
         let record = |seed: u64, name: &str| -> Result<Arc<Loaded>, Error> {
-            let mut plant = VirtualBench::new(machine);
-            plant.counts_per_rev = COUNTS_PER_REV;
-            plant.sample_s = INTERVAL_S;
-            plant.seed = seed;
-            plant.effects = vec![hidden.clone()];
-            let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, INTERVAL_S, seed)
-                .map(|c| DriveSample {
-                    volts: c.drive * machine.supply_v,
-                    enabled: c.enabled,
-                })
-                .collect();
-            let recording = plant.record(&drive, name, false)?;
+            let recording = showcase::record(&hidden, seed, name)?;
             let mut csv = "t_s,voltage_v,angle_counts\n".to_owned();
             for k in 0..recording.len() {
                 csv += &format!(
@@ -251,7 +235,8 @@ async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answer {
                 name: name.to_owned(),
                 csv,
                 motor: format!(
-                    "counts_per_rev = {COUNTS_PER_REV}\nsupply_v = {:?}\n",
+                    "counts_per_rev = {}\nsupply_v = {:?}\n",
+                    showcase::COUNTS_PER_REV,
                     machine.supply_v
                 ),
             })?))

@@ -3,11 +3,12 @@
 use super::loaded::{Loaded, Source};
 use super::model::{Model, Recordings};
 use super::state::{Secret, State};
-use crate::bench::{Hidden, Machine};
+use crate::bench::Hidden;
 use crate::error::Error;
 use crate::kept::KeptModel;
 use crate::output::write_whole;
 use crate::prove::surprise;
+use crate::showcase;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -141,7 +142,7 @@ impl SessionFile {
         state.race = self.race;
         state.diagnosis = self.diagnosis;
         state.secret = self.blind.and_then(|(seed, told)| {
-            let hidden: Hidden = surprise(&Machine::gearmotor(), seed).ok()?;
+            let hidden: Hidden = surprise(&showcase::machine(), seed).ok()?;
             Some(Secret { hidden, seed, told })
         });
         if !faults.is_empty() {

@@ -130,6 +130,15 @@ fn started_at<'a>(problem: &FitProblem<'a>, candidate: &Candidate) -> FitProblem
     }
 }
 
+/// Tells how many models were tried, each time it is called.
+fn counting<'a>(teller: &'a Teller<'a>) -> impl Fn() + Sync + 'a {
+    let tried = AtomicUsize::new(0);
+    move || {
+        let tried = tried.fetch_add(1, Ordering::Relaxed) + 1;
+        teller.tell(|| json!({ "tried": tried }));
+    }
+}
+
 /// Looks for what would explain more than a model does.
 pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
     let (recordings, candidate) = {
@@ -139,11 +148,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
     let parts = recordings.parts();
     let options = options(&recordings.fitted, &[], 1);
     let teller = Teller::new(bench);
-    let tried = AtomicUsize::new(0);
-    let done = || {
-        let tried = tried.fetch_add(1, Ordering::Relaxed) + 1;
-        teller.tell(|| json!({ "tried": tried }));
-    };
+    let done = counting(&teller);
     let found = diagnose::suggest(
         parts.fitted(),
         parts.held_out(),
@@ -163,11 +168,7 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let (data, held_out) = (parts.fitted(), parts.held_out());
     let options = options(&recordings.fitted, &[], 1);
     let teller = Teller::new(bench);
-    let tried = AtomicUsize::new(0);
-    let done = || {
-        let tried = tried.fetch_add(1, Ordering::Relaxed) + 1;
-        teller.tell(|| json!({ "tried": tried }));
-    };
+    let done = counting(&teller);
     let stop = bench.job.flag();
     let found = diagnose::diagnose(data, held_out, &options, &Effort::usual(stop), &done)?;
     let interrupted = stop.load(Ordering::Relaxed);

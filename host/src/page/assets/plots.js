@@ -123,6 +123,12 @@ const servoid = (() => {
         fillcolor: "#009e73", opacity: 0.25, line: { width: 0 }, layer: "below",
       });
     }
+    if (timeline.worst) {
+      layout.shapes.push({
+        type: "rect", xref: "x", yref: "y2 domain", x0: timeline.worst[0], x1: timeline.worst[1], y0: 0, y1: 1,
+        fillcolor: "#e69f00", opacity: 0.22, line: { width: 0 }, layer: "below",
+      });
+    }
     if (timeline.heldOutFrom !== null && timeline.heldOutFrom !== undefined) {
       layout.shapes.push({
         type: "line", xref: "x", yref: "paper", x0: timeline.heldOutFrom, x1: timeline.heldOutFrom, y0: 0, y1: 1,
