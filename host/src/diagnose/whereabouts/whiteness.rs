@@ -62,7 +62,7 @@ pub struct Correlations {
     pub effective_samples: f64,
     /// With itself, from lag 0 on.
     pub own: Vec<f64>,
-    /// With the command, which is ahead of the error by -[`INPUT_LAGS`] to [`INPUT_LAGS`] picked samples.
+    /// With the command, which is ahead of the error by -20 to 20 picked samples.
     pub input: Vec<f64>,
 }
 
