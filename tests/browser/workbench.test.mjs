@@ -163,6 +163,32 @@ test("a recording of twenty minutes is thinned for drawing, never for what is ne
   await bench.end();
 });
 
+test("searches race, and what was found is taken away", async () => {
+  const bench = await desk.bench("rec.csv");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await page.click("text=Let searches race");
+  await page.fill("#budget", "200");
+  await page.fill("#seeds", "3");
+  await page.click("#race");
+  await page.waitForSelector("#bench-curves .main-svg", { timeout: 120_000 });
+  const raced = await page.evaluate(() => document.getElementById("bench-curves").data.map((line) => line.name).filter(Boolean));
+  assert.deepEqual(raced, ["ga", "pso", "firefly"]);
+  await settled(page, 1);
+  for (const [format, holds] of [["report", "<!doctype html>"], ["session", "servoid.session/1"], ["fit", "servoid.fit/1"],
+    ["csv", "gain"], ["c", "#ifndef"]]) {
+    await page.selectOption("#format", format);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#take")]);
+    assert.ok(readFileSync(await download.path(), "utf8").includes(holds), format);
+  }
+  // What needs more than the recording tells says so.
+  await page.selectOption("#format", "urdf");
+  await page.click("#take");
+  await page.waitForFunction(() => document.getElementById("fault").textContent.includes("--known"));
+  await page.context().close();
+  await bench.end();
+});
+
 test("whoever has no secret finds nothing", async () => {
   const bench = await desk.bench("");
   const { origin, host } = new URL(bench.url);

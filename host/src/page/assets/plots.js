@@ -9,13 +9,17 @@ const servoid = (() => {
   };
   // More points than this a pixel show nothing more.
   const POINTS_A_PIXEL = 2;
+  // Width on paper, in the pixels of a sheet of A4 within its margins.
+  const PRINTED = 680;
   const all = new Map();
+  let printing = false;
 
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // Ground, text and grid in the colours of light or dark.
   function themed(layout) {
     const out = { ...layout, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)" };
+    if (printing) out.width = PRINTED;
     out.font = { ...layout.font, color: style("--text") };
     out.hoverlabel = { bgcolor: style("--raised"), font: { color: style("--text") }, bordercolor: style("--line") };
     out.modebar = { bgcolor: "rgba(0,0,0,0)", color: style("--quiet"), activecolor: style("--accent") };
@@ -319,9 +323,13 @@ const servoid = (() => {
   let before = null;
   addEventListener("beforeprint", () => {
     before = document.documentElement.dataset.theme;
+    printing = true;
     theme("light");
   });
-  addEventListener("afterprint", () => theme(before || usual()));
+  addEventListener("afterprint", () => {
+    printing = false;
+    theme(before || usual());
+  });
   document.addEventListener("click", (event) => {
     if (event.target.closest("[data-switch-theme]")) {
       theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
