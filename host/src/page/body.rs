@@ -99,12 +99,19 @@ fn table(caption: &str, table: &Table) -> String {
 /// A figure with the place for its drawing; its numbers folded beneath.
 fn picture(picture: &Picture) -> String {
     let (title, caption) = (escaped(&picture.title), escaped(&picture.caption));
-    let (class, cursors) = match picture.drawing {
-        Drawing::Chart(_) => ("", ""),
-        Drawing::Timeline(_) => (
+    let place = |time: &str, more: &str| {
+        format!(
+            "<div class=\"plot\" id=\"{}\" role=\"group\" aria-label=\"{title}\"{time}></div>{more}",
+            picture.id
+        )
+    };
+    let place = match picture.drawing {
+        Drawing::Chart(_) => place("", ""),
+        Drawing::Timeline(_) => place(
             " data-time=\"yes\"",
             "<div class=\"cursors scroll\" aria-live=\"polite\"></div>",
         ),
+        Drawing::Nothing => String::new(),
     };
     let numbers = picture.table.as_ref().map_or(String::new(), |content| {
         format!(
@@ -113,8 +120,7 @@ fn picture(picture: &Picture) -> String {
         )
     });
     format!(
-        "<figure id=\"figure-{0}\"><figcaption><h3>{title}</h3><p>{caption}</p></figcaption>\
-         <div class=\"plot\" id=\"{0}\" role=\"group\" aria-label=\"{title}\"{class}></div>{cursors}{numbers}</figure>\n",
+        "<figure id=\"figure-{}\"><figcaption><h3>{title}</h3><p>{caption}</p></figcaption>{place}{numbers}</figure>\n",
         picture.id
     )
 }

@@ -110,20 +110,20 @@ impl Page {
                 Block::Pictures(pictures) => pictures,
                 _ => &[],
             };
-            for picture in pictures {
-                all.insert(picture.id.clone(), drawing(&picture.drawing));
-            }
+            all.extend(pictures.iter().filter_map(drawing));
         }
         Value::Object(all)
     }
 }
 
-/// A drawing as the page's script takes it.
-pub fn drawing(drawing: &Drawing) -> Value {
-    match drawing {
+/// A picture's place and its drawing as the page's script takes it, if it has one.
+pub fn drawing(picture: &Picture) -> Option<(String, Value)> {
+    let drawing = match &picture.drawing {
         Drawing::Chart(plot) => json!({ "chart": plot }),
         Drawing::Timeline(timeline) => json!({ "timeline": timeline }),
-    }
+        Drawing::Nothing => return None,
+    };
+    Some((picture.id.clone(), drawing))
 }
 
 /// JSON that ends no script.

@@ -68,7 +68,11 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
              determined is in the table only, and says so.",
             first.name
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: if drawn > 0 {
+            Drawing::Chart(Box::new(plot))
+        } else {
+            Drawing::Nothing
+        },
         table: Some(table),
     })
 }

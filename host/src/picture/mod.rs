@@ -33,7 +33,7 @@ pub use intervals::intervals;
 pub use ladder::{Rung, ladder};
 pub use maps::maps;
 pub use orders::orders;
-pub use timeline::{Run, Timeline, timeline};
+pub use timeline::{FROM_THE_BENCH, IN_A_FILE, Run, Timeline, timeline};
 
 use plotly::Plot;
 use plotly::common::{Font, Title};
@@ -59,6 +59,8 @@ pub enum Drawing {
     Chart(Box<Plot>),
     /// Long series, which the page thins for the width that is seen.
     Timeline(Box<Timeline>),
+    /// Nothing: there are numbers only.
+    Nothing,
 }
 
 /// Rows of text under a head.

@@ -13,8 +13,10 @@ use base64::engine::general_purpose::STANDARD;
 use serde::{Serialize, Serializer};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
-/// More samples than this are thinned before they go into a page.
-const MOST_SAMPLES: usize = 400_000;
+/// Samples of a page that stands alone; more are thinned before they go into it.
+pub const IN_A_FILE: usize = 400_000;
+/// Samples that a page asks a program on its own machine for.
+pub const FROM_THE_BENCH: usize = 4_000_000;
 
 /// A model's free run along a recording.
 pub struct Run {
@@ -114,15 +116,16 @@ fn wide<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error>
     serializer.serialize_str(&STANDARD.encode(bytes))
 }
 
-/// Draws `runs` along `data`. `held_out_from` is where the part begins that was not fitted, s.
+/// Draws `runs` along `data`, with `most` samples. `held_out_from` is where the part begins that was not fitted, s.
 pub fn timeline(
     id: &str,
     title: &str,
     data: &Data,
     runs: &[Run],
     held_out_from: Option<f64>,
+    most: usize,
 ) -> Picture {
-    let kept = kept(data.len(), runs);
+    let kept = kept(data.len(), runs, most);
     let pick = |of: &dyn Fn(usize) -> f64| Packed(kept.iter().map(|&k| of(k) as f32).collect());
     let names = [colour::BASE, colour::MODEL, colour::OTHER];
     let packed = runs.iter().enumerate().map(|(k, run)| PackedRun {
@@ -202,15 +205,15 @@ fn worst(data: &Data, run: &Run) -> Option<(f64, f64)> {
 }
 
 /// Samples to draw: all, or the extremes of the last run's residual in blocks.
-fn kept(samples: usize, runs: &[Run]) -> Vec<usize> {
-    if samples <= MOST_SAMPLES {
+fn kept(samples: usize, runs: &[Run], most: usize) -> Vec<usize> {
+    if samples <= most {
         return (0..samples).collect();
     }
-    let block = samples.div_ceil(MOST_SAMPLES / 2);
+    let block = samples.div_ceil(most / 2);
     let Some(last) = runs.last() else {
         return (0..samples).step_by(block / 2).collect();
     };
-    let mut kept = Vec::with_capacity(MOST_SAMPLES);
+    let mut kept = Vec::with_capacity(most);
     for from in (0..samples).step_by(block) {
         let range = from..(from + block).min(samples);
         let by = |a: &usize, b: &usize| last.residual[*a].total_cmp(&last.residual[*b]);

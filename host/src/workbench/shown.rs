@@ -191,8 +191,15 @@ pub(super) fn timeline(recordings: &Recordings, models: &[Drawn]) -> Result<Valu
         .collect::<Result<_, _>>()?;
     let title = "Measured and model";
     let from = recordings.held_out_from();
-    let picture = picture::timeline("bench-timeline", title, data, &runs, from);
-    Ok(drawing(&picture.drawing))
+    let picture = picture::timeline(
+        "bench-timeline",
+        title,
+        data,
+        &runs,
+        from,
+        picture::FROM_THE_BENCH,
+    );
+    Ok(drawing(&picture).map_or(Value::Null, |(_, drawing)| drawing))
 }
 
 /// All drawings of the bench beneath the timeline, as HTML with places, and what to draw there.
@@ -243,7 +250,7 @@ pub(super) fn pictures(bench: &Bench) -> Result<Value, Error> {
                 _ => &[],
             };
             for picture in pictures {
-                drawings.insert(picture.id.clone(), drawing(&picture.drawing));
+                drawings.extend(drawing(picture));
             }
         }
     }

@@ -22,7 +22,8 @@ pub(super) fn page(saved: &Saved, recordings: Recordings<'_>) -> Result<Page, Er
             Some(data) => {
                 let runs = [model.run(data)?];
                 let title = "What the device recorded and fitted";
-                let drawn = picture::timeline("timeline", title, data, &runs, None);
+                let drawn =
+                    picture::timeline("timeline", title, data, &runs, None, picture::IN_A_FILE);
                 seen.blocks.push(Block::Picture(drawn));
             }
             None => seen.blocks.push(Block::Text(no_recording("fitted.csv"))),
@@ -30,7 +31,14 @@ pub(super) fn page(saved: &Saved, recordings: Recordings<'_>) -> Result<Page, Er
         if let Some(data) = recordings.held_out {
             let runs = [model.run_unseen(data)?];
             let title = "What it verified on, never fitted";
-            let drawn = picture::timeline("timeline-held-out", title, data, &runs, None);
+            let drawn = picture::timeline(
+                "timeline-held-out",
+                title,
+                data,
+                &runs,
+                None,
+                picture::IN_A_FILE,
+            );
             seen.blocks.push(Block::Picture(drawn));
         }
         sections.push(seen);

@@ -118,7 +118,7 @@ fn seen(
         models.iter().map(of).collect()
     };
     let mut draw = |id: &str, title: &str, data: &Data, runs: &[picture::Run], from| {
-        let drawn = picture::timeline(id, title, data, runs, from);
+        let drawn = picture::timeline(id, title, data, runs, from, picture::IN_A_FILE);
         section.blocks.push(Block::Picture(drawn));
     };
     if let Some(data) = recordings.fitted {

@@ -17,7 +17,12 @@ pub(super) fn page(fit: &KeptFit, recordings: Recordings<'_>) -> Result<Page, Er
         let title = "The fitted recording";
         let runs = [model.run(data)?];
         seen.blocks.push(Block::Picture(picture::timeline(
-            "timeline", title, data, &runs, None,
+            "timeline",
+            title,
+            data,
+            &runs,
+            None,
+            picture::IN_A_FILE,
         )));
         if let Some(other) = recordings.held_out {
             let runs = [model.run_unseen(other)?];
@@ -28,6 +33,7 @@ pub(super) fn page(fit: &KeptFit, recordings: Recordings<'_>) -> Result<Page, Er
                 other,
                 &runs,
                 None,
+                picture::IN_A_FILE,
             )));
         }
         sections.push(seen);
