@@ -11,6 +11,7 @@ const BROWSER = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium
 // A folder of its own, in which servoid is run as at a shell.
 export class Desk {
   constructor() {
+    this.programs = [];
     this.folder = mkdtempSync(join(tmpdir(), "servoid-browser-"));
   }
 
@@ -26,6 +27,7 @@ export class Desk {
   async bench(line) {
     const args = ["bench", ...line.split(" ").filter(Boolean), "--no-open", "--json", "-", "--quiet"];
     const program = spawn(SERVOID, args, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
+    this.programs.push(program);
     let text = "";
     const url = await new Promise((resolve, reject) => {
       program.stdout.on("data", (part) => {
@@ -37,7 +39,9 @@ export class Desk {
     return { url, program, end: () => new Promise((done) => { program.on("exit", done); program.kill("SIGINT"); }) };
   }
 
+  // Also of what a failed test has left running, which would keep this one alive.
   clear() {
+    for (const program of this.programs) program.kill("SIGKILL");
     rmSync(this.folder, { recursive: true });
   }
 }

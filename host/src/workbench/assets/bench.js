@@ -320,7 +320,6 @@
     const before = bench && bench.job;
     await refresh();
     if (bench && bench.job && bench.job !== before) live = new Map();
-    if (bench && !bench.job) at("live").hidden = true;
   });
   events.addEventListener("progress", (event) => progress(JSON.parse(event.data)));
   events.addEventListener("error", () => refresh());
