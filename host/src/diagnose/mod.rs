@@ -52,6 +52,7 @@ pub use settle::settle;
 pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
 pub use suggest::{Suggestion, Suggestions, suggest};
+pub use swap::same;
 
 use crate::error::Error;
 use crate::fit::Options;

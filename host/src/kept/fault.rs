@@ -66,3 +66,11 @@ pub(crate) fn number(
         need,
     })
 }
+
+/// Line, column and reason of JSON that cannot be read, for a message that begins with the place.
+pub(crate) fn json_place(error: &serde_json::Error) -> (usize, usize, String) {
+    let text = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let what = text.strip_suffix(&place).unwrap_or(&text).to_owned();
+    (error.line(), error.column(), what)
+}

@@ -1,9 +1,8 @@
 //! One result, read from the file that a verb wrote with `--json`.
 
-use super::ModelFault;
 use super::told::{KeptContest, KeptDiagnosis, KeptFit, KeptVerification};
+use super::{ModelFault, json_place};
 use crate::device::{Folder, Saved};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::fs;
@@ -75,11 +74,6 @@ pub enum KeptFault {
     Device(String),
 }
 
-#[derive(Deserialize)]
-struct Head {
-    schema: Option<String>,
-}
-
 impl Kept {
     /// Reads a result: a file, or the folder of a device's run.
     ///
@@ -145,8 +139,7 @@ impl Kept {
 }
 
 fn schema(value: &Value) -> Option<String> {
-    let head: Head = serde_json::from_value(value.clone()).ok()?;
-    head.schema
+    value.get("schema")?.as_str().map(str::to_owned)
 }
 
 fn keys<T: DeserializeOwned>(value: Value) -> Result<T, KeptFault> {
@@ -156,13 +149,8 @@ fn keys<T: DeserializeOwned>(value: Value) -> Result<T, KeptFault> {
 }
 
 fn no_json(error: &serde_json::Error) -> KeptFault {
-    let text = error.to_string();
-    let place = format!(" at line {} column {}", error.line(), error.column());
-    KeptFault::Json {
-        line: error.line(),
-        column: error.column(),
-        what: text.strip_suffix(&place).unwrap_or(&text).to_owned(),
-    }
+    let (line, column, what) = json_place(error);
+    KeptFault::Json { line, column, what }
 }
 
 fn device(path: &Path) -> Result<Kept, KeptFault> {

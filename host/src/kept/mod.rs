@@ -17,7 +17,7 @@ mod result_fault;
 mod told;
 
 pub use fault::ModelFault;
-pub(crate) use fault::number;
+pub(crate) use fault::{json_place, number};
 pub use file::{Kept, KeptError, KeptFault};
 pub use model::{Integrator, KeptMachine, KeptModel, KeptParameter};
 pub use result::{KeptEstimate, KeptResult};

@@ -313,13 +313,8 @@ impl KeptResult {
 
 fn json<T: DeserializeOwned>(text: &str) -> Result<T, ResultFault> {
     serde_json::from_str(text).map_err(|error| {
-        let text = error.to_string();
-        let place = format!(" at line {} column {}", error.line(), error.column());
-        ResultFault::Json {
-            line: error.line(),
-            column: error.column(),
-            what: text.strip_suffix(&place).unwrap_or(&text).to_owned(),
-        }
+        let (line, column, what) = super::json_place(&error);
+        ResultFault::Json { line, column, what }
     })
 }
 

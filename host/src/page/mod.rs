@@ -11,7 +11,7 @@ mod body;
 pub use body::{escaped, section};
 
 use crate::picture::{Drawing, Picture, Table};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// A page of a title, words, facts and sections.
 pub struct Page {
@@ -92,7 +92,7 @@ impl Page {
         );
         out += &format!(
             "<script type=\"application/json\" id=\"drawings\">{}</script>\n",
-            inside_script(&self.drawings())
+            inside_script(&drawings(&self.sections))
         );
         for script in [assets::plotly(), assets::PLOTS, assets::REPORT] {
             out += &format!("<script>{script}</script>\n");
@@ -100,20 +100,17 @@ impl Page {
         out += "</body>\n</html>\n";
         out
     }
+}
 
-    fn drawings(&self) -> Value {
-        let mut all = Map::new();
-        let blocks = self.sections.iter().flat_map(|section| &section.blocks);
-        for block in blocks {
-            let pictures = match block {
-                Block::Picture(picture) => std::slice::from_ref(picture),
-                Block::Pictures(pictures) => pictures,
-                _ => &[],
-            };
-            all.extend(pictures.iter().filter_map(drawing));
-        }
-        Value::Object(all)
-    }
+/// The drawings of sections by their places.
+pub fn drawings(sections: &[Section]) -> Value {
+    let blocks = sections.iter().flat_map(|section| &section.blocks);
+    let pictures = blocks.flat_map(|block| match block {
+        Block::Picture(picture) => std::slice::from_ref(picture),
+        Block::Pictures(pictures) => pictures,
+        _ => &[],
+    });
+    Value::Object(pictures.filter_map(drawing).collect())
 }
 
 /// A picture's place and its drawing as the page's script takes it, if it has one.

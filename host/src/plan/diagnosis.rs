@@ -2,7 +2,7 @@
 
 use super::diagnosis_error::{DiagnosisError, DiagnosisFault};
 use super::hypothesis::{Hypothesis, Setup};
-use crate::kept::{KeptModel, ModelFault, number};
+use crate::kept::{KeptModel, ModelFault, json_place, number};
 use serde::Deserialize;
 use std::fs;
 use std::path::Path;
@@ -60,13 +60,8 @@ fn parse(text: &str) -> Result<(Vec<Hypothesis>, Setup), DiagnosisFault> {
 }
 
 fn json_fault(error: serde_json::Error) -> DiagnosisFault {
-    let text = error.to_string();
-    let place = format!(" at line {} column {}", error.line(), error.column());
-    DiagnosisFault::Json {
-        line: error.line(),
-        column: error.column(),
-        what: text.strip_suffix(&place).unwrap_or(&text).to_owned(),
-    }
+    let (line, column, what) = json_place(&error);
+    DiagnosisFault::Json { line, column, what }
 }
 
 fn setup(diagnosis: &Diagnosis) -> Result<Setup, DiagnosisFault> {

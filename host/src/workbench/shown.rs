@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::export::FORMATS;
 use crate::fit::margins::Loop;
 use crate::kept::{Kept, KeptEstimate};
-use crate::page::{Block, Section, drawing, section};
+use crate::page::{Block, Section, drawing, drawings, section};
 use crate::picture::{self, Estimates, Rung};
 use crate::problem::Candidate;
 use crate::report::sheet::{self, Model as Drawn, failing};
@@ -239,21 +239,8 @@ pub(super) fn pictures(bench: &Bench) -> Result<Value, Error> {
         section.blocks.extend(drawn.map(Block::Picture));
         sections.push(section);
     }
-    let mut drawings = Map::new();
-    let mut html = String::new();
-    for part in &sections {
-        html += &section(part);
-        for block in &part.blocks {
-            let pictures = match block {
-                Block::Picture(picture) => std::slice::from_ref(picture),
-                Block::Pictures(pictures) => pictures,
-                _ => &[],
-            };
-            for picture in pictures {
-                drawings.extend(drawing(picture));
-            }
-        }
-    }
+    let html: String = sections.iter().map(section).collect();
+    let drawings = drawings(&sections);
     Ok(json!({ "timeline": timeline, "html": html, "drawings": drawings }))
 }
 

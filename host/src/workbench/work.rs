@@ -33,7 +33,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         let state = bench.state();
         let suggestion = (state.suggested.iter())
             .flat_map(|(_, list)| list)
-            .find(|suggestion| same(&suggestion.refit.effects, effects))
+            .find(|suggestion| diagnose::same(&suggestion.refit.effects, effects))
             .cloned();
         (state.recordings()?, suggestion)
     };
@@ -49,15 +49,6 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         state.suggested = None;
     });
     Ok(())
-}
-
-/// Whether two models have the same effects, in whatever order.
-fn same(a: &[Kind], b: &[Kind]) -> bool {
-    let mut sorted = [a.to_vec(), b.to_vec()];
-    for kinds in &mut sorted {
-        kinds.sort_unstable();
-    }
-    sorted[0] == sorted[1]
 }
 
 fn fitted(
