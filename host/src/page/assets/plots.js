@@ -101,35 +101,52 @@ const servoid = (() => {
     };
   }
 
+  // The lanes of a timeline from top to bottom, with their shares of the height and their axes. A recording without a model
+  // has no residual, and gets no lane for one: plotly draws the frame of a lane without data at no height at all.
+  function lanesOf(timeline) {
+    const lanes = [
+      { name: "angle", title: "angle, turns", share: 45 },
+      timeline.runs.length ? { name: "residual", title: "residual, counts", share: 27 } : null,
+      { name: "command", title: timeline.commandName, share: 19 },
+      timeline.current ? { name: "current", title: "current, A", share: 19 } : null,
+    ].filter(Boolean);
+    lanes.forEach((lane, k) => { lane.axis = k === 0 ? "y" : `y${k + 1}`; });
+    return lanes;
+  }
+
   function timelineLayout(timeline, cursors) {
-    const lanes = timeline.current ? [0.58, 0.34, 0.17, 0] : [0.52, 0.22, 0];
-    const gap = 0.03;
-    const lane = (k) => [lanes[k], k === 0 ? 1 : lanes[k - 1] - gap];
-    const axis = (title, k) => ({ title: { text: title }, domain: lane(k), zeroline: k > 0, automargin: true });
+    const lanes = lanesOf(timeline);
+    const residual = lanes.find((lane) => lane.name === "residual");
     const layout = {
-      height: timeline.current ? 720 : 620,
+      height: 530 + 90 * (lanes.length - 2),
       margin: { l: 64, r: 16, t: 36, b: 48 },
       font: { family: "system-ui, sans-serif", size: 13 },
       hovermode: "x",
       legend: { orientation: "h", x: 0, y: 1.02, xanchor: "left", yanchor: "bottom" },
       uirevision: "same",
-      xaxis: { title: { text: "time, s" }, anchor: timeline.current ? "y4" : "y3", automargin: true },
-      yaxis: axis("angle, turns", 0),
-      yaxis2: axis("residual, counts", 1),
-      yaxis3: axis(timeline.commandName, 2),
+      xaxis: { title: { text: "time, s" }, anchor: lanes[lanes.length - 1].axis, automargin: true },
       shapes: [],
       annotations: [],
     };
-    if (timeline.current) layout.yaxis4 = axis("current, A", 3);
-    if (timeline.band > 0) {
+    const gap = 0.03;
+    const height = (1 - gap * (lanes.length - 1)) / lanes.reduce((sum, lane) => sum + lane.share, 0);
+    let top = 1;
+    for (const lane of lanes) {
+      const bottom = Math.max(0, top - lane.share * height);
+      layout[lane.axis.replace("y", "yaxis")] = {
+        title: { text: lane.title }, domain: [bottom, top], zeroline: lane !== lanes[0], automargin: true,
+      };
+      top = bottom - gap;
+    }
+    if (timeline.band > 0 && residual) {
       layout.shapes.push({
-        type: "rect", xref: "x domain", yref: "y2", x0: 0, x1: 1, y0: -timeline.band, y1: timeline.band,
+        type: "rect", xref: "x domain", yref: residual.axis, x0: 0, x1: 1, y0: -timeline.band, y1: timeline.band,
         fillcolor: "#009e73", opacity: 0.25, line: { width: 0 }, layer: "below",
       });
     }
-    if (timeline.worst) {
+    if (timeline.worst && residual) {
       layout.shapes.push({
-        type: "rect", xref: "x", yref: "y2 domain", x0: timeline.worst[0], x1: timeline.worst[1], y0: 0, y1: 1,
+        type: "rect", xref: "x", yref: `${residual.axis} domain`, x0: timeline.worst[0], x1: timeline.worst[1], y0: 0, y1: 1,
         fillcolor: "#e69f00", opacity: 0.22, line: { width: 0 }, layer: "below",
       });
     }
@@ -156,24 +173,25 @@ const servoid = (() => {
     return layout;
   }
 
-  function timelineTraces(found, range, width) {
+  function timelineTraces(timeline, found, range, width) {
     const { time } = found;
+    const axis = Object.fromEntries(lanesOf(timeline).map((lane) => [lane.name, lane.axis]));
     const [from, to] = range
       ? [Math.max(0, indexOf(time, range[0]) - 1), Math.min(time.length, indexOf(time, range[1]) + 2)]
       : [0, time.length];
     const blocks = Math.max(200, Math.round(width * 0.5 * POINTS_A_PIXEL));
-    const line = (values, name, colour, axis, extra) => ({
-      type: "scatter", mode: "lines", name, yaxis: axis, line: { color: colour, width: 1.5 }, ...extra,
+    const line = (values, name, colour, lane, extra) => ({
+      type: "scatter", mode: "lines", name, yaxis: axis[lane], line: { color: colour, width: 1.5 }, ...extra,
       ...thinned(time, values, from, to, blocks),
     });
-    const traces = [line(found.measured, "measured", "#0072b2", "y", { line: { color: "#0072b2", width: 4 } })];
-    for (const run of found.runs) traces.push(line(run.model, run.name, run.colour, "y", { legendgroup: run.name }));
+    const traces = [line(found.measured, "measured", "#0072b2", "angle", { line: { color: "#0072b2", width: 4 } })];
+    for (const run of found.runs) traces.push(line(run.model, run.name, run.colour, "angle", { legendgroup: run.name }));
     for (const run of found.runs) {
-      traces.push(line(run.residual, `${run.name} less measured`, run.colour, "y2", { legendgroup: run.name, showlegend: false }));
+      traces.push(line(run.residual, `${run.name} less measured`, run.colour, "residual", { legendgroup: run.name, showlegend: false }));
     }
     const stairs = { showlegend: false, line: { color: "#7f8790", width: 1.2, shape: "hv" } };
-    traces.push(line(found.command, "command", "#7f8790", "y3", stairs));
-    if (found.current) traces.push(line(found.current, "current", "#e69f00", "y4", { showlegend: false }));
+    traces.push(line(found.command, "command", "#7f8790", "command", stairs));
+    if (found.current) traces.push(line(found.current, "current", "#e69f00", "current", { showlegend: false }));
     return traces;
   }
 
@@ -213,7 +231,7 @@ const servoid = (() => {
 
   function redraw(state) {
     const { div, timeline, found, cursors } = state;
-    const traces = timelineTraces(found, state.range, div.clientWidth || 900);
+    const traces = timelineTraces(timeline, found, state.range, div.clientWidth || 900);
     const layout = timelineLayout(timeline, cursors);
     if (state.range) layout.xaxis.range = state.range.slice();
     return Plotly.react(div, traces, themed(layout), CONFIG);
