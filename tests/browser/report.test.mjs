@@ -53,3 +53,38 @@ test("cursors show values and their difference, and time axes go together", asyn
   });
   await page.context().close();
 });
+
+test("a click sets cursor A, with shift cursor B, and the table tells what lies between", async () => {
+  const page = await open(chrome, `file://${desk.path("demo.html")}`);
+  await drawn(page);
+  const plot = page.locator("#timeline .xy .nsewdrag, #timeline .nsewdrag").first();
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  // Plotly looks for the nearest sample while the mouse moves, and takes that one on a click.
+  const click = async (part) => {
+    await page.mouse.move(box.x + part * box.width - 4, box.y + box.height / 2);
+    await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+    await page.waitForFunction(() => document.querySelector("#timeline .hoverlayer")?.childElementCount > 0);
+    await page.mouse.down();
+    await page.mouse.up();
+  };
+  const times = async () => {
+    const row = await page.locator("#figure-timeline .cursors tr").nth(1).innerText();
+    return row.split("\t").slice(1).map((cell) => (cell.trim() === "" ? null : Number(cell)));
+  };
+  await click(0.25);
+  await page.waitForFunction(() => document.querySelectorAll("#figure-timeline .cursors tr").length > 1);
+  const [first, none] = await times();
+  assert.equal(none, null);
+  await page.keyboard.down("Shift");
+  await click(0.75);
+  await page.keyboard.up("Shift");
+  await page.waitForFunction(() => document.querySelectorAll("#figure-timeline .cursors tr:nth-child(2) td")[1].textContent !== "");
+  const [a, b, between] = await times();
+  assert.equal(a, first);
+  // Half of the width is half of the time that is shown.
+  const [from, to] = await page.evaluate(() => document.getElementById("timeline")._fullLayout.xaxis.range);
+  assert.ok(Math.abs(between / (to - from) - 0.5) < 0.02, `${a} ${b} ${between} of ${from}..${to}`);
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
