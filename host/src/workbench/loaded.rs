@@ -1,12 +1,12 @@
 //! A recording as it came, and as it is fitted.
 
-use crate::diagnose::holdout;
+use crate::diagnose::{HeldOut, holdout};
 use crate::error::Error;
 use crate::input::{Known, MotorFile, read_recording_from};
 use crate::problem::Data;
 use crate::recording::Recording;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A file and what is known of it: all that is needed to read it again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +30,19 @@ pub struct Loaded {
     pub data: Arc<Data>,
     /// Facts about the motor.
     pub known: Known,
+    cut: OnceLock<Option<Cut>>,
+}
+
+/// A recording in two parts, where there is no other one to judge by.
+pub struct Cut {
+    /// The part to fit.
+    pub fitted: Data,
+    /// The end to hold out.
+    pub held_out: Data,
+    /// Where that begins, s.
+    pub from_s: f64,
+    /// The same in the words of a diagnosis.
+    pub kind: HeldOut,
 }
 
 impl Loaded {
@@ -46,17 +59,25 @@ impl Loaded {
             known: motor.known,
             recording,
             source,
+            cut: OnceLock::new(),
         })
     }
 
-    /// The part to fit and the end to hold out, where there is no second recording. `None` where it is too short.
-    pub fn cut(&self) -> Option<(Data, Data, f64)> {
+    /// The part to fit and the end to hold out, made when they are first asked for. `None` where it is too short.
+    pub fn cut(&self) -> Option<&Cut> {
+        self.cut.get_or_init(|| self.cut_now()).as_ref()
+    }
+
+    fn cut_now(&self) -> Option<Cut> {
         let (first, rest, kind) = holdout::cut(&self.recording)?;
-        let holdout::HeldOut::End { from_s, .. } = kind else {
+        let HeldOut::End { from_s, .. } = kind else {
             return None;
         };
-        let rest = Data::new(&rest).ok()?;
-        let rest = rest.at_end_of(Arc::clone(&self.data));
-        Some((Data::new(&first).ok()?, rest, from_s))
+        Some(Cut {
+            fitted: Data::new(&first).ok()?,
+            held_out: Data::new(&rest).ok()?.at_end_of(Arc::clone(&self.data)),
+            from_s,
+            kind,
+        })
     }
 }

@@ -4,6 +4,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `loaded` | a recording as it came, and as it is fitted |
+//! | `blind` | recordings of a motor in which something is hidden |
 //! | `model` | a fitted model on the bench |
 //! | `state` | what lies on the bench, and how the page is told of it |
 //! | `job` | one piece of work at a time, which stops when nobody watches |
@@ -11,9 +12,12 @@
 //! | `preview` | the first rows of a file, and which column may be what |
 //! | `shown` | what the page draws |
 //! | `session_file` | the bench as a file |
+//! | `download` | what may be taken away as a file |
 //! | `routes`, `guard` | what the page may ask, and who may ask |
 //! | `server` | listening and stopping |
 
+mod blind;
+mod download;
 mod guard;
 mod job;
 mod loaded;

@@ -1,6 +1,7 @@
 //! A fitted model on the bench.
 
 use super::loaded::Loaded;
+use crate::diagnose::HeldOut;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::kept::KeptModel;
@@ -36,14 +37,24 @@ pub(super) struct Recordings {
 
 impl Recordings {
     /// What is fitted and what is held out: the other recording, or the end of the only one where it is long enough.
-    pub(super) fn parts(&self) -> Parts<'_> {
+    pub(super) fn parts(&self) -> (&Data, &Data) {
         if let Some(other) = &self.held_out {
-            return Parts::Two(&self.fitted.data, &other.data);
+            return (&self.fitted.data, &other.data);
         }
         match self.fitted.cut() {
-            Some((first, rest, _)) => Parts::Cut(Box::new((first, rest))),
-            None => Parts::Two(&self.fitted.data, &self.fitted.data),
+            Some(cut) => (&cut.fitted, &cut.held_out),
+            None => (&self.fitted.data, &self.fitted.data),
         }
+    }
+
+    /// What is held out, in the words of a diagnosis.
+    pub(super) fn kind(&self) -> HeldOut {
+        if let Some(other) = &self.held_out {
+            return HeldOut::Recording(other.source.name.clone());
+        }
+        self.fitted
+            .cut()
+            .map_or(HeldOut::Nothing, |cut| cut.kind.clone())
     }
 
     /// Where the held-out end of the only recording begins, s.
@@ -51,31 +62,7 @@ impl Recordings {
         if self.held_out.is_some() {
             return None;
         }
-        self.fitted.cut().map(|(_, _, from)| from)
-    }
-}
-
-/// Data to fit and data to judge by.
-pub(super) enum Parts<'a> {
-    /// Of two recordings.
-    Two(&'a Data, &'a Data),
-    /// Of one that was cut.
-    Cut(Box<(Data, Data)>),
-}
-
-impl Parts<'_> {
-    pub(super) fn fitted(&self) -> &Data {
-        match self {
-            Parts::Two(fitted, _) => fitted,
-            Parts::Cut(both) => &both.0,
-        }
-    }
-
-    pub(super) fn held_out(&self) -> &Data {
-        match self {
-            Parts::Two(_, held_out) => held_out,
-            Parts::Cut(both) => &both.1,
-        }
+        self.fitted.cut().map(|cut| cut.from_s)
     }
 }
 
@@ -93,11 +80,11 @@ impl Model {
             .map_err(|fault| failed(&fault))?;
         let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
         let options = options(&recordings.fitted, &effects, 1);
-        let parts = recordings.parts();
-        let mut problem = fit::problem(parts.fitted(), &options)?;
+        let (data, held_out) = recordings.parts();
+        let mut problem = fit::problem(data, &options)?;
         problem.structure = crate::problem::Structure::around(
-            parts.fitted(),
-            fit::base_for(parts.fitted(), &effects),
+            data,
+            fit::base_for(data, &effects),
             &effects,
             &candidate.machine,
             candidate.start_speed != 0.0,
@@ -110,7 +97,7 @@ impl Model {
             curve: Vec::new(),
             interrupted: false,
         };
-        let held_out = Some(parts.held_out());
+        let held_out = Some(held_out);
         let fit = Fit::conclude(&problem, algorithm, "squared", &found, &options, held_out)?;
         Ok(Model {
             id,

@@ -5,15 +5,11 @@ use super::loaded::{Loaded, Source};
 use super::model::Recordings;
 use super::preview::{Mapping, preview};
 use super::session_file::SessionFile;
-use super::state::{Bench, Secret, Telling};
-use super::{guard, shown, work};
+use super::state::{Bench, Telling};
+use super::{blind, download, guard, shown, work};
 use crate::error::Error;
-use crate::export::{Format, Options, Side, Subject};
-use crate::kept::KeptResult;
 use crate::page::assets;
-use crate::prove::surprise;
 use crate::report::text::short;
-use crate::showcase;
 use axum::extract::{DefaultBodyLimit, Query, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -220,38 +216,10 @@ async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answer {
                 getrandom::u32().map_err(|error| Error::Failed(error.to_string()))? % 10_000,
             ),
         };
-        let machine = showcase::machine();
-        let hidden = surprise(&machine, seed)?;
-        let record = |seed: u64, name: &str| -> Result<Arc<Loaded>, Error> {
-            let recording = showcase::record(&hidden, seed, name)?;
-            let mut csv = "t_s,voltage_v,angle_counts\n".to_owned();
-            for k in 0..recording.len() {
-                csv += &format!(
-                    "{},{},{}\n",
-                    recording.time_s[k], recording.command[k], recording.counts[k]
-                );
-            }
-            Ok(Arc::new(Loaded::read(Source {
-                name: name.to_owned(),
-                csv,
-                motor: format!(
-                    "counts_per_rev = {}\nsupply_v = {:?}\n",
-                    showcase::COUNTS_PER_REV,
-                    machine.supply_v
-                ),
-            })?))
-        };
-        let recordings = Recordings {
-            fitted: record(seed, &format!("blind demo {seed}"))?,
-            held_out: Some(record(seed.wrapping_add(1), "its second recording")?),
-        };
+        let (recordings, secret) = blind::demonstration(seed)?;
         bench.change(|state| {
             state.begin(recordings);
-            state.secret = Some(Secret {
-                hidden,
-                seed,
-                told: false,
-            });
+            state.secret = Some(secret);
         });
         Ok(())
     })
@@ -428,7 +396,7 @@ struct Wanted {
 
 /// The result as a file.
 async fn export(State(bench): Shared, Query(wanted): Query<Wanted>) -> Result<Response, Refusal> {
-    let (name, text) = aside(move || exported(&bench, &wanted.format)).await?;
+    let (name, text) = aside(move || download::file(&bench, &wanted.format)).await?;
     let kind = match name.rsplit('.').next() {
         Some("html") => "text/html; charset=utf-8",
         Some("json") => "application/json",
@@ -440,58 +408,4 @@ async fn export(State(bench): Shared, Query(wanted): Query<Wanted>) -> Result<Re
         text,
     )
         .into_response())
-}
-
-/// The file's name, and its text.
-fn exported(bench: &Bench, format: &str) -> Result<(String, String), Error> {
-    let pretty = |value: &Value| format!("{value:#}\n");
-    let chosen = || -> Result<Value, Error> {
-        let state = bench.state();
-        let recordings = state.recordings()?;
-        let id = state
-            .chosen
-            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
-        state.model(id)?.json(&recordings)
-    };
-    let named = |name: &str, text: String| Ok((name.to_owned(), text));
-    match format {
-        "report" => named("servoid-report.html", shown::report(bench)?),
-        "session" => named(
-            "servoid-session.json",
-            SessionFile::of(&bench.state()).text()?,
-        ),
-        "fit" => named("servoid-fit.json", pretty(&chosen()?)),
-        "diagnosis" => {
-            let state = bench.state();
-            let diagnosis = state.diagnosis.as_ref().ok_or_else(|| {
-                Error::Usage("nothing is diagnosed yet; name what is missing first".to_owned())
-            })?;
-            named("servoid-diagnosis.json", pretty(diagnosis))
-        }
-        other => {
-            let format = Format::by_name(other)
-                .ok_or_else(|| Error::Usage(format!("there is no format `{other}`")))?;
-            let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-            let kept = KeptResult::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
-            let subject = Subject::new(&kept, "the workbench", Side::Motor)
-                .map_err(|error| failed(&error))?;
-            let written = (format.write)(&subject, &Options::default())?;
-            Ok((
-                format!("servoid-motor.{}", ending(format.name)),
-                written.text,
-            ))
-        }
-    }
-}
-
-/// What files of a format usually end in.
-fn ending(format: &str) -> &str {
-    match format {
-        "c" => "h",
-        "rust" => "rs",
-        "mujoco" | "urdf" => "xml",
-        "modelica" => "mo",
-        "wpilib" | "gains" => "txt",
-        same => same,
-    }
 }

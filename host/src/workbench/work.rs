@@ -4,7 +4,7 @@ use super::job::Teller;
 use super::model::{Model, Recordings, options, point};
 use super::state::Bench;
 use crate::compare::{self, Contest};
-use crate::diagnose::{self, Diagnosis, Effort, HeldOut, Suggestion};
+use crate::diagnose::{self, Diagnosis, Effort, Suggestion};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::problem::{Candidate, FitProblem};
@@ -59,8 +59,7 @@ fn fitted(
     suggestion: Option<&Suggestion>,
 ) -> Result<Fit, Error> {
     let mut options = options(&recordings.fitted, effects, 1);
-    let parts = recordings.parts();
-    let data = parts.fitted();
+    let (data, held_out) = recordings.parts();
     let solver = solve::by_name(algorithm)
         .ok_or_else(|| Error::Usage(format!("there is no search method `{algorithm}`")))?;
     // Only least squares begins anywhere in particular.
@@ -100,7 +99,7 @@ fn fitted(
         "squared",
         &found,
         &options,
-        Some(parts.held_out()),
+        Some(held_out),
     )
 }
 
@@ -136,13 +135,13 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         let state = bench.state();
         (state.recordings()?, state.model(id)?.fit.candidate)
     };
-    let parts = recordings.parts();
+    let (data, held_out) = recordings.parts();
     let options = options(&recordings.fitted, &[], 1);
     let teller = Teller::new(bench);
     let done = counting(&teller);
     let found = diagnose::suggest(
-        parts.fitted(),
-        parts.held_out(),
+        data,
+        held_out,
         &candidate,
         &options,
         &Effort::usual(bench.job.flag()),
@@ -155,8 +154,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
 /// Names everything that is missing, step by step; each step becomes a model on the bench.
 pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let recordings = bench.state().recordings()?;
-    let parts = recordings.parts();
-    let (data, held_out) = (parts.fitted(), parts.held_out());
+    let (data, held_out) = recordings.parts();
     let options = options(&recordings.fitted, &[], 1);
     let teller = Teller::new(bench);
     let done = counting(&teller);
@@ -165,7 +163,7 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let interrupted = stop.load(Ordering::Relaxed);
     let last = diagnose::settle(&found, data, held_out, &options, stop)?;
     let findings = diagnose::findings(&found, data, held_out)?;
-    let kind = kind(&recordings);
+    let kind = recordings.kind();
     let report = DiagnosisReport {
         data,
         held_out: &kind,
@@ -193,16 +191,6 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
         state.diagnosis = Some(json);
     });
     Ok(())
-}
-
-/// What is held out, in the words of a diagnosis.
-fn kind(recordings: &Recordings) -> HeldOut {
-    match (&recordings.held_out, recordings.fitted.cut()) {
-        (Some(other), _) => HeldOut::Recording(other.source.name.clone()),
-        (None, Some(_)) => diagnose::holdout::cut(&recordings.fitted.recording)
-            .map_or(HeldOut::Nothing, |(_, _, kind)| kind),
-        (None, None) => HeldOut::Nothing,
-    }
 }
 
 /// The models of a diagnosis' steps, from the linear motor on.
@@ -257,8 +245,8 @@ pub(super) fn race(
     let recordings = bench.state().recordings()?;
     let mut options = options(&recordings.fitted, effects, 1);
     options.budget = budget;
-    let parts = recordings.parts();
-    let problem = fit::problem(parts.fitted(), &options)?;
+    let (data, _) = recordings.parts();
+    let problem = fit::problem(data, &options)?;
     let mut solvers = Vec::new();
     for name in algorithms {
         solvers.push(
@@ -268,7 +256,7 @@ pub(super) fn race(
     }
     let seeds: Vec<u64> = (1..=seeds).collect();
     // The first seed is run where everyone can watch; it is run again among all for the table.
-    let samples = parts.fitted().len() as f64;
+    let samples = data.len() as f64;
     solvers.par_iter().for_each(|solver| {
         let teller = Teller::new(bench);
         let quick = crate::problem::Quick::new(&problem);

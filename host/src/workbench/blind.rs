@@ -1,0 +1,50 @@
+//! A blind demonstration: recordings of a motor in which something is hidden.
+
+use super::loaded::{Loaded, Source};
+use super::model::Recordings;
+use super::state::Secret;
+use crate::bench::Hidden;
+use crate::error::Error;
+use crate::prove::surprise;
+use crate::showcase;
+use std::sync::Arc;
+
+/// The two recordings of a seed's motor, and what is hidden in it.
+pub(super) fn demonstration(seed: u64) -> Result<(Recordings, Secret), Error> {
+    let hidden = surprise(&showcase::machine(), seed)?;
+    let recordings = Recordings {
+        fitted: recorded(&hidden, seed, &format!("blind demo {seed}"))?,
+        held_out: Some(recorded(
+            &hidden,
+            seed.wrapping_add(1),
+            "its second recording",
+        )?),
+    };
+    let secret = Secret {
+        hidden,
+        seed,
+        told: false,
+    };
+    Ok((recordings, secret))
+}
+
+/// As it would come from a user, so that it is kept and opened again as a user's.
+fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loaded>, Error> {
+    let recording = showcase::record(hidden, seed, name)?;
+    let mut csv = "t_s,voltage_v,angle_counts\n".to_owned();
+    for k in 0..recording.len() {
+        csv += &format!(
+            "{},{},{}\n",
+            recording.time_s[k], recording.command[k], recording.counts[k]
+        );
+    }
+    Ok(Arc::new(Loaded::read(Source {
+        name: name.to_owned(),
+        csv,
+        motor: format!(
+            "counts_per_rev = {}\nsupply_v = {:?}\n",
+            showcase::COUNTS_PER_REV,
+            showcase::machine().supply_v
+        ),
+    })?))
+}

@@ -1,0 +1,63 @@
+//! What may be taken away from the bench as a file.
+
+use super::session_file::SessionFile;
+use super::shown;
+use super::state::Bench;
+use crate::error::Error;
+use crate::export::{Format, Options, Side, Subject};
+use crate::kept::KeptResult;
+use serde_json::Value;
+
+/// The file's name, and its text.
+pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Error> {
+    let pretty = |value: &Value| format!("{value:#}\n");
+    let chosen = || -> Result<Value, Error> {
+        let state = bench.state();
+        let recordings = state.recordings()?;
+        let id = state
+            .chosen
+            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
+        state.model(id)?.json(&recordings)
+    };
+    let named = |name: &str, text: String| Ok((name.to_owned(), text));
+    match format {
+        "report" => named("servoid-report.html", shown::report(bench)?),
+        "session" => named(
+            "servoid-session.json",
+            SessionFile::of(&bench.state()).text()?,
+        ),
+        "fit" => named("servoid-fit.json", pretty(&chosen()?)),
+        "diagnosis" => {
+            let state = bench.state();
+            let diagnosis = state.diagnosis.as_ref().ok_or_else(|| {
+                Error::Usage("nothing is diagnosed yet; name what is missing first".to_owned())
+            })?;
+            named("servoid-diagnosis.json", pretty(diagnosis))
+        }
+        other => {
+            let format = Format::by_name(other)
+                .ok_or_else(|| Error::Usage(format!("there is no format `{other}`")))?;
+            let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
+            let kept = KeptResult::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
+            let subject = Subject::new(&kept, "the workbench", Side::Motor)
+                .map_err(|error| failed(&error))?;
+            let written = (format.write)(&subject, &Options::default())?;
+            Ok((
+                format!("servoid-motor.{}", ending(format.name)),
+                written.text,
+            ))
+        }
+    }
+}
+
+/// What files of a format usually end in.
+fn ending(format: &str) -> &str {
+    match format {
+        "c" => "h",
+        "rust" => "rs",
+        "mujoco" | "urdf" => "xml",
+        "modelica" => "mo",
+        "wpilib" | "gains" => "txt",
+        same => same,
+    }
+}
