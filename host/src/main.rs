@@ -3,6 +3,7 @@
 
 use clap::Parser;
 use host::cli::Cli;
+use host::report::paint::{BAD, painted};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -10,7 +11,7 @@ fn main() -> ExitCode {
     match host::cmd::run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("servoid: {error}");
+            anstream::eprintln!("{}: {error}", painted(BAD.bold(), "servoid"));
             ExitCode::from(error.exit_code())
         }
     }

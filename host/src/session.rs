@@ -110,7 +110,7 @@ impl Session {
             .as_ref()
             .is_some_and(|path| path.as_os_str() == "-");
         if !to_stdout {
-            print(text.as_bytes())?;
+            show(text)?;
         }
         if let Some(path) = &self.json {
             let mut rendered = serde_json::to_string_pretty(json).map_err(|error| {
@@ -132,9 +132,18 @@ impl Session {
     }
 }
 
+/// A text to stdout, with its colours only where a terminal shows them.
+fn show(text: &str) -> Result<(), Error> {
+    written(anstream::stdout().lock().write_all(text.as_bytes()))
+}
+
 /// To stdout; a closed pipe (`| head`) is the reader's choice, not an error.
 pub(crate) fn print(text: &[u8]) -> Result<(), Error> {
-    match std::io::stdout().lock().write_all(text) {
+    written(std::io::stdout().lock().write_all(text))
+}
+
+fn written(result: std::io::Result<()>) -> Result<(), Error> {
+    match result {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(Error::Failed(format!("stdout: {error}")))
         }

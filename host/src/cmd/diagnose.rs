@@ -63,12 +63,6 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
 
 /// A curve of steady speeds in the place of a recording.
 fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
-    if args.sheet.report.is_some() {
-        return Err(Error::Usage(format!(
-            "--report: {} is a curve of steady speeds, of which there is no page yet; leave --report away",
-            args.recording.display()
-        )));
-    }
     if args.validate.is_some() {
         return Err(Error::Usage(format!(
             "--validate: {} is a curve of steady speeds, which is diagnosed on its own; leave --validate away",
@@ -77,12 +71,14 @@ fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     }
     let curve = SteadyCurve::read(&args.recording)?;
     let diagnosis = curve.diagnose()?;
-    let report = SteadyReport {
+    let told = SteadyReport {
         curve: &curve,
         diagnosis: &diagnosis,
         seed: session.seed,
     };
-    session.deliver(&report.text(), &SteadyJson::from(&report))
+    let json = SteadyJson::from(&told);
+    report::write(session, &args.sheet, &json, sheet::Recordings::default())?;
+    session.deliver(&told.text(), &json)
 }
 
 struct Recordings {

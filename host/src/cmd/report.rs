@@ -121,7 +121,7 @@ fn sources(kept: &Kept) -> (Option<PathBuf>, Option<PathBuf>) {
             folder.recording_of(Stage::Record),
             folder.recording_of(Stage::Verify),
         ),
-        Kept::Contest(_) => (None, None),
+        Kept::Steady(_) | Kept::Contest(_) => (None, None),
     }
 }
 

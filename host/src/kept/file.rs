@@ -1,6 +1,6 @@
 //! One result, read from the file that a verb wrote with `--json`.
 
-use super::told::{KeptContest, KeptDiagnosis, KeptFit, KeptVerification};
+use super::told::{KeptContest, KeptDiagnosis, KeptFit, KeptSteady, KeptVerification};
 use super::{ModelFault, json_place};
 use crate::device::{Folder, Saved};
 use serde::de::DeserializeOwned;
@@ -16,6 +16,8 @@ pub enum Kept {
     Fit(Box<KeptFit>),
     /// Of `diagnose`.
     Diagnosis(Box<KeptDiagnosis>),
+    /// Of `diagnose` of a curve of steady speeds.
+    Steady(Box<KeptSteady>),
     /// Of `compare` or `paper`.
     Contest(Box<KeptContest>),
     /// Of `device verify`.
@@ -58,7 +60,7 @@ pub enum KeptFault {
          folder of a device's run"
     )]
     Schema(String),
-    /// It was written by an older version, or is a curve of steady speeds, which has no recording.
+    /// It was written by another version.
     #[error(
         ": {what}; it was written by another version of servoid, or by hand: write it again with --json"
     )]
@@ -104,11 +106,7 @@ impl Kept {
         let kept = match schema.as_deref() {
             Some("servoid.fit/1") => Kept::Fit(keys(value)?),
             Some("servoid.diagnosis/1") if value.get("steady").is_some() => {
-                return Err(KeptFault::Keys {
-                    what: "is the diagnosis of a curve of steady speeds, of which there is nothing to draw but the \
-                           curve"
-                        .to_owned(),
-                });
+                Kept::Steady(keys(value)?)
             }
             Some("servoid.diagnosis/1") => Kept::Diagnosis(keys(value)?),
             Some("servoid.compare/1") => Kept::Contest(keys(value)?),
@@ -128,7 +126,7 @@ impl Kept {
             }
             Kept::Diagnosis(diagnosis) => Some(diagnosis),
             Kept::Verification(verification) => verification.diagnosis.as_ref(),
-            Kept::Contest(_) | Kept::Device(..) => None,
+            Kept::Steady(_) | Kept::Contest(_) | Kept::Device(..) => None,
         };
         if let Some(diagnosis) = diagnosis {
             diagnosis.base.model.candidate("base.model")?;

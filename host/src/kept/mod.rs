@@ -23,6 +23,7 @@ pub use model::{Integrator, KeptMachine, KeptModel, KeptParameter};
 pub use result::{KeptEstimate, KeptResult};
 pub use result_fault::{ResultError, ResultFault};
 pub use told::{
-    KeptBase, KeptCandidate, KeptContest, KeptDiagnosis, KeptFinal, KeptFit, KeptHeldOut, KeptLoop,
-    KeptMargins, KeptMiss, KeptPrinted, KeptRow, KeptRung, KeptStep, KeptVariant, KeptVerification,
+    KeptBase, KeptCandidate, KeptContest, KeptCurve, KeptDiagnosis, KeptFinal, KeptFit,
+    KeptHeldOut, KeptLine, KeptLoop, KeptMargins, KeptMiss, KeptPrinted, KeptRow, KeptRung,
+    KeptSteady, KeptStep, KeptVariant, KeptVerification,
 };

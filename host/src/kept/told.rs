@@ -110,6 +110,47 @@ pub struct KeptDiagnosis {
     pub interrupted: bool,
 }
 
+/// `servoid.diagnosis/1` of a curve of steady speeds.
+#[derive(Clone, Debug, Deserialize)]
+pub struct KeptSteady {
+    /// `complete`, `unexplained` or `inconclusive`.
+    pub verdict: String,
+    /// The verdict in words.
+    pub summary: String,
+    /// What to do next.
+    #[serde(default)]
+    pub advice: Vec<String>,
+    /// The curve and its lines.
+    pub steady: KeptCurve,
+    /// Where it came from.
+    pub recording: String,
+}
+
+/// A curve of steady speeds and the lines through it.
+#[derive(Clone, Debug, Deserialize)]
+pub struct KeptCurve {
+    /// Voltage, V, and speed, rad/s.
+    pub curve: Vec<(f64, f64)>,
+    /// The line through the origin.
+    pub linear: KeptLine,
+    /// The line with a drop.
+    pub with_drop: KeptLine,
+    /// Effects that make such a drop, none before the other.
+    #[serde(default)]
+    pub indistinguishable: Vec<String>,
+}
+
+/// A line through steady speeds.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct KeptLine {
+    /// V·s/rad.
+    pub slope_v_s_rad: f64,
+    /// V.
+    pub drop_v: f64,
+    /// RMS error as a part of the voltage's RMS.
+    pub relative: f64,
+}
+
 /// The linear motor of a diagnosis.
 #[derive(Clone, Debug, Deserialize)]
 pub struct KeptBase {

@@ -12,6 +12,7 @@
 //! | `forest` | parameters with intervals |
 //! | `bode` | position loops with the lines at which margins are read |
 //! | `curves` | best cost against model evaluations |
+//! | `steady` | steady speeds against voltage, and what a straight line misses |
 //! | `histogram` | counting values into bins |
 
 mod bode;
@@ -23,6 +24,7 @@ mod intervals;
 mod ladder;
 mod maps;
 mod orders;
+mod steady;
 mod timeline;
 
 pub use bode::bode;
@@ -33,6 +35,7 @@ pub use intervals::intervals;
 pub use ladder::{Rung, ladder};
 pub use maps::maps;
 pub use orders::orders;
+pub use steady::{SteadyLine, steady_curve, steady_residual};
 pub use timeline::{FROM_THE_BENCH, IN_A_FILE, Run, Timeline, timeline};
 
 use plotly::Plot;

@@ -3,6 +3,7 @@
 pub mod demo;
 pub mod diagnosis;
 pub mod json;
+pub mod paint;
 pub mod paper;
 pub mod plan;
 pub mod prove;

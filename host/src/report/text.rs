@@ -2,6 +2,7 @@
 
 use super::diagnosis::bars;
 use super::json::least_cost;
+use super::paint::{GOOD, HEADING, painted};
 use crate::compare::{Row, quantile};
 use crate::fit::{Fit, Parameter, Rung};
 use crate::problem::Data;
@@ -97,13 +98,15 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     writeln!(out)?;
     writeln!(
         out,
-        "open-loop error   {:.4} counts RMS (encoder floor {FLOOR_RMS_COUNTS:.4})",
+        "{}   {:.4} counts RMS (encoder floor {FLOOR_RMS_COUNTS:.4})",
+        painted(HEADING, "open-loop error"),
         fit.rms_counts
     )?;
     if let Some(rms) = fit.validate_rms_counts {
         writeln!(
             out,
-            "held-out error    {rms:.4} counts RMS on the other recording, never fitted"
+            "{}    {rms:.4} counts RMS on the other recording, never fitted",
+            painted(HEADING, "held-out error")
         )?;
     }
     if !fit.ladder.is_empty() {
@@ -148,7 +151,8 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     }
     writeln!(
         out,
-        "parameters, with the standard error of the last digits in brackets:"
+        "{}, with the standard error of the last digits in brackets:",
+        painted(HEADING, "parameters")
     )?;
     for p in &fit.parameters {
         out.push_str(&parameter(p, fit.converged));
@@ -200,19 +204,15 @@ pub(super) fn wrapped(note: &str) -> String {
 pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
     let least = least_cost(rows);
     let most = rows.iter().map(|row| row.runs.len()).max().unwrap_or(0);
+    let head = format!(
+        "{:12}{:>10}{:>11}{:>11}{:>10}{:>10}{:>8}{:>8}",
+        "method", "median", "quartile 1", "quartile 3", "best", "worst", "evals", "CPU s",
+    );
     let mut out = format!(
         "{most} of {seeds} runs each, at most {budget} model evaluations a run; least cost {}\n\n\
-         {:12}{:>10}{:>11}{:>11}{:>10}{:>10}{:>8}{:>8}\n\
-         {:12}{:>10}{:>42}{:>8}\n",
+         {}\n{:12}{:>10}{:>42}{:>8}\n",
         short(least),
-        "method",
-        "median",
-        "quartile 1",
-        "quartile 3",
-        "best",
-        "worst",
-        "evals",
-        "CPU s",
+        painted(HEADING, head),
         "",
         "cost",
         "",
@@ -229,6 +229,38 @@ pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
             "{:12}{median:>10}{q1:>11}{q3:>11}{best:>10}{worst:>10}{evaluations:>8}{:>8.2}\n",
             row.algorithm, row.wall_s,
         );
+    }
+    out + &curves(rows, budget)
+}
+
+/// The median cost of each method over the evaluations.
+fn curves(rows: &[Row], budget: usize) -> String {
+    let curves: Vec<(&str, Vec<f64>)> = rows
+        .iter()
+        .map(|row| {
+            let curve = row.curve(budget, 0.5).into_iter();
+            (&*row.algorithm, curve.map(|(_, cost)| cost).collect())
+        })
+        .collect();
+    let costs = || curves.iter().flat_map(|(_, costs)| costs);
+    let finite = || costs().copied().filter(|cost| cost.is_finite());
+    let (least, most) = (
+        finite().fold(f64::INFINITY, f64::min),
+        finite().fold(0.0, f64::max),
+    );
+    if !(0.0 < least && least < most) {
+        return String::new();
+    }
+    let mut out = format!(
+        "\n{} over evaluations, both logarithmic, 1 to {budget}\n",
+        painted(HEADING, "median cost")
+    );
+    for (name, costs) in &curves {
+        let line: String = costs
+            .iter()
+            .map(|cost| bars::height((cost / least).ln() / (most / least).ln()))
+            .collect();
+        out += &format!("  {name:14}{}\n", painted(GOOD, line));
     }
     out
 }

@@ -45,12 +45,30 @@ fn drawings(page: &str) -> Value {
     serde_json::from_str(&text[..text.find("</script>").expect("an end")]).expect("JSON")
 }
 
+/// Steady speeds of a motor that loses 0.3 V at every one of them.
+fn steady_speeds() -> String {
+    let volts = (-8i32..=8).filter(|volts| *volts != 0).map(f64::from);
+    let rows: Vec<String> = volts
+        .map(|volts| format!("{volts},{:.4}\n", (volts - 0.3 * volts.signum()) / 0.05))
+        .collect();
+    format!("voltage_V,speed_rad_s\n{}", rows.concat())
+}
+
 #[test]
 fn every_result_becomes_the_same_page_at_once_and_from_its_file() {
     let desk = Desk::with_recording();
     desk.done("simulate --seconds 4 --hide coulomb --out friction.csv");
     desk.done("simulate --seconds 4 --hide coulomb --seed 2 --out other.csv");
+    desk.write("curve.csv", steady_speeds());
     for (verb, holds) in [
+        (
+            "diagnose curve.csv",
+            vec![
+                "Voltage against steady speed",
+                "A constant 0.300 V",
+                "brush_drop",
+            ],
+        ),
         (
             "fit rec.csv",
             vec!["Measured and model", "Is the rest noise?", "gain margin"],

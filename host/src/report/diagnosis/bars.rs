@@ -1,5 +1,6 @@
 //! Errors as bars, on a logarithmic scale from the encoder's own.
 
+use crate::report::paint::{GOOD, HEADING, painted};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// Widest bar, characters.
@@ -25,11 +26,16 @@ pub fn sparkline(errors: &[f64], most: f64, characters: usize) -> String {
         .chunks(stretch)
         .map(|part| {
             let square = part.iter().map(|e| e * e).sum::<f64>() / part.len() as f64;
-            let above = (square.sqrt() / FLOOR_RMS_COUNTS).ln().max(0.0) / span;
-            let height = (above * (HEIGHTS.len() - 1) as f64).round() as usize;
-            HEIGHTS[height.min(HEIGHTS.len() - 1)]
+            height((square.sqrt() / FLOOR_RMS_COUNTS).ln() / span)
         })
         .collect()
+}
+
+/// The character for a part of the greatest height; for what is no number, the highest.
+pub fn height(part: f64) -> char {
+    let most = HEIGHTS.len() - 1;
+    let part = if part.is_nan() { 1.0 } else { part };
+    HEIGHTS[(part.clamp(0.0, 1.0) * most as f64).round() as usize]
 }
 
 /// An error with the digits that tell.
@@ -50,9 +56,10 @@ pub fn counts(rms: f64) -> String {
 pub fn ladder(rungs: &[(String, f64, f64)]) -> String {
     let errors = rungs.iter().flat_map(|rung| [rung.1, rung.2]);
     let most = errors.filter(|rms| rms.is_finite()).fold(0.0, f64::max);
+    let head = format!("{:28}{:>10}{:>11}", "error ladder", "fitted", "held out");
     let mut out = format!(
-        "{:28}{:>10}{:>11}   counts RMS, bars logarithmic\n",
-        "error ladder", "fitted", "held out"
+        "{}   counts RMS, bars logarithmic\n",
+        painted(HEADING, head)
     );
     for (name, fitted, held_out) in rungs {
         let shown = if held_out.is_finite() {
@@ -60,13 +67,15 @@ pub fn ladder(rungs: &[(String, f64, f64)]) -> String {
         } else {
             *fitted
         };
-        let line = format!(
-            "  {name:26}{:>10}{:>11}   {}",
+        out += &format!(
+            "  {name:26}{:>10}{:>11}",
             counts(*fitted),
-            counts(*held_out),
-            bar(shown, most)
+            counts(*held_out)
         );
-        out += line.trim_end();
+        let bar = bar(shown, most);
+        if !bar.is_empty() {
+            out += &format!("   {}", painted(GOOD, bar));
+        }
         out.push('\n');
     }
     out

@@ -1,8 +1,9 @@
 //! What a curve of steady speeds says, as text and as JSON.
 
-use super::text::folded;
+use super::text::verdict;
 use crate::diagnose::Verdict;
 use crate::diagnose::steady::{SteadyCurve, SteadyDiagnosis, SteadyFit};
+use crate::report::paint::{HEADING, painted};
 use crate::report::text::wrapped;
 use serde::Serialize;
 use std::fmt::Write;
@@ -22,14 +23,16 @@ impl SteadyReport<'_> {
         let names: Vec<&str> = self.names();
         let drop = self.diagnosis.with_drop.drop_v;
         if self.diagnosis.verdict == Verdict::Unexplained {
-            return "steady speed does not follow the voltage in a straight line, and no constant drop mends that"
+            return "Steady speed does not follow the voltage in a straight line, and no constant drop mends that."
                 .to_owned();
         }
         match names.split_last() {
-            None => "steady speed follows the voltage in a straight line; nothing constant is lost"
-                .to_owned(),
+            None => {
+                "Steady speed follows the voltage in a straight line; nothing constant is lost."
+                    .to_owned()
+            }
             Some((last, rest)) => format!(
-                "a constant {drop:.3} V is missing at every speed; steady speeds cannot tell whether {} or {last} takes it",
+                "A constant {drop:.3} V is missing at every speed; steady speeds cannot tell whether {} or {last} takes it.",
                 rest.join(", ")
             ),
         }
@@ -51,8 +54,8 @@ impl SteadyReport<'_> {
             self.curve.source,
             self.curve.points.len()
         );
-        let verdict = format!("{}: {}", self.diagnosis.verdict.name(), self.summary());
-        let _ = writeln!(out, "{}", folded(&verdict, ""));
+        let verdict = verdict(self.diagnosis.verdict, &self.summary());
+        let _ = writeln!(out, "{verdict}");
         let row = |fit: &SteadyFit| format!("errs by {:.2} % of the voltage", 100.0 * fit.relative);
         let _ = writeln!(
             out,
@@ -68,7 +71,7 @@ impl SteadyReport<'_> {
             row(drop)
         );
         if let Some(advice) = self.diagnosis.advice {
-            let _ = writeln!(out, "\nnext:");
+            let _ = writeln!(out, "\n{}", painted(HEADING, "next:"));
             out.push_str(&wrapped(advice));
         }
         out
@@ -105,6 +108,8 @@ struct ModelJson {
 #[derive(Debug, Serialize)]
 struct CurveJson {
     points: usize,
+    /// Voltage, V, and speed, rad/s.
+    curve: Vec<(f64, f64)>,
     linear: FitJson,
     with_drop: FitJson,
     p_value: f64,
@@ -150,6 +155,7 @@ impl From<&SteadyReport<'_>> for SteadyJson {
             advice: diagnosis.advice.into_iter().collect(),
             steady: CurveJson {
                 points: report.curve.points.len(),
+                curve: report.curve.points.clone(),
                 linear: (&diagnosis.linear).into(),
                 with_drop: (&diagnosis.with_drop).into(),
                 p_value: diagnosis.p_value,

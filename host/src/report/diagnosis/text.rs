@@ -4,7 +4,9 @@ use super::bars::{counts, sparkline};
 use super::whereabouts::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::diagnose::{HeldOut, Step, Verdict};
+use crate::report::paint::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, wrapped};
+use anstyle::Style;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
 
@@ -27,8 +29,7 @@ impl DiagnosisReport<'_> {
         let samples = self.data.len();
         writeln!(out, "{}: {samples} samples, {end:.3} s", self.data.source)?;
         writeln!(out, "{}\n", folded(&self.held_out_text(), ""))?;
-        let verdict = format!("{}: {}", self.verdict().name(), self.verdict_text());
-        writeln!(out, "{}\n", folded(&verdict, ""))?;
+        writeln!(out, "{}\n", verdict(self.verdict(), &self.verdict_text()))?;
         self.ladder(out)?;
         self.over_time(out)?;
         for index in 0..self.diagnosis.steps.len() {
@@ -40,7 +41,8 @@ impl DiagnosisReport<'_> {
             } else {
                 ("on the fitted recording", &self.findings.last)
             };
-            writeln!(out, "\nwhere the last model fails, {what}")?;
+            let heading = painted(HEADING, "where the last model fails,");
+            writeln!(out, "\n{heading} {what}")?;
             out.push_str(&table(found));
         }
         let white = whiteness_text(self.findings.last_whiteness.as_ref());
@@ -49,13 +51,14 @@ impl DiagnosisReport<'_> {
         for remark in &self.remarks {
             out.push_str(&wrapped(&remark.to_string()));
         }
-        writeln!(out, "\nwhat these recordings cannot tell:")?;
+        let heading = painted(HEADING, "what these recordings cannot tell:");
+        writeln!(out, "\n{heading}")?;
         for text in self.cannot_tell() {
             out.push_str(&wrapped(&text));
         }
         let advice = self.advice();
         if !advice.is_empty() {
-            writeln!(out, "\nnext:")?;
+            writeln!(out, "\n{}", painted(HEADING, "next:"))?;
             for advice in advice {
                 out.push_str(&wrapped(&advice));
             }
@@ -122,29 +125,26 @@ impl DiagnosisReport<'_> {
         let most = size(base);
         writeln!(
             out,
-            "residual over time, logarithmic up to {}",
+            "{}, logarithmic up to {}",
+            painted(HEADING, "residual over time"),
             counts(most)
         )?;
-        let mut line = |name: &str, errors: &[f64]| {
-            writeln!(out, "  {name:14}{}", sparkline(errors, most, LINE))
+        let mut line = |name: &str, errors: &[f64], style: Style| {
+            let line = painted(style, sparkline(errors, most, LINE));
+            writeln!(out, "  {name:14}{line}")
         };
-        line("linear motor", base)?;
+        line("linear motor", base, BAD)?;
         if self.diagnosis.steps.is_empty() {
             return Ok(());
         }
-        line("last model", last)
+        line("last model", last, GOOD)
     }
 
     fn step(&self, out: &mut String, index: usize) -> std::fmt::Result {
         let step = &self.diagnosis.steps[index];
         let description = step.added.description();
-        writeln!(
-            out,
-            "\n{}. {}: {}",
-            index + 1,
-            step.added.name(),
-            description.title
-        )?;
+        let name = painted(HEADING, step.added.name());
+        writeln!(out, "\n{}. {name}: {}", index + 1, description.title)?;
         let mut say = |name: &str, text: &str| {
             writeln!(
                 out,
@@ -213,15 +213,27 @@ impl DiagnosisReport<'_> {
     }
 
     fn parameters(&self, out: &mut String) -> std::fmt::Result {
+        let heading = painted(HEADING, "parameters of the last model");
         writeln!(
             out,
-            "\nparameters of the last model, standard error of the last digits in brackets:"
+            "\n{heading}, standard error of the last digits in brackets:"
         )?;
         for p in &self.last.parameters {
             out.push_str(&parameter(p, self.last.converged));
         }
         Ok(())
     }
+}
+
+/// The verdict's name, and what it says, folded.
+pub(super) fn verdict(verdict: Verdict, text: &str) -> String {
+    let name = verdict.name();
+    let style = match verdict {
+        Verdict::Unexplained => BAD,
+        _ => GOOD,
+    };
+    let folded = folded(&format!("{name}: {text}"), "");
+    folded.replacen(name, &painted(style.bold(), name), 1)
 }
 
 /// Folded to the width, further lines behind `indent`; spaces within the first line's head are kept.

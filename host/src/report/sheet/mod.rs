@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `diagnosis` | `diagnose`, and of `demo` and `device verify`, which hold one |
 //! | `fit` | `fit` |
+//! | `steady` | `diagnose` of a curve of steady speeds |
 //! | `contest` | `compare` and `paper` |
 //! | `device` | a motor that commissioned itself |
 //! | `failing` | drawings of where models fail, for several of these |
@@ -14,6 +15,7 @@ mod device;
 mod diagnosis;
 mod failing;
 mod fit;
+mod steady;
 
 pub use failing::{Model, failing};
 
@@ -46,6 +48,7 @@ pub fn page(kept: &Kept, recordings: Recordings<'_>) -> Result<Page, Error> {
             None => fit::page(fit, recordings),
         },
         Kept::Diagnosis(diagnosis) => diagnosis::page(diagnosis, recordings),
+        Kept::Steady(steady) => Ok(steady::page(steady)),
         Kept::Contest(contest) => Ok(contest::page(contest)),
         Kept::Verification(verification) => device::verification(verification, recordings),
         Kept::Device(saved, _) => device::page(saved, recordings),
