@@ -3,14 +3,21 @@
 use super::search::search;
 use super::{model, motor, report};
 use crate::cli::FitArgs;
+use crate::diagnose::{self, Effort};
 use crate::error::Error;
-use crate::fit::{self, Fit};
+use crate::fit::{self, Fit, Options};
 use crate::output::write_whole;
 use crate::plot;
-use crate::problem::Data;
+use crate::problem::{Data, FitProblem};
 use crate::report::json::FitJson;
 use crate::report::{sheet, text};
 use crate::session::Session;
+use crate::solve::Found;
+use shared::cost::Cost;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// A fit with effects whose cost is beyond this, in parts of what the encoder leaves, is begun once more from elsewhere.
+const LOST: f64 = 1.2;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
@@ -37,7 +44,13 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let mut problem = fit::problem(&data, &options)?;
     model::apply_bounds(&mut problem, &args.model.bounds)?;
 
-    let found = search(session, &problem, &args.algorithm, &options)?;
+    let mut found = search(session, &problem, &args.algorithm, &options)?;
+    if args.algorithm == "lm"
+        && let Some((again, better)) = again(session, &problem, &found, &options)
+    {
+        problem = again;
+        found = better;
+    }
     let cost_kind = args.model.cost.name();
     let mut fit = Fit::conclude(
         &problem,
@@ -64,4 +77,24 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     };
     report::write(session, &args.sheet, &json, drawn)?;
     session.deliver(&text::fit(&fit, &data), &json)
+}
+
+/// Least squares begun once more, from where the effects lead that are added one by one: from regression it may have ended
+/// in the wrong valley. `None` where that was not needed, or led nowhere better.
+fn again<'a>(
+    session: &Session,
+    problem: &FitProblem<'a>,
+    found: &Found,
+    options: &Options,
+) -> Option<(FitProblem<'a>, Found)> {
+    let floor = FLOOR_RMS_COUNTS.powi(2) * problem.data.len() as f64;
+    let squares = problem.cost == Cost::Squared;
+    if options.effects.is_empty() || !squares || found.cost < LOST * floor || found.interrupted {
+        return None;
+    }
+    let effort = Effort::usual(session.stop());
+    let candidate = diagnose::built_up(problem.data, &options.effects, options, &effort)?;
+    let again = problem.begun_at(&candidate);
+    let better = search(session, &again, "lm", options).ok()?;
+    (better.cost < found.cost).then_some((again, better))
 }

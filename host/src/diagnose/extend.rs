@@ -9,7 +9,7 @@ use super::workshop::Workshop;
 use rayon::prelude::*;
 use shared::effects::{Kind, MAX_EFFECTS};
 
-/// Most refits of one call.
+/// Most refits of one call, unless they leave something unexplained.
 const MOST_REFITS: usize = 6;
 /// The same where models run in windows.
 const MOST_IN_WINDOWS: usize = 12;
@@ -98,9 +98,16 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
             .filter(|(at, _)| *at == parent)
             .collect();
         let mut more = sketch_all(&own, &[]);
+        let worth = workshop.led_worth(parents[parent]);
+        for sketch in &mut more {
+            sketch.worth = worth;
+        }
         sort_sketches(&mut more);
         again_from_best(workshop, parents, &mut more);
-        models = refits(workshop, &more, models, done);
+        let further = parent == 0;
+        models = refits(workshop, &more, models, done, |best| {
+            further && !removes(parents[parent], best)
+        });
         sketches.extend(more);
         if models.first().is_some_and(|model| model.ran().at_floor()) {
             break;
@@ -137,7 +144,7 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
         .collect();
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);
-    refits(workshop, &more, models, done)
+    refits(workshop, &more, models, done, |_| false)
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
@@ -181,7 +188,8 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
         if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
             let with_all = workshop.sketch_again(sketch, &parent, best);
             let again = workshop.sketch(&parent, newest, &[]);
-            for again in [with_all, again].into_iter().flatten() {
+            for mut again in [with_all, again].into_iter().flatten() {
+                again.worth = sketch.worth;
                 if again.foreseen() < sketch.foreseen() {
                     *sketch = again;
                 }
@@ -191,12 +199,14 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
     sort_sketches(sketches);
 }
 
-/// Full fits of promising sketches beside the models that were `made` before, best first.
+/// Full fits of promising sketches beside the models that were `made` before, best first. Not more than what is usual,
+/// unless the best of them leaves something that is `unexplained`: a sketch may have ended early in a long valley.
 fn refits(
     workshop: &Workshop<'_>,
     sketches: &[Sketch],
     made: Vec<Refit>,
     done: &(dyn Fn() + Sync),
+    unexplained: impl Fn(&Refit) -> bool,
 ) -> Vec<Refit> {
     // In windows more of them are alike.
     let windows = workshop.span.window_s.is_some();
@@ -209,7 +219,8 @@ fn refits(
     let mut refits = made;
     for chunk in sketches.chunks(AT_A_TIME) {
         workshop.effort.take_stock();
-        if workshop.effort.halted() || refits.len() >= before + most {
+        let enough = refits.len() >= before + most;
+        if workshop.effort.halted() || (enough && !refits.first().is_some_and(&unexplained)) {
             break;
         }
         let best = refits.first();
@@ -229,7 +240,7 @@ fn refits(
 }
 
 /// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
-fn sort(workshop: &Workshop<'_>, refits: &mut [Refit]) {
+pub fn sort(workshop: &Workshop<'_>, refits: &mut [Refit]) {
     if refits.iter().any(|refit| refit.tracked.is_some()) {
         for refit in refits.iter_mut().filter(|refit| refit.tracked.is_none()) {
             // A model that cannot be tracked keeps the errors of its free runs.

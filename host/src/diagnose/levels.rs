@@ -1,9 +1,9 @@
 //! The search: effects are added one by one, each level of models building on the best of the one before.
 
-use super::extend::extend;
+use super::extend::{extend, sort};
 use super::refit::Refit;
 use super::workshop::Workshop;
-use super::{duel, judge};
+use super::{duel, judge, plainer, swap};
 
 /// Most effects that are added.
 const MOST_STEPS: usize = 4;
@@ -44,6 +44,11 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         };
         let mut models = extend(workshop, &parents, done);
         workshop.effort.take_stock();
+        if !levels.is_empty() && models.first().is_none_or(|model| !model.ran().at_floor()) {
+            models.extend(from_plainer(workshop, &parents, done));
+            sort(workshop, &mut models);
+            workshop.effort.take_stock();
+        }
         duel::duel(workshop, &mut models);
         workshop.effort.take_stock();
         polish_best(workshop, &mut models);
@@ -63,6 +68,27 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         });
     }
     levels
+}
+
+/// A friction with many parameters may have taken on what another effect does, and then leaves that one nothing to
+/// explain. So the plainer frictions within the `parents` are built on as well, however far they are behind.
+fn from_plainer(
+    workshop: &Workshop<'_>,
+    parents: &[&Refit],
+    done: &(dyn Fn() + Sync),
+) -> Vec<Refit> {
+    let mut plain: Vec<Refit> = Vec::new();
+    for parent in parents {
+        for model in plainer::all(workshop, parent) {
+            let known = |other: &Refit| swap::same(&other.effects, &model.effects);
+            if !plain.iter().any(known) && !parents.iter().any(|parent| known(parent)) {
+                plain.push(model);
+            }
+        }
+    }
+    plain.sort_by(Refit::by_score);
+    let plain: Vec<&Refit> = plain.iter().take(BEAM).collect();
+    extend(workshop, &plain, done)
 }
 
 /// Models of a level whose fit is brought to its end before any more physics is blamed.

@@ -6,6 +6,7 @@
 //! something is missing and that nothing in the catalogue explains it.
 
 pub mod advice;
+mod built_up;
 mod carried;
 mod conclude;
 mod descent;
@@ -40,6 +41,7 @@ pub mod usable;
 pub mod whereabouts;
 mod workshop;
 
+pub use built_up::built_up;
 pub use effort::{Effort, USUAL_STEPS};
 pub use errors::Errors;
 pub use findings::{Findings, findings};

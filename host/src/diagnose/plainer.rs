@@ -16,16 +16,7 @@ const NEAR: f64 = 3.0;
 pub fn plainer(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
     let mut chosen = chosen;
     loop {
-        let tried: Vec<Refit> = chosen
-            .effects
-            .iter()
-            .flat_map(|&place| Kind::ALL.iter().map(move |&kind| (place, kind)))
-            .filter(|(_, kind)| !chosen.effects.contains(kind))
-            .flat_map(|(place, kind)| {
-                workshop.effort.take_stock();
-                instead(workshop, &chosen, place, kind)
-            })
-            .collect();
+        let tried = all(workshop, &chosen);
         let plainest = tried
             .iter()
             .filter(|plain| !removes(plain, &chosen))
@@ -48,6 +39,20 @@ pub fn plainer(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) -
             None => return chosen,
         }
     }
+}
+
+/// `chosen` with each plainer effect in the place of one that contains it.
+pub fn all(workshop: &Workshop<'_>, chosen: &Refit) -> Vec<Refit> {
+    chosen
+        .effects
+        .iter()
+        .flat_map(|&place| Kind::ALL.iter().map(move |&kind| (place, kind)))
+        .filter(|(_, kind)| !chosen.effects.contains(kind))
+        .flat_map(|(place, kind)| {
+            workshop.effort.take_stock();
+            instead(workshop, chosen, place, kind)
+        })
+        .collect()
 }
 
 /// `chosen` with `kind` in the place of an effect that contains it.

@@ -33,6 +33,27 @@ impl Workshop<'_> {
     /// # Errors
     /// Where the model cannot run, which it could before.
     pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
+        let polished = self.converged(refit)?;
+        if polished.tracked.is_none() || polished.judged().at_floor() {
+            return Ok(polished);
+        }
+        // Near enough to the truth even a chaotic free run has a floor to go down to.
+        let free = Refit {
+            tracked: None,
+            ..polished.clone()
+        };
+        let free = self.converged(&free)?;
+        Ok(if free.ran().at_floor() {
+            Refit {
+                tracked: polished.tracked,
+                ..free
+            }
+        } else {
+            polished
+        })
+    }
+
+    fn converged(&self, refit: &Refit) -> Result<Refit, Error> {
         let mut best = refit.clone();
         loop {
             let method = best.method;

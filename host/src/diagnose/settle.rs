@@ -1,6 +1,6 @@
 //! The model that a diagnosis ends with, fitted to its end: parameters with intervals.
 
-use super::{Diagnosis, Refit};
+use super::{Diagnosis, NOISE_COUNTS, Refit};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, Parameter};
 use crate::problem::{Data, FitProblem, Horizon, StartAngle};
@@ -14,8 +14,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const BUDGET: usize = 400;
 
 /// Fits the last model to its end and says what is known of its parameters. A model that is not judged by its
-/// free run over the readings as they are (in windows, with a short memory, with lost counts put back) stays
-/// where it is: the free run's cost has no smooth floor to go down to.
+/// free run over the readings as they are (in windows, with lost counts put back) stays where it is. So does one
+/// whose free run is chaotic, unless it is near enough to get down to the encoder's own error: elsewhere the free
+/// run's cost has no smooth floor.
 ///
 /// # Errors
 /// Where the model cannot run, which it could before.
@@ -44,15 +45,16 @@ pub fn settle(
         method: last.method,
         start: Some(start.clone()),
     };
-    let judged_otherwise =
-        last.tracked.is_some() || last.windowed.is_some() || last.losses.is_some();
+    let judged_otherwise = last.windowed.is_some() || last.losses.is_some();
+    let chaotic = last.tracked.is_some() && !last.ran().at_floor();
     let stays = judged_otherwise || diagnosis.ran_out || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {
             let solver = LevenbergMarquardt::default();
             fit::search(&problem, &solver, &options, stop, &mut |_, _| {})
         })
-        .filter(|found| found.cost.is_finite());
+        .filter(|found| found.cost.is_finite())
+        .filter(|found| !chaotic || (found.cost / data.len() as f64).sqrt() < NOISE_COUNTS);
     let found = found.unwrap_or_else(|| Found {
         cost: problem.cost(&start),
         x: start,

@@ -44,6 +44,9 @@ pub struct Sketch {
     pub x: Vec<f64>,
     /// RMS error that the led model leaves, counts; infinite where the effect cannot be led.
     pub led: f64,
+    /// What a count of that error is worth in a free run: what the model without the effect leaves there, over what it
+    /// leaves when it is led, at most one.
+    pub worth: f64,
     /// RMS error of a free run from there, counts.
     pub simulated: f64,
 }
@@ -63,6 +66,7 @@ impl Sketch {
             structure,
             x,
             led: f64::INFINITY,
+            worth: 1.0,
             simulated: f64::INFINITY,
         }
     }
@@ -86,7 +90,7 @@ impl Sketch {
 
     /// RMS error that a full fit is expected to reach, counts.
     pub fn foreseen(&self) -> f64 {
-        self.led.min(self.simulated)
+        (self.led * self.worth).min(self.simulated)
     }
 }
 
@@ -138,6 +142,17 @@ impl Workshop<'_> {
             }
         }
         best
+    }
+
+    /// What a count of a led error is worth in a free run of `parent` (see [`Sketch::worth`]). Near standstill the led
+    /// model errs by more than the free run, whatever is added to it.
+    pub fn led_worth(&self, parent: &Refit) -> f64 {
+        let alone = self.sketch_from(&parent.structure, parent.x.clone());
+        let led = alone.map_or(f64::INFINITY, |sketch| sketch.led);
+        if !led.is_finite() {
+            return 1.0;
+        }
+        (parent.ran().fitted / led.max(NOISE_COUNTS)).min(1.0)
     }
 
     /// A sketch once more, from where `there` stands and with what it has found.
@@ -212,6 +227,7 @@ impl Workshop<'_> {
                 structure: structure.clone(),
                 x: found.x,
                 led: f64::INFINITY,
+                worth: 1.0,
                 simulated: (found.squares / samples).sqrt(),
             });
         }

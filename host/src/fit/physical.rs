@@ -250,15 +250,26 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         };
     }
     let facts = known.facts();
+    let volts_per_torque = estimate(&|u| (u[0] - u[1]).exp());
+    // A product that is zero leans on nothing, and its error is still known in the units of its other factor only.
+    let factor = |k: usize| match NAMES[k].0 {
+        "inductance" => estimate(&|u| u[0].exp()),
+        "viscous" => volts_per_torque,
+        _ => Some(Estimate {
+            value: 1.0,
+            std: 0.0,
+        }),
+    };
     Reconciled {
         physical: std::array::from_fn(|k| match facts[k].1 {
             Some(fact) if fact.tolerance.is_none() => Some(Estimate {
                 value: fact.value,
                 std: 0.0,
             }),
-            _ => estimate(&move |u| physical(u)[k]),
+            Some(_) => estimate(&move |u| physical(u)[k]),
+            None => factor(k).and_then(|_| estimate(&move |u| physical(u)[k])),
         }),
-        volts_per_torque: estimate(&|u| (u[0] - u[1]).exp()),
+        volts_per_torque,
         strain,
     }
 }
@@ -325,5 +336,53 @@ impl Solved {
             }
         }
         solved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Fact;
+
+    /// What is zero seems to lean on nothing; in ohms and newton metres its error is unknown all the same.
+    #[test]
+    fn a_bound_in_physical_units_needs_the_fact_that_gives_the_unit() {
+        let machine = Machine {
+            kb: 0.05,
+            damping: 0.0,
+            inertia: 1e-3,
+            electrical: 0.0,
+        };
+        let relative = [1e-4, 1e-3, 1e-2, 1e-2];
+        let seen = seen_of(&machine);
+        let covariance = DMatrix::from_fn(4, 4, |i, k| {
+            let size = if i == 3 { 1.0 } else { seen[i].abs().max(1e-6) };
+            if i == k {
+                (relative[i] * size).powi(2)
+            } else {
+                0.0
+            }
+        });
+        let evidence = Evidence {
+            machine,
+            covariance,
+            resistance: None,
+        };
+        let fact = |value: f64| {
+            Some(Fact {
+                value,
+                tolerance: None,
+            })
+        };
+        for (resistance, kt) in [(false, false), (true, false), (false, true), (true, true)] {
+            let known = Known {
+                resistance_ohm: fact(2.0).filter(|_| resistance),
+                kt_n_m_a: fact(0.05).filter(|_| kt),
+                ..Known::default()
+            };
+            let found = reconcile(&evidence, &known).physical;
+            assert_eq!(found[5].is_some(), resistance && kt, "viscous");
+            assert_eq!(found[1].is_some(), resistance, "inductance");
+        }
     }
 }

@@ -92,6 +92,23 @@ pub struct FitProblem<'a> {
     pub start: Option<Vec<f64>>,
 }
 
+impl<'a> FitProblem<'a> {
+    /// The same problem, begun at a model, or as near to it as its unknowns may come.
+    pub fn begun_at(&self, candidate: &Candidate) -> FitProblem<'a> {
+        let x = self.structure.point(candidate);
+        FitProblem {
+            data: self.data,
+            structure: self.structure.clone(),
+            cost: self.cost,
+            weight: self.weight,
+            horizon: self.horizon.clone(),
+            start_angle: self.start_angle,
+            method: self.method,
+            start: Some(x.into_iter().map(|x| x.clamp(0.0, 1.0)).collect()),
+        }
+    }
+}
+
 impl FitProblem<'_> {
     /// Model minus measured angle in counts at every sample. Measured is the reading itself: a model
     /// that is right lies half a count above a floored one.

@@ -232,6 +232,21 @@ impl Structure {
         }
     }
 
+    /// Point of the unit cube that describes a candidate with the same effects; outside of it where that leaves the
+    /// ranges.
+    pub fn point(&self, candidate: &Candidate) -> Vec<f64> {
+        let effects: Vec<f64> = (candidate.effects.iter())
+            .flat_map(|(_, values)| values.to_vec())
+            .collect();
+        let mut values = self.values_of(&candidate.machine, &effects, candidate.start_speed);
+        if self.start_offset
+            && let Some(offset) = values.last_mut()
+        {
+            *offset = candidate.start_offset;
+        }
+        self.coordinates(&values)
+    }
+
     /// Values of the unknowns that describe `machine`; effects and nuisances as given.
     pub fn values_of(&self, machine: &Machine<f64>, effects: &[f64], start_speed: f64) -> Vec<f64> {
         let response = machine.response();

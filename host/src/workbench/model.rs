@@ -5,7 +5,7 @@ use crate::diagnose::HeldOut;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::kept::KeptModel;
-use crate::problem::{Candidate, Data};
+use crate::problem::Data;
 use crate::report::json::FitJson;
 use crate::solve::Found;
 use serde_json::Value;
@@ -89,7 +89,7 @@ impl Model {
             &candidate.machine,
             candidate.start_speed != 0.0,
         );
-        let x = point(&problem.structure, &candidate);
+        let x = problem.structure.point(&candidate);
         let found = Found {
             cost: crate::solve::Objective::cost(&problem, &x),
             x,
@@ -139,12 +139,4 @@ pub(super) fn options(loaded: &Loaded, effects: &[Kind], seed: u64) -> Options {
         seed,
         ..Options::default()
     }
-}
-
-/// A model as a point of the search.
-pub(super) fn point(structure: &crate::problem::Structure, candidate: &Candidate) -> Vec<f64> {
-    let values: Vec<f64> = (candidate.effects.iter())
-        .flat_map(|(_, values)| values.to_vec())
-        .collect();
-    structure.coordinates(&structure.values_of(&candidate.machine, &values, candidate.start_speed))
 }

@@ -1,13 +1,13 @@
 //! The pieces of work on the bench.
 
 use super::job::Teller;
-use super::model::{Model, Recordings, options, point};
+use super::model::{Model, Recordings, options};
 use super::state::Bench;
 use crate::compare::{self, Contest};
 use crate::diagnose::{self, Diagnosis, Effort, Suggestion};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
-use crate::problem::{Candidate, FitProblem};
+use crate::problem::FitProblem;
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
 use crate::report::json::CompareJson;
 use crate::solve::{self, Found, Objective};
@@ -85,7 +85,7 @@ fn fitted(
     if let Some(suggestion) = suggestion
         && found.cost > LOST * FLOOR_RMS_COUNTS.powi(2) * samples
     {
-        let start = started_at(&problem, &suggestion.refit.candidate);
+        let start = problem.begun_at(&suggestion.refit.candidate);
         options.budget = SECOND;
         let again = search(&start, &options);
         if again.cost < found.cost {
@@ -101,23 +101,6 @@ fn fitted(
         &options,
         Some(held_out),
     )
-}
-
-/// The same problem, begun at a model.
-fn started_at<'a>(problem: &FitProblem<'a>, candidate: &Candidate) -> FitProblem<'a> {
-    let mut structure = problem.structure.clone();
-    structure.start_speed = problem.structure.start_speed;
-    let x = point(&structure, candidate);
-    FitProblem {
-        data: problem.data,
-        structure,
-        cost: problem.cost,
-        weight: problem.weight,
-        horizon: problem.horizon.clone(),
-        start_angle: problem.start_angle,
-        method: problem.method,
-        start: Some(x),
-    }
 }
 
 /// Tells how many models were tried, each time it is called.

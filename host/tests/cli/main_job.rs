@@ -106,6 +106,24 @@ fn a_hidden_friction_spoils_the_linear_fit_and_the_named_effect_repairs_it() {
     );
 }
 
+/// Cogging makes free runs chaotic, and regression knows nothing of it.
+#[test]
+fn a_model_with_the_hidden_effect_is_never_worse_than_one_without() {
+    let desk = Desk::new();
+    for hidden in ["cogging", "stribeck", "windage", "compliance"] {
+        desk.done(&format!("simulate --hide {hidden} --out rec.csv"));
+        desk.done(&format!(
+            "simulate --hide {hidden} --seed 2 --out other.csv"
+        ));
+        let fit = desk.json(&format!("fit rec.csv --with {hidden} --validate other.csv"));
+        let ladder = fit["ladder"].as_array().expect("a list");
+        for error in ["rms_counts", "validate_rms_counts"] {
+            assert!(number(&fit, error) < 0.33, "{hidden}: {error} of {fit:#}");
+            assert!(number(&ladder[0], error) > number(&fit, error), "{hidden}");
+        }
+    }
+}
+
 #[test]
 fn a_fit_prints_a_table_and_writes_its_json_and_its_picture() {
     let desk = Desk::with_recording();
