@@ -1,6 +1,7 @@
 //! The same number of several candidates, in the lanes of vector registers.
 
 use super::token::Token;
+use super::turn::Square;
 use bytemuck::cast;
 use core::fmt::{self, Debug};
 use core::ops::{Add, Mul, Neg, Sub};
@@ -29,6 +30,39 @@ impl<T: Token, const M: usize> Lanes<T, M> {
     #[inline(always)]
     pub fn each(self) -> [f64; LANES] {
         cast(self.registers)
+    }
+
+    /// The number of each candidate, on the processor of `self`: in a loop, [`From`] looks for it each time.
+    #[inline(always)]
+    pub fn each_like(self, each: [f64; LANES]) -> Self {
+        Lanes {
+            registers: cast(each),
+            token: self.token,
+        }
+    }
+
+    /// Magnitudes: as [`abs`](Scalar::abs), but a zero never has a sign.
+    #[inline(always)]
+    pub fn magnitude(mut self) -> Self {
+        for register in &mut self.registers {
+            *register = self.token.abs_f64s(*register);
+        }
+        self
+    }
+
+    /// Numbers of each candidate from one number each of all of them, and the other way round.
+    #[inline(always)]
+    pub fn turned(rows: Square) -> [Self; LANES] {
+        let token = T::here();
+        let columns: [[T::f64s; M]; LANES] = cast(token.turned(rows));
+        let mut turned = [Lanes {
+            registers: columns[0],
+            token,
+        }; LANES];
+        for (turned, registers) in turned.iter_mut().zip(columns) {
+            turned.registers = registers;
+        }
+        turned
     }
 
     /// Each rounded down.

@@ -1,10 +1,11 @@
 //! The proof that the processor at hand has the instructions that lanes are computed with.
 
+use super::turn::Turn;
 use pulp::Simd;
 use std::sync::OnceLock;
 
 /// A processor's vector instructions, where it has them.
-pub trait Token: Simd {
+pub trait Token: Simd + Turn {
     /// The proof.
     ///
     /// # Panics

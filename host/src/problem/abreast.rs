@@ -127,25 +127,25 @@ impl Run<'_> {
             .map(|places| std::iter::once(&own).chain(places.iter().map(|&k| &ready[k])))
             .map(Iterator::collect)
             .collect();
-        let mut errors = vec![[0.0; SOME]; 1 + others.len()];
-        let mut sink = |range: Range<usize>, sights: &[Sights]| {
-            for (places, sights) in places.iter().zip(sights) {
-                for (lane, &k) in places.iter().enumerate() {
-                    for (change, sights) in errors[1 + k].iter_mut().zip(sights) {
-                        *change = sights[1 + lane] - sights[0];
-                    }
-                }
+        // Where each one's changes are: its group and its lane there.
+        let mut seats = vec![(0, 0); others.len()];
+        for (group, places) in places.iter().enumerate() {
+            for (lane, &k) in places.iter().enumerate() {
+                seats[k] = (group, 1 + lane);
             }
-            let readings = &self.data.counts[range.clone()];
-            for ((error, sights), reading) in errors[0].iter_mut().zip(&sights[0]).zip(readings) {
-                *error = sights[0] - reading;
-            }
-            let some: Vec<&[f64]> = errors.iter().map(|e| &e[..range.len()]).collect();
-            each(some[0], &some[1..]);
+        }
+        let mut sink = |range: Range<usize>, rows: &[Rows]| {
+            let samples = range.len();
+            let changes: Vec<&[f64]> = seats
+                .iter()
+                .map(|&(group, lane)| &rows[group][lane][..samples])
+                .collect();
+            each(&rows[0][0][..samples], &changes);
         };
         let run = Together {
             run: self,
             groups: &groups,
+            less: Less::OfFirst,
             sink: &mut sink,
         };
         work(run).flatten().is_some()
@@ -163,17 +163,15 @@ impl Run<'_> {
         }
         let data = self.data;
         let mut errors = vec![vec![0.0; data.len()]; able.len()];
-        let mut sink = |range: Range<usize>, sights: &[Sights]| {
-            hand_over(
-                &sights[0],
-                &data.counts[range.clone()],
-                range.start,
-                &mut errors,
-            );
+        let mut sink = |range: Range<usize>, rows: &[Rows]| {
+            for (errors, row) in errors.iter_mut().zip(&rows[0]) {
+                errors[range.clone()].copy_from_slice(&row[..range.len()]);
+            }
         };
         let run = Together {
             run: self,
             groups: &[able.to_vec()],
+            less: Less::Reading,
             sink: &mut sink,
         };
         work(run).flatten()?;
@@ -198,17 +196,49 @@ fn groups(candidates: &[Candidate], most: usize) -> Vec<Vec<usize>> {
 }
 
 /// Samples that are handed over at a time: one by one, eight places would be written to by turns.
-const SOME: usize = 64;
+const SOME: usize = 128;
 
 /// What the encoders of the candidates in the lanes see at some samples, counts.
 type Sights = [[f64; LANES]; SOME];
 
-/// Writes what the lanes saw, less the readings, to each candidate's errors from a place on.
-fn hand_over(sights: &Sights, readings: &[f64], at: usize, errors: &mut [Vec<f64>]) {
-    for (lane, errors) in errors.iter_mut().enumerate() {
-        let errors = &mut errors[at..at + readings.len()];
-        for ((error, sights), reading) in errors.iter_mut().zip(sights).zip(readings) {
-            *error = sights[lane] - reading;
+/// A row of differences for each candidate in the lanes, counts.
+type Rows = [[f64; SOME]; LANES];
+
+/// What is taken from what a lane sees.
+#[derive(Clone, Copy, PartialEq)]
+enum Less {
+    /// The reading.
+    Reading,
+    /// The reading in the first lane; what the first lane sees in the others.
+    OfFirst,
+}
+
+impl Less {
+    /// Turns what the lanes saw at some samples into a row for each of them.
+    #[inline(always)]
+    fn rows<T: Token, const M: usize>(self, sights: &Sights, readings: &[f64], rows: &mut Rows) {
+        let mut read = [0.0; SOME];
+        read[..readings.len()].copy_from_slice(readings);
+        // What is left over of the last square is of no sample.
+        for square in 0..readings.len().div_ceil(LANES) {
+            let at = square * LANES;
+            let mut some = [[0.0; LANES]; LANES];
+            some.copy_from_slice(&sights[at..at + LANES]);
+            let mut seen = Lanes::<T, M>::turned(some);
+            let mut reading = [0.0; LANES];
+            reading.copy_from_slice(&read[at..at + LANES]);
+            let reading = Lanes::from(reading);
+            let less = match self {
+                Less::Reading => reading,
+                Less::OfFirst => seen[0],
+            };
+            seen[0] = seen[0] - reading;
+            for seen in &mut seen[1..] {
+                *seen = *seen - less;
+            }
+            for (row, seen) in rows.iter_mut().zip(seen) {
+                row[at..at + LANES].copy_from_slice(&seen.each());
+            }
         }
     }
 }
@@ -217,8 +247,9 @@ fn hand_over(sights: &Sights, readings: &[f64], at: usize, errors: &mut [Vec<f64
 struct Together<'t, 'a> {
     run: &'t Run<'a>,
     groups: &'t [Vec<&'t (Simulation<'a>, Vec<Leg>)>],
-    /// Takes what the lanes of each group see at a range of samples. All of the model is compiled in around it: once.
-    sink: &'t mut dyn FnMut(Range<usize>, &[Sights]),
+    less: Less,
+    /// Takes the rows of each group's lanes at a range of samples. All of the model is compiled in around it: once.
+    sink: &'t mut dyn FnMut(Range<usize>, &[Rows]),
 }
 
 /// One of something for each lane of a group.
@@ -242,7 +273,8 @@ impl Work for Together<'_, '_> {
                 .collect()
         };
         let models: Vec<_> = self.groups.iter().map(models).collect::<Option<_>>()?;
-        let mut sights = vec![[[0.0; LANES]; SOME]; self.groups.len()];
+        let mut sights: Sights = [[0.0; LANES]; SOME];
+        let mut rows: Vec<Rows> = vec![[[0.0; SOME]; LANES]; self.groups.len()];
         for (index, leg) in self.groups[0][0].1.iter().enumerate() {
             let begin = |group: &Vec<_>| {
                 let states = each(group, |(simulation, legs): &(Simulation<'_>, Vec<Leg>)| {
@@ -253,7 +285,8 @@ impl Work for Together<'_, '_> {
             let mut states: Vec<_> = self.groups.iter().map(begin).collect::<Option<_>>()?;
             for from in leg.range.clone().step_by(SOME) {
                 let range = from..(from + SOME).min(leg.range.end);
-                for ((state, models), sights) in states.iter_mut().zip(&models).zip(&mut sights) {
+                let readings = &data.counts[range.clone()];
+                for ((state, models), rows) in states.iter_mut().zip(&models).zip(&mut rows) {
                     let course = Course { data, models };
                     *state = course.run(
                         self.run.manner,
@@ -262,8 +295,9 @@ impl Work for Together<'_, '_> {
                         #[inline(always)]
                         |k, sight| sights[k - from] = sight.each(),
                     );
+                    self.less.rows::<T, M>(&sights, readings, rows);
                 }
-                (self.sink)(range, &sights);
+                (self.sink)(range, &rows);
             }
         }
         Some(())

@@ -18,13 +18,15 @@ use shared::model::Increments;
 
 /// Samples from a transient to the one that follows from it.
 pub const STRIDE: usize = 32;
+/// Strides that are looked ahead.
+pub const STRIDES: usize = 16;
 /// Doublings from a step to the longest map, of which shorter paths are put together.
 const DOUBLINGS: usize = 12;
 /// Which of them is a stride.
 const OF_STRIDE: usize = STRIDE.ilog2() as usize;
 /// Error of an angle that is allowed, counts. A motor whose modes are so slow that rounding might add up to more
 /// is left to plain steps.
-const ANGLE_ERROR_COUNTS: f64 = 1e-7;
+pub(super) const ANGLE_ERROR_COUNTS: f64 = 1e-7;
 
 type Pair = [f64; 2];
 type Matrix = [Pair; 2];
@@ -167,6 +169,7 @@ impl Held {
     }
 
     /// Bound of the transients of a stride that begins in a state, counts.
+    #[inline(always)]
     pub fn largest(&self, off: Pair) -> f64 {
         (self.most[0] * off[0]).abs() + (self.most[1] * off[1]).abs()
     }
@@ -194,12 +197,45 @@ impl Held {
         for _ in 0..samples / longest {
             off = plus(off, times(last, off));
         }
-        for (k, map) in self.maps[..DOUBLINGS - 1].iter().enumerate() {
-            if samples >> k & 1 == 1 {
-                off = plus(off, times(map, off));
-            }
+        let mut rest = samples % longest;
+        while rest > 0 {
+            off = plus(off, times(&self.maps[rest.trailing_zeros() as usize], off));
+            rest &= rest - 1;
         }
         off
+    }
+
+    /// Of the state less where it tends to, what its current and its speed have at the start of each of so many strides, by
+    /// current and by speed at the start of the first: `[[current by current, by speed], [speed by current, by speed]]`.
+    pub fn at_strides(&self) -> [[[f64; STRIDES]; 2]; 2] {
+        let mut at = [[[0.0; STRIDES]; 2]; 2];
+        (at[0][0][0], at[1][1][0]) = (1.0, 1.0);
+        for (doubling, map) in self.maps[OF_STRIDE..].iter().enumerate() {
+            let known = 1 << doubling;
+            if known >= STRIDES {
+                break;
+            }
+            for [by_current, by_speed] in &mut at {
+                for k in 0..known {
+                    let row = [by_current[k], by_speed[k]];
+                    [by_current[known + k], by_speed[known + k]] = plus(row, across(row, map));
+                }
+            }
+        }
+        at
+    }
+
+    /// Largest magnitudes in [`ahead`](Self::ahead).
+    #[inline(always)]
+    pub fn most(&self) -> [f64; 2] {
+        self.most
+    }
+
+    /// Transient after each of the samples of a stride by the state, less where it tends to, at its start: counts per unit of
+    /// current and of speed.
+    #[inline(always)]
+    pub fn ahead(&self) -> [&[f64; STRIDE]; 2] {
+        self.ahead.each_ref()
     }
 
     /// Where a path ends after so many samples, `off` being its state there.
@@ -222,6 +258,11 @@ impl Held {
     /// Transient at each sample of the stride that begins in a state.
     #[inline(always)]
     pub fn transients(&self, off: Pair) -> [f64; STRIDE] {
-        core::array::from_fn(|k| self.ahead[0][k] * off[0] + self.ahead[1][k] * off[1])
+        // Not `from_fn`, which was not inlined.
+        let mut transients = [0.0; STRIDE];
+        for (k, transient) in transients.iter_mut().enumerate() {
+            *transient = self.ahead[0][k] * off[0] + self.ahead[1][k] * off[1];
+        }
+        transients
     }
 }

@@ -8,7 +8,7 @@ use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::scalar::Scalar;
 
 /// A transient below this many counts is none.
-const SETTLED_COUNTS: f64 = 1e-10;
+pub(super) const SETTLED_COUNTS: f64 = 1e-10;
 /// Lanes to a stride.
 const ROWS: usize = STRIDE / LANES;
 
@@ -34,7 +34,7 @@ impl Summand for Plain {
     const SUMS: usize = 1;
     #[inline(always)]
     fn add<T: Token, const M: usize>(error: Lanes<T, M>, sums: &mut [Lanes<T, M>; 2]) {
-        sums[0] = sums[0] + error.abs();
+        sums[0] = sums[0] + error.magnitude();
     }
 }
 
@@ -42,7 +42,7 @@ impl Summand for Floored {
     const SUMS: usize = 1;
     #[inline(always)]
     fn add<T: Token, const M: usize>(error: Lanes<T, M>, sums: &mut [Lanes<T, M>; 2]) {
-        sums[0] = sums[0] + error.floor().abs();
+        sums[0] = sums[0] + error.floor().magnitude();
     }
 }
 
@@ -111,11 +111,19 @@ fn total<T: Token, const M: usize>(sums: &[[Lanes<T, M>; 2]; ROWS], which: usize
     all.each().iter().sum()
 }
 
-/// A stride in lanes.
+/// A stride in lanes like others.
 #[inline(always)]
-fn rows<T: Token, const M: usize>(stride: &[f64; STRIDE]) -> [Lanes<T, M>; ROWS] {
+fn rows<T: Token, const M: usize>(
+    like: Lanes<T, M>,
+    stride: &[f64; STRIDE],
+) -> [Lanes<T, M>; ROWS] {
     let (rows, _) = stride.as_chunks::<LANES>();
-    core::array::from_fn(|row| rows[row].into())
+    [
+        like.each_like(rows[0]),
+        like.each_like(rows[1]),
+        like.each_like(rows[2]),
+        like.each_like(rows[3]),
+    ]
 }
 
 impl Sum<'_> {
@@ -129,14 +137,17 @@ impl Sum<'_> {
     ) {
         let Path { level, slope, .. } = piece.path;
         let begin = level + slope * piece.after as f64;
-        let line: [f64; STRIDE] = core::array::from_fn(|k| begin + slope * k as f64);
-        let mut line = rows::<T, M>(&line);
+        let mut line = [0.0; STRIDE];
+        for (k, line) in line.iter_mut().enumerate() {
+            *line = begin + slope * k as f64;
+        }
         let rise = Lanes::<T, M>::from_f64(slope * STRIDE as f64);
-        let mut now = rows::<T, M>(&self.held.transients(piece.off));
+        let mut line = rows(rise, &line);
+        let mut now = rows(rise, &self.held.transients(piece.off));
         let (strides, rest) = readings.as_chunks::<STRIDE>();
         if self.held.largest(piece.off) < SETTLED_COUNTS {
             for stride in strides {
-                let readings = rows::<T, M>(stride);
+                let readings = rows(rise, stride);
                 for row in 0..ROWS {
                     C::add(line[row] - readings[row], &mut sums[row]);
                     line[row] = line[row] + rise;
@@ -144,11 +155,11 @@ impl Sum<'_> {
             }
         } else {
             let next = self.held.on(piece.off, STRIDE);
-            let mut next = rows::<T, M>(&self.held.transients(next));
-            let trace = Lanes::<T, M>::from_f64(self.held.trace);
-            let determinant = Lanes::<T, M>::from_f64(self.held.determinant);
+            let mut next = rows(rise, &self.held.transients(next));
+            let trace = rise.like(self.held.trace);
+            let determinant = rise.like(self.held.determinant);
             for stride in strides {
-                let readings = rows::<T, M>(stride);
+                let readings = rows(rise, stride);
                 for row in 0..ROWS {
                     let error = (line[row] - readings[row]) + now[row];
                     C::add(error, &mut sums[row]);
