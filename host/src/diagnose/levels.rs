@@ -44,10 +44,18 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         };
         let mut models = extend(workshop, &parents, done);
         workshop.effort.take_stock();
-        if !levels.is_empty() && models.first().is_none_or(|model| !model.ran().at_floor()) {
+        let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
+        if let Some(level) = levels.last()
+            && !explained(&models)
+        {
             models.extend(from_plainer(workshop, &parents, done));
             sort(workshop, &mut models);
             workshop.effort.take_stock();
+            if !explained(&models) {
+                models.extend(from_beyond(workshop, &level.models, &parents, done));
+                sort(workshop, &mut models);
+                workshop.effort.take_stock();
+            }
         }
         duel::duel(workshop, &mut models);
         workshop.effort.take_stock();
@@ -89,6 +97,24 @@ fn from_plainer(
     plain.sort_by(Refit::by_score);
     let plain: Vec<&Refit> = plain.iter().take(BEAM).collect();
     extend(workshop, &plain, done)
+}
+
+/// One effect may stand in for two at once, and then leaves each of them far behind. So the next models of a level are
+/// built on as well.
+fn from_beyond(
+    workshop: &Workshop<'_>,
+    level: &[Refit],
+    parents: &[&Refit],
+    done: &(dyn Fn() + Sync),
+) -> Vec<Refit> {
+    let is_parent = |model: &Refit| {
+        parents
+            .iter()
+            .any(|p| swap::same(&p.effects, &model.effects))
+    };
+    let beyond = level.iter().filter(|model| !is_parent(model));
+    let beyond: Vec<&Refit> = beyond.take(BEAM).collect();
+    extend(workshop, &beyond, done)
 }
 
 /// Models of a level whose fit is brought to its end before any more physics is blamed.
