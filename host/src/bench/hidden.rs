@@ -95,7 +95,10 @@ impl Hidden {
     pub fn described(&self) -> String {
         let parameters: Vec<String> = self
             .parameters()
-            .map(|(name, value, unit)| format!("{name} = {value:.6} {unit}").trim_end().to_owned())
+            .map(|(name, value, unit)| match unit {
+                "1" => format!("{name} = {value:.6}"),
+                unit => format!("{name} = {value:.6} {unit}"),
+            })
             .collect();
         format!("{}: {}", self.name(), parameters.join(", "))
     }

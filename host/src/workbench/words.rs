@@ -7,8 +7,8 @@ const IN_PLACE_OF: [(&str, &str); 21] = [
         " beside the column (for metres, drop a motor.toml with the file)",
     ),
     (
-        "counts_per_rev is not known; add `counts_per_rev = 2048` (your encoder's lines times 4) at the top of a \
-         `motor.toml` beside the recording, or give --counts-per-rev",
+        "counts_per_rev is not known; add `counts_per_rev = 2048` (your encoder's lines times 4) at the top of what is \
+         said of the motor, or give --counts-per-rev",
         "the encoder's counts a revolution are not known; fill them in (its lines times 4)",
     ),
     (

@@ -99,8 +99,10 @@
     // A fit tells its error as it falls, until something else is looked at.
     if (job !== "fit" || shownChosen !== bench.chosen) at("error-now").textContent = chosen ? counts(chosen.rms_counts) : "-";
     shownChosen = bench.chosen;
-    at("notes").replaceChildren(...(chosen ? chosen.notes : []).map((note) => element("li", {}, note)));
-    at("notes-panel").hidden = !chosen || !chosen.notes.length;
+    const notes = chosen ? chosen.notes : [];
+    at("notes").replaceChildren(...notes.map((note) => element("li", {}, note)));
+    at("notes-count").textContent = notes.length === 1 ? "One thing to know of this fit" : `${notes.length} things to know of this fit`;
+    at("notes-panel").hidden = !notes.length;
     at("error-more").textContent = chosen ? more(chosen, beside) : "Nothing is fitted yet.";
     for (const id of ["diagnose", "suggest", "add", "refit", "race", "demo", "load"]) at(id).disabled = Boolean(job);
     at("suggest").disabled = Boolean(job) || !chosen;
@@ -427,7 +429,11 @@
     return chosen;
   }
 
+  let checks = 0;
+
   async function checkColumns() {
+    checks += 1;
+    const own = checks;
     let fault = "";
     try {
       await send({ mapping: mapping(), check: true });
@@ -435,6 +441,8 @@
       // Fields have no lines.
       fault = error.message.replace(/^motor\.toml:\d+:\d+: /, "");
     }
+    // An answer to what is no longer chosen says nothing.
+    if (own !== checks) return;
     at("column-fault").hidden = !fault;
     at("column-fault").textContent = fault;
     at("load").disabled = Boolean(fault) || Boolean(bench && bench.job);
