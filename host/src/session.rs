@@ -9,6 +9,10 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// How often a spinner turns.
+const TICK: Duration = Duration::from_millis(100);
 
 /// One run of the program.
 pub struct Session {
@@ -93,6 +97,20 @@ impl Session {
             ProgressStyle::with_template("{prefix} {bar:30} {pos}/{len}  {msg}  {eta} left")
                 .unwrap_or_else(|_| ProgressStyle::default_bar());
         ProgressBar::new(length).with_style(style).with_prefix(what)
+    }
+
+    /// A count of `things` while `what` is done, where nobody knows how many there will be; invisible unless stderr is a
+    /// terminal.
+    pub fn count(&self, what: &'static str, things: &str) -> ProgressBar {
+        if self.quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        }
+        let template = format!("{{prefix}} {{spinner}} {{pos}} {things}, {{elapsed}}");
+        let style = ProgressStyle::with_template(&template)
+            .unwrap_or_else(|_| ProgressStyle::default_spinner());
+        let bar = ProgressBar::no_length().with_style(style).with_prefix(what);
+        bar.enable_steady_tick(TICK);
+        bar
     }
 
     /// A remark on stderr, unless quiet.

@@ -89,6 +89,47 @@ export async function settled(page, models) {
   }
 }
 
+// Every drawing stands in a place of its own height, fills it, and covers no other.
+export async function drawnApart(page) {
+  const wrong = await page.evaluate(() => {
+    const found = [];
+    const places = Array.from(document.querySelectorAll(".plot")).filter((div) => div.querySelector(".main-svg") && div.clientWidth > 0);
+    const boxes = places.map((div) => div.getBoundingClientRect());
+    places.forEach((div, k) => {
+      const [box, svg] = [boxes[k], div.querySelector(".main-svg").getBoundingClientRect()];
+      if (box.height < 150) found.push(`${div.id} is ${box.height} high`);
+      if (Math.abs(svg.height - box.height) > 2 || Math.abs(svg.width - box.width) > 2) {
+        found.push(`${div.id}: ${svg.width} x ${svg.height} in ${box.width} x ${box.height}`);
+      }
+      if (box.right > document.documentElement.clientWidth + 1) found.push(`${div.id} ends at ${box.right}`);
+      boxes.slice(k + 1).forEach((other, j) => {
+        const apart = box.bottom <= other.top + 1 || other.bottom <= box.top + 1 || box.right <= other.left + 1 || other.right <= box.left + 1;
+        if (!apart) found.push(`${div.id} covers ${places[k + 1 + j].id}`);
+      });
+      // Titles of axes stand beside each other, and the legend above what is drawn.
+      const titles = Array.from(div.querySelectorAll(".xtitle, .x2title"), (text) => text.getBoundingClientRect());
+      titles.forEach((a, m) => titles.slice(m + 1).forEach((b) => {
+        if (a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) found.push(`${div.id}: titles of axes cover each other`);
+      }));
+      const legend = div.querySelector(".legend .bg")?.getBoundingClientRect();
+      const frame = div.querySelector(".nsewdrag")?.getBoundingClientRect();
+      if (legend && frame && legend.height > 0 && legend.bottom > frame.top + 2) found.push(`${div.id}: the legend lies on the drawing`);
+    });
+    return found;
+  });
+  if (wrong.length) throw new Error(wrong.join("\n"));
+}
+
+// Through light and dark, and windows of several widths.
+export async function turnAndResize(page) {
+  for (const width of [1280, 1100, 390, 1280]) {
+    await page.click("[data-switch-theme]");
+    await page.setViewportSize({ width, height: 900 });
+    await page.waitForTimeout(700);
+    await drawnApart(page);
+  }
+}
+
 // Files dropped on the page.
 export async function drop(page, files) {
   const data = await page.evaluateHandle((files) => {

@@ -1,7 +1,7 @@
 // The report in a real browser, from a double click.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Desk, browser, open, outside } from "./bench.mjs";
+import { Desk, browser, open, outside, turnAndResize } from "./bench.mjs";
 
 let chrome;
 let desk;
@@ -31,6 +31,14 @@ test("it draws everything, offline, and nothing is asked for", async () => {
   await page.context().setOffline(true);
   assert.ok((await drawn(page)) >= 8);
   assert.deepEqual(outside(page, url), []);
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
+
+test("light, dark and other widths leave every drawing in its place", async () => {
+  const page = await open(chrome, `file://${desk.path("demo.html")}`);
+  await drawn(page);
+  await turnAndResize(page);
   assert.deepEqual(page.faults, []);
   await page.context().close();
 });

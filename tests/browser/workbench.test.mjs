@@ -1,8 +1,8 @@
 // The workbench in a real browser.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { Desk, browser, drop, error, open, outside, settled } from "./bench.mjs";
+import { Desk, browser, drop, error, open, outside, settled, turnAndResize } from "./bench.mjs";
 
 let chrome;
 let desk;
@@ -79,22 +79,46 @@ test("a bad file shows the reader's message, a foreign one asks which column is 
   await page.fill("#map-counts_per_rev", "2000");
   await page.locator("#map-counts_per_rev").blur();
   await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("garbage.csv:3:"));
+  for (const counts of ["-2000", "0"]) {
+    await page.fill("#map-counts_per_rev", counts);
+    await page.locator("#map-counts_per_rev").blur();
+    await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("greater than zero"));
+  }
   assert.ok(await page.isDisabled("#load"));
   await page.click("#columns button[value=cancel]");
   // The same recording under names of somebody else.
   const foreign = readFileSync(desk.path("rec.csv"), "utf8").replace("t_s,voltage_v,angle_counts", "when,u,enc");
   await drop(page, [["foreign.csv", foreign]]);
   await page.waitForSelector("#columns[open]");
+  const columns = (words) => page.waitForFunction((words) => document.getElementById("column-fault").textContent.includes(words), words);
+  await page.fill("#map-counts_per_rev", "");
+  await page.selectOption("#map-time", "");
+  await columns("choose which column is which");
   await page.selectOption("#map-time", "when");
+  await columns("fill them in");
   await page.fill("#map-counts_per_rev", "2000");
   await page.locator("#map-counts_per_rev").blur();
   await page.waitForFunction(() => !document.getElementById("load").disabled);
   await page.click("#load");
   await settled(page, 1);
   assert.match(await page.textContent("#about"), /foreign\.csv: 20000 samples/);
+  const says = (words) => page.waitForFunction((words) => document.getElementById("fault").textContent.includes(words), words);
   // A session that is none.
   await drop(page, [["other.json", "{\"schema\": \"x\"}"]]);
-  await page.waitForFunction(() => document.getElementById("fault").textContent.includes("schema is `x`"));
+  await says("schema is `x`");
+  await drop(page, [["newer.json", "{\"schema\": \"servoid.session/9\", \"fitted\": 1}"]]);
+  await says("servoid.session/9");
+  await drop(page, [["list.json", "[1, 2]"]]);
+  await says("a session is what the workbench saved");
+  // The same recording once more tests nothing.
+  await drop(page, [["foreign.csv", foreign]]);
+  await page.waitForSelector("#columns[open]");
+  await page.selectOption("#map-time", "when");
+  await page.fill("#map-counts_per_rev", "2000");
+  await page.selectOption("#role", "held_out");
+  await page.waitForFunction(() => !document.getElementById("load").disabled);
+  await page.click("#load");
+  await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("no test"));
   await page.context().close();
   await bench.end();
 });
@@ -184,7 +208,131 @@ test("searches race, and what was found is taken away", async () => {
   // What needs more than the recording tells says so.
   await page.selectOption("#format", "urdf");
   await page.click("#take");
-  await page.waitForFunction(() => document.getElementById("fault").textContent.includes("--known"));
+  await page.waitForFunction(() => document.getElementById("fault").textContent.includes("resistance_ohm"));
+  assert.doesNotMatch(await page.textContent("#fault"), /--/);
+  // What goes right afterwards takes the message away.
+  await page.selectOption("#format", "toml");
+  await Promise.all([page.waitForEvent("download"), page.click("#take")]);
+  await page.waitForFunction(() => document.getElementById("fault").hidden);
+  await page.context().close();
+  await bench.end();
+});
+
+test("light, dark and other widths leave every drawing in its place", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await page.click("#suggest");
+  await page.click("#suggestions button:text('Add coulomb')");
+  await settled(page, 2);
+  await turnAndResize(page);
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+  await bench.end();
+});
+
+test("a model of chaotic runs is opened again as it was, and its notes and its method are told", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv --session chaos.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await page.selectOption("#algorithm", "pso");
+  await page.click("#refit");
+  await settled(page, 2);
+  const names = await page.evaluate(() => document.getElementById("bench-timeline").data.map((line) => line.name));
+  assert.ok(names.includes("linear motor") && names.includes("linear motor (by pso)"), String(names));
+  await page.selectOption("#algorithm", "lm");
+  await page.selectOption("#effect", "cogging");
+  await page.click("#add");
+  await settled(page, 3);
+  const table = (page) => page.innerText("#models");
+  const [shown, models] = [await error(page), await table(page)];
+  assert.match(models, /linear motor \(by pso\)/);
+  assert.ok((await page.locator("#notes li").count()) > 0);
+  assert.doesNotMatch(await page.textContent("#notes"), / --/);
+  await page.context().close();
+  await bench.end();
+  const again = await desk.bench("--session chaos.json");
+  const second = await open(chrome, again.url);
+  await settled(second, 3);
+  assert.equal(await error(second), shown);
+  assert.equal(await table(second), models);
+  await second.context().close();
+  await again.end();
+});
+
+test("what is wrong in a session that was edited is left out with a word", async () => {
+  const bench = await desk.bench("rec.csv --session edited.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await page.context().close();
+  await bench.end();
+  const session = JSON.parse(readFileSync(desk.path("edited.json"), "utf8"));
+  session.models.push({ ...session.models[0], algorithm: "magic" });
+  writeFileSync(desk.path("edited.json"), JSON.stringify({
+    ...session, chosen: 99, race: { schema: "x" }, diagnosis: session.models[0],
+  }));
+  const again = await desk.bench("edited.json");
+  const second = await open(chrome, again.url);
+  await settled(second, 1);
+  const said = await second.textContent("#fault");
+  for (const words of ["chosen: there is no model 99", "no search method `magic`", "race: schema is `x`", "diagnosis: schema"]) {
+    assert.ok(said.includes(words), `${words}: ${said}`);
+  }
+  assert.ok((await error(second)) > 0, "the model that is left is looked at");
+  assert.equal(await second.textContent("#verdict"), "");
+  await second.context().close();
+  await again.end();
+});
+
+test("while work goes on the bench stays true, and what is stopped says so", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  const first = await error(page);
+  await page.selectOption("#effect", "coulomb");
+  await page.click("#add");
+  await settled(page, 2);
+  const says = (words) => page.waitForFunction((words) => document.getElementById("fault").textContent.includes(words), words,
+    { timeout: 60_000 });
+  const stopped = () => page.waitForFunction(() => document.getElementById("stop").hidden, null, { timeout: 60_000 });
+  await page.click("text=Let searches race");
+  for (const [field, value, words] of [["#budget", "1.5", "1.5 does not do"], ["#seeds", "-5", "-5 does not do"]]) {
+    const before = await page.inputValue(field);
+    await page.fill(field, value);
+    await page.click("#race");
+    await says(words);
+    await page.fill(field, before);
+  }
+  await page.fill("#budget", "20000");
+  await page.fill("#seeds", "100");
+  await page.click("#race");
+  await page.waitForSelector("#stop:visible");
+  await drop(page, [["other.csv", readFileSync(desk.path("other.csv"), "utf8")]]);
+  await says("busy (race)");
+  // The model that is looked at goes, with its number and its line.
+  await page.click("button[aria-label='remove motor with coulomb']");
+  await page.waitForFunction((first) => Number(document.getElementById("error-now").textContent) === first, first);
+  await page.waitForFunction(() => !document.getElementById("bench-timeline").data.some((line) => line.name.includes("coulomb")));
+  assert.ok(await page.isVisible("#stop"));
+  await page.click("#stop");
+  await stopped();
+  await says("race: stopped");
+  // As fast as no hand is: it may be done in a second.
+  await page.evaluate(() => new Promise((done) => {
+    const [diagnose, stop] = ["diagnose", "stop"].map((id) => document.getElementById(id));
+    diagnose.click();
+    const looks = setInterval(() => {
+      if (stop.hidden) return;
+      clearInterval(looks);
+      stop.click();
+      done();
+    }, 2);
+  }));
+  await stopped();
+  await says("diagnose: stopped");
+  assert.doesNotMatch(await page.textContent("#fault"), /lm/);
+  // A refusal is no fault of the page.
+  assert.deepEqual(page.faults.filter((text) => !text.includes("status of 422")), []);
   await page.context().close();
   await bench.end();
 });

@@ -91,6 +91,18 @@ impl Hidden {
             .map(|(param, value)| (param.name, value, param.unit))
     }
 
+    /// In words, with units: `coulomb: torque = 0.010000 N*m`.
+    pub fn described(&self) -> String {
+        let parameters: Vec<String> = self
+            .parameters()
+            .map(|(name, value, unit)| match unit {
+                "1" => format!("{name} = {value:.6}"),
+                unit => format!("{name} = {value:.6} {unit}"),
+            })
+            .collect();
+        format!("{}: {}", self.name(), parameters.join(", "))
+    }
+
     /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
     pub(super) fn is_electrical(&self) -> bool {
         self.kind.electrical

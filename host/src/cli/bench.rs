@@ -12,7 +12,7 @@ pub struct BenchArgs {
     /// Another recording of the same motor, never fitted; else the last quarter of the first is held out
     #[arg(long, value_name = "FILE")]
     pub validate: Option<PathBuf>,
-    /// Keep the bench in this file, and go on with what is in it
+    /// Keep the bench in this file, and go on with what is in it; beside a recording, a new file
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
     /// Do not open a browser

@@ -3,8 +3,9 @@
 use super::motor;
 use crate::cli::BenchArgs;
 use crate::error::Error;
+use crate::output::is_same_file;
 use crate::session::Session;
-use crate::workbench::{Loaded, Opening, SCHEMA, Server, SessionFile, Source};
+use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, Source};
 use serde::Serialize;
 use std::fs;
 use std::path::Path;
@@ -16,20 +17,8 @@ struct BenchJson {
 }
 
 pub(super) fn run(session: &Session, args: &BenchArgs) -> Result<(), Error> {
-    let outputs: Vec<_> = (args.session.as_deref().into_iter())
-        .map(|path| ("--session", path))
-        .collect();
-    let inputs: Vec<_> = (args.recording.as_deref().into_iter())
-        .map(|path| ("the recording", path))
-        .chain(
-            args.validate
-                .as_deref()
-                .map(|path| ("the --validate recording", path)),
-        )
-        .filter(|(_, path)| !is_session(path))
-        .collect();
-    session.check_outputs(&outputs, &inputs)?;
-    let opening = opening(args)?;
+    check_files(session, args)?;
+    let opening = opening(session, args)?;
     let server = Server::open(opening, args.port, args.session.clone())?;
     let url = server.url();
     let text = format!("workbench: {url}\nCtrl-C ends it\n");
@@ -48,7 +37,44 @@ pub(super) fn run(session: &Session, args: &BenchArgs) -> Result<(), Error> {
     server.serve(session.stop())
 }
 
-fn opening(args: &BenchArgs) -> Result<Opening, Error> {
+/// Checks before anything is read that the bench replaces no file but the session that it goes on with.
+fn check_files(session: &Session, args: &BenchArgs) -> Result<(), Error> {
+    if let (None, Some(other)) = (&args.recording, &args.validate) {
+        return Err(Error::Usage(format!(
+            "--validate {}: there is no recording beside it that could be fitted; name that one first: servoid bench REC \
+             --validate {0}",
+            other.display()
+        )));
+    }
+    let outputs: Vec<_> = (args.session.as_deref().into_iter())
+        .map(|path| ("--session", path))
+        .collect();
+    let inputs: Vec<_> = (args.recording.as_deref().into_iter())
+        .map(|path| ("the recording", path))
+        .chain(
+            args.validate
+                .as_deref()
+                .map(|path| ("the --validate recording", path)),
+        )
+        .filter(|(_, path)| !is_session(path))
+        .collect();
+    session.check_outputs(&outputs, &inputs)?;
+    let (Some(recording), Some(kept)) = (&args.recording, &args.session) else {
+        return Ok(());
+    };
+    // What is opened may be kept where it lies; anything else that is there already is somebody's work.
+    if kept.is_file() && !is_same_file(kept, recording) {
+        return Err(Error::Usage(format!(
+            "--session {}: is there already, and would be replaced by a bench with {} on it; to go on with it leave the \
+             recording away, or name another file",
+            kept.display(),
+            recording.display()
+        )));
+    }
+    Ok(())
+}
+
+fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
     let Some(path) = &args.recording else {
         // A session that is kept goes on where it was.
         return match &args.session {
@@ -65,11 +91,20 @@ fn opening(args: &BenchArgs) -> Result<Opening, Error> {
         }
         return saved(path);
     }
-    let held_out = args.validate.as_ref().map(|path| loaded(args, path));
-    Ok(Opening::Recording(
-        Box::new(loaded(args, path)?),
-        held_out.transpose()?.map(Box::new),
-    ))
+    let fitted = loaded(args, path)?;
+    let held_out = match &args.validate {
+        Some(other) => Some(loaded(args, other)?).filter(|other| {
+            let copied = other.is_copy_of(&fitted);
+            if copied {
+                session.remark(
+                    "--validate is the recording itself, which is no test: the end of the recording is held out instead",
+                );
+            }
+            !copied
+        }),
+        None => None,
+    };
+    Ok(Opening::Recording(Box::new(fitted), held_out.map(Box::new)))
 }
 
 fn saved(path: &Path) -> Result<Opening, Error> {
@@ -78,12 +113,12 @@ fn saved(path: &Path) -> Result<Opening, Error> {
     Ok(Opening::Session(Box::new(file)))
 }
 
-/// A file whose first words are a session's.
+/// A file whose first words are a session's, of whatever version.
 fn is_session(path: &Path) -> bool {
     use std::io::Read;
     let mut start = [0; 4096];
     let read = fs::File::open(path).and_then(|mut file| file.read(&mut start));
-    read.is_ok_and(|count| String::from_utf8_lossy(&start[..count]).contains(SCHEMA))
+    read.is_ok_and(|count| String::from_utf8_lossy(&start[..count]).contains(FAMILY))
 }
 
 fn text(path: &Path) -> Result<String, Error> {

@@ -6,7 +6,7 @@
 
 use super::diagnosing::diagnosed;
 use super::report;
-use super::simulate::{describe, hidden, wrong_flag};
+use super::simulate::{hidden, wrong_flag};
 use crate::cli::DemoArgs;
 use crate::diagnose::{Effort, HeldOut};
 use crate::error::Error;
@@ -50,7 +50,7 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         diagnosis: diagnosed.report(session, &data, &kind, Vec::new()),
         machine,
         hidden: &secret,
-        described: describe(&secret),
+        described: secret.described(),
         blind: args.blind,
         counts_per_rev: showcase::COUNTS_PER_REV,
     };

@@ -48,14 +48,9 @@ pub(super) fn diagnosed(
     options: &Options,
     effort: &Effort<'_>,
 ) -> Result<Diagnosed, Error> {
-    let bar = session.progress(0, "diagnose");
     // How many models will be fitted shows only as they are.
-    let done = || {
-        bar.inc(1);
-        if bar.length() <= Some(bar.position()) {
-            bar.inc_length(1);
-        }
-    };
+    let bar = session.count("diagnose", "models tried");
+    let done = || bar.inc(1);
     let diagnosis = diagnose::diagnose(data, held_out, options, effort, &done);
     bar.finish_and_clear();
     let diagnosis = diagnosis?;

@@ -6,6 +6,8 @@ use crate::error::Error;
 use crate::kept::{Kept, KeptDiagnosis};
 use crate::output::write_whole;
 use crate::problem::Data;
+use crate::recording::Recording;
+use crate::report::fold::folded;
 use crate::report::sheet::{self, Recordings};
 use crate::session::Session;
 use serde::Serialize;
@@ -32,25 +34,30 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
     }
     let kept = Kept::read(&args.result)?;
     let (fitted, held_out) = sources(&kept);
-    let fitted = found(
-        session,
-        args,
-        "--recording",
-        args.recording.as_deref(),
-        fitted,
-    )?;
-    let held_out = found(
-        session,
-        args,
-        "--validate",
-        args.validate.as_deref(),
-        held_out,
-    )?;
+    let fitted = place(session, args, "--recording", &args.recording, fitted);
+    let held_out = place(session, args, "--validate", &args.validate, held_out);
+    // The recordings that the result names must not be written over either.
+    for path in [&fitted, &held_out].into_iter().flatten() {
+        let outputs = [("--out", args.out.as_path())];
+        motor::check_outputs(session, &outputs, &args.motor, path, None)?;
+    }
+    let read = |path: Option<PathBuf>| -> Result<Option<Recording>, Error> {
+        let recording = path.map(|path| motor::recording(&args.motor, &path));
+        Ok(recording.transpose()?.map(|(recording, _)| recording))
+    };
+    let (fitted, held_out) = (read(fitted)?, read(held_out)?);
+    let doubts = sheet::doubts(&kept, fitted.as_ref(), held_out.as_ref())?;
+    let data = |recording: Option<Recording>| recording.map(|r| Data::new(&r)).transpose();
+    let (fitted, held_out) = (data(fitted)?, data(held_out)?);
     let recordings = Recordings {
         fitted: fitted.as_ref(),
         held_out: held_out.as_ref(),
     };
-    let page = sheet::page(&kept, recordings)?;
+    let mut page = sheet::page(&kept, recordings)?;
+    for doubt in doubts {
+        session.remark(&folded(&doubt, "  "));
+        page.lead.push(doubt);
+    }
     write_whole(&args.out, |out| out.write_all(page.render().as_bytes()))?;
     let json = ReportJson {
         schema: "servoid.report/1",
@@ -62,7 +69,7 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
     };
     let mut text = format!("{}\n", page.title);
     for words in &page.lead {
-        text += &format!("{words}\n");
+        text += &format!("{}\n", folded(words, ""));
     }
     text += &format!("page with the drawings: {}\n", args.out.display());
     session.deliver(&text, &json)
@@ -125,30 +132,28 @@ fn sources(kept: &Kept) -> (Option<PathBuf>, Option<PathBuf>) {
     }
 }
 
-/// Reads the recording that is named, or the one that the result names: where that was, or beside the result.
-fn found(
+/// Where the recording is that is named, or that the result names: where that was, or beside the result.
+fn place(
     session: &Session,
     args: &ReportArgs,
     flag: &str,
-    named: Option<&Path>,
+    named: &Option<PathBuf>,
     source: Option<PathBuf>,
-) -> Result<Option<Data>, Error> {
-    if let Some(path) = named {
-        return Ok(Some(Data::new(&motor::recording(&args.motor, path)?.0)?));
+) -> Option<PathBuf> {
+    if named.is_some() {
+        return named.clone();
     }
-    let Some(source) = source else {
-        return Ok(None);
-    };
+    let source = source?;
     let beside = source
         .file_name()
         .map(|name| args.result.with_file_name(name));
-    let places = std::iter::once(source.clone()).chain(beside);
-    let Some(path) = places.into_iter().find(|path| path.is_file()) else {
+    let mut places = std::iter::once(source.clone()).chain(beside);
+    let found = places.find(|path| path.is_file());
+    if found.is_none() {
         session.remark(&format!(
             "{} is not there: the drawings that need it are left out; name it with {flag}",
             source.display()
         ));
-        return Ok(None);
-    };
-    Ok(Some(Data::new(&motor::recording(&args.motor, &path)?.0)?))
+    }
+    found
 }

@@ -76,7 +76,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         .record(&drive, &out.display().to_string(), with_current)
         .map_err(wrong_flag)?;
     check_counts(&recording, args)?;
-    let hidden: Vec<String> = bench.effects.iter().map(describe).collect();
+    let hidden: Vec<String> = bench.effects.iter().map(Hidden::described).collect();
     write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
     let mut text = format!(
         "{}: {} samples, {:.3} s",
@@ -240,14 +240,6 @@ fn excitations() -> impl Iterator<Item = &'static str> {
     ["commissioning", "commissioning-coast"]
         .into_iter()
         .chain(Shape::ALL.iter().map(|(name, _)| *name))
-}
-
-pub(super) fn describe(hidden: &Hidden) -> String {
-    let parameters: Vec<String> = hidden
-        .parameters()
-        .map(|(name, value, unit)| format!("{name} = {value:.6} {unit}"))
-        .collect();
-    format!("{}: {}", hidden.name(), parameters.join(", "))
 }
 
 fn provenance(args: &SimulateArgs, hidden: &[String], seed: u64) -> Vec<String> {

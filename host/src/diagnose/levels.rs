@@ -45,6 +45,10 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         let mut models = extend(workshop, &parents, done);
         workshop.effort.take_stock();
         let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
+        // Before more is blamed, what is there is brought to its end.
+        if !levels.is_empty() {
+            polish_best(workshop, &mut models);
+        }
         if let Some(level) = levels.last()
             && !explained(&models)
         {

@@ -19,6 +19,7 @@ mod c;
 mod comment;
 mod constants;
 mod csv;
+mod digits;
 mod discrete;
 mod error;
 mod format;

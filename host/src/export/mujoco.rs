@@ -8,7 +8,8 @@
 //! torques, of these equations.)
 
 use super::comment::{head, xml};
-use super::error::ExportError;
+use super::digits::rounded;
+use super::error::{ExportError, FIT_AGAIN};
 use super::format::Options;
 use super::friction::{self, Friction};
 use super::subject::{Subject, Term};
@@ -49,8 +50,17 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         );
         (machine.kb + machine.damping, 0.0)
     };
-    let damping = (viscous + friction.viscous) / ratio;
-    let resistance = ratio * emf;
+    // Both stand in denominators there.
+    if emf <= 0.0 {
+        return Err(ExportError::Undetermined {
+            format: FORMAT,
+            needs: "a back-EMF constant above zero".to_owned(),
+            remedy: FIT_AGAIN,
+        });
+    }
+    let damping = rounded((viscous + friction.viscous) / ratio);
+    let resistance = rounded(ratio * emf);
+    let emf = rounded(emf);
     if let Some(kt) = subject.physical("kt", "N*m/A")
         && (kt / emf - 1.0).abs() > SAME
     {
@@ -60,11 +70,21 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     }
     let mut joint = vec![
         ("damping", "N*m*s/rad", "viscous", damping),
-        ("armature", "kg*m^2", "inertia", machine.inertia / ratio),
+        (
+            "armature",
+            "kg*m^2",
+            "inertia",
+            rounded(machine.inertia / ratio),
+        ),
     ];
     let slides = friction.slides.join(", ");
     if !slides.is_empty() {
-        joint.push(("frictionloss", "N*m", &slides, friction.sliding / ratio));
+        joint.push((
+            "frictionloss",
+            "N*m",
+            &slides,
+            rounded(friction.sliding / ratio),
+        ));
     }
     let mut motor = vec![
         ("resistance", "ohm", "resistance", format!("{resistance:?}")),
@@ -93,6 +113,10 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             "supply"
         };
         motor.push(("ctrlrange", "V", from, format!("-{limit:?} {limit:?}")));
+    } else {
+        written.remarks.push(
+            "the supply is not known, so ctrlrange is left out: give it, or the actuator takes any voltage".to_owned(),
+        );
     }
     let cogging = cogging(subject, ratio);
     if let Some((_, text)) = &cogging {
@@ -167,8 +191,8 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     let range = limit.map_or_else(String::new, |v| format!(" ctrlrange=\"-{v:?} {v:?}\""));
     text += &format!(
         "    <general name=\"motor\" joint=\"shaft\"{range} gaintype=\"fixed\" gainprm=\"{:?}\" biastype=\"affine\" biasprm=\"0 0 {:?}\"/>\n    -->\n",
-        1.0 / ratio,
-        -emf / ratio
+        rounded(1.0 / ratio),
+        rounded(-emf / ratio)
     );
     text += "  </actuator>\n</mujoco>\n";
     written.text = text;

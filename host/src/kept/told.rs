@@ -190,6 +190,9 @@ pub struct KeptStep {
     /// What explains the data as well.
     #[serde(default)]
     pub indistinguishable_from: Vec<String>,
+    /// Those of them that only refine it: they can do what it does, and the data do not ask for more.
+    #[serde(default)]
+    pub refined_by: Vec<String>,
     /// From one half to one.
     pub confidence: Option<f64>,
     /// On what was fitted, counts RMS.

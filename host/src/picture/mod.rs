@@ -6,7 +6,7 @@
 //! | `timeline` | measured against model, the residual with the quantiser's band, the command |
 //! | `ladder` | the error as effects are added, down to the encoder's own |
 //! | `maps` | the volts that a model misses against speed, current, voltage, time, time since reversal |
-//! | `orders` | their lines in the angle, forward and backward |
+//! | `orders` | their strongest lines in the angle, forward and backward |
 //! | `correlations` | the residual's correlation with itself and with the command |
 //! | `intervals` | how even the samples are |
 //! | `forest` | parameters with intervals |

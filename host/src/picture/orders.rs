@@ -2,33 +2,52 @@
 //! at the same orders in both directions.
 
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use crate::diagnose::whereabouts::{Line, Whereabouts};
+use crate::diagnose::whereabouts::{Line, Spectrum};
 use plotly::common::Marker;
 use plotly::layout::BarMode;
 use plotly::{Bar, Plot};
 
-/// Lines in the table, for each direction.
-const TOLD: usize = 8;
+/// Orders that are drawn: as many as are the strongest of each direction.
+const STRONGEST: usize = 12;
 
-/// Draws the lines of what `found` says that the `model` misses; `None` where the motor never turned slowly enough.
-pub fn orders(id: &str, model: &str, found: &Whereabouts) -> Option<Picture> {
-    let spectrum = &found.spectrum;
+/// Draws the strongest lines of what the `model` misses, and those of the orders that are `named` in a model; `None` where
+/// the motor never turned slowly enough.
+pub fn orders(id: &str, model: &str, spectrum: &Spectrum, named: &[usize]) -> Option<Picture> {
     if spectrum.forward.is_empty() && spectrum.backward.is_empty() {
         return None;
     }
+    let strongest = |lines: &[Line]| -> Vec<usize> {
+        lines
+            .iter()
+            .take(STRONGEST)
+            .map(|line| line.order)
+            .collect()
+    };
+    let mut drawn = strongest(&spectrum.forward);
+    drawn.extend(strongest(&spectrum.backward));
+    drawn.extend_from_slice(named);
     let mut plot = Plot::new();
-    let mut table = Table::new(&["direction", "order", "amplitude, V", "crest, degrees"]);
+    let mut table = Table::new(&[
+        "direction",
+        "order",
+        "amplitude, V",
+        "crest, degrees",
+        "of the missing, %",
+    ]);
     for (name, lines, sign, colour) in [
         ("forward", &spectrum.forward, 1.0, colour::MEASURED),
         ("backward", &spectrum.backward, -1.0, colour::MODEL),
     ] {
-        let mut lines: Vec<&Line> = lines.iter().collect();
-        for line in lines.iter().take(TOLD) {
+        let mut lines: Vec<&Line> = (lines.iter())
+            .filter(|line| drawn.contains(&line.order))
+            .collect();
+        for line in &lines {
             table.row([
                 name.to_owned(),
                 line.order.to_string(),
                 format!("{:.4}", line.volts),
                 format!("{:.0}", line.phase_deg),
+                format!("{:.1}", 100.0 * line.share),
             ]);
         }
         lines.sort_by_key(|line| line.order);
@@ -55,8 +74,9 @@ pub fn orders(id: &str, model: &str, found: &Whereabouts) -> Option<Picture> {
         title: "Order spectrum of what is missing".to_owned(),
         caption: format!(
             "Amplitude of each wave in the shaft's angle in what the {model} misses, forward upwards and backward \
-             downwards. Cogging and an unbalanced load stand at the same orders in both directions; what stands in one \
-             only is something else."
+             downwards: the {STRONGEST} strongest orders of each direction. Cogging and an unbalanced load stand at the \
+             same orders in both directions, as high in both; what stands in one only is something else, or chance. Low \
+             orders also pick up friction that changes with the speed."
         ),
         drawing: Drawing::Chart(Box::new(plot)),
         table: Some(table),

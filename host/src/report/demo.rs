@@ -1,6 +1,7 @@
 //! The story of the demonstration, as text, as a page and as JSON.
 
 use super::diagnosis::{DiagnosisJson, DiagnosisReport};
+use super::fold::folded;
 use super::json::FitJson;
 use crate::bench::{Hidden, Machine};
 use crate::diagnose::evidence::values;
@@ -75,19 +76,21 @@ impl DemoReport<'_> {
             self.described.clone()
         };
         format!(
-            "The virtual bench records a gearmotor twice. Hidden in it:\n  {secret}\nThe first recording is fitted, the \
-             second one is held out.\n"
+            "The virtual bench records a gearmotor twice. Hidden in it:\n{}\nThe first recording is fitted, the second one \
+             is held out.\n",
+            folded(&format!("  {secret}"), "    ")
         )
     }
 
     /// What was hidden, and how far off the diagnosis is, which only a bench can tell.
     fn truth(&self) -> String {
-        let mut text = format!("the bench knows the truth: hidden was {}\n", self.described);
-        text += &match (self.named(), self.diagnosis.names()) {
-            (true, _) => "  the diagnosis named it\n".to_owned(),
-            (false, Some(names)) => format!("  the diagnosis named {names} instead\n"),
-            (false, None) => "  the diagnosis named nothing\n".to_owned(),
+        let hidden = format!("the bench knows the truth: hidden was {}", self.described);
+        let named = match (self.named(), self.diagnosis.names()) {
+            (true, _) => "  the diagnosis named it".to_owned(),
+            (false, Some(names)) => format!("  the diagnosis named {names} instead"),
+            (false, None) => "  the diagnosis named nothing".to_owned(),
         };
+        let mut text = format!("{}\n{}\n", folded(&hidden, "  "), folded(&named, "    "));
         let [gain, a1] = self.response_errors();
         for (name, percent) in [("gain", gain), ("a1", a1)] {
             text += &format!("  {name:28} off by {percent:.4} %\n");

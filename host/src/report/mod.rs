@@ -2,6 +2,7 @@
 
 pub mod demo;
 pub mod diagnosis;
+pub(crate) mod fold;
 pub mod json;
 pub mod paint;
 pub mod paper;

@@ -1,5 +1,6 @@
 //! The paper's table beside ours, as text.
 
+use super::fold::folded;
 use super::json::least_cost;
 use super::text::short;
 use crate::compare::{Contest, Row, quantile};
@@ -61,7 +62,7 @@ fn margins(machine: &Machine<f64>) -> String {
     Loop::from(machine)
         .margins()
         .map_or("-".to_owned(), |Margins { gain_db, phase_deg }| {
-            format!("{gain_db:5.1} dB {phase_deg:5.1} deg")
+            format!("{gain_db:5.1} {phase_deg:5.1}")
         })
 }
 
@@ -69,13 +70,13 @@ fn margins(machine: &Machine<f64>) -> String {
 pub fn text(rounds: &[Round<'_>], strong: &Strong, printed: &[PrintedCosts]) -> String {
     let mut out = String::from(
         "Table 1 of the paper, and the margins that follow from its printed parameters\n\
-         (position loop in radians, unity feedback)\n\n\
-         method        cost        printed margins       computed              a1        a2        a3\n",
+         (position loop in radians, unity feedback; gain in dB, phase in degrees)\n\n\
+         method        cost     printed    computed         a1         a2         a3\n",
     );
     for column in &PRINTED {
         let l = Loop::from(&column.machine());
         out += &format!(
-            "{:10} {:>9}   {:5.1} dB {:5.1} deg    {}   {}  {}  {}\n",
+            "{:8} {:>9} {:5.1} {:5.1} {:>11} {:>10} {:>10} {:>10}\n",
             column.algorithm,
             column.cost.map_or("-".to_owned(), |c| format!("{c:.4}")),
             column.margins.gain_db,
@@ -98,13 +99,19 @@ pub fn text(rounds: &[Round<'_>], strong: &Strong, printed: &[PrintedCosts]) -> 
 fn round_text(round: &Round<'_>) -> String {
     let contest = round.contest;
     let mut out = format!(
-        "\n{} ({}): {} seeds x {} evaluations; the true motor costs {}\n\n\
-         method          median  quartile 1  quartile 3       worst     best   margins of the median run\n",
-        round.variant.name(),
-        meaning(round.variant),
-        contest.seeds.len(),
-        contest.budget,
-        short(round.truth_cost),
+        "\n{}\n\n\
+         method      median quartile 1 quartile 3      worst       best    dB deg *\n",
+        folded(
+            &format!(
+                "{} ({}): {} seeds x {} evaluations; the true motor costs {}",
+                round.variant.name(),
+                meaning(round.variant),
+                contest.seeds.len(),
+                contest.budget,
+                short(round.truth_cost)
+            ),
+            "  "
+        ),
     );
     for row in &round.rows {
         let costs = row.costs();
@@ -114,7 +121,7 @@ fn round_text(round: &Round<'_>) -> String {
             .filter(|run| run.cost.is_finite())
             .map(|run| structure.candidate(&structure.values(&run.x)).machine);
         out += &format!(
-            "{:10} {:>11} {:>11} {:>11} {:>11} {:>8}   {}\n",
+            "{:8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11}\n",
             row.algorithm,
             short(quantile(&costs, 0.5)),
             short(quantile(&costs, 0.25)),
@@ -124,6 +131,7 @@ fn round_text(round: &Round<'_>) -> String {
             typical.map_or("-".to_owned(), |machine| margins(&machine)),
         );
     }
+    out += "* margins of the median run\n";
     out
 }
 
@@ -145,8 +153,9 @@ fn meaning(variant: Variant) -> &'static str {
 fn strong_text(strong: &Strong, rounds: &[Round<'_>]) -> String {
     let optimum = optimum(rounds, strong);
     let mut out = format!(
-        "\nStronger methods on the same recording (QU exact), searching gain, a1 and the electrical\n\
-         time constant from a start by regression; evaluations to 1.01 x the least cost {}\n\n\
+        "\nStronger methods on the same recording (QU exact), searching gain, a1 and the\n\
+         electrical time constant from a start by regression; evaluations to 1.01 x the\n\
+         least cost {}\n\n\
          method          median     worst   evaluations: median   worst\n",
         short(optimum)
     );
@@ -183,14 +192,19 @@ fn short_count(count: f64) -> String {
 
 const REMARKS: &str = "
 What cannot be reproduced from the paper, and why
-- Its printed costs (4.7092, 42.8792, 4.7148): the printed parameters cost what stands above, at
-  this length (--seconds tries others). The length of the step response is not stated, and the
-  parameters are printed with so few digits that the cost moves by whole units within the last.
-- Its six parameters. Voltage and angle determine three combinations only: a1, a2 and a3 above
-  (with a3 = La J/Kt, a2 = (La f + Ra J)/Kt, a1 = Kb + Ra f/Kt). All four columns agree in a1 and
-  a2; along the rest of the box the cost is flat, and a search ends anywhere on it.
-- Its ranking from single runs. The spread over seeds is larger than the gap between PSO and FA.
-- a3, on which the gain margin rests: a ramp's integral of the absolute error hardly sees it.
-With the reading floored and the model not, the true motor costs half a degree throughout and the
-optimum is biased; with both floored the truth costs nothing and the bias goes.
+- Its printed costs (4.7092, 42.8792, 4.7148): the printed parameters cost what
+  stands above, at this length (--seconds tries others). The length of the step
+  response is not stated, and the parameters are printed with so few digits that
+  the cost moves by whole units within the last.
+- Its six parameters. Voltage and angle determine three combinations only: a1,
+  a2 and a3 above (with a3 = La J/Kt, a2 = (La f + Ra J)/Kt, a1 = Kb + Ra f/Kt).
+  All four columns agree in a1 and a2; along the rest of the box the cost is
+  flat, and a search ends anywhere on it.
+- Its ranking from single runs. The spread over seeds is larger than the gap
+  between PSO and FA.
+- a3, on which the gain margin rests: a ramp's integral of the absolute error
+  hardly sees it.
+With the reading floored and the model not, the true motor costs half a degree
+throughout and the optimum is biased; with both floored the truth costs nothing
+and the bias goes.
 ";

@@ -85,14 +85,20 @@ pub(super) fn start(
     work: impl FnOnce(&Arc<Bench>) -> Result<(), Error> + Send + 'static,
 ) -> Result<(), Error> {
     bench.job.begin(what)?;
-    bench.change(|state| state.fault = None);
+    bench.act(|_| ());
     let own = Arc::clone(bench);
     let thread = std::thread::Builder::new().name(what.to_owned());
     let started = thread.spawn(move || {
         // A fault in one piece of work must not leave the bench busy for ever.
         let done = catch_unwind(AssertUnwindSafe(|| work(&own)));
+        let stopped = own.job.stop.load(Ordering::Relaxed);
         let fault = match done {
+            Ok(Ok(())) if stopped => Some(format!(
+                "{what}: stopped; what had been found by then is on the bench"
+            )),
             Ok(Ok(())) => None,
+            // Work that is broken off has no result, whatever it makes of that.
+            Ok(Err(_)) if stopped => Some(format!("{what}: stopped before there was a result")),
             Ok(Err(error)) => Some(error.to_string()),
             Err(_) => Some(format!(
                 "{what} failed inside servoid; please report this with the session file"

@@ -20,6 +20,9 @@ pub struct Source {
     pub motor: String,
 }
 
+/// What messages call the motor file, whether it was a file or fields of the page.
+pub(super) const MOTOR: &str = "what is said of the motor";
+
 /// A recording on the bench.
 pub struct Loaded {
     /// As it came.
@@ -51,7 +54,7 @@ impl Loaded {
     /// # Errors
     /// What the reader of recordings and of motor files refuse, in their words.
     pub fn read(source: Source) -> Result<Self, Error> {
-        let motor = MotorFile::parse(&source.motor, "what is said of the motor")?;
+        let motor = MotorFile::parse(&source.motor, MOTOR)?;
         let recording = read_recording_from(source.csv.as_bytes(), &source.name, &motor)?;
         recording.check_excited()?;
         Ok(Loaded {
@@ -61,6 +64,12 @@ impl Loaded {
             source,
             cut: OnceLock::new(),
         })
+    }
+
+    /// Whether it holds the same samples: then it tests nothing that was fitted to the other.
+    pub fn is_copy_of(&self, other: &Loaded) -> bool {
+        self.recording.counts == other.recording.counts
+            && self.recording.command == other.recording.command
     }
 
     /// The part to fit and the end to hold out, made when they are first asked for. `None` where it is too short.

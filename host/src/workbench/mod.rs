@@ -13,6 +13,7 @@
 //! | `shown` | what the page draws |
 //! | `session_file` | the bench as a file |
 //! | `download` | what may be taken away as a file |
+//! | `words` | what was written for a terminal, in the words of a page |
 //! | `routes`, `guard` | what the page may ask, and who may ask |
 //! | `server` | listening and stopping |
 
@@ -28,8 +29,9 @@ mod server;
 mod session_file;
 mod shown;
 mod state;
+mod words;
 mod work;
 
 pub use loaded::{Loaded, Source};
 pub use server::{Opening, Server};
-pub use session_file::{SCHEMA, SessionFile};
+pub use session_file::{FAMILY, SessionFile};

@@ -3,15 +3,20 @@
 use super::loaded::Loaded;
 use crate::diagnose::HeldOut;
 use crate::error::Error;
-use crate::fit::{self, Fit, Options};
+use crate::fit::scores::whole;
+use crate::fit::{self, Fit, Options, validation_errors};
 use crate::kept::KeptModel;
 use crate::problem::Data;
+use crate::problem::cost::rms_counts;
 use crate::report::json::FitJson;
 use crate::solve::Found;
 use serde_json::Value;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
+
+/// The search method that is meant where none is named.
+pub(super) const USUAL: &str = "lm";
 
 /// A fitted model.
 #[derive(Clone)]
@@ -79,7 +84,10 @@ impl Model {
             .candidate("models[].model")
             .map_err(|fault| failed(&fault))?;
         let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
-        let options = options(&recordings.fitted, &effects, 1);
+        let options = Options {
+            method: kept.method(),
+            ..options(&recordings.fitted, &effects, 1)
+        };
         let (data, held_out) = recordings.parts();
         let mut problem = fit::problem(data, &options)?;
         problem.structure = crate::problem::Structure::around(
@@ -97,8 +105,13 @@ impl Model {
             curve: Vec::new(),
             interrupted: false,
         };
-        let held_out = Some(held_out);
-        let fit = Fit::conclude(&problem, algorithm, "squared", &found, &options, held_out)?;
+        let mut fit = Fit::conclude(&problem, algorithm, "squared", &found, &options, None)?;
+        // Through coordinates and back, a number keeps all but its last bits, which a chaotic run does not forgive.
+        fit.candidate = candidate;
+        let own = whole(data, &candidate, options.method)?;
+        let other = validation_errors(held_out, &candidate, options.method)?;
+        fit.rms_counts = rms_counts(data, &own);
+        fit.validate_rms_counts = Some(rms_counts(held_out, &other));
         Ok(Model {
             id,
             effects,
@@ -115,13 +128,17 @@ impl Model {
         serde_json::to_value(json).map_err(|error| Error::Failed(error.to_string()))
     }
 
-    /// What it is called.
+    /// What it is called: its effects, and its method unless that is the usual one.
     pub(super) fn name(&self) -> String {
         let names: Vec<&str> = self.effects.iter().map(|kind| kind.name()).collect();
-        if names.is_empty() {
+        let name = if names.is_empty() {
             "linear motor".to_owned()
         } else {
             format!("motor with {}", names.join(", "))
+        };
+        match self.fit.algorithm.as_str() {
+            USUAL => name,
+            other => format!("{name} (by {other})"),
         }
     }
 

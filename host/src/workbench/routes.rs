@@ -6,6 +6,7 @@ use super::model::Recordings;
 use super::preview::{Mapping, preview};
 use super::session_file::SessionFile;
 use super::state::{Bench, Telling};
+use super::words::on_the_page;
 use super::{blind, download, guard, shown, work};
 use crate::error::Error;
 use crate::page::assets;
@@ -68,7 +69,7 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .layer(middleware::from_fn(guard::check))
 }
 
-/// An error as the page shows it: the same words as in a terminal.
+/// An error as the page shows it: the words of a terminal, but for its flags.
 struct Refusal(Error);
 
 impl From<Error> for Refusal {
@@ -79,7 +80,7 @@ impl From<Error> for Refusal {
 
 impl IntoResponse for Refusal {
     fn into_response(self) -> Response {
-        let body = Json(json!({ "error": self.0.to_string() }));
+        let body = Json(json!({ "error": on_the_page(&self.0.to_string()) }));
         (StatusCode::UNPROCESSABLE_ENTITY, body).into_response()
     }
 }
@@ -164,6 +165,13 @@ async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> Answer {
             return Ok(());
         }
         let before = bench.state().recordings.clone();
+        let copied = before.as_ref().is_some_and(|before| loaded.is_copy_of(&before.fitted));
+        if sent.held_out && copied {
+            return Err(Error::Usage(format!(
+                "{}: is the recording that is fitted, which is no test of it; take another run of the same motor",
+                loaded.source.name
+            )));
+        }
         let recordings = match (sent.held_out, before) {
             (true, Some(before)) => Recordings {
                 held_out: Some(loaded),
@@ -228,7 +236,7 @@ async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answer {
 }
 
 async fn reveal(State(bench): Shared) -> Answer {
-    bench.change(|state| {
+    bench.act(|state| {
         if let Some(secret) = &mut state.secret {
             secret.told = true;
         }
@@ -254,14 +262,15 @@ enum Work {
         #[serde(default)]
         effects: Vec<String>,
         algorithms: Vec<String>,
-        budget: usize,
-        seeds: u64,
+        /// Numbers as they were typed: a fraction is refused in words, not by its type.
+        budget: f64,
+        seeds: f64,
     },
 }
 
 /// Most evaluations and seeds of a race on the page; `servoid compare` has no such limit.
-const MOST_BUDGET: usize = 20_000;
-const MOST_SEEDS: u64 = 100;
+const MOST_BUDGET: f64 = 20_000.0;
+const MOST_SEEDS: f64 = 100.0;
 
 async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answer {
     match asked {
@@ -283,17 +292,22 @@ async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answer {
             seeds,
         } => {
             let effects = kinds(&effects)?;
-            if algorithms.is_empty()
-                || !(1..=MOST_BUDGET).contains(&budget)
-                || !(1..=MOST_SEEDS).contains(&seeds)
-            {
-                return Err(Error::Usage(format!(
-                    "a race needs a search method, 1 to {MOST_BUDGET} evaluations and 1 to {MOST_SEEDS} seeds"
-                ))
-                .into());
+            let whole = |name: &str, asked: f64, most: f64| -> Result<u64, Error> {
+                if asked.fract() != 0.0 || !(1.0..=most).contains(&asked) {
+                    return Err(Error::Usage(format!(
+                        "{name} of the race: {asked} does not do; take a whole number from 1 to {most}"
+                    )));
+                }
+                Ok(asked as u64)
+            };
+            if algorithms.is_empty() {
+                let text = "a race needs at least one search method; tick some".to_owned();
+                return Err(Error::Usage(text).into());
             }
+            let budget = whole("evaluations", budget, MOST_BUDGET)?;
+            let seeds = whole("seeds", seeds, MOST_SEEDS)?;
             job::start(&bench, "race", move |bench| {
-                work::race(bench, &effects, &algorithms, budget, seeds)
+                work::race(bench, &effects, &algorithms, budget as usize, seeds)
             })?;
         }
     }
@@ -326,7 +340,7 @@ struct Choice {
 }
 
 async fn choose(State(bench): Shared, Json(choice): Json<Choice>) -> Answer {
-    bench.change(|state| -> Result<(), Error> {
+    bench.act(|state| -> Result<(), Error> {
         state.model(choice.chosen)?;
         if let Some(other) = choice.against {
             state.model(other)?;
@@ -344,7 +358,7 @@ struct Which {
 }
 
 async fn remove(State(bench): Shared, Json(which): Json<Which>) -> Answer {
-    bench.change(|state| -> Result<(), Error> {
+    bench.act(|state| -> Result<(), Error> {
         state.model(which.model)?;
         state.models.retain(|model| model.id != which.model);
         if state.against == Some(which.model) {
@@ -396,7 +410,11 @@ struct Wanted {
 
 /// The result as a file.
 async fn export(State(bench): Shared, Query(wanted): Query<Wanted>) -> Result<Response, Refusal> {
-    let (name, text) = aside(move || download::file(&bench, &wanted.format)).await?;
+    let from = Arc::clone(&bench);
+    let (name, text) = aside(move || download::file(&from, &wanted.format)).await?;
+    if bench.state().fault.is_some() {
+        bench.act(|_| ());
+    }
     let kind = match name.rsplit('.').next() {
         Some("html") => "text/html; charset=utf-8",
         Some("json") => "application/json",

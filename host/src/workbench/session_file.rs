@@ -5,7 +5,7 @@ use super::model::{Model, Recordings};
 use super::state::{Secret, State};
 use crate::bench::Hidden;
 use crate::error::Error;
-use crate::kept::KeptModel;
+use crate::kept::{Kept, KeptModel};
 use crate::output::write_whole;
 use crate::prove::surprise;
 use crate::showcase;
@@ -16,6 +16,8 @@ use std::sync::Arc;
 
 /// What the file calls itself.
 pub const SCHEMA: &str = "servoid.session/1";
+/// What a session of any version calls itself at the beginning.
+pub const FAMILY: &str = "servoid.session/";
 
 /// The bench as a file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -97,12 +99,27 @@ impl SessionFile {
                 "{source}: {what}; a session is what the workbench saved, a recording is a CSV file"
             ))
         };
-        let file: SessionFile =
-            serde_json::from_str(text).map_err(|error| failed(error.to_string()))?;
-        if file.schema != SCHEMA {
-            return Err(failed(format!("schema is `{}`", file.schema)));
+        // First what it is, so that a file of another kind or version is refused by its name and not by a key.
+        #[derive(Deserialize)]
+        struct Named {
+            #[serde(default)]
+            schema: Option<String>,
         }
-        Ok(file)
+        let named: Named = serde_json::from_str(text).map_err(|error| failed(error.to_string()))?;
+        let schema = named.schema.unwrap_or_default();
+        if schema != SCHEMA {
+            let what = if schema.starts_with(FAMILY) {
+                format!(
+                    "is a session of another servoid: schema is `{schema}`, needed is `{SCHEMA}`"
+                )
+            } else if schema.is_empty() {
+                format!("has no schema, needed is `{SCHEMA}`")
+            } else {
+                format!("schema is `{schema}`, needed is `{SCHEMA}`")
+            };
+            return Err(failed(what));
+        }
+        serde_json::from_str(text).map_err(|error| failed(error.to_string()))
     }
 
     /// Lays it on a bench. Models that cannot be run along the recording are left out, and said.
@@ -119,9 +136,9 @@ impl SessionFile {
         state.begin(recordings.clone());
         let mut ids = Vec::new();
         let mut faults = Vec::new();
-        for saved in self.models {
+        for (place, saved) in self.models.into_iter().enumerate() {
             let id = state.number();
-            match Model::again(id, &saved.model, &saved.algorithm, &recordings) {
+            match saved.again(place, id, &recordings) {
                 Ok(mut model) => {
                     model.foreseen = saved.foreseen_rms_counts;
                     let mut fit = (*model.fit).clone();
@@ -136,20 +153,60 @@ impl SessionFile {
                 }
             }
         }
-        let id = |place: Option<usize>| place.and_then(|place| ids.get(place).copied().flatten());
-        state.chosen = id(self.chosen);
-        state.against = id(self.against);
-        state.race = self.race;
-        state.diagnosis = self.diagnosis;
+        let mut id = |key: &str, place: Option<usize>| {
+            let place = place?;
+            if place >= ids.len() {
+                faults.push(format!("{key}: there is no model {place}"));
+            }
+            ids.get(place).copied().flatten()
+        };
+        state.chosen = id("chosen", self.chosen);
+        state.against = id("against", self.against).filter(|other| state.chosen != Some(*other));
+        // A bench with models always looks at one.
+        state.chosen = (state.chosen).or_else(|| state.models.last().map(|model| model.id));
+        let race = |kept: &Kept| matches!(kept, Kept::Contest(_));
+        state.race = result("race", self.race, race, &mut faults);
+        let diagnosis = |kept: &Kept| matches!(kept, Kept::Diagnosis(_));
+        state.diagnosis = result("diagnosis", self.diagnosis, diagnosis, &mut faults);
         state.secret = self.blind.and_then(|(seed, told)| {
             let hidden: Hidden = surprise(&showcase::machine(), seed).ok()?;
             Some(Secret { hidden, seed, told })
         });
         if !faults.is_empty() {
-            state.fault = Some(format!("left out: {}", faults.join("; ")));
+            state.fault = Some(format!("left out of the session: {}", faults.join("; ")));
         }
         Ok(())
     }
+}
+
+impl SavedModel {
+    /// The model as number `id` of the bench; `place` is where it stands in the file.
+    fn again(&self, place: usize, id: usize, recordings: &Recordings) -> Result<Model, Error> {
+        if crate::solve::by_name(&self.algorithm).is_none() {
+            return Err(Error::Failed(format!(
+                "models[{place}]: there is no search method `{}`",
+                self.algorithm
+            )));
+        }
+        Model::again(id, &self.model, &self.algorithm, recordings)
+            .map_err(|error| Error::Failed(format!("models[{place}]: {error}")))
+    }
+}
+
+/// The result of another verb within the session, if it is one of that kind; else a fault.
+fn result(
+    key: &str,
+    value: Option<Value>,
+    is_kind: impl Fn(&Kept) -> bool,
+    faults: &mut Vec<String>,
+) -> Option<Value> {
+    let value = value?;
+    match Kept::from_json(value.clone()) {
+        Ok(kept) if is_kind(&kept) => return Some(value),
+        Ok(_) => faults.push(format!("{key}: is a result of another kind")),
+        Err(fault) => faults.push(format!("{key}{fault}")),
+    }
+    None
 }
 
 /// Writes the bench to a file, whole or not at all.

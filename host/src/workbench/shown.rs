@@ -2,6 +2,7 @@
 
 use super::model::{Model, Recordings};
 use super::state::{Bench, State};
+use super::words::on_the_page;
 use crate::error::Error;
 use crate::export::FORMATS;
 use crate::fit::margins::Loop;
@@ -31,14 +32,14 @@ pub(super) fn view(bench: &Bench) -> Value {
         "against": state.against,
         "suggested": suggestions(&state),
         "diagnosis": state.diagnosis.as_ref().map(|d| json!({
-            "verdict": d["verdict"], "summary": d["summary"], "advice": d["advice"], "cannot_tell": d["cannot_tell"],
+            "verdict": d["verdict"], "summary": on_the_page(d["summary"].as_str().unwrap_or_default()), "advice": d["advice"], "cannot_tell": d["cannot_tell"],
         })),
         "race": state.race.is_some(),
         "job": bench.job.running(),
-        "fault": state.fault,
+        "fault": state.fault.as_deref().map(on_the_page),
         "secret": state.secret.as_ref().map(|secret| json!({
             "seed": secret.seed,
-            "told": secret.told.then(|| secret.hidden.to_string()),
+            "told": secret.told.then(|| secret.hidden.described()),
         })),
         "effects": Kind::ALL.iter().map(|kind| json!({
             "name": kind.name(), "title": kind.description().title,
@@ -74,7 +75,7 @@ fn entry(state: &State, model: &Model) -> Value {
         "held_out_rms_counts": fit.validate_rms_counts,
         "foreseen_rms_counts": model.foreseen,
         "complete": !model.leaves_something(),
-        "notes": fit.notes,
+        "notes": fit.notes.iter().map(|note| on_the_page(note)).collect::<Vec<_>>(),
         "parameters": fit.parameters.iter().map(|p| json!({
             "name": p.name, "value": p.value, "unit": p.unit, "std": p.std, "identifiable": p.identifiable,
         })).collect::<Vec<_>>(),
@@ -248,11 +249,7 @@ fn ladder(models: &[Model]) -> Section {
     let rungs: Vec<Rung> = models
         .iter()
         .map(|model| Rung {
-            name: if model.fit.algorithm == "lm" {
-                model.name()
-            } else {
-                format!("{} ({})", model.name(), model.fit.algorithm)
-            },
+            name: model.name(),
             fitted: Some(model.fit.rms_counts),
             held_out: model.fit.validate_rms_counts,
         })

@@ -163,6 +163,14 @@ impl Bench {
         result
     }
 
+    /// Does what a user asked for: what went wrong before is no longer of interest.
+    pub(super) fn act<T>(&self, change: impl FnOnce(&mut State) -> T) -> T {
+        self.change(|state| {
+            state.fault = None;
+            change(state)
+        })
+    }
+
     /// Tells every page; that nobody listens is no fault.
     pub(super) fn tell(&self, telling: Telling) {
         let _ = self.tellings.send(telling);

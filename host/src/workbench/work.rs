@@ -1,12 +1,13 @@
 //! The pieces of work on the bench.
 
 use super::job::Teller;
-use super::model::{Model, Recordings, options};
+use super::model::{Model, Recordings, USUAL, options};
 use super::state::Bench;
 use crate::compare::{self, Contest};
 use crate::diagnose::{self, Diagnosis, Effort, Suggestion};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
+use crate::kept::KeptModel;
 use crate::problem::FitProblem;
 use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
 use crate::report::json::CompareJson;
@@ -63,7 +64,7 @@ fn fitted(
     let solver = solve::by_name(algorithm)
         .ok_or_else(|| Error::Usage(format!("there is no search method `{algorithm}`")))?;
     // Only least squares begins anywhere in particular.
-    let suggestion = suggestion.filter(|_| algorithm == "lm");
+    let suggestion = suggestion.filter(|_| algorithm == USUAL);
     options.budget = if suggestion.is_some() { FIRST } else { BUDGET };
     let teller = Teller::new(bench);
     let samples = data.len() as f64;
@@ -160,7 +161,11 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     };
     let json = serde_json::to_value(DiagnosisJson::from(&report))
         .map_err(|error| Error::Failed(error.to_string()))?;
-    let models = on_the_way(bench, &recordings, &found, last)?;
+    let models = if interrupted {
+        as_found(&recordings, &found, last)?
+    } else {
+        on_the_way(bench, &recordings, &found, last)?
+    };
     bench.change(|state| {
         for model in models {
             state.put(model);
@@ -186,7 +191,7 @@ fn on_the_way(
     let mut models = vec![Model {
         id: 0,
         effects: Vec::new(),
-        fit: Arc::new(fitted(bench, recordings, &[], "lm", None)?),
+        fit: Arc::new(fitted(bench, recordings, &[], USUAL, None)?),
         foreseen: None,
     }];
     let mut effects = Vec::new();
@@ -205,13 +210,35 @@ fn on_the_way(
                 p_value: 0.0,
                 believed: true,
             };
-            fitted(bench, recordings, &effects, "lm", Some(&suggestion))?
+            fitted(bench, recordings, &effects, USUAL, Some(&suggestion))?
         };
         models.push(Model {
             id: 0,
             effects: effects.clone(),
             fit: Arc::new(fit),
             foreseen: Some(after.foreseen_rms_counts),
+        });
+    }
+    Ok(models)
+}
+
+/// The first and the last model of a diagnosis that was stopped, as they were found: there is no time to fit those
+/// between.
+fn as_found(recordings: &Recordings, found: &Diagnosis, last: Fit) -> Result<Vec<Model>, Error> {
+    let base = KeptModel::of(&found.base.candidate, found.base.method);
+    let mut models = vec![Model::again(0, &base, USUAL, recordings)?];
+    let effects: Vec<Kind> = last
+        .candidate
+        .effects
+        .iter()
+        .map(|(kind, _)| kind)
+        .collect();
+    if !effects.is_empty() {
+        models.push(Model {
+            id: 0,
+            effects,
+            fit: Arc::new(last),
+            foreseen: None,
         });
     }
     Ok(models)

@@ -215,3 +215,40 @@ fn what_is_no_result_is_refused_and_nothing_is_written() {
         desk.refused(&format!("export {name} --to c"), 1, says);
     }
 }
+
+#[test]
+fn numbers_are_written_as_they_were_typed_and_what_is_missing_is_said() {
+    let desk = fitted();
+    let mujoco = desk.done("export known.json --to mujoco");
+    assert!(mujoco.stdout.contains(" resistance=\"2.3\""), "{mujoco}");
+    assert!(
+        mujoco.stdout.contains("ctrlrange=") && !mujoco.stderr.contains("ctrlrange"),
+        "{mujoco}"
+    );
+    for hertz in ["60", "7.3", "0.5"] {
+        let line =
+            format!("export known.json --to gains --loops voltage --speed-bandwidth {hertz}");
+        let outcome = desk.run(&line);
+        let typed: f64 = hertz.parse().expect("a number");
+        let said = format!("{}{}", outcome.stdout, outcome.stderr);
+        let back = [
+            format!("crossover_hz = {typed:?}\n"),
+            format!("--speed-bandwidth {typed:?}:"),
+        ];
+        assert!(back.iter().any(|text| said.contains(text)), "{outcome}");
+    }
+    let mut fit: serde_json::Value = serde_json::from_str(&desk.read("known.json")).expect("JSON");
+    fit["supply_v"] = serde_json::Value::Null;
+    desk.write("no-supply.json", fit.to_string());
+    let outcome = desk.done("export no-supply.json --to mujoco");
+    assert!(
+        !outcome.stdout.contains("ctrlrange=") && outcome.stderr.contains("ctrlrange"),
+        "{outcome}"
+    );
+    // A motor without back-EMF has no resistance there.
+    for key in ["kb_v_s_rad", "damping_v_s_rad"] {
+        fit["model"]["machine"][key] = 0.into();
+    }
+    desk.write("no-emf.json", fit.to_string());
+    desk.refused("export no-emf.json --to mujoco", 1, &["mujoco", "back-EMF"]);
+}

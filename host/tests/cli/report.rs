@@ -177,4 +177,73 @@ fn what_is_no_result_is_refused_and_nothing_is_written() {
         2,
         &["--out rec.csv"],
     );
+    // Also the recording that nobody names but the result.
+    for out in ["rec.csv", "motor.toml"] {
+        let line = format!("report fit.json --out {out}");
+        desk.refused(&line, 2, &["--out", out, "of this run"]);
+    }
+}
+
+#[test]
+fn another_recording_than_the_result_s_is_drawn_with_a_warning() {
+    let desk = Desk::new();
+    let simulate = "simulate --seconds 4 --hide coulomb";
+    desk.done(&format!("{simulate} --out rec.csv"));
+    desk.done(&format!("{simulate} --seed 2 --out other.csv"));
+    desk.done(&format!("{simulate} --seed 3 --out third.csv"));
+    desk.done("simulate --seconds 0.1 --out short.csv");
+    desk.done("fit rec.csv --with coulomb --validate other.csv --json fit.json");
+    desk.done("diagnose rec.csv --json cut.json");
+    desk.done("diagnose rec.csv --validate other.csv --json two.json");
+    let page = |line: &str| {
+        let told = desk.done(&format!("report {line} --out page.html"));
+        (told.stderr, desk.read("page.html"))
+    };
+    let is_not = "is not the recording";
+    for result in ["fit.json", "cut.json", "two.json"] {
+        let (stderr, text) = page(&format!("{result} --recording rec.csv"));
+        assert!(
+            !stderr.contains(is_not) && !text.contains(is_not),
+            "{result}: {stderr}"
+        );
+        let (stderr, text) = page(&format!("{result} --recording third.csv"));
+        assert!(
+            stderr.contains("third.csv is not") && text.contains("third.csv is not"),
+            "{result}: {stderr}"
+        );
+    }
+    for result in ["fit.json", "two.json"] {
+        let (stderr, text) = page(&format!("{result} --validate third.csv"));
+        assert!(
+            stderr.contains("third.csv is not") && text.contains("third.csv is not"),
+            "{result}: {stderr}"
+        );
+    }
+    let (stderr, _) = page("cut.json --recording short.csv");
+    assert!(stderr.contains("too short"), "{stderr}");
+}
+
+#[test]
+fn a_page_calls_look_alikes_what_the_terminal_calls_them() {
+    let desk = Desk::new();
+    desk.done("simulate --hide coulomb --out rec.csv");
+    let told = desk
+        .done("diagnose rec.csv --json diagnosis.json --report page.html")
+        .stdout;
+    let diagnosis: Value = serde_json::from_str(&desk.read("diagnosis.json")).expect("JSON");
+    let page = desk.read("page.html");
+    let flat = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    for step in diagnosis["steps"].as_array().expect("steps") {
+        let names = |key: &str| -> Vec<&str> {
+            let list = step[key].as_array().expect("names").iter();
+            list.filter_map(Value::as_str).collect()
+        };
+        let refined = names("refined_by");
+        assert!(
+            !refined.is_empty(),
+            "friction can always be refined: {step:#}"
+        );
+        let said = format!("{} would refine it", refined.join(" or "));
+        assert!(flat.contains(&said) && page.contains(&said), "{said}");
+    }
 }

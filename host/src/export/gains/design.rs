@@ -10,6 +10,7 @@
 //!
 //! The gain is then set on the exact sampled loop, so that it passes one just where it was asked to.
 
+use super::super::digits::rounded;
 use super::super::error::ExportError;
 use super::loops::{Closed, Open, hz};
 use clap::ValueEnum;
@@ -111,7 +112,7 @@ impl Task<'_> {
                 "{} {:?}: the {} would have less than {LEAST_MARGIN} degrees of phase margin at a control period of {period:?} s; \
                  {can}; ask for less or give {}",
                 self.flag,
-                hz(crossover),
+                rounded(hz(crossover)),
                 self.name,
                 self.helps
             ));

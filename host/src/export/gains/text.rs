@@ -1,6 +1,7 @@
 //! The controllers as TOML.
 
 use super::super::comment::{head, marked};
+use super::super::digits::rounded;
 use super::super::error::ExportError;
 use super::super::format::Options;
 use super::super::subject::Subject;
@@ -106,12 +107,12 @@ fn text(section: &Section, subject: &Subject, written: &mut Written) -> String {
             format!("{output} per count/s and second"),
         );
     }
-    out += &format!("crossover_hz = {:?}\n", hz(closed.crossover));
+    out += &format!("crossover_hz = {:?}\n", rounded(hz(closed.crossover)));
     out += &format!("phase_margin_deg = {:?}\n", closed.phase_margin);
     out += &match closed.bandwidth {
         Some(bandwidth) => format!(
             "bandwidth_hz = {:?} # -3 dB of the closed loop\n",
-            hz(bandwidth)
+            rounded(hz(bandwidth))
         ),
         None => "# bandwidth: beyond half the sampling rate\n".to_owned(),
     };

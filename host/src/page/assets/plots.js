@@ -3,7 +3,8 @@
 const servoid = (() => {
   const CONFIG = {
     displaylogo: false,
-    responsive: true,
+    // Plotly's own way forgets the height with the width; `watched` sees to it.
+    responsive: false,
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     toImageButtonOptions: { format: "svg" },
   };
@@ -11,6 +12,12 @@ const servoid = (() => {
   const POINTS_A_PIXEL = 2;
   // Width on paper, in the pixels of a sheet of A4 within its margins.
   const PRINTED = 680;
+  // Below this width two drawings side by side have no room for the titles of their axes.
+  const NARROW = 520;
+  // Width and height where nothing says them.
+  const [WIDTH, HEIGHT] = [700, 360];
+  // A window that is being dragged is drawn for when it rests.
+  const RESTS_MS = 80;
   const all = new Map();
   let printing = false;
 
@@ -19,7 +26,6 @@ const servoid = (() => {
   // Ground, text and grid in the colours of light or dark.
   function themed(layout) {
     const out = { ...layout, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)" };
-    if (printing) out.width = PRINTED;
     out.font = { ...layout.font, color: style("--text") };
     out.hoverlabel = { bgcolor: style("--raised"), font: { color: style("--text") }, bordercolor: style("--line") };
     out.modebar = { bgcolor: "rgba(0,0,0,0)", color: style("--quiet"), activecolor: style("--accent") };
@@ -33,6 +39,19 @@ const servoid = (() => {
         };
       }
     }
+    return out;
+  }
+
+  // The layout with both of its sides, which the place has, too, whatever happens inside it.
+  function sized(div, layout) {
+    const width = printing ? PRINTED : div.clientWidth || WIDTH;
+    const out = { height: HEIGHT, ...layout, width };
+    const { grid } = layout;
+    if (grid && grid.columns > 1 && width < NARROW) {
+      out.grid = { ...grid, rows: grid.rows * grid.columns, columns: 1 };
+      out.height *= 1.7;
+    }
+    div.style.height = `${out.height}px`;
     return out;
   }
 
@@ -234,8 +253,30 @@ const servoid = (() => {
     const traces = timelineTraces(timeline, found, state.range, div.clientWidth || 900);
     const layout = timelineLayout(timeline, cursors);
     if (state.range) layout.xaxis.range = state.range.slice();
-    return Plotly.react(div, traces, themed(layout), CONFIG);
+    return Plotly.react(div, traces, themed(sized(div, layout)), CONFIG);
   }
+
+  function paint(state) {
+    if (state.timeline) return redraw(state);
+    const { data, layout } = state.chart;
+    return Plotly.react(state.div, data, themed(sized(state.div, { uirevision: "same", ...layout })), CONFIG);
+  }
+
+  // Draws again what has got another width, once that rests.
+  const resting = new Map();
+  const watched = new ResizeObserver((entries) => {
+    for (const { target } of entries) {
+      clearTimeout(resting.get(target));
+      resting.set(target, setTimeout(() => {
+        resting.delete(target);
+        const state = all.get(target);
+        const width = target.clientWidth;
+        if (!state || printing || width === 0 || (target.layout && target.layout.width === width)) return;
+        // A legend that now needs fewer rows is put in its place by the second drawing only, when margins have followed it.
+        paint(state).then(() => Plotly.redraw(target));
+      }, RESTS_MS));
+    }
+  });
 
   // Every time axis on the page shows the same stretch.
   function follow(leader, range) {
@@ -309,9 +350,9 @@ const servoid = (() => {
       await redraw(state);
       readout(state);
     } else {
-      const { data, layout } = drawing.chart;
-      await Plotly.react(div, data, themed({ uirevision: "same", ...layout }), CONFIG);
+      await paint(state);
     }
+    watched.observe(div);
     if (before) div.removeAllListeners("plotly_relayout"), div.removeAllListeners("plotly_click");
     if (!before || !before.timeline !== !state.timeline) listen(state);
     else if (state.onTime) listen(state);
@@ -319,14 +360,12 @@ const servoid = (() => {
   }
 
   function forget(div) {
+    watched.unobserve(div);
     if (all.delete(div)) Plotly.purge(div);
   }
 
   function repaint() {
-    for (const state of all.values()) {
-      if (state.timeline) redraw(state);
-      else Plotly.react(state.div, state.chart.data, themed({ uirevision: "same", ...state.chart.layout }), CONFIG);
-    }
+    for (const state of all.values()) paint(state);
   }
 
   function theme(name) {

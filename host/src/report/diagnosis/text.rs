@@ -4,14 +4,13 @@ use super::bars::{counts, sparkline};
 use super::whereabouts::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::diagnose::{HeldOut, Step, Verdict};
+use crate::report::fold::folded;
 use crate::report::paint::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, wrapped};
 use anstyle::Style;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
 
-/// Width of the text.
-const WIDTH: usize = 78;
 /// Characters of the residual over time.
 const LINE: usize = 60;
 
@@ -234,26 +233,4 @@ pub(super) fn verdict(verdict: Verdict, text: &str) -> String {
     };
     let folded = folded(&format!("{name}: {text}"), "");
     folded.replacen(name, &painted(style.bold(), name), 1)
-}
-
-/// Folded to the width, further lines behind `indent`; spaces within the first line's head are kept.
-pub(super) fn folded(text: &str, indent: &str) -> String {
-    let head = text.len() - text.trim_start().len();
-    let mut out = String::new();
-    let mut line = text[..head].to_owned();
-    for word in text[head..].split(' ') {
-        let long = line.chars().count() + 1 + word.chars().count() > WIDTH;
-        if long && !line.trim().is_empty() {
-            out += line.trim_end();
-            out.push('\n');
-            line = indent.to_owned();
-            line += word;
-        } else {
-            if line.len() > head || !line.trim().is_empty() {
-                line.push(' ');
-            }
-            line += word;
-        }
-    }
-    out + line.trim_end()
 }

@@ -158,14 +158,7 @@ fn effect(index: usize, step: &KeptStep) -> Section {
         say("equation", description.equation.to_owned());
     }
     say("evidence", step.evidence.clone());
-    say(
-        "looks alike here",
-        if step.indistinguishable_from.is_empty() {
-            "nothing else explains these data as well".to_owned()
-        } else {
-            step.indistinguishable_from.join(", ")
-        },
-    );
+    say("looks alike here", company(step));
     if let Some(confidence) = step.confidence {
         say("confidence", format!("{:.0} %", 100.0 * confidence));
     }
@@ -187,6 +180,27 @@ fn effect(index: usize, step: &KeptStep) -> Section {
         ));
     }
     section
+}
+
+/// Other effects that explain the data as well, in the words of the terminal.
+fn company(step: &KeptStep) -> String {
+    let refines = |name: &&String| step.refined_by.contains(name);
+    let alike: Vec<String> = (step.indistinguishable_from.iter())
+        .filter(|name| !refines(name))
+        .cloned()
+        .collect();
+    let mut text = if alike.is_empty() {
+        "nothing else of the catalogue explains these data as well".to_owned()
+    } else {
+        format!("{} would explain these data as well", alike.join(", "))
+    };
+    if !step.refined_by.is_empty() {
+        text += &format!(
+            "; {} would refine it, and these data do not ask for that",
+            step.refined_by.join(" or ")
+        );
+    }
+    text
 }
 
 fn candidates(step: &KeptStep) -> Table {
@@ -228,7 +242,16 @@ fn next(diagnosis: &KeptDiagnosis) -> Section {
     }
     if diagnosis.advice.is_empty() {
         section.blocks.push(Block::Text(
-            "Nothing more needs to be recorded to name what is missing.".to_owned(),
+            match diagnosis.verdict.as_str() {
+                "complete" | "missing_effects" => {
+                    "Nothing more needs to be recorded to name what is missing."
+                }
+                _ => {
+                    "What is missing is not named, and these data do not tell which recording would name it: see below where \
+                     the last model fails."
+                }
+            }
+            .to_owned(),
         ));
     } else {
         section.blocks.push(Block::List(diagnosis.advice.clone()));

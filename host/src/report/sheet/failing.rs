@@ -1,6 +1,7 @@
 //! Where models fail on a recording: what is missing against everything that could tell why, and whether anything is
 //! left but the encoder.
 
+use super::waves::waves;
 use crate::diagnose::whereabouts::{Correlations, Whereabouts, correlations, whereabouts};
 use crate::error::Error;
 use crate::page::{Block, Section};
@@ -60,18 +61,21 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
     fails.blocks.push(Block::Text(missing(&found)));
     let mut pictures = picture::maps(&format!("{id}-against"), &maps);
     // What a wave in the angle explains shows only without it.
-    let flat = without_waves(&best.candidate);
-    let (name, missing) = match flat {
+    let (name, flat) = match without_waves(&best.candidate) {
         Some(flat) => (
             format!("{} without its effects of the angle", best.name),
-            whereabouts(data, &flat, &best.candidate, best.method)?,
+            flat,
         ),
-        None => match found.pop() {
-            Some((name, missing)) => (name.to_owned(), missing),
-            None => return Ok(Vec::new()),
-        },
+        None => (best.name.clone(), best.candidate),
     };
-    pictures.extend(picture::orders(&format!("{id}-orders"), &name, &missing));
+    let lines = waves(data, &flat);
+    let named = orders_of(&best.candidate);
+    pictures.extend(picture::orders(
+        &format!("{id}-orders"),
+        &name,
+        &lines,
+        &named,
+    ));
     fails.blocks.push(Block::Pictures(pictures));
 
     let mut noise = Section::new(&format!("{id}-noise"), "Is the rest noise?");
@@ -102,17 +106,32 @@ fn without_waves(candidate: &Candidate) -> Option<Candidate> {
     })
 }
 
+/// Orders of the waves that a model names.
+fn orders_of(candidate: &Candidate) -> Vec<usize> {
+    let orders = candidate
+        .effects
+        .iter()
+        .filter_map(|(kind, values)| match kind {
+            Kind::Cogging => values.get(2).map(|order| order.round() as usize),
+            Kind::Unbalance => Some(1),
+            _ => None,
+        });
+    orders.collect()
+}
+
 fn missing(found: &[(&str, Whereabouts)]) -> String {
     let said: Vec<String> = found
         .iter()
         .map(|(name, found)| {
-            let most = match found.most() {
-                Some(map) => format!(
-                    ", most of it against {}",
-                    map.against.name().0.replace('_', " ")
-                ),
-                None => String::new(),
-            };
+            let most = found.most().map_or(String::new(), |map| {
+                let (against, share) = (map.against.name().0.replace('_', " "), map.share);
+                let percent = format!("{:.0} %", 100.0 * share);
+                if share > 0.5 {
+                    format!(", most of it ({percent}) against {against}")
+                } else {
+                    format!(", of which the largest part, {percent}, goes with {against}")
+                }
+            });
             format!("the {name} misses {:.4} V RMS{most}", found.volts_rms)
         })
         .collect();

@@ -8,15 +8,20 @@
 //! | `steady` | `diagnose` of a curve of steady speeds |
 //! | `contest` | `compare` and `paper` |
 //! | `device` | a motor that commissioned itself |
+//! | `belongs` | whether recordings are those that a result was made from |
+//! | `waves` | lines of the missing volts in the angle |
 //! | `failing` | drawings of where models fail, for several of these |
 
+mod belongs;
 mod contest;
 mod device;
 mod diagnosis;
 mod failing;
 mod fit;
 mod steady;
+mod waves;
 
+pub use belongs::doubts;
 pub use failing::{Model, failing};
 
 use crate::error::Error;

@@ -4,6 +4,8 @@
   const at = (id) => document.getElementById(id);
   let bench = null;
   let shown = null;
+  let shownModels = null;
+  let shownChosen = null;
   let picturesAsked = 0;
   let live = new Map();
 
@@ -27,12 +29,23 @@
     return value;
   }
 
+  // What went wrong with what this page asked for, until something goes right; else what the bench says of its work.
+  let wrong = "";
+  const SILENT = "The workbench does not answer";
+
   function say(error) {
-    at("fault").hidden = !error;
-    at("fault").textContent = error ? String(error.message || error) : "";
+    wrong = error ? String(error.message || error) : "";
+    showFault();
   }
 
-  const work = (what) => ask("work", what).catch(say);
+  function showFault() {
+    const text = wrong || (bench && bench.fault) || "";
+    at("fault").hidden = !text;
+    at("fault").textContent = text;
+  }
+
+  const act = (path, body) => ask(path, body).then(() => say(null), say);
+  const work = (what) => act("work", what);
 
   // ---- making elements
 
@@ -67,7 +80,8 @@
     at("start").hidden = recording !== null;
     at("bench").hidden = recording === null;
     at("another").hidden = recording === null;
-    say(bench.fault);
+    if (wrong.startsWith(SILENT)) wrong = "";
+    showFault();
     if (!recording) {
       at("about").textContent = "Identify a DC servo motor from a recording, and see which physics is missing.";
       return;
@@ -82,7 +96,13 @@
       `${recording.counts_per_rev} counts a revolution; ${heldOut}`;
     const chosen = model(bench.chosen);
     const beside = model(bench.against);
-    if (!job) at("error-now").textContent = chosen ? counts(chosen.rms_counts) : "-";
+    // A fit tells its error as it falls, until something else is looked at.
+    if (job !== "fit" || shownChosen !== bench.chosen) at("error-now").textContent = chosen ? counts(chosen.rms_counts) : "-";
+    shownChosen = bench.chosen;
+    const notes = chosen ? chosen.notes : [];
+    at("notes").replaceChildren(...notes.map((note) => element("li", {}, note)));
+    at("notes-count").textContent = notes.length === 1 ? "One thing to know of this fit" : `${notes.length} things to know of this fit`;
+    at("notes-panel").hidden = !notes.length;
     at("error-more").textContent = chosen ? more(chosen, beside) : "Nothing is fitted yet.";
     for (const id of ["diagnose", "suggest", "add", "refit", "race", "demo", "load"]) at(id).disabled = Boolean(job);
     at("suggest").disabled = Boolean(job) || !chosen;
@@ -111,23 +131,23 @@
     at("blind").hidden = !bench.secret;
     if (!bench.secret) return;
     at("reveal").hidden = bench.secret.told !== null;
-    at("secret").textContent = bench.secret.told === null ? "" : `Hidden was ${bench.secret.told}.`;
+    at("secret").textContent = bench.secret.told === null ? "" : `Hidden was ${bench.secret.told}`;
   }
 
   function showModels() {
     const rows = bench.models.map((one) => {
       const radio = (name, current, change) => element("input", {
-        type: "radio", name, checked: current === one.id, "aria-label": `${name} ${one.name} by ${one.algorithm}`, onchange: change,
+        type: "radio", name, checked: current === one.id, "aria-label": `${name} ${one.name}`, onchange: change,
       });
       return element("tr", { className: one.id === bench.chosen ? "chosen" : "" },
-        element("td", {}, radio("look at", bench.chosen, () => ask("choose", { chosen: one.id, against: bench.against }).catch(say))),
-        element("td", {}, radio("beside", bench.against, () => ask("choose", { chosen: bench.chosen, against: one.id }).catch(say))),
-        element("td", {}, one.algorithm === "lm" ? one.name : `${one.name} (${one.algorithm})`),
+        element("td", {}, radio("look at", bench.chosen, () => act("choose", { chosen: one.id, against: bench.against }))),
+        element("td", {}, radio("beside", bench.against, () => act("choose", { chosen: bench.chosen, against: one.id }))),
+        element("td", {}, one.name),
         element("td", {}, counts(one.rms_counts)),
         element("td", {}, counts(one.held_out_rms_counts)),
         element("td", {}, element("button", {
-          type: "button", textContent: "×", "aria-label": `remove ${one.name} by ${one.algorithm}`,
-          onclick: () => ask("remove", { model: one.id }).catch(say),
+          type: "button", textContent: "×", "aria-label": `remove ${one.name}`,
+          onclick: () => act("remove", { model: one.id }),
         })));
     });
     at("models").tBodies[0].replaceChildren(...rows);
@@ -223,6 +243,7 @@
         const answer = await ask("trial", { model: chosen.id, values: moved });
         at("by-hand").textContent = `moved by hand: ${answer.said} counts RMS (fitted: ${counts(chosen.rms_counts)})`;
         await servoid.draw(at("bench-timeline"), answer.timeline);
+        say(null);
       } catch (error) {
         say(error);
       }
@@ -250,10 +271,13 @@
   // ---- drawings
 
   async function drawAll() {
-    if (!bench.recording || bench.job) return;
+    if (!bench.recording) return;
     const key = `${bench.revision}`;
-    if (key === shown) return;
+    const models = JSON.stringify([bench.chosen, bench.against, bench.models.map((one) => [one.id, one.rms_counts])]);
+    // While work goes on, only other models are worth the drawing.
+    if (key === shown || (bench.job && models === shownModels)) return;
     shown = key;
+    shownModels = models;
     picturesAsked += 1;
     const asked = picturesAsked;
     try {
@@ -275,7 +299,7 @@
       show();
       await drawAll();
     } catch (error) {
-      say(`The workbench does not answer (${error.message}). If it was ended, start it again and open its new address.`);
+      say(`${SILENT} (${error.message}). If it was ended, start it again and open its new address.`);
     }
   }
 
@@ -292,7 +316,7 @@
       ? `race: ${name} after ${what.evaluations} evaluations`
       : `${job}: ${what.evaluations} evaluations`;
     if (what.rms_counts === null) return;
-    if (!what.algorithm) at("error-now").textContent = counts(what.rms_counts);
+    if (job === "fit") at("error-now").textContent = counts(what.rms_counts);
     if (!live.has(name)) live.set(name, { x: [], y: [] });
     live.get(name).x.push(what.evaluations);
     live.get(name).y.push(what.rms_counts);
@@ -330,10 +354,14 @@
 
   async function take(files) {
     say(null);
+    if (bench && bench.job) {
+      say(`The bench is busy (${bench.job}): wait for it, or stop it first.`);
+      return;
+    }
     const texts = await Promise.all(Array.from(files).map(async (file) => ({ name: file.name, text: await file.text() })));
-    const session = texts.find((file) => file.text.trimStart().startsWith("{"));
+    const session = texts.find((file) => /^[\s\uFEFF]*\{/.test(file.text) || file.name.toLowerCase().endsWith(".json"));
     if (session) {
-      await ask("session", session.text).catch(say);
+      await act("session", session.text.replace(/^\uFEFF/, ""));
       return;
     }
     const motor = texts.find((file) => file.name.endsWith(".toml"));
@@ -393,19 +421,28 @@
       chosen[key] = at(`map-${key}`).value;
     }
     for (const key of ["counts_per_rev", "supply_v", "resistance_ohm"]) {
-      const value = Number(at(`map-${key}`).value);
-      chosen[key] = value > 0 ? value : null;
+      const field = at(`map-${key}`);
+      chosen[key] = field.value === "" ? null : Number(field.value);
+      // What is no number has no value, and must not pass for a field that was left empty.
+      if (field.validity.badInput) throw new Error(`${field.closest("label").firstChild.textContent.trim()}: this is not a number`);
     }
     return chosen;
   }
 
+  let checks = 0;
+
   async function checkColumns() {
+    checks += 1;
+    const own = checks;
     let fault = "";
     try {
       await send({ mapping: mapping(), check: true });
     } catch (error) {
-      fault = error.message;
+      // Fields have no lines.
+      fault = error.message.replace(/^motor\.toml:\d+:\d+: /, "");
     }
+    // An answer to what is no longer chosen says nothing.
+    if (own !== checks) return;
     at("column-fault").hidden = !fault;
     at("column-fault").textContent = fault;
     at("load").disabled = Boolean(fault) || Boolean(bench && bench.job);
@@ -413,7 +450,8 @@
 
   at("columns").addEventListener("change", checkColumns);
   at("load").addEventListener("click", () => {
-    load({ mapping: mapping(), held_out: at("role").value === "held_out" && Boolean(bench.recording) }).catch((error) => {
+    const heldOut = at("role").value === "held_out" && Boolean(bench.recording);
+    Promise.resolve().then(() => load({ mapping: mapping(), held_out: heldOut })).catch((error) => {
       at("column-fault").hidden = false;
       at("column-fault").textContent = error.message;
     });
@@ -447,7 +485,7 @@
     }
     at("demo").disabled = false;
   });
-  at("reveal").addEventListener("click", () => ask("reveal", {}).catch(say));
+  at("reveal").addEventListener("click", () => act("reveal", {}));
   at("diagnose").addEventListener("click", () => work({ what: "diagnose" }));
   at("stop").addEventListener("click", () => ask("stop", {}).catch(say));
   at("suggest").addEventListener("click", () => work({ what: "suggest", model: bench.chosen }));
@@ -471,6 +509,7 @@
       say((await answer.json()).error);
       return;
     }
+    say(null);
     const name = /filename="([^"]+)"/.exec(answer.headers.get("content-disposition"))[1];
     const link = element("a", { href: URL.createObjectURL(await answer.blob()), download: name });
     link.click();
