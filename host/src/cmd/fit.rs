@@ -14,10 +14,6 @@ use crate::report::{sheet, text};
 use crate::session::Session;
 use crate::solve::Found;
 use shared::cost::Cost;
-use shared::encoder::FLOOR_RMS_COUNTS;
-
-/// A fit with effects whose cost is beyond this, in parts of what the encoder leaves, is begun once more from elsewhere.
-const LOST: f64 = 1.2;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
@@ -87,9 +83,8 @@ fn again<'a>(
     found: &Found,
     options: &Options,
 ) -> Option<(FitProblem<'a>, Found)> {
-    let floor = FLOOR_RMS_COUNTS.powi(2) * problem.data.len() as f64;
     let squares = problem.cost == Cost::Squared;
-    if options.effects.is_empty() || !squares || found.cost < LOST * floor || found.interrupted {
+    if !squares || found.interrupted || !diagnose::is_lost(found.cost, problem.data.len()) {
         return None;
     }
     let effort = Effort::usual(session.stop());

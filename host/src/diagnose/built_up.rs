@@ -8,14 +8,27 @@ use super::workshop::Workshop;
 use crate::fit::Options;
 use crate::problem::{Candidate, Data};
 use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
 
-/// The model that is reached by adding `effects` in their order. `None` where one of them cannot be added.
+/// A sum of squares beyond this, in parts of what the encoder leaves, is worth another start.
+const LOST: f64 = 1.2;
+
+/// Whether a fit may have ended in the wrong valley: it leaves more than the encoder does in so many samples.
+pub fn is_lost(squares: f64, samples: usize) -> bool {
+    squares > LOST * FLOOR_RMS_COUNTS.powi(2) * samples as f64
+}
+
+/// The model that is reached by adding `effects` in their order. `None` where there are none, or one of them cannot be
+/// added.
 pub fn built_up(
     data: &Data,
     effects: &[Kind],
     options: &Options,
     effort: &Effort<'_>,
 ) -> Option<Candidate> {
+    if effects.is_empty() {
+        return None;
+    }
     let mut workshop = Workshop::new(data, data, options, effort);
     let mut model = workshop.base(options).ok()?;
     for &kind in effects {

@@ -41,7 +41,7 @@ pub mod usable;
 pub mod whereabouts;
 mod workshop;
 
-pub use built_up::built_up;
+pub use built_up::{built_up, is_lost};
 pub use effort::{Effort, USUAL_STEPS};
 pub use errors::Errors;
 pub use findings::{Findings, findings};

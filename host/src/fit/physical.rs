@@ -281,7 +281,9 @@ fn whitening(covariance: &DMatrix<f64>, measured: &[f64; 4]) -> Vec<Vec<f64>> {
         if k == 3 {
             1.0
         } else {
-            measured[k].abs().max(f64::MIN_POSITIVE)
+            // What is zero is as large as its error.
+            let error = covariance[(k, k)].max(0.0).sqrt();
+            measured[k].abs().max(error).max(f64::MIN_POSITIVE)
         }
     };
     let relative = DMatrix::from_fn(rows, rows, |i, k| {
@@ -289,6 +291,9 @@ fn whitening(covariance: &DMatrix<f64>, measured: &[f64; 4]) -> Vec<Vec<f64>> {
         covariance[(i, k)] / (size(i) * size(k)) + floor
     });
     // With covariance L·Lᵀ, the rows of L⁻¹ are statements of unit variance.
+    if !relative.iter().all(|x| x.is_finite()) {
+        return Vec::new();
+    }
     let Some(inverse) = relative.cholesky().and_then(|c| c.l().try_inverse()) else {
         return Vec::new();
     };

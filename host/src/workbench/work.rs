@@ -15,7 +15,6 @@ use crate::solve::{self, Found, Objective};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use shared::effects::Kind;
-use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -25,8 +24,6 @@ const BUDGET: usize = 5000;
 const FIRST: usize = 60;
 /// Evaluations from there.
 const SECOND: usize = 400;
-/// Cost of a found model beyond which the better start is worth another fit, in parts of what was found there.
-const LOST: f64 = 1.05;
 
 /// Fits a model with these effects, and puts it on the bench.
 pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<(), Error> {
@@ -83,10 +80,16 @@ fn fitted(
     let mut problem = fit::problem(data, &options)?;
     let mut found = search(&problem, &options);
     // Regression may start in another valley than the one that was found.
-    if let Some(suggestion) = suggestion
-        && found.cost > LOST * FLOOR_RMS_COUNTS.powi(2) * samples
+    if algorithm == USUAL
+        && diagnose::is_lost(found.cost, data.len())
+        && let Some(candidate) = suggestion
+            .map(|suggestion| suggestion.refit.candidate)
+            .or_else(|| {
+                let effort = Effort::usual(bench.job.flag());
+                diagnose::built_up(data, effects, &options, &effort)
+            })
     {
-        let start = problem.begun_at(&suggestion.refit.candidate);
+        let start = problem.begun_at(&candidate);
         options.budget = SECOND;
         let again = search(&start, &options);
         if again.cost < found.cost {
