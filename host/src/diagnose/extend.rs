@@ -104,7 +104,7 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
         }
         sort_sketches(&mut more);
         again_from_best(workshop, parents, &mut more);
-        let further = parent == 0;
+        let further = parent == 0 && workshop.span.window_s.is_none();
         models = refits(workshop, &more, models, done, |best| {
             further && !removes(parents[parent], best)
         });

@@ -45,11 +45,14 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         let mut models = extend(workshop, &parents, done);
         workshop.effort.take_stock();
         let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
+        // In windows a right model need not come down to the encoder's error, and what remains would be looked at for ever.
+        let looks_again = !levels.is_empty() && workshop.span.window_s.is_none();
         // Before more is blamed, what is there is brought to its end.
-        if !levels.is_empty() {
+        if looks_again {
             polish_best(workshop, &mut models);
         }
         if let Some(level) = levels.last()
+            && looks_again
             && !explained(&models)
         {
             models.extend(from_plainer(workshop, &parents, done));
