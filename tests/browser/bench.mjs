@@ -3,10 +3,16 @@ import { spawn, execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { test as plain } from "node:test";
 import { chromium } from "playwright-core";
 
 export const SERVOID = process.env.SERVOID;
 const BROWSER = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
+
+// A test that fails if it waits for what never comes; the slowest takes half a minute.
+export function test(name, body) {
+  return plain(name, { timeout: 300_000 }, body);
+}
 
 // A folder of its own, in which servoid is run as at a shell.
 export class Desk {
@@ -36,7 +42,8 @@ export class Desk {
       });
       program.on("exit", (code) => reject(new Error(`servoid bench ended with ${code}`)));
     });
-    return { url, program, end: () => new Promise((done) => { program.on("exit", done); program.kill("SIGINT"); }) };
+    const ended = new Promise((done) => program.on("exit", done));
+    return { url, program, end: () => (program.kill("SIGINT"), ended) };
   }
 
   // Also of what a failed test has left running, which would keep this one alive.

@@ -1,7 +1,7 @@
 // The report in a real browser, from a double click.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { Desk, browser, open, outside, turnAndResize } from "./bench.mjs";
+import { after, before } from "node:test";
+import { Desk, browser, open, outside, test, turnAndResize } from "./bench.mjs";
 
 let chrome;
 let desk;

@@ -250,7 +250,7 @@ const servoid = (() => {
 
   function redraw(state) {
     const { div, timeline, found, cursors } = state;
-    const traces = timelineTraces(timeline, found, state.range, div.clientWidth || 900);
+    const traces = timelineTraces(timeline, found, state.range, div.clientWidth || WIDTH);
     const layout = timelineLayout(timeline, cursors);
     if (state.range) layout.xaxis.range = state.range.slice();
     return Plotly.react(div, traces, themed(sized(div, layout)), CONFIG);
@@ -315,7 +315,8 @@ const servoid = (() => {
     };
     state.div.on("plotly_click", (event) => put(event.event.shiftKey ? "B" : "A", event.points[0].x));
     // A and B put a cursor in the middle, the arrows move the last one; with shift by tenfold, Escape takes them away.
-    state.div.addEventListener("keydown", (event) => {
+    // Assigned, since what was drawn here before had its own keys.
+    state.div.onkeydown = (event) => {
       const time = state.found.time;
       const [from, to] = state.range || [time[0], time[time.length - 1]];
       const name = event.key.toUpperCase();
@@ -333,7 +334,7 @@ const servoid = (() => {
         return;
       }
       event.preventDefault();
-    });
+    };
   }
 
   // Draws into `div`; drawing there again replaces what it shows and keeps the stretch of time.
@@ -354,8 +355,7 @@ const servoid = (() => {
     }
     watched.observe(div);
     if (before) div.removeAllListeners("plotly_relayout"), div.removeAllListeners("plotly_click");
-    if (!before || !before.timeline !== !state.timeline) listen(state);
-    else if (state.onTime) listen(state);
+    listen(state);
     return state;
   }
 
