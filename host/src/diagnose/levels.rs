@@ -44,25 +44,9 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         };
         let mut models = extend(workshop, &parents, done);
         workshop.effort.take_stock();
-        let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
         // In windows a right model need not come down to the encoder's error, and what remains would be looked at for ever.
-        let looks_again = !levels.is_empty() && workshop.span.window_s.is_none();
-        // Before more is blamed, what is there is brought to its end.
-        if looks_again {
-            polish_best(workshop, &mut models);
-        }
-        if let Some(level) = levels.last()
-            && looks_again
-            && !explained(&models)
-        {
-            models.extend(from_plainer(workshop, &parents, done));
-            sort(workshop, &mut models);
-            workshop.effort.take_stock();
-            if !explained(&models) {
-                models.extend(from_beyond(workshop, &level.models, &parents, done));
-                sort(workshop, &mut models);
-                workshop.effort.take_stock();
-            }
+        if let Some(level) = levels.last().filter(|_| workshop.span.window_s.is_none()) {
+            look_again(workshop, &level.models, &parents, &mut models, done);
         }
         duel::duel(workshop, &mut models);
         workshop.effort.take_stock();
@@ -83,6 +67,32 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         });
     }
     levels
+}
+
+/// Adds to `models`, which build on `parents` of a `level`, those that build on others, as long as nothing explains the
+/// recording.
+fn look_again(
+    workshop: &Workshop<'_>,
+    level: &[Refit],
+    parents: &[&Refit],
+    models: &mut Vec<Refit>,
+    done: &(dyn Fn() + Sync),
+) {
+    let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
+    // Before more is blamed, what is there is brought to its end.
+    polish_best(workshop, models);
+    let further: [&dyn Fn() -> Vec<Refit>; 2] =
+        [&|| from_plainer(workshop, parents, done), &|| {
+            from_beyond(workshop, level, parents, done)
+        }];
+    for find in further {
+        if explained(models) {
+            return;
+        }
+        models.extend(find());
+        sort(workshop, models);
+        workshop.effort.take_stock();
+    }
 }
 
 /// A friction with many parameters may have taken on what another effect does, and then leaves that one nothing to
