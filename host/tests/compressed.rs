@@ -3,10 +3,11 @@
 
 use host::fit::{self, Options};
 use host::problem::simulate::{Method, Simulation};
-use host::problem::{Candidate, Data, FitProblem, Horizon, Quick, StartAngle};
+use host::problem::{About, Candidate, Data, FitProblem, Horizon, Quick, StartAngle};
 use host::recording::{Drive, Recording};
 use host::solve::{self, Compressed, Evaluator, Found, Objective};
 use nalgebra::DMatrix;
+use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
 use shared::motor::Machine;
 use shared::rng;
@@ -14,6 +15,9 @@ use std::sync::atomic::AtomicBool;
 
 const SUPPLY: f64 = 12.0;
 const MOTORS: u64 = 12;
+const ABSOLUTE: Cost = Cost::Absolute {
+    model_floored: false,
+};
 /// Step to the moved points, as in the search.
 const STEP: f64 = 1e-6;
 
@@ -145,6 +149,39 @@ fn check(problem: &FitProblem<'_>, compressed: &dyn Compressed, x: &[f64], label
     assert!(tangent.possible.iter().all(|&possible| possible), "{label}");
 }
 
+/// What is handed over in parts is what the whole lists of errors differ by.
+fn check_stream(problem: &FitProblem<'_>, x: &[f64], label: &str) {
+    let model = |x: &[f64]| problem.structure.candidate(&problem.structure.values(x));
+    for cost in [Cost::Squared, ABSOLUTE] {
+        let problem = FitProblem {
+            cost,
+            ..problem.begun_at(&model(x))
+        };
+        let moved = moved(x);
+        let models: Vec<Candidate> = moved.iter().map(|x| model(x)).collect();
+        let mut columns = vec![Vec::new(); moved.len()];
+        let about = problem
+            .stream_changes(&model(x), &models, |some| {
+                for (column, some) in columns.iter_mut().zip(some) {
+                    column.extend_from_slice(some);
+                }
+            })
+            .expect("changes");
+        for (k, (column, whole)) in columns.iter().zip(problem.changes(x, &moved)).enumerate() {
+            let whole = whole.expect("changes");
+            assert_eq!(column.len(), whole.len(), "{label}");
+            let mean = match about {
+                About::Mean => column.iter().sum::<f64>() / column.len() as f64,
+                About::Zero => 0.0,
+            };
+            for (change, whole) in column.iter().zip(&whole) {
+                let off = (change - mean - whole).abs();
+                assert!(off < 1e-8, "{label}, {cost:?}, unknown {k}: off by {off:e}");
+            }
+        }
+    }
+}
+
 /// With held and with restless commands, effects or none, few unknowns and many, every horizon and start.
 #[test]
 fn what_is_compressed_is_what_all_residuals_say() {
@@ -174,6 +211,7 @@ fn what_is_compressed_is_what_all_residuals_say() {
                     problem.horizon = horizon;
                     problem.start_angle = start_angle;
                     check(&problem, &problem, &x, &label);
+                    check_stream(&problem, &x, &label);
                     check(
                         &problem,
                         &Quick::new(&problem),

@@ -9,6 +9,7 @@ pub mod regression;
 mod remarks;
 pub mod report;
 pub mod scores;
+mod sensitivity;
 pub mod uncertainty;
 mod validate;
 

@@ -8,14 +8,12 @@
 //! within a segment, it is counted once.
 
 use super::memory::memory;
+use super::sensitivity::sensitivity;
 use crate::problem::{Data, FitProblem};
 use nalgebra::{DMatrix, DVector};
 
 /// Time segments that count as independent.
 pub(super) const SEGMENTS: usize = 24;
-/// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far
-/// below any bend.
-const PROBE_COUNTS: f64 = 0.02;
 /// Singular values of the column-scaled Jacobian below this are directions that the data do not hold.
 const FLAT: f64 = 1e-6;
 
@@ -46,68 +44,24 @@ impl Uncertainty {
     }
 }
 
-/// Jacobian of the residuals by central differences at `values`, one column an unknown.
-pub fn jacobian(problem: &FitProblem<'_>, values: &[f64]) -> Option<DMatrix<f64>> {
-    let run = |values: &[f64]| problem.errors(&problem.structure.candidate(values)).ok();
-    let here = run(values)?;
-    let mut jacobian = DMatrix::zeros(here.len(), values.len());
-    for (k, unknown) in problem.structure.unknowns.iter().enumerate() {
-        let (low, high) = unknown.range;
-        let mut step = 1e-4 * values[k].abs().max(1e-4 * (high - low));
-        let mut ahead = moved(values, k, step, high);
-        // One correction of the step brings the change near the wanted size.
-        let change = rms_difference(&run(&ahead)?, &here);
-        if change > 0.0 {
-            step = (step * (PROBE_COUNTS / change).clamp(1e-4, 1e3)).min(0.02 * (high - low));
-            ahead = moved(values, k, step, high);
-        }
-        let behind = moved(values, k, -step, low);
-        let width = ahead[k] - behind[k];
-        if width == 0.0 {
-            continue;
-        }
-        let (up, down) = (run(&ahead)?, run(&behind)?);
-        for i in 0..here.len() {
-            jacobian[(i, k)] = (up[i] - down[i]) / width;
-        }
-    }
-    jacobian.iter().all(|x| x.is_finite()).then_some(jacobian)
-}
-
-/// `values` with unknown `k` moved by `step`, not beyond `limit`.
-fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Vec<f64> {
-    let mut values = values.to_vec();
-    let target = values[k] + step;
-    values[k] = if step > 0.0 {
-        target.min(limit.max(values[k]))
-    } else {
-        target.max(limit.min(values[k]))
-    };
-    values
-}
-
-fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
-    let sum: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-    (sum / a.len().max(1) as f64).sqrt()
-}
-
 /// The sandwich covariance at `values`, where the residuals are `residuals`.
 pub fn uncertainty(
     problem: &FitProblem<'_>,
     values: &[f64],
     residuals: &[f64],
 ) -> Option<Uncertainty> {
-    let mut scaled = jacobian(problem, values)?;
-    let (rows, columns) = scaled.shape();
-    let scales: Vec<f64> = scaled.column_iter().map(|c| c.norm()).collect();
-    for (mut column, &scale) in scaled.column_iter_mut().zip(&scales) {
-        if scale > 0.0 {
-            column /= scale;
-        } else {
-            column.fill(0.0);
-        }
-    }
-    let hessian = scaled.tr_mul(&scaled);
+    let found = sensitivity(problem, values, residuals)?;
+    let columns = values.len();
+    // Of columns of length one.
+    let scales = found
+        .squares
+        .diagonal()
+        .map(|square| square.max(0.0).sqrt());
+    let per_scale = scales.map(|scale| if scale > 0.0 { 1.0 / scale } else { 0.0 });
+    let scaled = |gradient: &DVector<f64>| gradient.component_mul(&per_scale);
+    let hessian = DMatrix::from_fn(columns, columns, |i, k| {
+        found.squares[(i, k)] * per_scale[i] * per_scale[k]
+    });
     let eigen = hessian.symmetric_eigen();
     let mut inverse = DMatrix::zeros(columns, columns);
     let mut flat: Vec<bool> = scales.iter().map(|&s| s == 0.0).collect();
@@ -127,8 +81,7 @@ pub fn uncertainty(
     // How far the minimum still is, by one Gauss-Newton step. Away from it a standard error would
     // describe a place where nobody is: the distance counts as error too, and where most of the
     // error could still be removed there is nothing to state. Unknowns on a wall stay there.
-    let residual_vector = DVector::from_column_slice(residuals);
-    let mut gradient = scaled.tr_mul(&residual_vector);
+    let mut gradient = scaled(&found.gradients.iter().sum());
     for (k, x) in problem.structure.coordinates(values).iter().enumerate() {
         if !(WALL..=1.0 - WALL).contains(x) {
             gradient[k] = 0.0;
@@ -136,19 +89,17 @@ pub fn uncertainty(
     }
     let away = -(&inverse * &gradient);
     let removable = gradient.dot(&(&inverse * &gradient))
-        / residual_vector.norm_squared().max(f64::MIN_POSITIVE);
+        / residuals
+            .iter()
+            .map(|r| r * r)
+            .sum::<f64>()
+            .max(f64::MIN_POSITIVE);
 
     let mut middle = DMatrix::zeros(columns, columns);
-    let per_segment = rows.div_ceil(SEGMENTS).max(1);
-    for from in (0..rows).step_by(per_segment) {
-        let to = (from + per_segment).min(rows);
-        let mut gradient = DVector::zeros(columns);
-        for (row, residual) in scaled.row_iter().zip(residuals).take(to).skip(from) {
-            gradient += row.transpose() * *residual;
-        }
+    for gradient in found.gradients.iter().map(scaled) {
         middle += &gradient * gradient.transpose();
     }
-    let segments = rows.div_ceil(per_segment) as f64;
+    let segments = found.gradients.len() as f64;
     let correction = segments / (segments - (columns as f64).min(segments - 1.0));
     let scaled_covariance = &inverse * middle * &inverse * correction + &away * away.transpose();
     let covariance = DMatrix::from_fn(columns, columns, |i, k| {

@@ -161,6 +161,37 @@ impl FitProblem<'_> {
         Some(errors)
     }
 
+    /// By how much the errors of each of the `others` differ from those of `here`; `None` for one that cannot run.
+    pub(super) fn changes_of(
+        &self,
+        here: &Candidate,
+        others: &[Candidate],
+    ) -> Vec<Option<Vec<f64>>> {
+        let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
+        self.runs().changes(
+            here,
+            others,
+            |candidate| legs(data, candidate, horizon, start_angle),
+            |candidate, errors| {
+                centre(data, candidate, horizon, start_angle, self.cost, errors);
+            },
+        )
+    }
+
+    /// How models are run side by side.
+    pub(super) fn runs(&self) -> Run<'_> {
+        Run {
+            data: self.data,
+            method: self.method,
+            manner: self.horizon.manner(),
+        }
+    }
+
+    /// Whether the start angle of a model is free.
+    pub(super) fn is_centred(&self, candidate: &Candidate) -> bool {
+        is_centred(self.data, candidate, &self.horizon, self.start_angle)
+    }
+
     /// Where residuals are zero, counts above the reading.
     fn zero(&self) -> f64 {
         shared::encoder::FLOOR_OFFSET_COUNTS - reading_shift(self.data)
@@ -306,26 +337,7 @@ impl Objective for FitProblem<'_> {
 
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
         let candidates: Vec<Candidate> = moved.iter().map(|x| self.candidate(x)).collect();
-        let run = Run {
-            data: self.data,
-            method: self.method,
-            manner: self.horizon.manner(),
-        };
-        run.changes(
-            &self.candidate(x),
-            &candidates,
-            |candidate| legs(self.data, candidate, &self.horizon, self.start_angle),
-            |candidate, errors| {
-                centre(
-                    self.data,
-                    candidate,
-                    &self.horizon,
-                    self.start_angle,
-                    self.cost,
-                    errors,
-                );
-            },
-        )
+        self.changes_of(&self.candidate(x), &candidates)
     }
 
     fn compressed(&self) -> Option<&dyn Compressed> {
@@ -359,15 +371,10 @@ impl Compressed for FitProblem<'_> {
         let here = self.candidate(x);
         let others: Vec<Candidate> = moved.iter().map(|x| self.candidate(x)).collect();
         let (horizon, start_angle) = (&self.horizon, self.start_angle);
-        let centred = is_centred(self.data, &here, horizon, start_angle);
-        let run = Run {
-            data: self.data,
-            method: self.method,
-            manner: horizon.manner(),
-        };
+        let centred = self.is_centred(&here);
         let legs = |candidate: &Candidate| legs(self.data, candidate, horizon, start_angle);
         let mut compress = Compress::new(moved.len(), (!centred).then(|| self.zero()));
-        if run.stream(&here, &others, legs, |here, changes| {
+        if self.runs().stream(&here, &others, legs, |here, changes| {
             compress.add(here, changes);
         }) && let Some(tangent) = compress.tangent()
         {

@@ -11,6 +11,7 @@ pub mod cost;
 pub mod course;
 pub mod data;
 pub mod held;
+mod nearby;
 pub mod quick;
 pub mod simulate;
 mod spread;
@@ -18,6 +19,7 @@ pub mod unknowns;
 
 pub use cost::{FitProblem, Horizon, StartAngle};
 pub use data::Data;
+pub use nearby::About;
 pub use quick::Quick;
 pub use simulate::Candidate;
 pub use unknowns::{Base, Structure, Unknown};
