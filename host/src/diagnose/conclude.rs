@@ -59,9 +59,10 @@ pub fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagn
             let made = list.iter().chain(&known).find(fitted).cloned();
             made.or_else(|| needless::begun(workshop, &chosen, depth + 1))
         };
-        let Some(after) = after.or(list.first().cloned()) else {
+        let Some(mut after) = after.or(list.first().cloned()) else {
             break;
         };
+        workshop.follow_held_out(&mut after);
         let mut candidates = vec![after.clone()];
         candidates.extend(
             list.iter()

@@ -26,6 +26,10 @@ pub struct Settings {
     /// Whether the Jacobian is updated between differences. Near the end of a narrow valley an updated one is
     /// not good enough.
     pub secant: bool,
+    /// First step of the finite differences, as a share of the cube's side.
+    pub probe: f64,
+    /// RMS change of the residuals that the steps of further differences are to make; `None` for the first step always.
+    pub probed: Option<f64>,
 }
 
 /// Where a search ended.
@@ -39,8 +43,10 @@ pub struct Descent {
     pub evaluations: usize,
 }
 
-/// Step of the finite differences, as a share of the cube's side.
-const STEP: f64 = 1e-5;
+/// Usual step of the finite differences, as a share of the cube's side.
+pub const PROBE: f64 = 1e-5;
+/// Steps that are set by what they change stay between these.
+const PROBES: (f64, f64) = (1e-10, 1e-4);
 /// Damping stays between these.
 const DAMPING: (f64, f64) = (1e-12, 1e9);
 
@@ -87,6 +93,8 @@ struct Search<'a> {
     columns: Vec<Vec<f64>>,
     fresh: bool,
     damping: f64,
+    /// Steps of the next finite differences.
+    probes: Vec<f64>,
 }
 
 impl<'a> Search<'a> {
@@ -109,6 +117,7 @@ impl<'a> Search<'a> {
             columns: Vec::new(),
             fresh: false,
             damping: settings.damping,
+            probes: vec![settings.probe; start.len()],
         })
     }
 
@@ -164,11 +173,12 @@ impl<'a> Search<'a> {
         if self.effort.halted() {
             return false;
         }
-        let step = |x: f64| if x + STEP > 1.0 { -STEP } else { STEP };
+        let step = |(x, probe): (&f64, &f64)| if x + probe > 1.0 { -probe } else { *probe };
+        let steps: Vec<f64> = self.x.iter().zip(&self.probes).map(step).collect();
         let moved: Vec<Vec<f64>> = (0..self.x.len())
             .map(|axis| {
                 let mut moved = self.x.clone();
-                moved[axis] += step(moved[axis]);
+                moved[axis] += steps[axis];
                 moved
             })
             .collect();
@@ -176,15 +186,21 @@ impl<'a> Search<'a> {
         self.evaluations += moved.len();
         self.columns = changes
             .into_iter()
-            .zip(&self.x)
-            .map(|(change, &x)| match change {
+            .zip(&steps)
+            .map(|(change, step)| match change {
                 Some(change) => {
-                    let slopes = change.iter().map(|change| change / step(x));
+                    let slopes = change.iter().map(|change| change / step);
                     slopes.step_by(self.settings.stride.max(1)).collect()
                 }
                 None => vec![0.0; self.residuals.len()],
             })
             .collect();
+        if let Some(wanted) = self.settings.probed {
+            for (probe, column) in self.probes.iter_mut().zip(&self.columns) {
+                let slope = (dot(column, column) / column.len().max(1) as f64).sqrt();
+                *probe = (wanted / slope).clamp(PROBES.0, PROBES.1);
+            }
+        }
         self.fresh = true;
         true
     }
@@ -433,6 +449,8 @@ mod tests {
             enough: 0.0,
             damping: 1e-9,
             secant: false,
+            probe: PROBE,
+            probed: None,
         };
         let stop = AtomicBool::new(false);
         let effort = Effort::usual(&stop);
@@ -450,6 +468,49 @@ mod tests {
                 found.x.iter().all(|x| (0.0..=1.0).contains(x)),
                 "seed {seed}"
             );
+        }
+    }
+
+    /// Waves that a usual step of the differences leaps over.
+    struct Fine;
+
+    impl Objective for Fine {
+        fn dim(&self) -> usize {
+            1
+        }
+
+        fn cost(&self, x: &[f64]) -> f64 {
+            let residuals = self.residuals_and_cost(x).unwrap().0;
+            dot(&residuals, &residuals)
+        }
+
+        fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
+            let residuals: Vec<f64> = (0..16)
+                .map(|row| (1e7 * (1.0 + f64::from(row) / 100.0) * (x[0] - 0.3)).sin())
+                .collect();
+            let squares = dot(&residuals, &residuals);
+            Some((residuals, squares))
+        }
+    }
+
+    /// The step of the differences follows how steep the residuals are.
+    #[test]
+    fn steps_that_follow_what_they_change_find_the_bottom_of_a_fine_wave() {
+        let settings = Settings {
+            evaluations: 100,
+            tolerance: 1e-9,
+            stride: 1,
+            enough: 0.0,
+            damping: 1e-9,
+            secant: false,
+            probe: 1e-8,
+            probed: Some(0.01),
+        };
+        let stop = AtomicBool::new(false);
+        let effort = Effort::usual(&stop);
+        for off in [-0.6e-7, -0.2e-7, 0.3e-7, 0.5e-7] {
+            let found = descend(&Fine, &[0.3 + off], settings, &effort).unwrap();
+            assert!(found.squares < 1e-9, "{off:e}: {}", found.squares);
         }
     }
 }

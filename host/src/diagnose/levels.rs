@@ -141,7 +141,7 @@ const BEHIND: f64 = 1.0;
 
 /// Polishes the best models of a level that are not at the floor yet.
 fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
-    if models.first().is_none_or(|model| model.judged().at_floor()) {
+    if models.first().is_none_or(|model| model.ran().at_floor()) {
         return;
     }
     let least = models.first().map_or(0.0, |model| model.judged().score());

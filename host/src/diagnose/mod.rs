@@ -16,6 +16,7 @@ mod errors;
 pub mod evidence;
 mod extend;
 mod findings;
+mod follow;
 pub mod holdout;
 mod judge;
 mod led;

@@ -1,6 +1,6 @@
 //! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
 
-use super::descent::Settings;
+use super::descent::{PROBE, Settings};
 use super::refit::Refit;
 use super::workshop::Workshop;
 use crate::error::Error;
@@ -15,13 +15,15 @@ const LAST: Settings = Settings {
     enough: 0.0,
     damping: 1e-9,
     secant: false,
+    probe: PROBE,
+    probed: None,
 };
 /// How long an error is remembered while a model whose free run is chaotic is polished.
 const POLISHED_MEMORY_S: f64 = 0.5;
 /// Factor between step sizes that are compared.
 const FINER: u16 = 4;
 /// Most parts to a sample.
-const FINEST: u16 = 16;
+pub(super) const FINEST: u16 = 16;
 /// A finer step that changes the RMS error by less is not worth its time: counts, or a part of a
 /// larger error.
 const STEP_ERROR: f64 = 0.02;
@@ -34,15 +36,19 @@ impl Workshop<'_> {
     /// Where the model cannot run, which it could before.
     pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
         let polished = self.converged(refit)?;
-        if polished.tracked.is_none() || polished.judged().at_floor() {
+        if polished.tracked.is_none() || polished.ran().at_floor() {
             return Ok(polished);
         }
         // Near enough to the truth even a chaotic free run has a floor to go down to.
-        let free = Refit {
+        if let Some(mut followed) = self.followed(&polished) {
+            self.track(&mut followed)?;
+            self.follow_held_out(&mut followed);
+            return Ok(followed);
+        }
+        let free = self.converged(&Refit {
             tracked: None,
             ..polished.clone()
-        };
-        let free = self.converged(&free)?;
+        })?;
         Ok(if free.ran().at_floor() {
             Refit {
                 tracked: polished.tracked,

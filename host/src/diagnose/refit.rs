@@ -1,13 +1,13 @@
 //! One model with one set of effects, fitted to the recording and judged on the other.
 
 use super::NOISE_COUNTS;
-use super::descent::{Descent, Settings};
+use super::descent::{Descent, PROBE, Settings};
 use super::errors::{Errors, ROOM};
 use super::missed::Losses;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
 use crate::error::Error;
-use crate::fit::{scores, validate};
+use crate::fit::{scores, validate, validate_roughly};
 use crate::problem::cost::{errors, rms_counts};
 use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure};
@@ -24,6 +24,8 @@ const FULL: Settings = Settings {
     enough: 0.0,
     damping: 1e-6,
     secant: true,
+    probe: PROBE,
+    probed: None,
 };
 /// Of a stage with a short memory.
 const FADE: Settings = Settings {
@@ -33,6 +35,8 @@ const FADE: Settings = Settings {
     enough: f64::INFINITY,
     damping: 1e-4,
     secant: true,
+    probe: PROBE,
+    probed: None,
 };
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
@@ -198,6 +202,15 @@ impl Workshop<'_> {
         Ok(())
     }
 
+    /// Looks for the start of the held-out run as it is looked for where results are told.
+    pub(super) fn follow_held_out(&self, refit: &mut Refit) {
+        if refit.losses.is_none()
+            && let Ok(rms) = validate(self.held_out, &refit.candidate, refit.method)
+        {
+            refit.validate_rms_counts = rms;
+        }
+    }
+
     /// Descends with a memory that grows from stage to stage, so that the search meets the rough cost of the
     /// free run only when it is near.
     fn fade(&self, structure: &Structure, x: &[f64]) -> Vec<f64> {
@@ -254,7 +267,7 @@ impl Workshop<'_> {
         if self.span.window_s.is_none() {
             return Ok(Errors {
                 fitted: rms_counts(self.data, &scores::whole(self.data, candidate, method)?),
-                held_out: validate(self.held_out, candidate, method)?,
+                held_out: validate_roughly(self.held_out, candidate, method)?,
                 floor: self.floor,
             });
         }
@@ -292,7 +305,7 @@ impl Workshop<'_> {
             x: found.x.clone(),
             losses: None,
             rms_counts: if windows {
-                validate(self.data, &candidate, method)?
+                validate_roughly(self.data, &candidate, method)?
             } else {
                 rms_counts(self.data, &scores::whole(self.data, &candidate, method)?)
             },
@@ -301,7 +314,7 @@ impl Workshop<'_> {
             } else {
                 None
             },
-            validate_rms_counts: validate(self.held_out, &candidate, method)?,
+            validate_rms_counts: validate_roughly(self.held_out, &candidate, method)?,
             tracked: None,
             foreseen_rms_counts: foreseen,
             evaluations: found.evaluations,

@@ -47,7 +47,9 @@ pub fn settle(
     };
     let judged_otherwise = last.windowed.is_some() || last.losses.is_some();
     let chaotic = last.tracked.is_some() && !last.ran().at_floor();
-    let stays = judged_otherwise || diagnosis.ran_out || stop.load(Ordering::Relaxed);
+    // Where it was followed to the recording's end it was fitted to its end.
+    let followed = last.tracked.is_some() && last.rms_counts < NOISE_COUNTS;
+    let stays = judged_otherwise || followed || diagnosis.ran_out || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {
             let solver = LevenbergMarquardt::default();

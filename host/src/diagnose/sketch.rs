@@ -3,7 +3,7 @@
 
 use super::NOISE_COUNTS;
 use super::carried::{Found, carried};
-use super::descent::Settings;
+use super::descent::{PROBE, Settings};
 use super::led::{Led, follows};
 use super::refit::Refit;
 use super::spectrum::spectrum;
@@ -26,6 +26,8 @@ const SKETCH: Settings = Settings {
     enough: f64::INFINITY,
     damping: 1e-4,
     secant: true,
+    probe: PROBE,
+    probed: None,
 };
 
 /// Starts that are left after a glance at all of them.

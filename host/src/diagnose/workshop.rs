@@ -1,6 +1,6 @@
 //! The recordings and how models are run: what every fit of a diagnosis needs.
 
-use super::descent::{Descent, Settings, descend};
+use super::descent::{Descent, PROBE, Settings, descend};
 use super::effort::Effort;
 use super::motion::Motion;
 use super::refit::Refit;
@@ -23,6 +23,8 @@ const BASE: Settings = Settings {
     enough: 0.0,
     damping: 1e-9,
     secant: false,
+    probe: PROBE,
+    probed: None,
 };
 
 /// The recordings and how models are run.

@@ -30,7 +30,7 @@ use std::sync::atomic::AtomicBool;
 
 pub use ladder::ladder;
 pub use report::{Fit, Parameter, Rung};
-pub use validate::{validate, validation_errors};
+pub use validate::{START_OFFSETS, departure, validate, validate_roughly, validation_errors};
 
 /// What to fit, and how.
 #[derive(Clone, Debug)]

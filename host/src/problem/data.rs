@@ -94,6 +94,26 @@ impl Data {
         self.counts.len()
     }
 
+    /// Its first samples only.
+    pub fn first(&self, samples: usize) -> Data {
+        let some = |values: &[f64]| values[..samples.min(values.len())].to_vec();
+        Data {
+            source: self.source.clone(),
+            time_s: some(&self.time_s),
+            command: some(&self.command),
+            counts: some(&self.counts),
+            open: self
+                .open
+                .as_ref()
+                .map(|open| open[..samples.min(open.len())].to_vec()),
+            current_a: self.current_a.as_deref().map(some),
+            lengths: self.lengths.clone(),
+            length_of: self.length_of[..samples.min(self.len())].to_vec(),
+            end_of: None,
+            ..*self
+        }
+    }
+
     /// As the end of a whole recording.
     pub fn at_end_of(mut self, whole: Arc<Data>) -> Self {
         self.end_of = Some(whole);

@@ -20,7 +20,7 @@ mod step;
 
 pub use detect::Loss;
 
-use super::descent::Settings;
+use super::descent::{PROBE, Settings};
 use super::motion::Motion;
 use super::refit::Refit;
 use super::workshop::Workshop;
@@ -41,6 +41,8 @@ const FIT: Settings = Settings {
     enough: 0.0,
     damping: 1e-9,
     secant: false,
+    probe: PROBE,
+    probed: None,
 };
 /// Most rounds of finding and fitting.
 const ROUNDS: usize = 6;
