@@ -3,6 +3,7 @@
 //! It is pure: it drives nothing and reads nothing. What it recognises, it recognises within [`REACTION_US`].
 
 use crate::phase::Fault;
+use shared::scalar::Real;
 use shared::wire::Limits;
 
 /// Longest time for which a stall or a runaway may last.
@@ -107,7 +108,7 @@ impl Guard {
         if continuous > 0 && self.heat > continuous * continuous {
             return Err(Tripped {
                 fault: Fault::Overheated,
-                seen: libm::sqrtf(self.heat as f32) as i32,
+                seen: Real::sqrt(self.heat as f32) as i32,
                 limit: clamped(continuous),
             });
         }

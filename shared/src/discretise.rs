@@ -159,22 +159,27 @@ impl<R: Real, const N: usize, const M: usize> LinearMap<R, N, M> {
 ///
 /// # Errors
 /// [`ModelError::Range`] for one that is beyond a quarter of the format's limit.
+// Inlined, and only what it asks is a routine: who does not look at the error is spared its making and its name.
+#[inline(always)]
 pub fn lowered<S: Scalar, R: Real, const K: usize>(
     name: &'static str,
     row: [R; K],
 ) -> Result<[S::Coefficient; K], ModelError> {
-    for k in row {
-        // Without a limit there is nothing to compare: small cores have no unit for f64.
-        let beyond = S::LIMIT.is_finite() && k.to_f64().abs() > S::LIMIT / 4.0;
-        if beyond || !k.is_finite() {
-            return Err(ModelError::Range {
-                name,
-                value: k.to_f64(),
-                limit: S::LIMIT / 4.0,
-            });
-        }
+    let limit = S::LIMIT / 4.0;
+    match first_beyond(&row, R::from_f64(limit)) {
+        Some(k) => Err(ModelError::Range {
+            name,
+            value: k.to_f64(),
+            limit,
+        }),
+        None => Ok(row.map(|k| S::coefficient(k.to_f64()))),
     }
-    Ok(row.map(|k| S::coefficient(k.to_f64())))
+}
+
+/// The first number that is not within a limit.
+fn first_beyond<R: Real>(row: &[R], limit: R) -> Option<R> {
+    let within = |k: &R| k.is_finite() && k.abs() <= limit;
+    row.iter().copied().find(|k| !within(k))
 }
 
 /// [`lowered`] multipliers of numbers that are kept in other measures: the result of the row times

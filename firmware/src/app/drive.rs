@@ -7,6 +7,7 @@ use crate::board::Board;
 use crate::guard::Tripped;
 use crate::phase::{Fault, Phase};
 use shared::fit::Arithmetic;
+use shared::scalar::Real;
 use shared::trace::OPEN;
 use shared::wire::{Job, Kind, Row, ToHost};
 
@@ -220,7 +221,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             let within = job.verify_within as f32 * 0.01;
             if within > 0.0 && verified.mean_square > within * within {
                 let seen = verified.mean_square.min(1e9) * 10_000.0;
-                let seen = libm::sqrtf(seen) as i32;
+                let seen = Real::sqrt(seen) as i32;
                 return self.trip(Tripped {
                     fault: Fault::NotVerified,
                     seen,

@@ -162,7 +162,10 @@ impl<S: Arithmetic> Fit<S> {
         self.stage = Stage::Search(Search::new(&settings, space.dim()));
         self.settings = settings;
         self.space = space;
-        self.runs = [const { None }; 3];
+        // One by one: as a whole array they are a constant in flash, two kilobytes to copy from.
+        for run in &mut self.runs {
+            *run = None;
+        }
         self.asked = false;
         self.evaluations = 0;
         self.best = [0.5; MOST];

@@ -79,7 +79,7 @@ impl Space {
         if cross <= 0 || power <= 0 {
             return None;
         }
-        let gain = (cross as f64 / power as f64 * 32_768.0) as f32;
+        let gain = cross as f32 / power as f32 * 32_768.0;
         let longest = 2.0 * trace.len() as f32;
         let mut space = Space::NONE;
         let range = |low: f32, high: f32| (Real::ln(low), Real::ln(high));
