@@ -54,6 +54,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     }
 
     /// A period of a phase that drives: what has just ended is looked at, kept and sent; then the next duty is applied.
+    // Out of line, as all that is long: short instructions reach the first kilobyte of a stack only.
+    #[inline(never)]
     pub(super) fn drive(&mut self, step: i32) {
         let Some(job) = self.job else {
             return self.fail(Fault::Stopped);

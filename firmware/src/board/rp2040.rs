@@ -91,6 +91,8 @@ impl Rp2040 {
             pio.common.make_pio_pin(p.PIN_21),
         ];
         let encoder = Encoder::new(&mut pio.common, pio.sm0, lines);
+        // They stay for good: without this, the image would hold what frees them.
+        core::mem::forget((pio.common, pio.sm1, pio.sm2, pio.sm3));
         let mut config = uart::Config::default();
         config.baudrate = link::BAUD;
         let uart = BufferedUart::new(

@@ -91,6 +91,8 @@ enum Search {
 }
 
 impl Search {
+    // Out of line: it stands on the stack no longer than it runs.
+    #[inline(never)]
     fn new(settings: &Settings, dim: usize) -> Self {
         let population = settings.population.clamp(2, POPULATION as u8) as usize;
         let (evaluations, seed) = (settings.evaluations, settings.seed);

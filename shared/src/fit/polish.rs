@@ -191,6 +191,8 @@ impl Polish {
     }
 
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
+    // Out of line: in one with what calls it, its stack is beyond the reach of a small core's short instructions.
+    #[inline(never)]
     pub fn work<S: Arithmetic>(
         &mut self,
         space: &Space,
@@ -243,6 +245,8 @@ impl Polish {
     }
 
     /// The centre moved along `axis`, away from a wall if there is one.
+    // Called from four places.
+    #[inline(never)]
     fn displaced(&self, axis: usize) -> (Point, f32) {
         let mut x = self.centre;
         let reach = self.reach[axis];

@@ -149,6 +149,8 @@ impl Space {
     ///
     /// # Errors
     /// A coefficient beyond the range of `S`; an electrical time constant far above the mechanical one.
+    // Out of line, as `build`, and for the sake of short instructions, which reach the first kilobyte of a stack.
+    #[inline(never)]
     pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> Result<(), ModelError> {
         let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);

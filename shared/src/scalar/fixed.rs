@@ -7,7 +7,7 @@
 //!
 //! A multiplier keeps 31 significant bits whatever its size: a mantissa and a shift.
 
-use super::{Angle, ErrorValue, Readable, Scalar};
+use super::{Angle, ErrorValue, Readable, Scalar, quotient};
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Bits below the point.
@@ -114,6 +114,7 @@ fn product(a: i32, b: i32) -> i64 {
 
 /// `|x| = significand · 2^(exponent − 52)`. Only the bits of the float are read: small cores are spared the routines for its
 /// arithmetic.
+#[inline(never)]
 fn exponent_and_significand(x: f64) -> (i32, u64) {
     let bits = x.to_bits();
     let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
@@ -235,8 +236,8 @@ impl Scalar for Fixed {
         if whole <= 0 {
             return Fixed(0);
         }
-        let bits = (part.clamp(0, whole) << 29) / whole;
-        Fixed(bits << (POINT - 29))
+        let part = part.clamp(0, whole).cast_unsigned() << 29;
+        Fixed(quotient(part, whole.cast_unsigned()).cast_signed() << (POINT - 29))
     }
 
     fn exp_decay(self) -> Self {

@@ -4,7 +4,7 @@
 //! fraction: as one number it would lose a count after a few revolutions.
 
 use super::{Angle, ErrorValue, Readable, Real, Scalar};
-use super::{curves, root};
+use super::{curves, exponential, root};
 
 /// Remainder for counts that the 32-bit counter has wrapped.
 const WRAP: f64 = 4_294_967_296.0;
@@ -133,8 +133,8 @@ float_scalar!(
 float_scalar!(
     f32,
     SplitAngle,
-    libm::expf,
-    libm::logf,
+    exponential::exp,
+    exponential::ln,
     root::square_root,
     short_sin_cos,
     libm::expf,

@@ -10,15 +10,18 @@
 
 mod abreast;
 pub mod curves;
+mod exponential;
 mod fixed;
 mod float;
 mod mask;
+mod quotient;
 mod root;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
 pub use fixed::{Fixed, FixedCoefficient};
 pub use mask::Mask;
+pub use quotient::quotient;
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
