@@ -39,9 +39,12 @@ pub fn exp(x: f32) -> f32 {
     polynomial(&EXPONENTIAL, rest) * power_of_two(half) * power_of_two(doublings - half)
 }
 
-/// Natural logarithm of a positive number; NaN of others.
+/// Natural logarithm; NaN below zero.
 pub fn ln(x: f32) -> f32 {
-    if x.is_nan() || x <= 0.0 {
+    if x == 0.0 {
+        return f32::NEG_INFINITY;
+    }
+    if x.is_nan() || x < 0.0 {
         return f32::NAN;
     }
     if x == f32::INFINITY {
@@ -107,6 +110,8 @@ mod tests {
         }
         assert_eq!(ln(1.0), 0.0);
         assert_eq!(ln(f32::INFINITY), f32::INFINITY);
-        assert!(ln(0.0).is_nan() && ln(-1.0).is_nan() && ln(f32::NAN).is_nan());
+        assert_eq!(ln(0.0), f32::NEG_INFINITY);
+        assert_eq!(exp(ln(0.0)), 0.0);
+        assert!(ln(-1.0).is_nan() && ln(f32::NAN).is_nan());
     }
 }
