@@ -17,6 +17,8 @@ fn main() {
         println!("cargo:rustc-link-arg-bins=-T{here}/memory/stm32/chip.x");
     }
     if has("RP2040") {
+        // Functions that are equal to the byte, such as readers of message fields of one length, once.
+        println!("cargo:rustc-link-arg-bins=--icf=all");
         println!("cargo:rustc-link-arg-bins=-T{here}/memory/rp2040/chip.x");
     }
 }

@@ -3,6 +3,7 @@
 //! It is pure: it drives nothing and reads nothing. What it recognises, it recognises within [`REACTION_US`].
 
 use crate::phase::Fault;
+use shared::scalar::{Real, quotient};
 use shared::wire::Limits;
 
 /// Longest time for which a stall or a runaway may last.
@@ -24,7 +25,7 @@ pub struct Tripped {
 pub struct Guard {
     limits: Limits,
     /// Duty that is the whole supply.
-    full: i64,
+    full: u16,
     /// Periods in half the reaction time.
     half: u32,
     origin: i32,
@@ -47,7 +48,7 @@ impl Guard {
     pub fn new(limits: Limits, period_us: u32, full: u16, count: i32) -> Self {
         Guard {
             limits,
-            full: i64::from(full).max(1),
+            full: full.max(1),
             half: (REACTION_US / 2 / period_us.max(1)).max(2),
             origin: count,
             last: count,
@@ -90,7 +91,10 @@ impl Guard {
         self.follow(drive, step);
 
         let current = current_ma.map_or_else(
-            || i64::from(limits.stall_ma) * i64::from(drive).abs() / self.full,
+            || {
+                let product = u64::from(limits.stall_ma) * u64::from(drive.unsigned_abs());
+                quotient(product, self.full.into()).cast_signed()
+            },
             |current| i64::from(current).abs(),
         );
         let travel = count.wrapping_sub(self.origin).unsigned_abs();
@@ -107,7 +111,7 @@ impl Guard {
         if continuous > 0 && self.heat > continuous * continuous {
             return Err(Tripped {
                 fault: Fault::Overheated,
-                seen: libm::sqrtf(self.heat as f32) as i32,
+                seen: Real::sqrt(self.heat as f32) as i32,
                 limit: clamped(continuous),
             });
         }
@@ -156,7 +160,9 @@ impl Guard {
     /// The winding as one heat store: it forgets with its time constant.
     fn warm(&mut self, current_ma: i64) {
         let square = current_ma * current_ma;
-        self.heat += (square - self.heat) / i64::from(self.limits.thermal.max(1));
+        let towards = square - self.heat;
+        let by = quotient(towards.unsigned_abs(), self.limits.thermal.max(1).into());
+        self.heat += by.cast_signed() * towards.signum();
     }
 }
 

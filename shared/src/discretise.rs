@@ -56,11 +56,8 @@ impl<R: Real, const N: usize, const M: usize> LinearSystem<R, N, M> {
     /// # Errors
     /// [`ModelError::TooFast`] if a rate is beyond the format or beyond 60 doublings.
     pub fn step(&self, length: R, how: Discretisation) -> Result<LinearMap<R, N, M>, ModelError> {
-        let rates = self.states.iter().flatten();
-        if !rates
-            .chain(self.inputs.iter().flatten())
-            .all(|x| x.is_finite())
-        {
+        let rates = self.states.as_flattened();
+        if !all_finite(rates) || !all_finite(self.inputs.as_flattened()) {
             return Err(ModelError::TooFast);
         }
         if how == Discretisation::Euler {
@@ -76,8 +73,7 @@ impl<R: Real, const N: usize, const M: usize> LinearSystem<R, N, M> {
         let mut doublings = 0;
         let mut scale = R::from_f64(1.0);
         let half = R::from_f64(0.5);
-        let rates = self.states.iter().flatten();
-        let norm = rates.fold(R::zero(), |norm, x| norm.max(x.abs()));
+        let norm = rates.iter().fold(R::zero(), |norm, x| norm.max(x.abs()));
         while norm * scale > half * half {
             scale = scale * half;
             doublings += 1;
@@ -95,34 +91,42 @@ impl<R: Real, const N: usize, const M: usize> LinearSystem<R, N, M> {
     /// The map of the part `scale` of the step: `Σ aᵏ/(k+1)!` and `Σ aᵏ/(k+2)!` give all of it.
     fn taylor(&self, length: R, scale: R) -> LinearMap<R, N, M> {
         let one = R::from_f64(1.0);
-        let a = self.states.map(|row| row.map(|x| x * scale));
-        let g = self.inputs.map(|row| row.map(|x| x * scale));
+        let (mut a, mut g) = (self.states, self.inputs);
+        multiply(a.as_flattened_mut(), scale);
+        multiply(g.as_flattened_mut(), scale);
         let mut power = [[R::zero(); N]; N]; // aᵏ/(k+1)!
         for (k, row) in power.iter_mut().enumerate() {
             row[k] = one;
         }
         let mut first = power;
-        let mut second = power.map(|row| row.map(|x| x * R::from_f64(0.5)));
+        let mut second = power;
+        multiply(second.as_flattened_mut(), R::from_f64(0.5));
         let mut further = one / (one + one);
         let mut next = one + one;
         for _ in 0..R::TERMS {
-            let down = further;
-            power = product(&power, &a).map(|row| row.map(|x| x * down));
+            power = product(&power, &a);
+            multiply(power.as_flattened_mut(), further);
             next = next + one;
             further = one / next;
-            for row in 0..N {
-                for column in 0..N {
-                    first[row][column] = first[row][column] + power[row][column];
-                    second[row][column] = second[row][column] + power[row][column] * further;
-                }
+            let sums = first
+                .as_flattened_mut()
+                .iter_mut()
+                .zip(second.as_flattened_mut());
+            for ((first, second), &power) in sums.zip(power.as_flattened()) {
+                *first = *first + power;
+                *second = *second + power * further;
             }
         }
         let length = length * scale;
+        let mut angle_by_states = first[self.speed];
+        let mut angle_by_inputs = product(&second, &g)[self.speed];
+        multiply(&mut angle_by_states, length);
+        multiply(&mut angle_by_inputs, length);
         LinearMap {
             states: product(&a, &first),
             inputs: product(&first, &g),
-            angle_by_states: first[self.speed].map(|x| x * length),
-            angle_by_inputs: product(&second, &g)[self.speed].map(|x| x * length),
+            angle_by_states,
+            angle_by_inputs,
         }
     }
 }
@@ -155,26 +159,48 @@ impl<R: Real, const N: usize, const M: usize> LinearMap<R, N, M> {
     }
 }
 
+fn all_finite<R: Real>(numbers: &[R]) -> bool {
+    numbers.iter().all(|x| x.is_finite())
+}
+
+/// All of them times a factor. Of slices, and not by `map`, which a compiler that minds the size makes anew for each shape.
+fn multiply<R: Real>(numbers: &mut [R], factor: R) {
+    for number in numbers {
+        *number = *number * factor;
+    }
+}
+
 /// Multipliers in another number format, checked against its range.
 ///
 /// # Errors
 /// [`ModelError::Range`] for one that is beyond a quarter of the format's limit.
+// Inlined, and only what it asks is a routine: who does not look at the error is spared its making and its name.
+#[inline(always)]
 pub fn lowered<S: Scalar, R: Real, const K: usize>(
     name: &'static str,
     row: [R; K],
 ) -> Result<[S::Coefficient; K], ModelError> {
-    for k in row {
-        // Without a limit there is nothing to compare: small cores have no unit for f64.
-        let beyond = S::LIMIT.is_finite() && k.to_f64().abs() > S::LIMIT / 4.0;
-        if beyond || !k.is_finite() {
-            return Err(ModelError::Range {
-                name,
-                value: k.to_f64(),
-                limit: S::LIMIT / 4.0,
-            });
-        }
+    let mut lowered = [S::coefficient(0.0); K];
+    match lower_within::<S, R>(&mut lowered, &row) {
+        Some(k) => Err(ModelError::Range {
+            name,
+            value: k.to_f64(),
+            limit: S::LIMIT / 4.0,
+        }),
+        None => Ok(lowered),
     }
-    Ok(row.map(|k| S::coefficient(k.to_f64())))
+}
+
+/// Lowers up to the first number that is beyond a quarter of the limit, and gives that.
+fn lower_within<S: Scalar, R: Real>(lowered: &mut [S::Coefficient], row: &[R]) -> Option<R> {
+    let limit = R::from_f64(S::LIMIT / 4.0);
+    for (lowered, &k) in lowered.iter_mut().zip(row) {
+        if k.abs() > limit || !k.is_finite() {
+            return Some(k);
+        }
+        *lowered = S::coefficient(k.to_f64());
+    }
+    None
 }
 
 /// [`lowered`] multipliers of numbers that are kept in other measures: the result of the row times

@@ -194,8 +194,7 @@ impl<R: Real> Iterator for Commands<'_, R> {
 
     fn next(&mut self) -> Option<Command<R>> {
         let (first, rest) = self.plan.split_first()?;
-        let interval = self.interval.to_f64();
-        let samples = libm::round(first.seconds / interval) as u32;
+        let samples = rounded(R::from_f64(first.seconds) / self.interval);
         if self.sample >= samples {
             self.plan = rest;
             self.sample = 0;
@@ -204,8 +203,8 @@ impl<R: Real> Iterator for Commands<'_, R> {
         }
         let k = self.sample;
         self.sample += 1;
-        let whole = R::from_f64(k as f64) / R::from_f64(samples as f64);
-        let seconds = R::from_f64(k as f64) * self.interval;
+        let whole = R::from_whole(k) / R::from_whole(samples);
+        let seconds = R::from_whole(k) * self.interval;
         let (value, enabled) = self.value(first, whole, seconds);
         let limit = R::from_f64(1.0);
         let drive = (value * R::from_f64(first.amplitude))
@@ -236,20 +235,20 @@ impl<R: Real> Commands<'_, R> {
             }
             Shape::Staircase { levels } => {
                 let levels = levels.max(1);
-                let k = slot(whole, 4 * levels) as f64;
-                let n = levels as f64;
-                let climbed = if k < n {
-                    k + 1.0
-                } else if k < 3.0 * n {
-                    2.0 * n - 1.0 - k
+                let k = slot(whole, 4 * levels);
+                let (up, down) = if k < levels {
+                    (k + 1, 0)
+                } else if k < 3 * levels {
+                    (2 * levels, k + 1)
                 } else {
-                    k - 4.0 * n
+                    (k, 4 * levels)
                 };
-                (real(climbed / n), true)
+                let climbed = R::from_whole(up) - R::from_whole(down);
+                (climbed / R::from_whole(levels), true)
             }
             Shape::Triangle { waves } => {
-                let phase = whole * real(waves as f64);
-                let phase = phase - real(libm::floor(phase.to_f64()));
+                let phase = whole * R::from_whole(waves);
+                let phase = phase - R::from_whole(phase.whole());
                 let quarter = phase * real(4.0);
                 let value = if quarter < one {
                     quarter
@@ -266,19 +265,19 @@ impl<R: Real> Commands<'_, R> {
             }
             Shape::Chirp { from_hz, to_hz } => {
                 // Phase of a logarithmic sweep: f0·T/ln(f1/f0)·((f1/f0)^(t/T) − 1).
-                let ratio = real(to_hz / from_hz).ln();
-                let span = real(from_hz * experiment.seconds) / ratio;
+                let ratio = (real(to_hz) / real(from_hz)).ln();
+                let span = real(from_hz) * real(experiment.seconds) / ratio;
                 let turns = span * ((ratio * whole).exp() - one);
                 (turns.sin_cos_turns().0, true)
             }
             Shape::Telegraph { levels, hold_s } => {
                 if self.hold == 0 {
                     let levels = levels.max(2);
-                    let k = rng::below(&mut self.rng, levels) as f64;
-                    self.level = real(2.0 * k / (levels - 1) as f64 - 1.0);
-                    let mean = hold_s / self.interval.to_f64();
-                    let part = 0.5 + rng::uniform::<R>(&mut self.rng).to_f64();
-                    self.hold = (libm::round(mean * part) as u32).max(1);
+                    let k = rng::below(&mut self.rng, levels);
+                    self.level = R::from_whole(2 * k) / R::from_whole(levels - 1) - one;
+                    let mean = real(hold_s) / self.interval;
+                    let part = real(0.5) + rng::uniform::<R>(&mut self.rng);
+                    self.hold = rounded(mean * part).max(1);
                 }
                 self.hold -= 1;
                 (self.level, true)
@@ -286,12 +285,12 @@ impl<R: Real> Commands<'_, R> {
             Shape::Multisine { base_hz, lines } => {
                 let mut sum = R::zero();
                 for line in 0..lines {
-                    let order = (2 * line + 1) as f64;
-                    let phase = real(-((line * (line + 1)) as f64) / (2.0 * lines as f64));
-                    sum = sum + (real(base_hz * order) * seconds + phase).sin_cos_turns().0;
+                    let hz = real(base_hz) * R::from_whole(2 * line + 1);
+                    let lag = R::from_whole(line * (line + 1)) / R::from_whole(2 * lines);
+                    sum = sum + (hz * seconds - lag).sin_cos_turns().0;
                 }
                 // The crest of such a sum stays below 1.7 times its RMS, √(lines/2).
-                let crest = real(1.7 * libm::sqrt(lines.max(1) as f64 / 2.0));
+                let crest = real(1.7) * (R::from_whole(lines.max(1)) * real(0.5)).sqrt();
                 ((sum / crest).min(one).max(-one), true)
             }
         }
@@ -300,5 +299,12 @@ impl<R: Real> Commands<'_, R> {
 
 /// Which of `slots` equal parts holds the part `whole`.
 fn slot<R: Real>(whole: R, slots: u32) -> u32 {
-    ((whole.to_f64() * slots as f64) as u32).min(slots.saturating_sub(1))
+    (whole * R::from_whole(slots))
+        .whole()
+        .min(slots.saturating_sub(1))
+}
+
+/// To the nearest whole number.
+fn rounded<R: Real>(x: R) -> u32 {
+    (x + R::from_f64(0.5)).whole()
 }

@@ -7,6 +7,7 @@ use crate::board::Board;
 use crate::guard::Tripped;
 use crate::phase::{Fault, Phase};
 use shared::fit::Arithmetic;
+use shared::scalar::Real;
 use shared::trace::OPEN;
 use shared::wire::{Job, Kind, Row, ToHost};
 
@@ -53,6 +54,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     }
 
     /// A period of a phase that drives: what has just ended is looked at, kept and sent; then the next duty is applied.
+    // Out of line, as all that is long: short instructions reach the first kilobyte of a stack only.
+    #[inline(never)]
     pub(super) fn drive(&mut self, step: i32) {
         let Some(job) = self.job else {
             return self.fail(Fault::Stopped);
@@ -220,7 +223,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             let within = job.verify_within as f32 * 0.01;
             if within > 0.0 && verified.mean_square > within * within {
                 let seen = verified.mean_square.min(1e9) * 10_000.0;
-                let seen = libm::sqrtf(seen) as i32;
+                let seen = Real::sqrt(seen) as i32;
                 return self.trip(Tripped {
                     fault: Fault::NotVerified,
                     seen,

@@ -169,13 +169,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     }
 }
 
-/// As much of a text as fits.
+/// A text, if it fits.
 fn text<const L: usize>(from: &str) -> heapless::String<L> {
     let mut text = heapless::String::new();
-    for c in from.chars() {
-        if text.push(c).is_err() {
-            break;
-        }
-    }
+    let _ = text.push_str(from);
     text
 }

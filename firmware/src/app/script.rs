@@ -115,8 +115,8 @@ impl Script {
             Which::Record => &RECORD,
             Which::Verify => &VERIFY,
         };
-        let seconds = plan.iter().fold(0.0, |sum, part| sum + part.seconds);
-        let interval = seconds as f32 / periods.max(1) as f32;
+        let seconds = plan.iter().fold(0.0, |sum, part| sum + part.seconds as f32);
+        let interval = seconds / periods.max(1) as f32;
         // The verification is drawn from another seed, or its levels would be those of the fit.
         let seed = match which {
             Which::Verify => seed ^ 0x5eed_0f7e_57ed,

@@ -35,6 +35,26 @@ const FULL: u16 = 3125;
 /// Number of the pin that enables the bridge.
 const ENABLE: usize = 18;
 
+/// The chip's microseconds, for the pause that the serial port's driver makes while it is set up. The time driver of
+/// `embassy-rp` can wake tasks as well, of which there are none here, and takes a kilobyte.
+struct Microseconds;
+
+impl embassy_time_driver::Driver for Microseconds {
+    fn now(&self) -> u64 {
+        loop {
+            let high = pac::TIMER.timerawh().read();
+            let low = pac::TIMER.timerawl().read();
+            if high == pac::TIMER.timerawh().read() {
+                return (u64::from(high) << 32) | u64::from(low);
+            }
+        }
+    }
+
+    fn schedule_wake(&self, _: u64, _: &core::task::Waker) {}
+}
+
+embassy_time_driver::time_driver_impl!(static CLOCK: Microseconds = Microseconds);
+
 bind_interrupts!(struct Interrupts {
     UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
     PIO0_IRQ_0 => pio::InterruptHandler<PIO0>;
@@ -71,6 +91,8 @@ impl Rp2040 {
             pio.common.make_pio_pin(p.PIN_21),
         ];
         let encoder = Encoder::new(&mut pio.common, pio.sm0, lines);
+        // They stay for good: without this, the image would hold what frees them.
+        core::mem::forget((pio.common, pio.sm1, pio.sm2, pio.sm3));
         let mut config = uart::Config::default();
         config.baudrate = link::BAUD;
         let uart = BufferedUart::new(

@@ -91,6 +91,8 @@ enum Search {
 }
 
 impl Search {
+    // Out of line: it stands on the stack no longer than it runs.
+    #[inline(never)]
     fn new(settings: &Settings, dim: usize) -> Self {
         let population = settings.population.clamp(2, POPULATION as u8) as usize;
         let (evaluations, seed) = (settings.evaluations, settings.seed);
@@ -162,7 +164,10 @@ impl<S: Arithmetic> Fit<S> {
         self.stage = Stage::Search(Search::new(&settings, space.dim()));
         self.settings = settings;
         self.space = space;
-        self.runs = [const { None }; 3];
+        // One by one: as a whole array they are a constant in flash, two kilobytes to copy from.
+        for run in &mut self.runs {
+            *run = None;
+        }
         self.asked = false;
         self.evaluations = 0;
         self.best = [0.5; MOST];

@@ -50,14 +50,16 @@ impl Outcome {
     ) -> Self {
         // Where the count stands still, readings repeat and say nothing new.
         let readings = trace.steps.iter().filter(|&&step| step != 0).count();
-        let estimates = (0..space.dim())
-            .map(|k| Estimate {
+        let mut estimates = Vec::new();
+        for k in 0..space.dim() {
+            // There is room for all.
+            let _ = estimates.push(Estimate {
                 value: space.value(k, &best),
                 std: curvature.map_or(f32::INFINITY, |curvature| {
                     curvature.std(&space.gradient(k, &best), least, readings)
                 }),
-            })
-            .collect();
+            });
+        }
         Outcome {
             estimates,
             mean_square: least,

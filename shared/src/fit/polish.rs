@@ -12,23 +12,26 @@ use crate::trace::Trace;
 /// Most rounds.
 const ROUNDS: u32 = 20;
 /// Damping of the first step, as a part of the curvature along each axis.
-const DAMPING: f64 = 1e-3;
-const LEAST_DAMPING: f64 = 1e-9;
-const MOST_DAMPING: f64 = 1e6;
+const DAMPING: f32 = 1e-3;
+const LEAST_DAMPING: f32 = 1e-6;
+const MOST_DAMPING: f32 = 1e6;
 /// First displacement along an axis, of the cube's edge.
 const REACH: f32 = 1e-4;
 const LONGEST: f32 = 0.02;
 const SHORTEST: f32 = 1e-7;
 /// A displacement should move the reading by about this, counts RMS: far above f32's rounding, well within what is linear.
-const VISIBLE: f64 = 1.0;
+const VISIBLE: f32 = 1.0;
 /// … or by this part of the error, where that is large: stops and releases make the cost rough in small.
-const ROUGH: f64 = 0.3;
+const ROUGH: f32 = 0.3;
 /// Within this factor of it, a displacement is good enough.
-const TOLERABLE: f64 = 5.0;
+const TOLERABLE: f32 = 5.0;
 /// A step that promises, or gains, less than this part of the cost is the last.
-const NEGLIGIBLE: f64 = 1e-4;
+const NEGLIGIBLE: f32 = 1e-4;
 
-type Matrix = [[f64; MOST]; MOST];
+/// A pivot that is no more than this part of its diagonal is rounding.
+const SINGULAR: f32 = 1e-6;
+
+type Matrix = [[f32; MOST]; MOST];
 
 /// Sums of products of the sensitivities over the trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,30 +39,30 @@ struct Normal {
     /// Sensitivity by sensitivity.
     matrix: Matrix,
     /// Sensitivity by error.
-    slope: [f64; MOST],
+    slope: [f32; MOST],
 }
 
 /// Curvature of the sum of squares over the unit cube, halved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
     inverse: Matrix,
-    periods: f64,
+    periods: f32,
 }
 
 impl Curvature {
     /// Standard deviation of what changes by `gradient` over the cube, where the mean squared error is `least` and so many
     /// `readings` of the trace say something new.
     pub fn std(&self, gradient: &Point, least: f32, readings: usize) -> f32 {
-        let repeats = self.periods / readings.max(1) as f64;
+        let repeats = self.periods / readings.max(1) as f32;
         let mut variance = 0.0;
         for (row, &a) in self.inverse.iter().zip(gradient) {
             for (entry, &b) in row.iter().zip(gradient) {
                 if a != 0.0 && b != 0.0 {
-                    variance += entry * f64::from(a) * f64::from(b);
+                    variance += entry * a * b;
                 }
             }
         }
-        Real::sqrt((f64::from(least) * repeats * variance.max(0.0)) as f32)
+        Real::sqrt(least * repeats * variance.max(0.0))
     }
 }
 
@@ -69,12 +72,12 @@ struct Differences {
     at: usize,
     /// Of the error and of both differences, then of their products: with themselves and with each other, row by row of the
     /// upper triangle.
-    sums: [f64; 9],
+    sums: [f32; 9],
     /// The same since the last whole block.
     block: [f32; 9],
 }
 
-/// Periods that are summed up in f32 before f64 takes over, which is slow where there is no unit for it.
+/// Periods that are summed up by themselves first: a sum of sums rounds less than one long sum.
 const BLOCK: usize = 32;
 
 impl Differences {
@@ -96,7 +99,7 @@ impl Differences {
             }
             if (k + 1).is_multiple_of(BLOCK) || k + 1 == trace.len() {
                 for (sum, block) in self.sums.iter_mut().zip(&mut self.block) {
-                    *sum += f64::from(*block);
+                    *sum += *block;
                     *block = 0.0;
                 }
             }
@@ -106,8 +109,8 @@ impl Differences {
     }
 
     /// Products about the means: where within a count the shaft stood is not known.
-    fn products(&self) -> [f64; 6] {
-        let n = self.at.max(1) as f64;
+    fn products(&self) -> [f32; 6] {
+        let n = self.at.max(1) as f32;
         let [e, a, b, products @ ..] = self.sums;
         let means = [e * e, e * a, e * b, a * a, a * b, b * b];
         core::array::from_fn(|k| products[k] - means[k] / n)
@@ -135,11 +138,11 @@ pub struct Polish {
     reach: Point,
     /// Displacements of the present pair that were no good.
     tries: u32,
-    periods: f64,
+    periods: f32,
     normal: Normal,
-    damping: f64,
+    damping: f32,
     trial: Point,
-    promised: f64,
+    promised: f32,
     rounds: u32,
     evaluations: u32,
     work: Work,
@@ -182,12 +185,14 @@ impl Polish {
             let every = [true; MOST];
             inverse(&self.normal.matrix, space.dim(), 0.0, &every).map(|inverse| Curvature {
                 inverse,
-                periods: periods as f64,
+                periods: periods as f32,
             })
         })
     }
 
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
+    // Out of line: in one with what calls it, its stack is beyond the reach of a small core's short instructions.
+    #[inline(never)]
     pub fn work<S: Arithmetic>(
         &mut self,
         space: &Space,
@@ -240,6 +245,8 @@ impl Polish {
     }
 
     /// The centre moved along `axis`, away from a wall if there is one.
+    // Called from four places.
+    #[inline(never)]
     fn displaced(&self, axis: usize) -> (Point, f32) {
         let mut x = self.centre;
         let reach = self.reach[axis];
@@ -250,17 +257,17 @@ impl Polish {
     }
 
     /// Enters a pair into the normal equations, or tries better displacements.
-    fn take(&mut self, space: &Space, a: usize, b: usize, products: [f64; 6], periods: usize) {
+    fn take(&mut self, space: &Space, a: usize, b: usize, products: [f32; 6], periods: usize) {
         let [_, ea, eb, aa, ab, bb] = products;
-        self.periods = periods.max(1) as f64;
+        self.periods = periods.max(1) as f32;
         if self.tries < 4 {
             let mut unfit = false;
-            let visible = VISIBLE.max(ROUGH * f64::from(Real::sqrt(self.cost)));
+            let visible = VISIBLE.max(ROUGH * Real::sqrt(self.cost));
             for (axis, square) in [(a, aa), (b, bb)] {
-                let moved = f64::from(Real::sqrt((square.max(0.0) / self.periods) as f32));
+                let moved = Real::sqrt(square.max(0.0) / self.periods);
                 let widest = LONGEST.min(self.centre[axis].max(1.0 - self.centre[axis]));
                 let wanted = if moved > 0.0 {
-                    (f64::from(self.reach[axis]) * visible / moved) as f32
+                    self.reach[axis] * visible / moved
                 } else {
                     widest
                 };
@@ -278,10 +285,7 @@ impl Polish {
             }
         }
         self.tries = 0;
-        let (ha, hb) = (
-            f64::from(self.displaced(a).1),
-            f64::from(self.displaced(b).1),
-        );
+        let (ha, hb) = (self.displaced(a).1, self.displaced(b).1);
         let normal = &mut self.normal;
         normal.slope[a] = ea / ha;
         normal.slope[b] = eb / hb;
@@ -301,9 +305,8 @@ impl Polish {
     /// Judges a trial; goes on from it, or tries a shorter step.
     fn judge(&mut self, space: &Space, cost: f32) {
         if cost < self.cost {
-            let gained = f64::from(self.cost - cost);
-            let worthwhile =
-                gained.max(self.promised / self.periods) > NEGLIGIBLE * f64::from(cost);
+            let gained = self.cost - cost;
+            let worthwhile = gained.max(self.promised / self.periods) > NEGLIGIBLE * cost;
             self.centre = self.trial;
             self.cost = cost;
             self.rounds += 1;
@@ -348,10 +351,7 @@ impl Polish {
                     .filter(|&j| solved[j])
                     .map(|j| inverse[k][j] * slopes[j]);
                 step[k] = terms.fold(0.0, |sum, term| sum - term);
-                let (to, room) = (
-                    f64::from(self.centre[k]) + step[k],
-                    f64::from(self.centre[k]),
-                );
+                let (to, room) = (self.centre[k] + step[k], self.centre[k]);
                 if !(0.0..=1.0).contains(&to) {
                     step[k] = if to < 0.0 { -room } else { 1.0 - room };
                     free[k] = false;
@@ -366,7 +366,7 @@ impl Polish {
             for k in 0..n {
                 let bent = (0..n).fold(0.0, |sum, j| sum + matrix[k][j] * step[j]);
                 self.promised -= step[k] * (2.0 * self.normal.slope[k] + bent);
-                self.trial[k] = (self.centre[k] + step[k] as f32).clamp(0.0, 1.0);
+                self.trial[k] = (self.centre[k] + step[k]).clamp(0.0, 1.0);
             }
             return if self.trial == self.centre {
                 Work::Done
@@ -380,20 +380,20 @@ impl Polish {
 
 /// Inverse of a symmetric matrix whose diagonal is enlarged by the part `damping`, by Cholesky's method without roots
 /// (`L·D·Lᵀ`), for the `free` coordinates; none if that is not positive definite.
-fn inverse(matrix: &Matrix, n: usize, damping: f64, free: &[bool; MOST]) -> Option<Matrix> {
+fn inverse(matrix: &Matrix, n: usize, damping: f32, free: &[bool; MOST]) -> Option<Matrix> {
     let entry = |a: usize, b: usize| match (free[a] && free[b], a == b) {
         (true, true) => matrix[a][a] * (1.0 + damping),
         (true, false) => matrix[a][b],
-        (false, same) => f64::from(u8::from(same)),
+        (false, same) => f32::from(u8::from(same)),
     };
     let (mut lower, mut pivots) = ([[0.0; MOST]; MOST], [0.0; MOST]);
     for a in 0..n {
         for b in 0..=a {
             let terms = (0..b).map(|k| lower[a][k] * lower[b][k] * pivots[k]);
-            let rest = terms.fold(entry(a, b), |rest, term: f64| rest - term);
+            let rest = terms.fold(entry(a, b), |rest, term: f32| rest - term);
             if a != b {
                 lower[a][b] = rest / pivots[b];
-            } else if rest > 1e-12 * entry(a, a) && rest.is_finite() {
+            } else if rest > SINGULAR * entry(a, a) && rest.is_finite() {
                 pivots[a] = rest;
             } else {
                 return None;
@@ -402,10 +402,10 @@ fn inverse(matrix: &Matrix, n: usize, damping: f64, free: &[bool; MOST]) -> Opti
     }
     let mut inverse = [[0.0; MOST]; MOST];
     for column in 0..n {
-        let mut x = [0.0f64; MOST];
+        let mut x = [0.0f32; MOST];
         for a in 0..n {
             let terms = (0..a).map(|k| lower[a][k] * x[k]);
-            let unit = f64::from(u8::from(a == column));
+            let unit = f32::from(u8::from(a == column));
             x[a] = terms.fold(unit, |rest, term| rest - term);
         }
         for a in (0..n).rev() {

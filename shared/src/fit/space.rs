@@ -79,7 +79,7 @@ impl Space {
         if cross <= 0 || power <= 0 {
             return None;
         }
-        let gain = (cross as f64 / power as f64 * 32_768.0) as f32;
+        let gain = cross as f32 / power as f32 * 32_768.0;
         let longest = 2.0 * trace.len() as f32;
         let mut space = Space::NONE;
         let range = |low: f32, high: f32| (Real::ln(low), Real::ln(high));
@@ -149,6 +149,8 @@ impl Space {
     ///
     /// # Errors
     /// A coefficient beyond the range of `S`; an electrical time constant far above the mechanical one.
+    // Out of line, as `build`, and for the sake of short instructions, which reach the first kilobyte of a stack.
+    #[inline(never)]
     pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> Result<(), ModelError> {
         let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);

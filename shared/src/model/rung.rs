@@ -310,8 +310,10 @@ impl<S: Scalar> Rung<S> {
         current.times(self.held[0])
     }
 
-    /// Everything that one held voltage and one held torque (against positive rotation) do.
-    #[inline(always)]
+    /// Everything that one held voltage and one held torque (against positive rotation) do. A routine where each product is
+    /// one already: it is called from three places.
+    #[cfg_attr(short_multiplier, inline(never))]
+    #[cfg_attr(not(short_multiplier), inline(always))]
     pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
         let (current, speed) = (from.current, from.speed);
         if open {

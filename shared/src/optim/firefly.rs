@@ -41,7 +41,9 @@ impl Default for FireflySettings {
 /// Up to `P` fireflies over up to `D` unknowns; one evaluation a move.
 #[derive(Clone, Debug)]
 pub struct Firefly<R, const P: usize, const D: usize> {
-    settings: FireflySettings,
+    attraction: R,
+    absorption: R,
+    narrowest: R,
     dim: usize,
     flies: [Candidate<R, D>; P],
     population: usize,
@@ -70,7 +72,9 @@ impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
         });
         let fall = R::from_f64(settings.narrowest / settings.widest).ln();
         Firefly {
-            settings,
+            attraction: R::from_f64(settings.attraction),
+            absorption: R::from_f64(settings.absorption),
+            narrowest: R::from_f64(settings.narrowest),
             dim,
             flies,
             population: population.clamp(1, P),
@@ -78,7 +82,7 @@ impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
             trial: [R::zero(); D],
             placed: 0,
             step: R::from_f64(settings.widest),
-            cooling: (fall / R::from_f64(settings.evaluations.max(1) as f64)).exp(),
+            cooling: (fall / R::from_whole(settings.evaluations.max(1))).exp(),
             rng,
             best: Candidate::unknown(),
         }
@@ -97,9 +101,9 @@ impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
         brighter.nth(chosen)
     }
 
-    /// Sets the trial: from the mover's place towards `other` (if any), with the random step.
-    fn fly(&mut self, other: Option<usize>) {
-        let real = R::from_f64;
+    /// From the mover's place towards `other` (if any), with the random step.
+    fn fly(&mut self, other: Option<usize>) -> [R; D] {
+        let half = R::from_f64(0.5);
         let from = self.flies[self.mover].x;
         let (pull, to) = match other {
             None => (R::zero(), from),
@@ -109,14 +113,16 @@ impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
                 for d in 0..self.dim {
                     distance = distance + (to[d] - from[d]) * (to[d] - from[d]);
                 }
-                let fall = (-(real(self.settings.absorption) * distance)).exp();
-                (real(self.settings.attraction) * fall, to)
+                let fall = (-(self.absorption * distance)).exp();
+                (self.attraction * fall, to)
             }
         };
+        let mut x = from;
         for d in 0..self.dim {
-            let walk = self.step * (rng::uniform::<R>(&mut self.rng) - real(0.5));
-            self.trial[d] = reflected(from[d] + pull * (to[d] - from[d]) + walk);
+            let walk = self.step * (rng::uniform::<R>(&mut self.rng) - half);
+            x[d] = reflected(from[d] + pull * (to[d] - from[d]) + walk);
         }
+        x
     }
 }
 
@@ -136,32 +142,30 @@ impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Firefly<R, P, 
         1
     }
     fn ask(&mut self) -> [R; D] {
-        if self.placed < self.population {
-            self.trial = self.flies[self.mover].x;
-            return self.trial;
-        }
-        let other = self.brighter();
-        self.fly(other);
+        self.trial = if self.placed < self.population {
+            self.flies[self.mover].x
+        } else {
+            let other = self.brighter();
+            self.fly(other)
+        };
         self.trial
     }
     fn tell(&mut self, cost: R) {
-        let cost = sanitised(cost);
+        let told = Candidate {
+            x: self.trial,
+            cost: sanitised(cost),
+        };
         let first = self.placed < self.population;
-        if first || cost < self.flies[self.mover].cost {
-            self.flies[self.mover] = Candidate {
-                x: self.trial,
-                cost,
-            };
+        let fly = &mut self.flies[self.mover];
+        if first || told.cost < fly.cost {
+            told.replace(fly);
         }
         self.placed = (self.placed + 1).min(self.population);
         self.mover = (self.mover + 1) % self.population;
-        if cost < self.best.cost {
-            self.best = Candidate {
-                x: self.trial,
-                cost,
-            };
+        if told.cost < self.best.cost {
+            told.replace(&mut self.best);
         }
-        self.step = (self.step * self.cooling).max(R::from_f64(self.settings.narrowest));
+        self.step = (self.step * self.cooling).max(self.narrowest);
     }
     fn bound(&self) -> R {
         if self.placed < self.population {

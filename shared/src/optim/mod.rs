@@ -30,6 +30,13 @@ impl<R: Real, const D: usize> Candidate<R, D> {
             cost: R::from_f64(f64::INFINITY),
         }
     }
+
+    /// Takes the place of `worse`. Out of line: of two candidates of one search a compiler cannot tell that they do not
+    /// overlap, and would want a routine for that case too.
+    #[inline(never)]
+    fn replace(&self, worse: &mut Self) {
+        *worse = *self;
+    }
 }
 
 /// A search method. `ask` and `tell` alternate; within one generation, up to
@@ -52,9 +59,9 @@ pub trait Optimiser<R: Real, const D: usize> {
 
 /// NaN as infinity, so that a failed evaluation can never look good.
 fn sanitised<R: Real>(cost: R) -> R {
-    if cost.to_f64().is_nan() {
-        R::from_f64(f64::INFINITY)
-    } else {
+    if cost.is_finite() {
         cost
+    } else {
+        R::from_f64(f64::INFINITY)
     }
 }

@@ -41,7 +41,10 @@ struct Particle<R, const D: usize> {
 /// Particle swarm of up to `P` particles over up to `D` unknowns.
 #[derive(Clone, Debug)]
 pub struct Pso<R, const P: usize, const D: usize> {
-    settings: PsoSettings,
+    inertia: R,
+    cognitive: R,
+    social: R,
+    fastest: R,
     dim: usize,
     particles: [Particle<R, D>; P],
     population: usize,
@@ -71,8 +74,12 @@ impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
             }
             particle
         });
+        let real = R::from_f64;
         Pso {
-            settings,
+            inertia: real(settings.inertia),
+            cognitive: real(settings.cognitive),
+            social: real(settings.social),
+            fastest: real(settings.fastest),
             dim,
             particles,
             population: population.clamp(1, P),
@@ -87,14 +94,13 @@ impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
     /// Moves particle `i`. One that would leave the cube stops at random between where it was and
     /// the wall, so that a corner can be neared but does not catch it.
     fn fly(&mut self, i: usize) {
-        let real = R::from_f64;
-        let (zero, one, fastest) = (R::zero(), real(1.0), real(self.settings.fastest));
+        let (zero, one, fastest) = (R::zero(), R::from_f64(1.0), self.fastest);
         let particle = &mut self.particles[i];
         for d in 0..self.dim {
             let x = particle.x[d];
-            let own = real(self.settings.cognitive) * rng::uniform::<R>(&mut self.rng);
-            let swarm = real(self.settings.social) * rng::uniform::<R>(&mut self.rng);
-            let velocity = real(self.settings.inertia) * particle.velocity[d]
+            let own = self.cognitive * rng::uniform::<R>(&mut self.rng);
+            let swarm = self.social * rng::uniform::<R>(&mut self.rng);
+            let velocity = self.inertia * particle.velocity[d]
                 + own * (particle.best.x[d] - x)
                 + swarm * (self.best.x[d] - x);
             let velocity = velocity.min(fastest).max(-fastest);
@@ -137,12 +143,12 @@ impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Pso<R, P, D> {
         self.told += 1;
         let cost = sanitised(cost);
         // The first visit counts even if it is impossible: a particle needs a best point.
-        if cost < particle.best.cost || particle.best.cost.to_f64().is_infinite() {
+        if cost < particle.best.cost || !particle.best.cost.is_finite() {
             particle.best = Candidate {
                 x: particle.x,
                 cost,
             };
-            if cost < self.best.cost || self.best.cost.to_f64().is_infinite() {
+            if cost < self.best.cost || !self.best.cost.is_finite() {
                 self.best = particle.best;
             }
         }

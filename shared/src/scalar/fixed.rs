@@ -7,7 +7,7 @@
 //!
 //! A multiplier keeps 31 significant bits whatever its size: a mantissa and a shift.
 
-use super::{Angle, ErrorValue, Readable, Scalar};
+use super::{Angle, ErrorValue, Readable, Scalar, quotient};
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Bits below the point.
@@ -64,8 +64,8 @@ impl Fixed {
 
     /// The upper word, rounded to nearest.
     #[inline(always)]
-    fn upper(self) -> i64 {
-        self.0.wrapping_add(1 << 31) >> 32
+    fn upper(self) -> i32 {
+        (self.0.wrapping_add(1 << 31) >> 32) as i32
     }
 
     /// As a float, for reports and tests.
@@ -83,6 +83,42 @@ fn shifted(value: i64, shift: i32) -> i64 {
         let shift = shift.min(63);
         (value >> (shift - 1)).wrapping_add(1) >> 1
     }
+}
+
+/// The upper word times the mantissa, scaled by `2^(−shift)`. Where it takes a routine for each of product and shift, the
+/// three of them are one routine: a step of a model with friction has dozens of products, and they were a seventh of an image.
+#[cfg_attr(short_multiplier, inline(never))]
+#[cfg_attr(not(short_multiplier), inline(always))]
+fn scaled(upper: i32, mantissa: i32, shift: i32) -> i64 {
+    shifted(product(upper, mantissa), shift)
+}
+
+/// The product, with all its bits.
+#[cfg(not(short_multiplier))]
+#[inline(always)]
+fn product(a: i32, b: i32) -> i64 {
+    i64::from(a) * i64::from(b)
+}
+
+/// The product, with all its bits, from four of halves: the compiler would call its routine for 64 by 64 bits.
+#[cfg(short_multiplier)]
+#[inline(always)]
+fn product(a: i32, b: i32) -> i64 {
+    let (a_low, a_high) = (a & 0xffff, a >> 16);
+    let (b_low, b_high) = (b & 0xffff, b >> 16);
+    let low = (a_low as u32).wrapping_mul(b_low as u32);
+    let high = a_high.wrapping_mul(b_high);
+    let cross = i64::from(a_high.wrapping_mul(b_low)) + i64::from(b_high.wrapping_mul(a_low));
+    ((i64::from(high) << 32) | i64::from(low)).wrapping_add(cross << 16)
+}
+
+/// `|x| = significand · 2^(exponent − 52)`. Only the bits of the float are read: small cores are spared the routines for its
+/// arithmetic.
+#[inline(never)]
+fn exponent_and_significand(x: f64) -> (i32, u64) {
+    let bits = x.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
+    (exponent, (bits & ((1 << 52) - 1)) | (1 << 52))
 }
 
 impl Add for Fixed {
@@ -113,7 +149,8 @@ impl Mul for Fixed {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Fixed((self.upper() * other.upper()) << (POINT - 2 * UPPER_POINT))
+        let shift = 2 * UPPER_POINT as i32 - POINT as i32;
+        Fixed(scaled(self.upper(), other.upper(), shift))
     }
 }
 
@@ -124,8 +161,25 @@ impl Scalar for Fixed {
     const LIMIT: f64 = 8.0;
 
     fn from_f64(x: f64) -> Self {
-        // `as` saturates, and gives zero for NaN.
-        Fixed((x * (1u64 << POINT) as f64) as i64)
+        // As `(x · 2⁶⁰) as i64` saturates, gives zero for NaN and drops what is below the last bit.
+        let (exponent, significand) = exponent_and_significand(x);
+        let magnitude = match exponent + POINT as i32 - 52 {
+            _ if exponent == 1024 && significand != 1 << 52 => 0,
+            left @ 0..11 => (significand << left) as i64,
+            right @ ..0 => (significand >> (-right).min(63)) as i64,
+            _ if x.is_sign_negative() => i64::MIN,
+            _ => i64::MAX,
+        };
+        Fixed(if x.is_sign_negative() {
+            magnitude.wrapping_neg()
+        } else {
+            magnitude
+        })
+    }
+
+    #[inline(always)]
+    fn one() -> Self {
+        Fixed(1 << POINT)
     }
 
     #[inline(always)]
@@ -134,16 +188,13 @@ impl Scalar for Fixed {
     }
 
     fn coefficient(x: f64) -> FixedCoefficient {
-        // Only the bits of the float are read: no soft-float arithmetic on a small core.
-        let bits = x.to_bits();
-        let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
+        let (exponent, significand) = exponent_and_significand(x);
         if !(30 - MAX_SHIFT..=30).contains(&exponent) {
             return FixedCoefficient {
                 mantissa: 0,
                 shift: 0,
             };
         }
-        let significand = (bits & ((1 << 52) - 1)) | (1 << 52);
         // 53 bits to 31 (value in [2³⁰, 2³¹)), rounded; a carry to 2³¹ is clipped by one part in 2³¹.
         let rounded = ((significand >> 21) + 1) >> 1;
         let magnitude = rounded.min(i32::MAX as u64) as i32;
@@ -155,8 +206,11 @@ impl Scalar for Fixed {
 
     #[inline(always)]
     fn times(self, k: FixedCoefficient) -> Self {
-        let product = self.upper() * k.mantissa as i64;
-        Fixed(shifted(product, k.shift - (POINT - UPPER_POINT) as i32))
+        Fixed(scaled(
+            self.upper(),
+            k.mantissa,
+            k.shift - (POINT - UPPER_POINT) as i32,
+        ))
     }
 
     #[inline(always)]
@@ -182,8 +236,8 @@ impl Scalar for Fixed {
         if whole <= 0 {
             return Fixed(0);
         }
-        let bits = (part.clamp(0, whole) << 29) / whole;
-        Fixed(bits << (POINT - 29))
+        let part = part.clamp(0, whole).cast_unsigned() << 29;
+        Fixed(quotient(part, whole.cast_unsigned()).cast_signed() << (POINT - 29))
     }
 
     fn exp_decay(self) -> Self {
@@ -252,9 +306,9 @@ impl Angle<Fixed> for FixedAngle {
     }
     #[inline(always)]
     fn advance(self, step: Fixed, counts_per_unit: FixedCoefficient) -> Self {
-        let product = step.upper() * counts_per_unit.mantissa as i64;
-        FixedAngle(self.0.wrapping_add(shifted(
-            product,
+        FixedAngle(self.0.wrapping_add(scaled(
+            step.upper(),
+            counts_per_unit.mantissa,
             counts_per_unit.shift - (32 - UPPER_POINT) as i32,
         )))
     }

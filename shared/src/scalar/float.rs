@@ -3,14 +3,14 @@
 //! f64 keeps the angle as one number. f32 keeps whole counts in an integer and the rest as a
 //! fraction: as one number it would lose a count after a few revolutions.
 
-use super::curves;
 use super::{Angle, ErrorValue, Readable, Real, Scalar};
+use super::{curves, exponential, root};
 
 /// Remainder for counts that the 32-bit counter has wrapped.
 const WRAP: f64 = 4_294_967_296.0;
 
 macro_rules! float_scalar {
-    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:expr, $decay:expr, $bits:expr, $terms:expr) => {
+    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:expr, $decay:expr, $bits:expr, $drawn:ty, $terms:expr) => {
         impl Scalar for $t {
             type Mask = bool;
             type Coefficient = $t;
@@ -79,9 +79,17 @@ macro_rules! float_scalar {
             fn is_finite(self) -> bool {
                 <$t>::is_finite(self)
             }
+            #[inline(always)]
+            fn from_whole(x: u32) -> Self {
+                x as $t
+            }
+            #[inline(always)]
+            fn whole(self) -> u32 {
+                self as u32
+            }
             fn from_bits_uniform(bits: u64) -> Self {
                 const BITS: u32 = $bits;
-                (bits >> (64 - BITS)) as $t / (1u64 << BITS) as $t
+                (bits >> (64 - BITS)) as $drawn as $t / (1u64 << BITS) as $t
             }
         }
 
@@ -119,17 +127,19 @@ float_scalar!(
     curves::sin_cos_turns,
     |x| curves::exp_decay(x, curves::power_of_two),
     53,
+    u64,
     13
 );
 float_scalar!(
     f32,
     SplitAngle,
-    libm::expf,
-    libm::logf,
-    libm::sqrtf,
+    exponential::exp,
+    exponential::ln,
+    root::square_root,
     short_sin_cos,
     libm::expf,
     24,
+    u32,
     7
 );
 

@@ -10,14 +10,18 @@
 
 mod abreast;
 pub mod curves;
+mod exponential;
 mod fixed;
 mod float;
 mod mask;
+mod quotient;
+mod root;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
 pub use fixed::{Fixed, FixedCoefficient};
 pub use mask::Mask;
+pub use quotient::quotient;
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -79,6 +83,11 @@ pub trait Scalar:
     fn zero() -> Self {
         Self::default()
     }
+    /// One.
+    #[inline(always)]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
     /// Magnitude.
     #[inline(always)]
     fn abs(self) -> Self {
@@ -97,8 +106,7 @@ pub trait Scalar:
     /// −1, 0 or 1.
     #[inline(always)]
     fn signum(self) -> Self {
-        let one = Self::from_f64(1.0);
-        let zero = Self::zero();
+        let (one, zero) = (Self::one(), Self::zero());
         Self::select(
             self.less(zero),
             -one,
@@ -159,6 +167,10 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
+    /// A whole number, rounded to the format.
+    fn from_whole(x: u32) -> Self;
+    /// The whole part; saturates, so that there is none of what is below zero.
+    fn whole(self) -> u32;
     /// A uniform number in `[0, 1)` from 64 random bits, with as many of them as fit.
     fn from_bits_uniform(bits: u64) -> Self;
 }

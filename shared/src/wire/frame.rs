@@ -111,6 +111,8 @@ fn unstuff(frame: &mut [u8]) -> Option<usize> {
     Some(to)
 }
 
+// Out of line: once for all callers.
+#[inline(never)]
 fn decode<T: DeserializeOwned>(frame: &mut [u8]) -> Option<T> {
     let len = unstuff(frame)?;
     let (plain, check) = frame.get(..len)?.split_last_chunk::<CHECK>()?;
