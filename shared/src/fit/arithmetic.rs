@@ -53,7 +53,7 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn surely_below(sums: &Self::Sums, most: f32) -> bool;
 
     /// [`Rigid::set`] in this format. Here, and not where it is called, because this crate is compiled for speed and a
-    /// device's application for size; so are the next two.
+    /// device's application for size; so are the next three.
     ///
     /// # Errors
     /// As there.
@@ -62,11 +62,13 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool);
     /// [`Evaluation`](super::Evaluation)'s short way in this format.
     fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize;
+    /// The same for a motor without friction and load.
+    fn glide_free(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16], most: f32) -> usize;
 }
 
-/// What is compiled here.
+/// What is compiled here; without friction so many periods a turn of the loop, whose counter costs as much as one of f32's sums.
 macro_rules! compiled_here {
-    () => {
+    ($at_a_time:literal) => {
         fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> Result<(), ModelError> {
             model.set(plan)
         }
@@ -78,6 +80,15 @@ macro_rules! compiled_here {
         fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize {
             run.glide(duties, steps)
         }
+
+        fn glide_free(
+            run: &mut Evaluation<Self>,
+            duties: &[i16],
+            steps: &[i16],
+            most: f32,
+        ) -> usize {
+            run.glide_free::<$at_a_time>(duties, steps, most)
+        }
     };
 }
 
@@ -87,7 +98,7 @@ impl Arithmetic for f32 {
     type Lead = f32;
     type Sums = (f32, f32);
 
-    compiled_here!();
+    compiled_here!(6);
 
     fn rows(increments: [Row<f32>; 3], counts_per_unit: f32) -> Option<Self::Rows> {
         let [mut current, mut speed, angle] = increments;
@@ -108,13 +119,15 @@ impl Arithmetic for f32 {
         step: i16,
     ) -> (f32, f32, f32) {
         let (duty, step) = (f32::from(duty), f32::from(step));
-        let sum = |row: &Row<f32>| row[0] * current + row[1] * speed + row[2] * duty;
-        let [a, b, c] = *by_angle;
+        let [a, b, c] = *by_current;
+        let [p, q, r] = *by_speed;
+        let [u, v, w] = *by_angle;
         (
-            sum(by_current),
-            speed + sum(by_speed),
-            // In a row: two hundred counts and more cancel, whatever the order.
-            lead - step + a * current + b * speed + c * duty,
+            a * current + b * speed + c * duty,
+            // In a row, which needs an addition less, and what is added where it stays.
+            speed + q * speed + p * current + r * duty,
+            // Here two hundred counts and more cancel, whatever the order.
+            lead - step + u * current + v * speed + w * duty,
         )
     }
 
@@ -222,7 +235,7 @@ impl Arithmetic for Fixed {
     /// With 10 and 20 bits below the point.
     type Sums = (i64, i64);
 
-    compiled_here!();
+    compiled_here!(1);
 
     fn rows(
         increments: [Row<Self::Coefficient>; 3],
