@@ -219,6 +219,16 @@ fn by_duty(a: i32, duty: i16) -> i64 {
     ((i64::from(high) << 16) + i64::from(low)) << DUTY_SHIFT
 }
 
+/// Where leads saturate, counts.
+const MOST_COUNTS: i32 = 1 << 16;
+
+/// A lead that saturates. Out of line: few do, and a choice in place costs each period three times as much as a look.
+#[cold]
+#[inline(never)]
+fn saturated(whole: i32) -> i32 {
+    whole.clamp(-MOST_COUNTS, MOST_COUNTS - 1)
+}
+
 /// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
 #[inline(always)]
 fn raised(x: i64, n: i32) -> i64 {
@@ -291,8 +301,10 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn collect(sums: &mut Self::Sums, lead: i64) {
-        const MOST: i32 = 1 << 16;
-        let whole = ((lead >> 32) as i32).clamp(-MOST, MOST - 1);
+        let mut whole = (lead >> 32) as i32;
+        if !(-MOST_COUNTS..MOST_COUNTS).contains(&whole) {
+            whole = saturated(whole);
+        }
         let lead = (whole << 10) | (lead as u32 >> 22) as i32;
         sums.0 += i64::from(lead);
         // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
