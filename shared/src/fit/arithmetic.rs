@@ -3,7 +3,7 @@
 use super::Evaluation;
 use crate::error::ModelError;
 use crate::model::{Motion, Rigid, RigidPlan};
-use crate::scalar::{Fixed, Readable, Scalar};
+use crate::scalar::{Fixed, Readable, Scalar, product};
 use crate::wire::Format;
 use core::ops::Add;
 
@@ -53,7 +53,7 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn surely_below(sums: &Self::Sums, most: f32) -> bool;
 
     /// [`Rigid::set`] in this format. Here, and not where it is called, because this crate is compiled for speed and a
-    /// device's application for size; so are the next two.
+    /// device's application for size; so are the next three.
     ///
     /// # Errors
     /// As there.
@@ -62,11 +62,13 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool);
     /// [`Evaluation`](super::Evaluation)'s short way in this format.
     fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize;
+    /// The same for a motor without friction and load.
+    fn glide_free(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16], most: f32) -> usize;
 }
 
-/// What is compiled here.
+/// What is compiled here; without friction so many periods a turn of the loop, whose counter costs as much as one of f32's sums.
 macro_rules! compiled_here {
-    () => {
+    ($at_a_time:literal) => {
         fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> Result<(), ModelError> {
             model.set(plan)
         }
@@ -78,6 +80,15 @@ macro_rules! compiled_here {
         fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize {
             run.glide(duties, steps)
         }
+
+        fn glide_free(
+            run: &mut Evaluation<Self>,
+            duties: &[i16],
+            steps: &[i16],
+            most: f32,
+        ) -> usize {
+            run.glide_free::<$at_a_time>(duties, steps, most)
+        }
     };
 }
 
@@ -87,7 +98,7 @@ impl Arithmetic for f32 {
     type Lead = f32;
     type Sums = (f32, f32);
 
-    compiled_here!();
+    compiled_here!(6);
 
     fn rows(increments: [Row<f32>; 3], counts_per_unit: f32) -> Option<Self::Rows> {
         let [mut current, mut speed, angle] = increments;
@@ -108,13 +119,15 @@ impl Arithmetic for f32 {
         step: i16,
     ) -> (f32, f32, f32) {
         let (duty, step) = (f32::from(duty), f32::from(step));
-        let sum = |row: &Row<f32>| row[0] * current + row[1] * speed + row[2] * duty;
-        let [a, b, c] = *by_angle;
+        let [a, b, c] = *by_current;
+        let [p, q, r] = *by_speed;
+        let [u, v, w] = *by_angle;
         (
-            sum(by_current),
-            speed + sum(by_speed),
-            // In a row: two hundred counts and more cancel, whatever the order.
-            lead - step + a * current + b * speed + c * duty,
+            a * current + b * speed + c * duty,
+            // In a row, which needs an addition less, and what is added where it stays.
+            speed + q * speed + p * current + r * duty,
+            // Here two hundred counts and more cancel, whatever the order.
+            lead - step + u * current + v * speed + w * duty,
         )
     }
 
@@ -167,31 +180,11 @@ const TRAVEL_POINT: i32 = 18;
 /// Left shift that makes a duty in Q15 an upper word, which has 28 bits below the point.
 const DUTY_SHIFT: i32 = 28 - 15;
 
-/// The product, with all its bits.
-#[inline(always)]
-#[cfg(not(short_multiplier))]
-fn wide(a: i32, b: i32) -> i64 {
-    i64::from(a) * i64::from(b)
-}
-
-/// The product, with all its bits, where the core multiplies to 32 bits only: the compiler would call a routine for 64 by 64
-/// bits, which takes three times as long.
-#[inline(always)]
-#[cfg(short_multiplier)]
-fn wide(a: i32, b: i32) -> i64 {
-    let (a_low, a_high) = (a & 0xffff, a >> 16);
-    let (b_low, b_high) = (b & 0xffff, b >> 16);
-    let low = (a_low as u32).wrapping_mul(b_low as u32);
-    let high = a_high.wrapping_mul(b_high);
-    let cross = i64::from(a_high.wrapping_mul(b_low)) + i64::from(b_high.wrapping_mul(a_low));
-    ((i64::from(high) << 32) | i64::from(low)).wrapping_add(cross << 16)
-}
-
 /// The product with a duty as an upper word.
 #[inline(always)]
 #[cfg(not(short_multiplier))]
 fn by_duty(a: i32, duty: i16) -> i64 {
-    wide(a, i32::from(duty) << DUTY_SHIFT)
+    product(a, i32::from(duty) << DUTY_SHIFT)
 }
 
 /// The product with a duty as an upper word: half the bits, half the work.
@@ -204,6 +197,16 @@ fn by_duty(a: i32, duty: i16) -> i64 {
         (a >> 16).wrapping_mul(duty),
     );
     ((i64::from(high) << 16) + i64::from(low)) << DUTY_SHIFT
+}
+
+/// Where leads saturate, counts.
+const MOST_COUNTS: i32 = 1 << 16;
+
+/// A lead that saturates. Out of line: few do, and a choice in place costs each period three times as much as a look.
+#[cold]
+#[inline(never)]
+fn saturated(whole: i32) -> i32 {
+    whole.clamp(-MOST_COUNTS, MOST_COUNTS - 1)
 }
 
 /// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
@@ -222,7 +225,7 @@ impl Arithmetic for Fixed {
     /// With 10 and 20 bits below the point.
     type Sums = (i64, i64);
 
-    compiled_here!();
+    compiled_here!(1);
 
     fn rows(
         increments: [Row<Self::Coefficient>; 3],
@@ -249,7 +252,7 @@ impl Arithmetic for Fixed {
         step: i16,
     ) -> (Fixed, Fixed, i64) {
         let (c, s) = (current.word(), speed.word());
-        let sum = |row: &Row<i32>| wide(row[0], c) + wide(row[1], s) + by_duty(row[2], duty);
+        let sum = |row: &Row<i32>| product(row[0], c) + product(row[1], s) + by_duty(row[2], duty);
         // Upper words have 28 bits below the point, leads 32.
         let travel = sum(&rows.travel) >> (TRAVEL_POINT - 4);
         (
@@ -278,12 +281,14 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn collect(sums: &mut Self::Sums, lead: i64) {
-        const MOST: i32 = 1 << 16;
-        let whole = ((lead >> 32) as i32).clamp(-MOST, MOST - 1);
+        let mut whole = (lead >> 32) as i32;
+        if !(-MOST_COUNTS..MOST_COUNTS).contains(&whole) {
+            whole = saturated(whole);
+        }
         let lead = (whole << 10) | (lead as u32 >> 22) as i32;
         sums.0 += i64::from(lead);
         // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
-        sums.1 = sums.1.wrapping_add(wide(lead, lead));
+        sums.1 = sums.1.wrapping_add(product(lead, lead));
     }
 
     #[inline(always)]

@@ -5,8 +5,8 @@ use crate::model::{Motion, Rigid};
 use crate::scalar::Angle;
 use crate::trace::{OPEN, Trace};
 
-/// Samples between two looks at the bound.
-const BLOCK: usize = 64;
+/// Samples between two looks at the bound: as many whole turns of any format's loop.
+const BLOCK: usize = 72;
 
 /// Largest mean error that where the shaft stood within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
@@ -111,21 +111,32 @@ impl<S: Arithmetic> Evaluation<S> {
         let mut ran = 0;
         while self.result.is_none() && ran < samples {
             let from = self.at;
-            let to = (from + BLOCK).min(len);
-            if let (Some(duties), Some(steps)) =
-                (trace.duties.get(from..to), trace.steps.get(from..to))
-            {
+            let free = from < trace.closed.min(len) && self.model.is_free();
+            let to = if free {
+                // To the end of a block, so that where one looks does not depend on the slices.
+                let blocks = (samples - ran).div_ceil(BLOCK as u32) as usize;
+                (from + blocks * BLOCK).min(trace.closed).min(len)
+            } else {
+                (from + BLOCK).min(len)
+            };
+            let rows = (trace.duties.get(from..to), trace.steps.get(from..to));
+            let (Some(duties), Some(steps)) = rows else {
+                break;
+            };
+            if free {
+                self.at += S::glide_free(self, duties, steps, most);
+            } else {
                 self.follow(duties, steps, to <= trace.closed);
+                self.at = to;
             }
-            self.at = to;
-            ran += (to - from) as u32;
+            ran += (self.at - from) as u32;
             // The sum about the mean of what was seen only grows, so it may be compared before the end; and it is at most the
             // plain one.
-            if to < len && S::surely_below(&self.sums, most) {
+            if self.at < len && S::surely_below(&self.sums, most) {
                 continue;
             }
-            let so_far = self.spread(to.max(1) as f32);
-            if to == len || so_far > most {
+            let so_far = self.spread(self.at.max(1) as f32);
+            if self.at == len || so_far > most {
                 self.result = Some(so_far / len.max(1) as f32);
             }
         }
@@ -157,13 +168,18 @@ impl<S: Arithmetic> Evaluation<S> {
     fn follow(&mut self, duties: &[i16], steps: &[i16], closed: bool) {
         let mut at = 0;
         while let (Some(&duty), Some(&step)) = (duties.get(at), steps.get(at)) {
-            if self.turning.is_none() {
-                self.turning = self.turn();
-            }
-            let glided = match self.turning {
-                Some(_) if closed => S::glide(self, &duties[at..], &steps[at..]),
-                Some(_) if duty != OPEN => S::glide(self, &[duty], &[step]),
-                _ => 0,
+            let on = match (closed, duty) {
+                (true, _) => (&duties[at..], &steps[at..]),
+                (false, OPEN) => (&duties[..0], &steps[..0]),
+                (false, _) => (&duties[at..=at], &steps[at..=at]),
+            };
+            let glided = if self.model.is_free() {
+                S::glide_free(self, on.0, on.1, f32::INFINITY)
+            } else {
+                if self.turning.is_none() {
+                    self.turning = self.turn();
+                }
+                S::glide(self, on.0, on.1)
             };
             at += glided;
             if glided == 0 {
@@ -185,36 +201,62 @@ impl<S: Arithmetic> Evaluation<S> {
         })
     }
 
+    /// Periods with the bridge closed of a motor that nothing brakes, `N` at a time, until after a block the sum of squares may
+    /// exceed `most`; returns how many those were.
+    #[inline(always)]
+    pub(super) fn glide_free<const N: usize>(
+        &mut self,
+        duties: &[i16],
+        steps: &[i16],
+        most: f32,
+    ) -> usize {
+        let rows = self.rows;
+        let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
+        let len = duties.len().min(steps.len());
+        let (duties, rest) = duties[..len].as_chunks::<N>();
+        let (steps, rest_steps) = steps[..len].as_chunks::<N>();
+        let mut left = duties.len();
+        for (duties, steps) in duties.chunks(BLOCK / N).zip(steps.chunks(BLOCK / N)) {
+            for (duties, steps) in duties.iter().zip(steps) {
+                for (&duty, &step) in duties.iter().zip(steps) {
+                    at = S::follow(&rows, at, duty, step);
+                    S::collect(&mut sums, at.2);
+                }
+            }
+            left -= duties.len();
+            if !S::surely_below(&sums, most) {
+                break;
+            }
+        }
+        let mut periods = (duties.len() - left) * N;
+        if left == 0 {
+            for (&duty, &step) in rest.iter().zip(rest_steps) {
+                at = S::follow(&rows, at, duty, step);
+                S::collect(&mut sums, at.2);
+            }
+            periods += rest.len();
+        }
+        ((self.current, self.speed, self.lead), self.sums) = (at, sums);
+        periods
+    }
+
     /// Periods in which the shaft turns on, with the bridge closed; returns how many those were.
     #[inline(always)]
     pub(super) fn glide(&mut self, duties: &[i16], steps: &[i16]) -> usize {
-        match &self.turning {
-            _ if self.model.is_free() => self.glide_as::<true>(&Turning::default(), duties, steps),
-            Some(turning) => self.glide_as::<false>(&{ *turning }, duties, steps),
-            None => 0,
-        }
-    }
-
-    #[inline(always)]
-    fn glide_as<const FREE: bool>(
-        &mut self,
-        turning: &Turning<S>,
-        duties: &[i16],
-        steps: &[i16],
-    ) -> usize {
+        let Some(turning) = self.turning else {
+            return 0;
+        };
         let rows = self.rows;
         let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
             let mut to = S::follow(&rows, at, duty, step);
-            if !FREE {
-                to.0 = to.0 + turning.current;
-                to.1 = to.1 + turning.speed;
-                if !S::along(to.1, turning.sense) {
-                    break;
-                }
-                to.2 = to.2 + turning.lead;
+            to.0 = to.0 + turning.current;
+            to.1 = to.1 + turning.speed;
+            if !S::along(to.1, turning.sense) {
+                break;
             }
+            to.2 = to.2 + turning.lead;
             at = to;
             S::collect(&mut sums, at.2);
             periods += 1;

@@ -213,7 +213,12 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
 /// Speed of a shaft that broke loose within the smallest piece, in which the pull rose evenly from
 /// `pull.0` to `pull.1`: the excess over friction acts for the rest of the piece.
 #[inline(always)]
-fn started<S: Scalar, B: Body<S>>(body: &B, level: usize, pull: (S, S), budget: &Budget<S>) -> S {
+pub fn started<S: Scalar, B: Body<S>>(
+    body: &B,
+    level: usize,
+    pull: (S, S),
+    budget: &Budget<S>,
+) -> S {
     let (before, pull) = pull;
     let excess = pull.abs() - budget.holding;
     let rest = excess.part_of(pull.abs() - before.abs());
@@ -225,7 +230,7 @@ fn started<S: Scalar, B: Body<S>>(body: &B, level: usize, pull: (S, S), budget: 
 /// throughout; beyond the reversal the same pull meets friction on the new side, so the speed
 /// gained there shrinks as the net torque does. Zero if friction holds the pull.
 #[inline(always)]
-fn passed_through<S: Scalar>(speed: S, pull: S, budget: &Budget<S>) -> S {
+pub fn passed_through<S: Scalar>(speed: S, pull: S, budget: &Budget<S>) -> S {
     let pull = pull.abs();
     let share = (pull - budget.moving).part_of(pull + budget.moving);
     let held = budget.holding.less(pull).not();

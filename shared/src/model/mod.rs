@@ -20,6 +20,7 @@ mod friction;
 mod glide;
 mod led;
 mod linear;
+mod located;
 mod part;
 mod pieces;
 mod rigid;

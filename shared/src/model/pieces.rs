@@ -27,7 +27,19 @@ impl Pieces {
     /// Halvings of a step that make the next piece; none if the part is done.
     #[inline(always)]
     pub fn next(&self) -> Option<usize> {
-        (self.done < self.length(self.base)).then_some(self.level)
+        (!self.done()).then_some(self.level)
+    }
+
+    /// Whether the part is done.
+    #[inline(always)]
+    pub fn done(&self) -> bool {
+        self.done >= self.length(self.base)
+    }
+
+    /// Halvings of a step that make the next piece of a part that is not done.
+    #[inline(always)]
+    pub fn level(&self) -> usize {
+        self.level
     }
 
     /// Halves the next piece, unless it is the shortest already; says whether it did.
@@ -42,9 +54,11 @@ impl Pieces {
     #[inline(always)]
     pub fn pass(&mut self) {
         self.done += self.length(self.level);
-        while self.level > self.base && self.done.is_multiple_of(self.length(self.level - 1)) {
-            self.level -= 1;
-        }
+        // As long as where it begins is a multiple of its length.
+        let longest = self
+            .finest
+            .saturating_sub(self.done.trailing_zeros() as usize);
+        self.level = longest.max(self.base);
     }
 
     /// Length of a piece, in shortest ones.

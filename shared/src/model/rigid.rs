@@ -1,7 +1,8 @@
 //! A motor that is one rigid body, with Coulomb friction and a constant load: as much of [`Model`](super::Model) as fits
 //! beside a recording on a small device. The same maps and the same friction, and so the same bits.
 
-use super::friction::{Forces, slide_and_stick, slide_on};
+use super::friction::Forces;
+use super::located::slide_and_stick;
 use super::rung::{self, RUNGS, Rung};
 use super::state::Motion;
 use crate::discretise::Discretisation;
@@ -125,9 +126,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
             volts: command,
             ..self.forces
         };
-        if slide_on(&self.motor, 0, motion, &forces, open, scale).is_none() {
-            slide_and_stick(&self.motor, 0, motion, &forces, open, scale);
-        }
+        slide_and_stick(&self.motor, motion, &forces, open, scale);
     }
 }
 

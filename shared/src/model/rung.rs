@@ -315,22 +315,44 @@ impl<S: Scalar> Rung<S> {
     #[cfg_attr(short_multiplier, inline(never))]
     #[cfg_attr(not(short_multiplier), inline(always))]
     pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
-        let (current, speed) = (from.current, from.speed);
-        if open {
-            let by = [speed, torque];
-            return Increment {
-                current: -current,
-                speed: weighed(by, &self.coast_speed),
-                angle: weighed(by, &self.coast_angle),
-                ..Increment::default()
-            };
-        }
-        let by = [current, speed, volts, torque];
+        let speed = self.slide_speed(from, volts, torque, open);
+        let (current, angle) = self.slide_rest(from, volts, torque, open);
         Increment {
-            current: weighed(by, &self.current),
-            speed: weighed(by, &self.speed),
-            angle: weighed(by, &self.angle),
+            current,
+            speed,
+            angle,
             ..Increment::default()
+        }
+    }
+
+    /// Of that, what the speed gains.
+    #[inline(always)]
+    pub fn slide_speed(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> S {
+        if open {
+            weighed([from.speed, torque], &self.coast_speed)
+        } else {
+            weighed([from.current, from.speed, volts, torque], &self.speed)
+        }
+    }
+
+    /// Of that, what current and angle gain.
+    #[inline(always)]
+    pub fn slide_rest(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> (S, S) {
+        if open {
+            let angle = weighed([from.speed, torque], &self.coast_angle);
+            return (-from.current, angle);
+        }
+        let by = [from.current, from.speed, volts, torque];
+        (weighed(by, &self.current), weighed(by, &self.angle))
+    }
+
+    /// What the current gains while friction holds the shaft.
+    #[inline(always)]
+    pub fn settle(&self, current: S, volts: S, open: bool) -> S {
+        if open {
+            -current
+        } else {
+            current.times(self.held[0]) + volts.times(self.held[1])
         }
     }
 }
@@ -375,14 +397,8 @@ impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {
         volts: S,
         open: bool,
     ) -> Increment<S> {
-        let current = if open {
-            -from.current
-        } else {
-            let [by_current, by_volts] = self[level].held;
-            from.current.times(by_current) + volts.times(by_volts)
-        };
         Increment {
-            current,
+            current: self[level].settle(from.current, volts, open),
             ..Increment::default()
         }
     }

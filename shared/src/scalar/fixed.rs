@@ -96,14 +96,15 @@ fn scaled(upper: i32, mantissa: i32, shift: i32) -> i64 {
 /// The product, with all its bits.
 #[cfg(not(short_multiplier))]
 #[inline(always)]
-fn product(a: i32, b: i32) -> i64 {
+pub(crate) fn product(a: i32, b: i32) -> i64 {
     i64::from(a) * i64::from(b)
 }
 
-/// The product, with all its bits, from four of halves: the compiler would call its routine for 64 by 64 bits.
+/// The product, with all its bits, where the core multiplies to 32 bits only: the compiler would call a routine for 64 by 64
+/// bits, which takes three times as long.
 #[cfg(short_multiplier)]
 #[inline(always)]
-fn product(a: i32, b: i32) -> i64 {
+pub(crate) fn product(a: i32, b: i32) -> i64 {
     let (a_low, a_high) = (a & 0xffff, a >> 16);
     let (b_low, b_high) = (b & 0xffff, b >> 16);
     let low = (a_low as u32).wrapping_mul(b_low as u32);

@@ -19,6 +19,7 @@ mod root;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
+pub(crate) use fixed::product;
 pub use fixed::{Fixed, FixedCoefficient};
 pub use mask::Mask;
 pub use quotient::quotient;
