@@ -14,16 +14,21 @@ const CHAOTIC_CASES: u64 = 10;
 /// A run of 20 s that is followed to its end may leave this, counts RMS; one that is not, some hundred.
 const FOLLOWED: f64 = 1.5;
 
+/// The commissioning of motors with one hidden effect.
+fn hiding(effect: &str) -> SetUp {
+    SetUp {
+        seed: SEED,
+        hidden: HowMany::One,
+        excite: Excite::Commissioning,
+        effects: vec![effect.to_owned()],
+    }
+}
+
 /// What a shaft does that may or may not slip over a detent is told by the last digits of what it is made of: those are found by
 /// following the readings from their begin, and where in its cell another recording began by following that.
 #[test]
 fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
-    let set_up = SetUp {
-        seed: SEED,
-        hidden: HowMany::One,
-        excite: Excite::Commissioning,
-        effects: vec!["cogging".to_owned()],
-    };
+    let set_up = hiding("cogging");
     let stop = AtomicBool::new(false);
     let (mut chaotic, mut followed) = (0, 0);
     for number in 0..CHAOTIC_CASES {
@@ -50,12 +55,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
 /// plain as without.
 #[test]
 fn a_strong_constant_load_is_named_and_nothing_else() {
-    let set_up = SetUp {
-        seed: SEED,
-        hidden: HowMany::One,
-        excite: Excite::Commissioning,
-        effects: vec!["load_torque".to_owned()],
-    };
+    let set_up = hiding("load_torque");
     let stop = AtomicBool::new(false);
     for number in 0..CASES {
         let case = Case::record(&set_up, number).unwrap();

@@ -204,7 +204,9 @@ impl Workshop<'_> {
 
     /// Looks for the start of the held-out run as it is looked for where results are told.
     pub(super) fn follow_held_out(&self, refit: &mut Refit) {
+        // Where nothing depends on the angle, where it began does not matter.
         if refit.losses.is_none()
+            && refit.candidate.needs_angle()
             && let Ok(rms) = validate(self.held_out, &refit.candidate, refit.method)
         {
             refit.validate_rms_counts = rms;

@@ -2,7 +2,7 @@
 //! recording.
 
 use super::uncertainty::SEGMENTS;
-use crate::problem::{About, Candidate, FitProblem};
+use crate::problem::{About, Candidate, FitProblem, Spread};
 use nalgebra::{DMatrix, DVector};
 
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
@@ -66,22 +66,18 @@ fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
     let probes: Vec<Candidate> = (0..values.len())
         .map(|k| model(&moved(values, k, first(k), unknowns[k].range.1)))
         .collect();
-    let mut changes = vec![(0.0, 0.0); probes.len()];
-    let mut samples = 0;
+    let mut changes = vec![Spread::default(); probes.len()];
     let about = problem.stream_changes(&here, &probes, |some| {
-        samples += some.first().map_or(0, |change| change.len());
-        for ((sum, squares), change) in changes.iter_mut().zip(some) {
-            *sum += change.iter().sum::<f64>();
-            *squares += change.iter().map(|c| c * c).sum::<f64>();
+        for (spread, change) in changes.iter_mut().zip(some) {
+            spread.add(change);
         }
     })?;
-    let pair = |(k, &(sum, squares)): (usize, &(f64, f64))| {
-        let n = samples.max(1) as f64;
-        let mean = match about {
-            About::Mean => sum / n,
-            About::Zero => 0.0,
+    let pair = |(k, spread): (usize, &Spread)| {
+        let squares = match about {
+            About::Mean => spread.about_mean(),
+            About::Zero => spread.about(0.0),
         };
-        let change = (squares / n - mean * mean).max(0.0).sqrt();
+        let change = (squares / problem.data.len() as f64).sqrt();
         let mut step = first(k);
         // One correction of the step brings the change near the wanted size.
         if change > 0.0 {

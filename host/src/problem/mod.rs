@@ -22,4 +22,5 @@ pub use data::Data;
 pub use nearby::About;
 pub use quick::Quick;
 pub use simulate::Candidate;
+pub use spread::Spread;
 pub use unknowns::{Base, Structure, Unknown};

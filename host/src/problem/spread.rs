@@ -3,7 +3,7 @@
 
 /// Of the numbers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Spread {
+pub struct Spread {
     count: f64,
     mean: f64,
     squares: f64,
@@ -14,7 +14,7 @@ const SUMS: usize = 16;
 
 impl Spread {
     /// Takes some more.
-    pub(super) fn add(&mut self, some: &[f64]) {
+    pub fn add(&mut self, some: &[f64]) {
         if some.is_empty() {
             return;
         }
@@ -29,12 +29,12 @@ impl Spread {
     }
 
     /// Sum of the squares about the mean.
-    pub(super) fn about_mean(&self) -> f64 {
+    pub fn about_mean(&self) -> f64 {
         self.squares
     }
 
     /// Sum of the squares about a number.
-    pub(super) fn about(&self, middle: f64) -> f64 {
+    pub fn about(&self, middle: f64) -> f64 {
         let apart = self.mean - middle;
         self.squares + apart * apart * self.count
     }
