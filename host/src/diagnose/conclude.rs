@@ -33,10 +33,8 @@ pub fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagn
         chosen = plainer::plainer(workshop, chosen, &mut known);
     }
     let mut base = diagnosis.base.clone();
-    if chosen.tracked.is_some() {
-        // A motor that cannot be tracked keeps the errors of its free run.
-        let _ = workshop.track(&mut base);
-    }
+    // A motor that cannot be tracked keeps the errors of its free run.
+    let _ = workshop.track_like(&mut base, &chosen);
     let explained = judge::explained(&base, &chosen);
     let mut before = diagnosis.base.clone();
     for (depth, &added) in chosen.effects.iter().enumerate() {

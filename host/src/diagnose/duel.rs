@@ -64,9 +64,7 @@ fn from_there(workshop: &Workshop<'_>, model: &Refit, other: &Refit) -> Option<R
     let start = Sketch::standing(model.structure.clone(), &other.candidate, &parameters);
     let mut refit = workshop.refit(&start).ok()?;
     refit.foreseen_rms_counts = model.foreseen_rms_counts;
-    if model.tracked.is_some() && refit.tracked.is_none() {
-        workshop.track(&mut refit).ok()?;
-    }
+    workshop.track_like(&mut refit, model).ok()?;
     refit.evaluations += model.evaluations;
     Some(refit)
 }

@@ -242,10 +242,7 @@ fn refits(
 /// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
 pub fn sort(workshop: &Workshop<'_>, refits: &mut [Refit]) {
     if refits.iter().any(|refit| refit.tracked.is_some()) {
-        for refit in refits.iter_mut().filter(|refit| refit.tracked.is_none()) {
-            // A model that cannot be tracked keeps the errors of its free runs.
-            let _ = workshop.track(refit);
-        }
+        workshop.track_all(refits);
     }
     refits.sort_by(Refit::by_score);
 }

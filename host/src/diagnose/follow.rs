@@ -28,9 +28,16 @@ const STRETCH: Settings = Settings {
 };
 /// Fewest samples that say anything.
 const FEWEST: usize = 200;
+/// The shortest step is the recording's length over this.
+const SHORTEST: usize = 1000;
+/// Most stretches.
+const MOST: usize = 30;
+/// A model that is lost before this part of the recording is not taken.
+const FAR: f64 = 0.1;
 
 impl Workshop<'_> {
-    /// A model that follows the readings to their end, from one that does not; `None` where they are lost.
+    /// A model that follows the readings to their end, or as far as can be, from one that does not; `None` where they are lost
+    /// early.
     pub(super) fn followed(&self, refit: &Refit) -> Option<Refit> {
         let structure = &refit.structure;
         // What the arithmetic leaves would grow along the run like any other error.
@@ -52,13 +59,14 @@ impl Workshop<'_> {
             squares: f64::INFINITY,
             evaluations,
         };
-        let mut reached = 0;
-        while reached < self.data.len() {
-            let to = departs(&here.x)?;
-            if to < FEWEST || to <= reached || self.effort.halted() {
-                return None;
+        let noise = self.floor * ROOM;
+        let (mut reached, mut tries) = (0, 0);
+        let mut to = departs(&here.x)?;
+        while tries < MOST && to >= FEWEST && to > reached + self.data.len() / SHORTEST {
+            if self.effort.halted() {
+                break;
             }
-            reached = to;
+            tries += 1;
             let stretch = self.data.first(to);
             let problem = FitProblem {
                 data: &stretch,
@@ -66,18 +74,32 @@ impl Workshop<'_> {
                 ..self.problem(structure, method)
             };
             let found = self.descended(&problem, &here.x, STRETCH, method)?;
-            here = Descent {
-                evaluations: here.evaluations + found.evaluations,
-                ..found
-            };
+            let evaluations = here.evaluations + found.evaluations;
+            if found.squares <= noise * noise * to as f64 {
+                here = Descent {
+                    evaluations,
+                    ..found
+                };
+                reached = to;
+                to = departs(&here.x)?.max(reached);
+            } else {
+                // It departs faster than the fit can go after it.
+                here.evaluations = evaluations;
+                to = reached + (to - reached) / 2;
+            }
         }
-        let noise = self.floor * ROOM;
-        if here.squares > noise * noise * self.data.len() as f64 {
+        let part = reached as f64 / self.data.len() as f64;
+        if part < FAR {
             return None;
         }
         let foreseen = refit.foreseen_rms_counts;
-        self.conclude(structure.clone(), &here, foreseen, method)
-            .ok()
+        let followed = self
+            .conclude(structure.clone(), &here, foreseen, method)
+            .ok()?;
+        Some(Refit {
+            followed: part,
+            ..followed
+        })
     }
 }
 

@@ -54,8 +54,9 @@ fn akin(a: &Refit, b: &Refit) -> bool {
 pub fn removes(before: &Refit, after: &Refit) -> bool {
     // Both in the same measure: a free run is no rival of one that is held to the reading.
     let (old, new) = match (before.tracked, after.tracked) {
-        _ if before.ran().at_floor() => return false,
-        (Some(old), Some(new)) => (old, new),
+        _ if before.is_proven() => return false,
+        (Some(old), Some(_)) if old.errors.at_floor() && !old.is_loose() => return false,
+        (Some(old), Some(new)) => (old.errors, new.errors),
         _ => (before.ran(), after.ran()),
     };
     let removed = 1.0 - new.excess() / old.excess();
@@ -121,8 +122,8 @@ impl Company {
 /// the errors: what stays unexplained may be an effect for which a named one stands in.
 pub fn explained(base: &Refit, last: &Refit) -> f64 {
     let (from, to) = match (base.tracked, last.tracked) {
-        _ if last.judged().at_floor() => return 1.0,
-        (Some(from), Some(to)) => (from, to),
+        _ if last.explains() => return 1.0,
+        (Some(from), Some(to)) => (from.errors, to.errors),
         _ => (base.ran(), last.ran()),
     };
     let floor = Errors {

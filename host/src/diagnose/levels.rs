@@ -27,7 +27,7 @@ pub struct Level {
 pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     let mut before = base.clone();
-    while !before.judged().at_floor()
+    while !before.is_complete()
         && levels.len() < MOST_STEPS
         && !workshop.effort.halted()
         && levels.iter().skip(1).all(|level| level.believed)
@@ -54,9 +54,8 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
         let Some(best) = judge::best(&models).cloned() else {
             break;
         };
-        if best.tracked.is_some() && before.tracked.is_none() {
-            let _ = workshop.track(&mut before);
-        }
+        // One that cannot be tracked keeps the errors of its free runs.
+        let _ = workshop.track_like(&mut before, &best);
         let walled = best.windowed.is_some() && best.at_wall();
         let believed = judge::removes(&before, &best) && !walled;
         before = best.clone();

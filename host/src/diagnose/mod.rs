@@ -38,7 +38,9 @@ mod starts;
 pub mod steady;
 mod suggest;
 mod swap;
+mod track;
 pub mod usable;
+mod waves;
 pub mod whereabouts;
 mod workshop;
 
@@ -56,6 +58,7 @@ pub use span::{Span, moves_both_ways};
 pub use spectrum::Spectrum;
 pub use suggest::{Suggestion, Suggestions, suggest};
 pub use swap::same;
+pub use track::Tracked;
 
 use crate::error::Error;
 use crate::fit::Options;
@@ -206,7 +209,7 @@ pub fn diagnose(
     diagnosis.steps_taken = effort.spent();
     let next = levels.get(chosen.map_or(0, |depth| depth + 1));
     diagnosis.not_named = next.and_then(|level| level.best.effects.last().copied());
-    if diagnosis.last.judged().at_floor() {
+    if diagnosis.last.explains() {
         if !diagnosis.steps.is_empty() {
             diagnosis.verdict = Verdict::MissingEffects;
         }

@@ -70,9 +70,7 @@ fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Optio
         return None;
     }
     let mut refit = workshop.refit(&sketch).ok()?;
-    if chosen.tracked.is_some() {
-        workshop.track(&mut refit).ok()?;
-    }
+    workshop.track_like(&mut refit, chosen).ok()?;
     let behind = refit.judged().score() - chosen.judged().score();
     if !refit.judged().at_floor() && behind < NEAR {
         refit = workshop.polish(&refit).ok()?;

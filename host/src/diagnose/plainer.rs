@@ -76,9 +76,7 @@ fn fitted(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> O
     // Nothing was led here: the error that may be hoped for is the chosen one's.
     sketch.led = chosen.ran().fitted;
     let mut refit = workshop.refit(&sketch).ok()?;
-    if chosen.tracked.is_some() && refit.tracked.is_none() {
-        workshop.track(&mut refit).ok()?;
-    }
+    workshop.track_like(&mut refit, chosen).ok()?;
     let behind = refit.judged().score() - chosen.judged().score();
     if !refit.judged().at_floor() && behind < NEAR {
         refit = workshop.polish(&refit).ok()?;

@@ -18,8 +18,9 @@ const LAST: Settings = Settings {
     probe: PROBE,
     probed: None,
 };
-/// How long an error is remembered while a model whose free run is chaotic is polished.
-const POLISHED_MEMORY_S: f64 = 0.5;
+/// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
+/// polished.
+const POLISHED: f64 = 5.0;
 /// Factor between step sizes that are compared.
 const FINER: u16 = 4;
 /// Most parts to a sample.
@@ -35,13 +36,16 @@ impl Workshop<'_> {
     /// # Errors
     /// Where the model cannot run, which it could before.
     pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
+        if refit.followed > 0.0 {
+            return Ok(refit.clone());
+        }
         let polished = self.converged(refit)?;
         if polished.tracked.is_none() || polished.ran().at_floor() {
             return Ok(polished);
         }
         // Near enough to the truth even a chaotic free run has a floor to go down to.
         if let Some(mut followed) = self.followed(&polished) {
-            self.track(&mut followed)?;
+            self.track_like(&mut followed, &polished)?;
             self.follow_held_out(&mut followed);
             return Ok(followed);
         }
@@ -65,7 +69,7 @@ impl Workshop<'_> {
             let method = best.method;
             let problem = FitProblem {
                 horizon: match best.tracked {
-                    Some(_) => Horizon::Nudged(POLISHED_MEMORY_S),
+                    Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
                     None => self.fitted_horizon.clone(),
                 },
                 ..self.problem(&best.structure, method)
@@ -79,14 +83,12 @@ impl Workshop<'_> {
                 best.foreseen_rms_counts,
                 method,
             )?;
-            best = Refit {
-                tracked: best.tracked,
+            let mut polished = Refit {
                 evaluations: best.evaluations + polished.evaluations,
                 ..polished
             };
-            if best.tracked.is_some() {
-                self.track(&mut best)?;
-            }
+            self.track_like(&mut polished, &best)?;
+            best = polished;
             let finer = Method {
                 substeps: method.substeps * FINER,
                 ..method

@@ -5,6 +5,7 @@ use super::descent::{Descent, PROBE, Settings};
 use super::errors::{Errors, ROOM};
 use super::missed::Losses;
 use super::sketch::Sketch;
+use super::track::Tracked;
 use super::workshop::Workshop;
 use crate::error::Error;
 use crate::fit::{scores, validate, validate_roughly};
@@ -44,10 +45,10 @@ const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 const ASTRAY: f64 = 2.0;
 /// A simulation whose error is so many times the led one's has lost its way.
 const LOST: f64 = 3.0;
+/// A chaotic run that was followed over such a part of the recording proves the model.
+const PROOF: f64 = 0.5;
 /// Tracked scores this near are as good as each other.
 const AS_GOOD: f64 = 0.04;
-/// How long an error is remembered where free runs are chaotic and models are judged nevertheless.
-const JUDGED_MEMORY_S: f64 = 0.1;
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -72,7 +73,9 @@ pub struct Refit {
     /// Errors in windows, each run from the measured state, where whole runs say little.
     pub windowed: Option<Errors>,
     /// Errors that are soon forgotten, where free runs are chaotic.
-    pub tracked: Option<Errors>,
+    pub tracked: Option<Tracked>,
+    /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
+    pub followed: f64,
     /// RMS error that was foreseen before the refit, counts.
     pub foreseen_rms_counts: f64,
     /// Evaluations spent on it.
@@ -99,9 +102,25 @@ impl Refit {
     /// The errors that it is judged by: those of the runs that were fitted, unless they are chaotic.
     pub fn judged(&self) -> Errors {
         match self.tracked {
-            Some(tracked) if !self.ran().at_floor() => tracked,
+            Some(tracked) if !self.ran().at_floor() => tracked.errors,
             _ => self.ran(),
         }
+    }
+
+    /// Whether it leaves the reading's own error only, by what it is judged by.
+    pub fn explains(&self) -> bool {
+        self.is_proven() || self.judged().at_floor()
+    }
+
+    /// Whether it does so running on its own: to the end, or as far as a chaotic run can be followed.
+    pub fn is_proven(&self) -> bool {
+        self.ran().at_floor() || self.followed >= PROOF
+    }
+
+    /// Whether nothing more need be looked for. A model that has to be held tightly to the readings may yet lack something.
+    pub fn is_complete(&self) -> bool {
+        let tight = self.tracked.is_some_and(|tracked| !tracked.is_loose());
+        self.is_proven() || (self.judged().at_floor() && !tight)
     }
 
     /// Order by what they are judged by, best first.
@@ -153,7 +172,7 @@ impl Workshop<'_> {
             return fit(&sketch.x);
         }
         let faded = self.fade(&sketch.structure, &sketch.x);
-        let mut free = fit(&faded)?;
+        let free = fit(&faded)?;
         if free.ran().at_floor() {
             return Ok(free);
         }
@@ -163,43 +182,19 @@ impl Workshop<'_> {
             evaluations: free.evaluations,
             x: faded,
         };
-        let mut faded = self.conclude(sketch.structure.clone(), &stand, foreseen, self.method)?;
-        self.track(&mut free)?;
-        self.track(&mut faded)?;
-        let tracked = |refit: &Refit| refit.tracked.map_or(f64::INFINITY, |errors| errors.score());
-        Ok(if tracked(&free) < tracked(&faded) + AS_GOOD {
+        let faded = self.conclude(sketch.structure.clone(), &stand, foreseen, self.method)?;
+        let mut both = [free, faded];
+        self.track_all(&mut both);
+        let score = |refit: &Refit| {
+            let errors = refit.tracked.map(|tracked| tracked.errors);
+            errors.map_or(f64::INFINITY, |errors| errors.score())
+        };
+        let [free, faded] = both;
+        Ok(if score(&free) < score(&faded) + AS_GOOD {
             free
         } else {
             faded
         })
-    }
-
-    /// Adds the errors that are soon forgotten.
-    ///
-    /// # Errors
-    /// As [`refit`](Self::refit).
-    pub fn track(&self, refit: &mut Refit) -> Result<(), Error> {
-        let tracked = |data: &Data| {
-            errors(
-                data,
-                &Candidate {
-                    start_speed: 0.0,
-                    start_offset: 0.0,
-                    ..refit.candidate
-                },
-                refit.method,
-                &Horizon::Nudged(JUDGED_MEMORY_S),
-                StartAngle::Free,
-                Cost::Squared,
-            )
-            .map(|errors| rms_counts(data, &errors))
-        };
-        refit.tracked = Some(Errors {
-            fitted: tracked(self.data)?,
-            held_out: tracked(self.held_out)?,
-            floor: FLOOR_RMS_COUNTS,
-        });
-        Ok(())
     }
 
     /// Looks for the start of the held-out run as it is looked for where results are told.
@@ -318,6 +313,7 @@ impl Workshop<'_> {
             },
             validate_rms_counts: validate_roughly(self.held_out, &candidate, method)?,
             tracked: None,
+            followed: 0.0,
             foreseen_rms_counts: foreseen,
             evaluations: found.evaluations,
             method,

@@ -47,8 +47,8 @@ pub fn settle(
     };
     let judged_otherwise = last.windowed.is_some() || last.losses.is_some();
     let chaotic = last.tracked.is_some() && !last.ran().at_floor();
-    // Where it was followed to the recording's end it was fitted to its end.
-    let followed = last.tracked.is_some() && last.rms_counts < NOISE_COUNTS;
+    // As far as it was followed it was fitted to its end.
+    let followed = last.followed > 0.0;
     let stays = judged_otherwise || followed || diagnosis.ran_out || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {

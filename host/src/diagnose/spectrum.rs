@@ -1,7 +1,7 @@
 //! All the orders of a cogging torque at once. A model holds one; magnets and teeth make several, which are
 //! found one by one and then fitted together, by regression on the equation of motion.
 
-use super::orders::{FILTER_SAMPLES, Line, lines_of};
+use super::orders::{FILTER_SAMPLES, Line, lines_of, others};
 use crate::fit::scores::{EquationResidual, equation_residuals, filtered_values};
 use crate::problem::{Candidate, Data};
 use nalgebra::{DMatrix, DVector};
@@ -64,15 +64,10 @@ pub fn spectrum(data: &Data, candidate: &Candidate) -> Spectrum {
     }
 }
 
-/// What is fitted beside the orders: friction each way, and corrections of damping and inertia.
+/// What is fitted beside the orders.
 fn beside(left: &[EquationResidual]) -> Vec<Vec<f64>> {
-    let of = |f: &dyn Fn(&EquationResidual) -> f64| left.iter().map(f).collect::<Vec<f64>>();
-    vec![
-        of(&|r| f64::from(u8::from(r.speed > 0.0))),
-        of(&|r| f64::from(u8::from(r.speed <= 0.0))),
-        of(&|r| r.speed),
-        of(&|r| r.acceleration),
-    ]
+    let column = |j: usize| left.iter().map(|r| others(r)[j]).collect();
+    (0..4).map(column).collect()
 }
 
 /// Cosine and sine of the angle's multiple, through the filter that the residual has passed.

@@ -49,15 +49,11 @@ pub fn starts(
         .position(|p| p.quantity == Quantity::PerRev)
     {
         None => vec![typical],
-        Some(order) => orders::lines(data, &parent.candidate)
+        Some(_) => orders::lines(data, &parent.candidate)
             .iter()
             .filter(|line| line.order > 1)
             .take(LINES)
-            .map(|line| {
-                let mut values = typical.clone();
-                values[order] = line.order as f64;
-                values
-            })
+            .map(|line| vec![line.cosine, line.sine, line.order as f64])
             .collect(),
     }
 }

@@ -41,9 +41,12 @@ pub fn swapped(
     let dry = (kind == Kind::Lugre).then(|| workshop.sketch(&without, Kind::Coulomb, &[]));
     let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
     let sketch = workshop.sketch(&without, kind, &dry)?;
-    sketch
-        .rivals(chosen)
-        .then(|| workshop.refit(&sketch).ok())?
+    if !sketch.rivals(chosen) {
+        return None;
+    }
+    let mut refit = workshop.refit(&sketch).ok()?;
+    workshop.track_like(&mut refit, chosen).ok()?;
+    Some(refit)
 }
 
 /// Whether two lists hold the same effects.

@@ -19,18 +19,18 @@ const STAGES: usize = 4;
 
 /// A filtered signal and its first three derivatives: a number each, or one for each filter time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Filtered<V = f64> {
-    pub(super) value: V,
-    pub(super) rate: V,
-    pub(super) acceleration: V,
-    pub(super) jerk: V,
+pub(crate) struct Filtered<V = f64> {
+    pub(crate) value: V,
+    pub(crate) rate: V,
+    pub(crate) acceleration: V,
+    pub(crate) jerk: V,
 }
 
 /// What the lags of a signal are behind it, for each filter time.
-pub(super) type Behind<const L: usize> = [[f64; L]; STAGES];
+pub(crate) type Behind<const L: usize> = [[f64; L]; STAGES];
 
 /// A filter for each of `L` times.
-pub(super) struct Filter<const L: usize> {
+pub(crate) struct Filter<const L: usize> {
     /// One over each time, 1/s.
     per_time: [f64; L],
     /// What an interval does, for each length in the data.
@@ -63,7 +63,7 @@ impl<const L: usize> Interval<L> {
 
 impl<const L: usize> Filter<L> {
     /// With these filter times, s, for these data.
-    pub(super) fn new(data: &Data, times: [f64; L]) -> Self {
+    pub(crate) fn new(data: &Data, times: [f64; L]) -> Self {
         let interval = |length: &f64| {
             let seconds = length * data.units.interval;
             Interval::new(times.map(|time| seconds / time))
@@ -76,7 +76,7 @@ impl<const L: usize> Filter<L> {
 
     /// What is filtered of a signal that stands at `input`.
     #[inline(always)]
-    pub(super) fn output(&self, behind: &Behind<L>, input: [f64; L]) -> Filtered<[f64; L]> {
+    pub(crate) fn output(&self, behind: &Behind<L>, input: [f64; L]) -> Filtered<[f64; L]> {
         let [a, b, c, d] = behind;
         let per = &self.per_time;
         Filtered {
@@ -89,7 +89,7 @@ impl<const L: usize> Filter<L> {
 
     /// Lets the interval that begins at sample `k` of the data pass, in which the input rises straight by `rise`.
     #[inline(always)]
-    pub(super) fn pass(&self, data: &Data, k: usize, behind: &mut Behind<L>, rise: [f64; L]) {
+    pub(crate) fn pass(&self, data: &Data, k: usize, behind: &mut Behind<L>, rise: [f64; L]) {
         let interval = &self.intervals[data.length_of[k] as usize];
         let [a, b, c, d] = *behind;
         let [p, q, r, s] = &interval.decay;

@@ -1,6 +1,6 @@
 //! Fitting a model to a recording: start from regression, search, and say what was learnt.
 
-mod filter;
+pub(crate) mod filter;
 mod ladder;
 pub mod margins;
 pub mod memory;

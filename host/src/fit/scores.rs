@@ -15,8 +15,8 @@ use shared::effects::{Lowered, Place, Shaft};
 /// Filter time of the equation error, sample intervals.
 const EQUATION_FILTER_SAMPLES: f64 = 5.0;
 
-/// Speed below which friction may hold the shaft, as a part of the fastest.
-const AT_REST: f64 = 0.02;
+/// What was longer ago, in filter times, the filter has forgotten.
+const MEMORY: f64 = 6.0;
 
 /// Length of the windows when the user chose none, s.
 const USUAL_WINDOW_S: f64 = 1.0;
@@ -117,6 +117,19 @@ fn speed(data: &Data, k: usize) -> f64 {
     (data.counts[to] - data.counts[from]) / time.max(f64::MIN_POSITIVE)
 }
 
+/// Direction in which the shaft slides at a sample; zero where it may rest.
+fn sliding(data: &Data, k: usize) -> f64 {
+    let from = k.saturating_sub(SPEED_HALF_WIDTH);
+    let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
+    let travel = data.counts[to] - data.counts[from];
+    // On the edge of a cell the reading of a shaft at rest may change by one.
+    if travel.abs() > 1.0 {
+        travel.signum()
+    } else {
+        0.0
+    }
+}
+
 /// A sampled signal through the filter of [`equation_residuals`].
 pub fn filtered_values(data: &Data, time: f64, signal: &[f64]) -> Vec<f64> {
     let filtered = filtered(data, time, signal, false);
@@ -167,6 +180,7 @@ fn each_equation_residual(
     let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
     let third = m.electrical * m.inertia;
     let mut closed_since = 0.0;
+    let (mut direction, mut slid_since) = (0.0, 0.0);
     let mut net_now = if data.is_empty() { 0.0 } else { net(0) };
     for k in 0..data.len() {
         let next = (k + 1 < data.len()).then_some(k + 1);
@@ -175,11 +189,15 @@ fn each_equation_residual(
         let net = passing_net.at(k, net_now, net_next);
         let command = passing_command.at(k, command(k), next.map(command));
         net_now = net_next.unwrap_or(net_now);
+        let sliding = sliding(data, k);
+        if sliding == 0.0 || sliding != direction {
+            (direction, slid_since) = (sliding, data.time_s[k]);
+        }
         if data.is_open(k) {
             closed_since = data.time_s[k];
-        } else if data.time_s[k] - closed_since > 6.0 * time {
-            // Near rest friction is whatever holds the shaft: the equation says nothing there.
-            if holds && f.rate.abs() < AT_REST * data.units.speed {
+        } else if data.time_s[k] - closed_since > MEMORY * time {
+            // At rest friction is whatever holds the shaft: the equation says nothing of it.
+            if holds && data.time_s[k] - slid_since < MEMORY * time {
                 continue;
             }
             each(EquationResidual {

@@ -198,7 +198,9 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         rms_counts: of(|refit| refit.rms_counts),
         validate_rms_counts: of(|refit| refit.validate_rms_counts),
         foreseen_rms_counts: of(|refit| refit.foreseen_rms_counts),
-        tracked: after.and_then(|refit| refit.tracked).map(errors),
+        tracked: after
+            .and_then(|refit| refit.tracked)
+            .map(|t| errors(t.errors)),
         windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
         model: after.map(kept),
@@ -219,7 +221,7 @@ fn candidate(refit: &Refit, p_value: f64) -> CandidateJson {
         rms_counts: finite(refit.rms_counts),
         validate_rms_counts: finite(refit.validate_rms_counts),
         foreseen_rms_counts: finite(refit.foreseen_rms_counts),
-        tracked: refit.tracked.map(errors),
+        tracked: refit.tracked.map(|t| errors(t.errors)),
         windowed: refit.windowed.map(errors),
         p_value: finite(p_value),
         evaluations: refit.evaluations,

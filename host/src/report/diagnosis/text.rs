@@ -178,8 +178,8 @@ impl DiagnosisReport<'_> {
                     "judged by",
                     &format!(
                         "errors that are soon forgotten, since the free run is chaotic: {} fitted, {} held out",
-                        counts(tracked.fitted),
-                        counts(tracked.held_out)
+                        counts(tracked.errors.fitted),
+                        counts(tracked.errors.held_out)
                     ),
                 )?;
             }

@@ -137,7 +137,7 @@ impl DiagnosisReport<'_> {
             (_, _, Some(tracked)) if !last.free().at_floor() => (
                 "A free run is chaotic here, so the model was judged with errors that are soon forgotten"
                     .to_owned(),
-                tracked,
+                tracked.errors,
             ),
             _ => return String::new(),
         };
