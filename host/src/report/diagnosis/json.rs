@@ -72,6 +72,8 @@ struct StepJson {
     validate_rms_counts: Option<f64>,
     foreseen_rms_counts: Option<f64>,
     tracked: Option<ErrorsJson>,
+    tracked_memory_s: Option<f64>,
+    followed: Option<f64>,
     windowed: Option<ErrorsJson>,
     evidence: String,
     model: Option<KeptModel>,
@@ -201,6 +203,8 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         tracked: after
             .and_then(|refit| refit.tracked)
             .map(|t| errors(t.errors)),
+        tracked_memory_s: after.and_then(|refit| refit.tracked).map(|t| t.memory_s),
+        followed: after.map(|refit| refit.followed).filter(|part| *part > 0.0),
         windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
         model: after.map(kept),

@@ -177,7 +177,8 @@ impl DiagnosisReport<'_> {
                 say(
                     "judged by",
                     &format!(
-                        "errors that are soon forgotten, since the free run is chaotic: {} fitted, {} held out",
+                        "errors that are forgotten within {} s, since the free run is chaotic: {} fitted, {} held out",
+                        tracked.memory_s,
                         counts(tracked.errors.fitted),
                         counts(tracked.errors.held_out)
                     ),

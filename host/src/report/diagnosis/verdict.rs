@@ -135,14 +135,23 @@ impl DiagnosisReport<'_> {
                 windowed,
             ),
             (_, _, Some(tracked)) if !last.free().at_floor() => (
-                "A free run is chaotic here, so the model was judged with errors that are soon forgotten"
-                    .to_owned(),
+                format!(
+                    "A free run is chaotic here, so the model was judged with errors that are forgotten within {} s",
+                    tracked.memory_s
+                ),
                 tracked.errors,
             ),
             _ => return String::new(),
         };
+        let kept = match last.followed {
+            part if part > 0.0 && part < 1.0 => format!(
+                " On its own it keeps to the readings over the first {:.0} % of the recording.",
+                100.0 * part
+            ),
+            _ => String::new(),
+        };
         format!(
-            " {why}: {} counts fitted, {} held out.",
+            " {why}: {} counts fitted, {} held out.{kept}",
             counts(errors.fitted),
             counts(errors.held_out)
         )
