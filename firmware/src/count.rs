@@ -45,7 +45,7 @@ pub fn count<S: Arithmetic>(
         let mut model = Rigid::<S>::idle();
         let plan = plan(coulomb);
         let mut built = false;
-        let instructions = count(&mut || built = S::set(&mut model, &plan).is_ok());
+        let instructions = count(&mut || built = S::set(&mut model, &plan));
         writeln!(out, "build {name} {instructions}")?;
     }
     for (name, coulomb) in [("linear", false), ("coulomb", true)] {

@@ -25,7 +25,7 @@ pub(super) fn build<S: Arithmetic>(
 ) -> bool {
     // In place: to hand a model on costs as much as to make it.
     let evaluation = slot.get_or_insert_with(Evaluation::idle);
-    let built = space.set(&mut evaluation.model, x).is_ok() && evaluation.begin(bound);
+    let built = space.set(&mut evaluation.model, x) && evaluation.begin(bound);
     if !built {
         *slot = None;
     }

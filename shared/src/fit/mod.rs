@@ -25,13 +25,13 @@ pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
 use crate::trace::Trace;
-use serde::{Deserialize, Serialize};
+use crate::wire::coded;
 
 /// Largest population.
 pub const POPULATION: usize = 20;
 
 /// How to search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Particle swarm.
     Pso,
@@ -39,8 +39,15 @@ pub enum Method {
     Firefly,
 }
 
+coded!(
+    enum Method {
+        Pso,
+        Firefly,
+    }
+);
+
 /// What to search for, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// The method.
     pub method: Method,
@@ -55,6 +62,8 @@ pub struct Settings {
     /// Search for a constant load.
     pub load: bool,
 }
+
+coded!(struct Settings { method, population, evaluations, seed, coulomb, load });
 
 impl Settings {
     /// What suits most motors.

@@ -1,8 +1,7 @@
 //! Frames: where a message begins and ends, and whether it came through whole.
 
+use super::codec::{Coded, Reader, Writer};
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 
 /// Longest frame, with its zero byte.
 pub const LONGEST_FRAME: usize = 320;
@@ -14,9 +13,11 @@ const CHECK: usize = 4;
 static CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 /// The frame of a message, ended by a zero byte; `None` if the buffer is too short.
-pub fn encode<'a, T: Serialize>(message: &T, buffer: &'a mut [u8]) -> Option<&'a [u8]> {
+pub fn encode<'a, T: Coded>(message: &T, buffer: &'a mut [u8]) -> Option<&'a [u8]> {
     let mut plain = [0; LONGEST_FRAME];
-    let len = postcard::to_slice(message, &mut plain).ok()?.len();
+    let mut to = Writer::new(&mut plain);
+    message.put(&mut to);
+    let len = to.finish()?;
     let check = CRC.checksum(plain.get(..len)?).to_le_bytes();
     plain.get_mut(len..len + CHECK)?.copy_from_slice(&check);
     let mut encoder = cobs::CobsEncoder::new(buffer);
@@ -54,7 +55,7 @@ impl Deframer {
     }
 
     /// Takes a byte; gives the message that it completes.
-    pub fn push<T: DeserializeOwned>(&mut self, byte: u8) -> Option<T> {
+    pub fn push<T: Coded>(&mut self, byte: u8) -> Option<T> {
         if byte != 0 {
             match self.buffer.get_mut(self.len) {
                 Some(slot) if !self.skipping => {
@@ -113,11 +114,16 @@ fn unstuff(frame: &mut [u8]) -> Option<usize> {
 
 // Out of line: once for all callers.
 #[inline(never)]
-fn decode<T: DeserializeOwned>(frame: &mut [u8]) -> Option<T> {
+fn decode<T: Coded>(frame: &mut [u8]) -> Option<T> {
     let len = unstuff(frame)?;
     let (plain, check) = frame.get(..len)?.split_last_chunk::<CHECK>()?;
     let whole = CRC.checksum(plain) == u32::from_le_bytes(*check);
-    whole.then(|| postcard::from_bytes(plain).ok()).flatten()
+    if !whole {
+        return None;
+    }
+    let mut from = Reader::new(plain);
+    let message = T::take(&mut from);
+    from.finish(message)
 }
 
 #[cfg(test)]
