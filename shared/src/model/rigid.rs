@@ -49,7 +49,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
             },
             rubs: false,
             free: true,
-            counts_per_unit: S::coefficient(0.0),
+            counts_per_unit: S::Coefficient::default(),
         }
     }
 
@@ -65,7 +65,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         let depth = if self.rubs { RUNGS - 1 } else { 0 };
         let machine = plan.machine.lower(units);
         let one = R::from_f64(1.0);
-        rung::climb(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
+        rung::bare_ladder(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
         self.forces.torque = units.number(plan.load, Quantity::Torque);
         self.forces.budget = Budget::even(units.number(plan.coulomb, Quantity::Torque));
         self.counts_per_unit = S::coefficient(units.counts_per_unit().to_f64());

@@ -20,7 +20,7 @@ const UPPER_POINT: u32 = POINT - 32;
 pub struct Fixed(i64);
 
 /// A multiplier: `mantissa · 2^(−shift)`, the mantissa normalised to 31 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FixedCoefficient {
     mantissa: i32,
     shift: i32,

@@ -39,8 +39,8 @@ pub trait Scalar:
 {
     /// Result of a comparison.
     type Mask: Mask;
-    /// A multiplier that is fixed for the life of a model.
-    type Coefficient: Copy + Debug;
+    /// A multiplier that is fixed for the life of a model; zero by default.
+    type Coefficient: Copy + Default + Debug;
     /// The shaft angle in encoder counts.
     type Angle: Angle<Self>;
     /// Magnitudes below this are represented; infinity for floats.
