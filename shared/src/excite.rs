@@ -249,9 +249,7 @@ impl<R: Real> Iterator for Commands<'_, R> {
         let seconds = R::from_whole(k) * self.interval;
         let (value, enabled) = self.value(first, whole, seconds);
         let limit = R::from_f64(1.0);
-        let drive = (value * first.amplitude)
-            .min(limit)
-            .max(-limit);
+        let drive = (value * first.amplitude).min(limit).max(-limit);
         Some(Command { drive, enabled })
     }
 }

@@ -1,7 +1,9 @@
 //! What duty comes next, in each phase that drives.
 
 use heapless::Vec;
-use shared::excite::{self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape, narrowed};
+use shared::excite::{
+    self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape, narrowed,
+};
 use shared::trace::OPEN;
 use shared::wire::Segment;
 

@@ -16,6 +16,7 @@ mod float;
 mod mask;
 mod quotient;
 mod root;
+pub mod soft;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
