@@ -83,7 +83,8 @@ macro_rules! float_scalar {
             fn from_whole(x: u32) -> Self {
                 x as $t
             }
-            #[inline(always)]
+            #[cfg_attr(short_multiplier, inline(never))]
+            #[cfg_attr(not(short_multiplier), inline(always))]
             fn whole(self) -> u32 {
                 self as u32
             }
