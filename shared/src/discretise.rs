@@ -198,7 +198,7 @@ fn lower_within<S: Scalar, R: Real>(lowered: &mut [S::Coefficient], row: &[R]) -
         if k.abs() > limit || !k.is_finite() {
             return Some(k);
         }
-        *lowered = S::coefficient(k.to_f64());
+        *lowered = S::coefficient_of(k);
     }
     None
 }
@@ -216,7 +216,7 @@ pub fn scaled<S: Scalar, R: Real, const K: usize>(
 ) -> Result<[S::Coefficient; K], ModelError> {
     lower::<S, R>(name, &mut [S::Coefficient::default(); K], &row)?;
     Ok(core::array::from_fn(|k| {
-        S::coefficient((row[k] * row_scale * column_scales[k]).to_f64())
+        S::coefficient_of(row[k] * row_scale * column_scales[k])
     }))
 }
 

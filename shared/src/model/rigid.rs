@@ -68,7 +68,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         rung::bare_ladder(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
         self.forces.torque = units.number(plan.load, Quantity::Torque);
         self.forces.budget = Budget::even(units.number(plan.coulomb, Quantity::Torque));
-        self.counts_per_unit = S::coefficient(units.counts_per_unit().to_f64());
+        self.counts_per_unit = S::coefficient_of(units.counts_per_unit());
         Ok(())
     }
 

@@ -66,6 +66,21 @@ macro_rules! float_scalar {
             fn to_f64(self) -> f64 {
                 self as f64
             }
+            #[inline]
+            fn binary(self) -> (bool, i32, u64) {
+                const FRACTION: u32 = <$t>::MANTISSA_DIGITS - 1;
+                const LARGEST: u32 = (<$t>::MAX_EXP * 2 - 1) as u32;
+                let bits = self.to_bits();
+                let exponent = (bits >> FRACTION) as u32 & LARGEST;
+                let fraction = bits & ((1 << FRACTION) - 1);
+                let significand = (fraction as u64) << (52 - FRACTION) | 1 << 52;
+                let exponent = if exponent == LARGEST {
+                    1024
+                } else {
+                    exponent as i32 - (<$t>::MAX_EXP - 1)
+                };
+                (self.is_sign_negative(), exponent, significand)
+            }
             fn exp(self) -> Self {
                 $exp(self)
             }

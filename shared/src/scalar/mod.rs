@@ -56,6 +56,16 @@ pub trait Scalar:
     }
     /// A multiplier of any size from 2⁻³⁰ to 2³⁰ in magnitude, or nearly zero.
     fn coefficient(x: f64) -> Self::Coefficient;
+    /// [`from_f64`](Self::from_f64) of another format's number.
+    #[inline(always)]
+    fn of<R: Real>(x: R) -> Self {
+        Self::from_f64(x.to_f64())
+    }
+    /// [`coefficient`](Self::coefficient) of another format's number.
+    #[inline(always)]
+    fn coefficient_of<R: Real>(x: R) -> Self::Coefficient {
+        Self::coefficient(x.to_f64())
+    }
     /// `self · k`.
     fn times(self, k: Self::Coefficient) -> Self;
     /// `self < other`.
@@ -161,6 +171,9 @@ pub trait Real:
 
     /// As f64, exactly.
     fn to_f64(self) -> f64;
+    /// Whether it is negative, and `|self| = significand · 2^(exponent − 52)` with 53 bits of significand; the exponent is 1024 of
+    /// what is not finite, and below −126 of what is nearly nothing.
+    fn binary(self) -> (bool, i32, u64);
     /// Natural exponential.
     fn exp(self) -> Self;
     /// Natural logarithm.
