@@ -79,8 +79,25 @@ abreast!(Timed { rung, timing });
 #[derive(Clone, Copy)]
 struct Maps<R> {
     driven: LinearMap<R, 2, 2>,
-    coast: LinearMap<R, 1, 1>,
-    held: LinearMap<R, 1, 1>,
+    coast: LinearMap<R, ALONE, ALONE>,
+    held: LinearMap<R, ALONE, ALONE>,
+}
+
+/// States and inputs of a system that has one of each. On a small core another of each, that stays zero: so its maps are made
+/// by the code for two, to the same bits.
+const ALONE: usize = if cfg!(short_multiplier) { 2 } else { 1 };
+
+/// One state, by itself and by one input.
+fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, ALONE, ALONE> {
+    let none = [[R::zero(); ALONE]; ALONE];
+    let mut system = LinearSystem {
+        states: none,
+        inputs: none,
+        speed: 0,
+    };
+    system.states[0][0] = state;
+    system.inputs[0][0] = input;
+    system
 }
 
 impl<R: Real> Maps<R> {
@@ -94,20 +111,10 @@ impl<R: Real> Maps<R> {
             inputs: [[rate, zero], [zero, -push]],
             speed: 1,
         };
-        let coast = LinearSystem {
-            states: [[-drag]],
-            inputs: [[-push]],
-            speed: 0,
-        };
-        let held = LinearSystem {
-            states: [[-rate]],
-            inputs: [[rate]],
-            speed: 0,
-        };
         Ok(Maps {
             driven: driven.step(length, how)?,
-            coast: coast.step(length, how)?,
-            held: held.step(length, how)?,
+            coast: alone(-drag, -push).step(length, how)?,
+            held: alone(-rate, rate).step(length, how)?,
         })
     }
 
