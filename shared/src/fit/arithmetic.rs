@@ -2,7 +2,7 @@
 
 use super::Evaluation;
 use crate::model::{Motion, Rigid, RigidPlan};
-use crate::scalar::{Fixed, Readable, Scalar, product};
+use crate::scalar::{Fixed, FixedCoefficient, Readable, Scalar, product};
 use crate::wire::Format;
 use core::ops::Add;
 
@@ -24,10 +24,10 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     /// Sum and sum of squares of leads.
     type Sums: Copy + Default + core::fmt::Debug;
 
-    /// Rows for the increments of current, speed and angle (in units of angle, of which each is so many counts). None if the
-    /// format does not hold them.
+    /// Rows for the increments of current, speed and angle (in units of angle, of which each is so many counts) by current,
+    /// speed, voltage and torque. None if the format does not hold them.
     fn rows(
-        increments: [Row<Self::Coefficient>; 3],
+        increments: [&[Self::Coefficient; 4]; 3],
         counts_per_unit: Self::Coefficient,
     ) -> Option<Self::Rows>;
     /// A period without torque on the shaft: current, speed and lead at its end.
@@ -96,9 +96,9 @@ impl Arithmetic for f32 {
 
     compiled_here!(6);
 
-    fn rows(increments: [Row<f32>; 3], counts_per_unit: f32) -> Option<Self::Rows> {
-        let [mut current, mut speed, angle] = increments;
-        let mut angle = angle.map(|k| k * counts_per_unit);
+    fn rows(increments: [&[f32; 4]; 3], counts_per_unit: f32) -> Option<Self::Rows> {
+        let [mut current, mut speed, mut angle] = increments.map(|&[a, b, c, _]| [a, b, c]);
+        angle = angle.map(|k| k * counts_per_unit);
         // The current forgets fast: as a whole it needs one addition less, and loses nothing.
         current[0] += 1.0;
         for row in [&mut current, &mut speed, &mut angle] {
@@ -213,6 +213,12 @@ fn raised(x: i64, n: i32) -> i64 {
     (i64::from(high as i32) << 32) | i64::from(low << n)
 }
 
+/// A row of a map as mantissas with so many bits below the point.
+fn mantissas(of: &[FixedCoefficient; 4], bits: i32) -> Option<Row<i32>> {
+    let [a, b, c, _] = of;
+    Some([a.mantissa(bits)?, b.mantissa(bits)?, c.mantissa(bits)?])
+}
+
 impl Arithmetic for Fixed {
     const FORMAT: Format = Format::Fixed;
     type Rows = FixedRows;
@@ -225,18 +231,14 @@ impl Arithmetic for Fixed {
     compiled_here!(1);
 
     fn rows(
-        increments: [Row<Self::Coefficient>; 3],
+        increments: [&[Self::Coefficient; 4]; 3],
         counts_per_unit: Self::Coefficient,
     ) -> Option<FixedRows> {
         let [current, speed, angle] = increments;
-        let mantissas = |of: &Row<Self::Coefficient>, bits: i32| {
-            let [a, b, c] = of.map(|k| k.mantissa(bits));
-            Some([a?, b?, c?])
-        };
         let travel = angle.map(|k| k.by(counts_per_unit));
         Some(FixedRows {
-            current: mantissas(&current, 32 - CURRENT_SHIFT)?,
-            speed: mantissas(&speed, 32 - SPEED_SHIFT)?,
+            current: mantissas(current, 32 - CURRENT_SHIFT)?,
+            speed: mantissas(speed, 32 - SPEED_SHIFT)?,
             travel: mantissas(&travel, TRAVEL_POINT)?,
         })
     }

@@ -41,7 +41,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
     /// A motor that nothing moves, to be [`set`](Self::set).
     pub fn idle() -> Self {
         Rigid {
-            motor: [Rung::zero(); RUNGS],
+            motor: Default::default(),
             forces: Forces {
                 volts: S::zero(),
                 torque: S::zero(),
@@ -82,8 +82,8 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         Ok(rigid)
     }
 
-    /// What current, speed and command each add to current, speed and angle in an interval with the bridge closed.
-    pub fn increments(&self) -> [[S::Coefficient; 3]; 3] {
+    /// What current, speed, command and torque each add to current, speed and angle in an interval with the bridge closed.
+    pub fn increments(&self) -> [&[S::Coefficient; 4]; 3] {
         self.motor[0].increments()
     }
 

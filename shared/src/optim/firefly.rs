@@ -63,13 +63,12 @@ impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
     pub fn new(dim: usize, population: usize, settings: FireflySettings, seed: u64) -> Self {
         let mut rng = rng::seeded(seed);
         let dim = dim.min(D);
-        let flies = core::array::from_fn(|_| {
-            let mut fly = Candidate::unknown();
-            for x in &mut fly.x[..dim] {
+        let mut flies = [Candidate::unknown(); P];
+        for fly in &mut flies {
+            for x in fly.x.iter_mut().take(dim) {
                 *x = rng::uniform(&mut rng);
             }
-            fly
-        });
+        }
         let fall = R::from_f64(settings.narrowest / settings.widest).ln();
         Firefly {
             attraction: R::from_f64(settings.attraction),

@@ -61,19 +61,18 @@ impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
     pub fn new(dim: usize, population: usize, settings: PsoSettings, seed: u64) -> Self {
         let mut rng = rng::seeded(seed);
         let dim = dim.min(D);
-        let particles = core::array::from_fn(|_| {
-            let mut particle = Particle {
-                x: [R::zero(); D],
-                velocity: [R::zero(); D],
-                best: Candidate::unknown(),
-            };
-            for d in 0..dim {
-                particle.x[d] = rng::uniform(&mut rng);
-                particle.velocity[d] =
-                    (rng::uniform::<R>(&mut rng) - particle.x[d]) * R::from_f64(0.5);
+        let mut particles = [Particle {
+            x: [R::zero(); D],
+            velocity: [R::zero(); D],
+            best: Candidate::unknown(),
+        }; P];
+        for particle in &mut particles {
+            let places = particle.x.iter_mut().zip(&mut particle.velocity);
+            for (x, velocity) in places.take(dim) {
+                *x = rng::uniform(&mut rng);
+                *velocity = (rng::uniform::<R>(&mut rng) - *x) * R::from_f64(0.5);
             }
-            particle
-        });
+        }
         let real = R::from_f64;
         Pso {
             inertia: real(settings.inertia),

@@ -31,6 +31,7 @@ const MAX_SHIFT: i32 = 61;
 
 impl FixedCoefficient {
     /// As a whole number with so many bits below the point, rounded; none if that is beyond 31 bits.
+    #[cfg_attr(short_multiplier, inline(never))]
     pub fn mantissa(self, bits: i32) -> Option<i32> {
         i32::try_from(shifted(self.mantissa.into(), self.shift - bits)).ok()
     }
