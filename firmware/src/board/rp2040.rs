@@ -13,6 +13,7 @@
 //! The dead time is the module's business: this chip's PWM has none.
 
 mod clocks;
+mod divider;
 mod encoder;
 mod link;
 
