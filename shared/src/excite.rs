@@ -76,7 +76,8 @@ pub struct Experiment<R = f64> {
     pub amplitude: R,
 }
 
-/// A plan in single precision, ready for a device: rounded by the compiler, it spares a small core the routine for it.
+/// A plan in single precision, ready for a device: rounded by the compiler, it spares a small core the routine for it. One
+/// with a shape that [`device_commands`] does not have does not compile.
 pub const fn narrowed<const N: usize>(plan: [Experiment; N]) -> [Experiment<f32>; N] {
     let mut narrowed = [Experiment {
         shape: Shape::Rest,
@@ -85,6 +86,7 @@ pub const fn narrowed<const N: usize>(plan: [Experiment; N]) -> [Experiment<f32>
     }; N];
     let mut k = 0;
     while k < N {
+        assert!(plan[k].shape.is_commissioning(), "no shape of a device's");
         narrowed[k] = Experiment {
             shape: plan[k].shape.narrowed(),
             seconds: plan[k].seconds as f32,
@@ -166,6 +168,18 @@ impl Shape {
         ),
     ];
 
+    /// Whether a device's own plans may have it.
+    const fn is_commissioning(&self) -> bool {
+        match self {
+            Shape::Steps { .. }
+            | Shape::Triangle { .. }
+            | Shape::Reversals { .. }
+            | Shape::Chirp { .. }
+            | Shape::Telegraph { .. } => true,
+            Shape::Rest | Shape::Step | Shape::Staircase { .. } | Shape::Multisine { .. } => false,
+        }
+    }
+
     const fn narrowed(self) -> Shape<f32> {
         match self {
             Shape::Rest => Shape::Rest,
@@ -210,6 +224,23 @@ impl Shape {
 
 /// The commands of a plan, one a sample of `interval` seconds. The seed matters to telegraphs only.
 pub fn commands<R: Real>(plan: &[Experiment<R>], interval: R, seed: u64) -> Commands<'_, R> {
+    begun(plan, interval, seed)
+}
+
+/// Of a [`narrowed`] plan: the same without the shapes that no device plays, which take 300 bytes of its flash.
+pub fn device_commands(
+    plan: &[Experiment<f32>],
+    interval: f32,
+    seed: u64,
+) -> Commands<'_, f32, false> {
+    begun(plan, interval, seed)
+}
+
+fn begun<R: Real, const EVERY: bool>(
+    plan: &[Experiment<R>],
+    interval: R,
+    seed: u64,
+) -> Commands<'_, R, EVERY> {
     Commands {
         plan,
         interval,
@@ -220,9 +251,9 @@ pub fn commands<R: Real>(plan: &[Experiment<R>], interval: R, seed: u64) -> Comm
     }
 }
 
-/// Iterator over the commands of a plan.
+/// Iterator over the commands of a plan, of every shape or of those that a device plays.
 #[derive(Clone, Debug)]
-pub struct Commands<'a, R> {
+pub struct Commands<'a, R, const EVERY: bool = true> {
     plan: &'a [Experiment<R>],
     interval: R,
     sample: u32,
@@ -231,7 +262,7 @@ pub struct Commands<'a, R> {
     hold: u32,
 }
 
-impl<R: Real> Iterator for Commands<'_, R> {
+impl<R: Real, const EVERY: bool> Iterator for Commands<'_, R, EVERY> {
     type Item = Command<R>;
 
     fn next(&mut self) -> Option<Command<R>> {
@@ -254,12 +285,17 @@ impl<R: Real> Iterator for Commands<'_, R> {
     }
 }
 
-impl<R: Real> Commands<'_, R> {
+impl<R: Real, const EVERY: bool> Commands<'_, R, EVERY> {
     /// Value in `[-1, 1]` at the part `whole` of the experiment, `seconds` after its start.
     fn value(&mut self, experiment: &Experiment<R>, whole: R, seconds: R) -> (R, bool) {
         let one = R::from_f64(1.0);
         let real = R::from_f64;
         match experiment.shape {
+            Shape::Rest | Shape::Step | Shape::Staircase { .. } | Shape::Multisine { .. }
+                if !EVERY =>
+            {
+                (R::zero(), true)
+            }
             Shape::Rest => (R::zero(), true),
             Shape::Step => (one, true),
             Shape::Steps { open } => {

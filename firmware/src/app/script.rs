@@ -15,7 +15,7 @@ pub type Plan = Vec<Segment, PLAN>;
 
 /// The short excitation that is fitted: levels of both signs for the time constants, a slow triangle for friction. Two
 /// seconds; longer or shorter recordings stretch it.
-const RECORD: [Experiment<f32>; 2] = [
+const RECORD: [Experiment<f32>; 2] = narrowed([
     Experiment {
         shape: Shape::Telegraph {
             levels: 9,
@@ -29,14 +29,14 @@ const RECORD: [Experiment<f32>; 2] = [
         seconds: 0.6,
         amplitude: 0.6,
     },
-];
+]);
 
 /// The long ones.
 const EXCITE: [Experiment<f32>; 7] = narrowed(COMMISSIONING);
 const EXCITE_COAST: [Experiment<f32>; 7] = narrowed(COMMISSIONING_COAST);
 
 /// What the fit has not seen: steps, and levels in another order.
-const VERIFY: [Experiment<f32>; 2] = [
+const VERIFY: [Experiment<f32>; 2] = narrowed([
     Experiment {
         shape: Shape::Steps { open: false },
         seconds: 1.2,
@@ -50,7 +50,7 @@ const VERIFY: [Experiment<f32>; 2] = [
         seconds: 0.8,
         amplitude: 0.9,
     },
-];
+]);
 
 /// A source of duties.
 #[derive(Debug, Clone)]
@@ -71,7 +71,7 @@ pub enum Script {
     /// An excitation.
     Excitation {
         /// Its commands.
-        commands: Commands<'static, f32>,
+        commands: Commands<'static, f32, false>,
         /// Duty of its largest command.
         amplitude: i16,
         /// Periods left.
@@ -129,7 +129,7 @@ impl Script {
             _ => seed,
         };
         Script::Excitation {
-            commands: excite::commands(plan, interval, seed),
+            commands: excite::device_commands(plan, interval, seed),
             amplitude,
             left: periods,
         }
