@@ -59,7 +59,7 @@ enum Work {
 }
 
 /// The large part of the application's memory but for the [`Log`], apart so that a `static` can hold it: an application
-/// that is moved once stands on the stack once more.
+/// that is moved once stands on the stack once more. Empty it is all zeros, which takes no flash.
 #[derive(Debug)]
 pub struct Memory<S: Arithmetic> {
     fit: Fit<S>,
@@ -77,15 +77,6 @@ impl<S: Arithmetic> Memory<S> {
             inbox: Deframer::new(),
             outbox: Outbox::new(),
         }
-    }
-}
-
-#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "trials")))]
-impl<S: Arithmetic> Memory<S> {
-    /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
-    #[inline(never)]
-    pub fn placed(cell: &'static static_cell::StaticCell<Self>) -> &'static mut Self {
-        cell.init_with(Self::new)
     }
 }
 

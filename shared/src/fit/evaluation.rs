@@ -11,23 +11,47 @@ const BLOCK: usize = 72;
 /// Largest mean error that where the shaft stood within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
 
-/// Room for as many models as ever run side by side.
-pub(super) type Runs<S> = [Option<Evaluation<S>>; 3];
+/// Room for a model. Not an `Option`, whose nothing may be marked by any number in any place: nothing is a zero at the front
+/// here, so that a static of it is memory that starts as zeros, and no image is copied there.
+#[derive(Clone, Copy, Debug)]
+#[repr(u8)]
+#[allow(clippy::large_enum_variant)]
+pub(super) enum Room<S: Arithmetic> {
+    Empty,
+    Taken(Evaluation<S>),
+}
 
-/// Puts the motor at `x` into `slot`; says whether there is one. Out of line, so that its copies of a model stand on the
+impl<S: Arithmetic> Room<S> {
+    /// The model in it.
+    pub(super) fn model(&mut self) -> Option<&mut Evaluation<S>> {
+        match self {
+            Room::Empty => None,
+            Room::Taken(model) => Some(model),
+        }
+    }
+}
+
+/// Room for as many models as ever run side by side.
+pub(super) type Runs<S> = [Room<S>; 3];
+
+/// Puts the motor at `x` into `room`; says whether there is one. Out of line, so that its copies of a model stand on the
 /// stack no longer than it runs.
 #[inline(never)]
 pub(super) fn build<S: Arithmetic>(
-    slot: &mut Option<Evaluation<S>>,
+    room: &mut Room<S>,
     space: &Space,
     x: &Point,
     bound: f32,
 ) -> bool {
     // In place: to hand a model on costs as much as to make it.
-    let evaluation = slot.get_or_insert_with(Evaluation::idle);
-    let built = space.set(&mut evaluation.model, x) && evaluation.begin(bound);
+    if let Room::Empty = room {
+        *room = Room::Taken(Evaluation::idle());
+    }
+    let built = room
+        .model()
+        .is_some_and(|run| space.set(&mut run.model, x) && run.begin(bound));
     if !built {
-        *slot = None;
+        *room = Room::Empty;
     }
     built
 }

@@ -18,7 +18,7 @@ mod space;
 
 pub use arithmetic::Arithmetic;
 pub use evaluation::Evaluation;
-use evaluation::{Runs, build};
+use evaluation::{Room, Runs, build};
 pub use outcome::{Estimate, Outcome, Stop};
 pub use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
@@ -126,9 +126,12 @@ impl Search {
 }
 
 /// Where the fit is; one stage after another in the same room.
+// As in `Room`, the first is a zero at the front.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
+#[repr(u8)]
 enum Stage {
+    Idle,
     Search(Search),
     Polish(Polish),
     Done(Stop),
@@ -150,17 +153,25 @@ pub struct Fit<S: Arithmetic> {
 }
 
 impl<S: Arithmetic> Fit<S> {
-    /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack.
+    /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack. All of it is zero, as what a
+    /// static of it begins with.
     pub const fn idle() -> Self {
         Fit {
-            settings: Settings::USUAL,
+            settings: Settings {
+                method: Method::Pso,
+                population: 0,
+                evaluations: 0,
+                seed: 0,
+                coulomb: false,
+                load: false,
+            },
             space: Space::NONE,
-            stage: Stage::Done(Stop::NoModel),
-            runs: [None; 3],
+            stage: Stage::Idle,
+            runs: [const { Room::Empty }; 3],
             asked: false,
             evaluations: 0,
-            best: [0.5; MOST],
-            least: f32::INFINITY,
+            best: [0.0; MOST],
+            least: 0.0,
             curvature: None,
         }
     }
@@ -175,7 +186,7 @@ impl<S: Arithmetic> Fit<S> {
         self.space = space;
         // One by one: as a whole array they are a constant in flash, two kilobytes to copy from.
         for run in &mut self.runs {
-            *run = None;
+            *run = Room::Empty;
         }
         self.asked = false;
         self.evaluations = 0;
@@ -203,6 +214,7 @@ impl<S: Arithmetic> Fit<S> {
         let mut left = samples;
         while left > 0 {
             let used = match &mut self.stage {
+                Stage::Idle => return Some(self.outcome(trace, Stop::NoModel)),
                 Stage::Done(stop) => {
                     let stop = *stop;
                     return Some(self.outcome(trace, stop));
@@ -218,7 +230,7 @@ impl<S: Arithmetic> Fit<S> {
                     used
                 }
                 Stage::Search(_) => match &mut self.runs[0] {
-                    Some(evaluation) if self.asked => {
+                    Room::Taken(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
                             self.end(mean_square);
@@ -290,7 +302,7 @@ impl<S: Arithmetic> Fit<S> {
 
     /// The motor that [`predict`](Self::predict) got ready.
     pub fn prediction(&mut self) -> Option<&mut Evaluation<S>> {
-        self.runs[0].as_mut()
+        self.runs[0].model()
     }
 }
 
