@@ -17,6 +17,8 @@ pub type Row<C> = [C; 3];
 pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     /// As the host is told.
     const FORMAT: Format;
+    /// Of nothing, all of it zero.
+    const EMPTY: Evaluation<Self>;
     /// Multipliers of current, speed and duty.
     type Rows: Copy + Default + core::fmt::Debug;
     /// Counts by which a model is ahead of the reading.
@@ -90,6 +92,7 @@ macro_rules! compiled_here {
 
 impl Arithmetic for f32 {
     const FORMAT: Format = Format::F32;
+    const EMPTY: Evaluation<f32> = Evaluation::of(0.0, 0.0, [[0.0; 3]; 3], 0.0, (0.0, 0.0));
     type Rows = [Row<f32>; 3];
     type Lead = f32;
     type Sums = (f32, f32);
@@ -221,6 +224,17 @@ fn mantissas(of: &[FixedCoefficient; 4], bits: i32) -> Option<Row<i32>> {
 
 impl Arithmetic for Fixed {
     const FORMAT: Format = Format::Fixed;
+    const EMPTY: Evaluation<Fixed> = Evaluation::of(
+        Fixed::from_bits(0),
+        FixedCoefficient::ZERO,
+        FixedRows {
+            current: [0; 3],
+            speed: [0; 3],
+            travel: [0; 3],
+        },
+        0,
+        (0, 0),
+    );
     type Rows = FixedRows;
     /// With 32 bits below the point.
     type Lead = i64;

@@ -11,31 +11,37 @@ const BLOCK: usize = 72;
 /// Largest mean error that where the shaft stood within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
 
-/// Room for a model. Not an `Option`, whose nothing may be marked by any number in any place: nothing is a zero at the front
-/// here, so that a static of it is memory that starts as zeros, and no image is copied there.
+/// Room for a model. Not an `Option`, whose nothing may be marked by any number in any place: an empty room is all zeros, so
+/// that a static of it is memory that starts as zeros, and no image is copied there.
 #[derive(Clone, Copy, Debug)]
-#[repr(u8)]
-#[allow(clippy::large_enum_variant)]
-pub(super) enum Room<S: Arithmetic> {
-    Empty,
-    Taken(Evaluation<S>),
+pub(super) struct Room<S: Arithmetic> {
+    taken: bool,
+    run: Evaluation<S>,
 }
 
 impl<S: Arithmetic> Room<S> {
+    /// With nothing in it.
+    pub(super) const EMPTY: Self = Room {
+        taken: false,
+        run: S::EMPTY,
+    };
+
+    /// Takes the model out.
+    pub(super) fn clear(&mut self) {
+        self.taken = false;
+    }
+
     /// The model in it.
     pub(super) fn model(&mut self) -> Option<&mut Evaluation<S>> {
-        match self {
-            Room::Empty => None,
-            Room::Taken(model) => Some(model),
-        }
+        self.taken.then_some(&mut self.run)
     }
 }
 
 /// Room for as many models as ever run side by side.
 pub(super) type Runs<S> = [Room<S>; 3];
 
-/// Puts the motor at `x` into `room`; says whether there is one. Out of line, so that its copies of a model stand on the
-/// stack no longer than it runs.
+/// Puts the motor at `x` into `room`; says whether there is one. In place: to hand a model on costs as much as to make it.
+// Out of line, so that what it needs of the stack is free again when the model runs.
 #[inline(never)]
 pub(super) fn build<S: Arithmetic>(
     room: &mut Room<S>,
@@ -43,17 +49,9 @@ pub(super) fn build<S: Arithmetic>(
     x: &Point,
     bound: f32,
 ) -> bool {
-    // In place: to hand a model on costs as much as to make it.
-    if let Room::Empty = room {
-        *room = Room::Taken(Evaluation::idle());
-    }
-    let built = room
-        .model()
-        .is_some_and(|run| space.set(&mut run.model, x) && run.begin(bound));
-    if !built {
-        *room = Room::Empty;
-    }
-    built
+    let run = &mut room.run;
+    room.taken = space.set(&mut run.model, x) && run.begin(bound);
+    room.taken
 }
 
 /// What load and friction add in each period while the shaft turns one way.
@@ -90,27 +88,31 @@ pub struct Evaluation<S: Arithmetic> {
 }
 
 impl<S: Arithmetic> Evaluation<S> {
-    fn idle() -> Self {
+    /// Of nothing: of zeros in its format.
+    pub(super) const fn of(
+        zero: S,
+        none: S::Coefficient,
+        rows: S::Rows,
+        lead: S::Lead,
+        sums: S::Sums,
+    ) -> Self {
         Evaluation {
-            model: Rigid::idle(),
-            rows: Default::default(),
+            model: Rigid::of(zero, none),
+            rows,
             turning: None,
-            current: S::zero(),
-            speed: S::zero(),
-            lead: Default::default(),
+            current: zero,
+            speed: zero,
+            lead,
             at: 0,
-            sums: Default::default(),
-            bound: f32::INFINITY,
+            sums,
+            bound: 0.0,
             result: None,
         }
     }
 
     /// Of a model; none if it is beyond the format.
     pub fn new(model: Rigid<S>) -> Option<Self> {
-        let mut evaluation = Evaluation {
-            model,
-            ..Self::idle()
-        };
+        let mut evaluation = Evaluation { model, ..S::EMPTY };
         evaluation.begin(f32::INFINITY).then_some(evaluation)
     }
 

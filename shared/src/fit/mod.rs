@@ -26,12 +26,13 @@ pub use space::{MOST, Point, Space, Unknown};
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
 use crate::trace::Trace;
 use crate::wire::coded;
+use serde::{Deserialize, Serialize};
 
 /// Largest population.
 pub const POPULATION: usize = 20;
 
 /// How to search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
     /// Particle swarm.
     Pso,
@@ -46,8 +47,8 @@ coded!(
     }
 );
 
-/// What to search for, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What to search for, and how. Hosts keep it in files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// The method.
     pub method: Method,
@@ -126,7 +127,7 @@ impl Search {
 }
 
 /// Where the fit is; one stage after another in the same room.
-// As in `Room`, the first is a zero at the front.
+// The first is a zero at the front, see `Room`.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
 #[repr(u8)]
@@ -167,7 +168,7 @@ impl<S: Arithmetic> Fit<S> {
             },
             space: Space::NONE,
             stage: Stage::Idle,
-            runs: [const { Room::Empty }; 3],
+            runs: [Room::EMPTY; 3],
             asked: false,
             evaluations: 0,
             best: [0.0; MOST],
@@ -184,9 +185,8 @@ impl<S: Arithmetic> Fit<S> {
         self.stage = Stage::Search(Search::new(&settings, space.dim()));
         self.settings = settings;
         self.space = space;
-        // One by one: as a whole array they are a constant in flash, two kilobytes to copy from.
         for run in &mut self.runs {
-            *run = Room::Empty;
+            run.clear();
         }
         self.asked = false;
         self.evaluations = 0;
@@ -229,8 +229,8 @@ impl<S: Arithmetic> Fit<S> {
                     }
                     used
                 }
-                Stage::Search(_) => match &mut self.runs[0] {
-                    Room::Taken(evaluation) if self.asked => {
+                Stage::Search(_) => match self.runs[0].model() {
+                    Some(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
                             self.end(mean_square);

@@ -37,22 +37,28 @@ pub struct Rigid<S: Scalar> {
     counts_per_unit: S::Coefficient,
 }
 
-impl<S: Scalar<Mask = bool>> Rigid<S> {
-    /// A motor that nothing moves, to be [`set`](Self::set).
-    pub fn idle() -> Self {
+impl<S: Scalar> Rigid<S> {
+    /// A motor that nothing moves, of zeros in its format, to be [`set`](Self::set).
+    pub const fn of(zero: S, none: S::Coefficient) -> Self {
         Rigid {
-            motor: Default::default(),
+            motor: [Rung::of(none); RUNGS],
             forces: Forces {
-                volts: S::zero(),
-                torque: S::zero(),
-                budget: Budget::even(S::zero()),
+                volts: zero,
+                torque: zero,
+                budget: Budget {
+                    moving: zero,
+                    holding: zero,
+                    bias: zero,
+                },
             },
             rubs: false,
-            free: true,
-            counts_per_unit: S::Coefficient::default(),
+            free: false,
+            counts_per_unit: none,
         }
     }
+}
 
+impl<S: Scalar<Mask = bool>> Rigid<S> {
     /// Discretises and lowers a plan, in place. After an error it is no motor.
     ///
     /// # Errors
@@ -77,7 +83,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
     /// # Errors
     /// As there.
     pub fn new<R: Real>(plan: &RigidPlan<R>) -> Result<Self, ModelError> {
-        let mut rigid = Rigid::idle();
+        let mut rigid = Rigid::of(S::zero(), S::Coefficient::default());
         rigid.set(plan)?;
         Ok(rigid)
     }

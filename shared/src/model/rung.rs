@@ -157,7 +157,7 @@ impl<R: Real> Maps<R> {
         length: R,
     ) -> Result<Timed<S>, ModelError> {
         let driven = &self.driven;
-        let mut rung = Rung::default();
+        let mut rung = Rung::of(S::Coefficient::default());
         self.lower(&mut rung)?;
         let timing = Timing::new(machine, length, driven.inputs[0][0], driven.angle_by_inputs);
         Ok(Timed { rung, timing })
@@ -208,7 +208,7 @@ pub fn rung<S: Scalar, R: Real>(
     step: R,
     how: Discretisation,
 ) -> Result<Rung<S>, ModelError> {
-    let mut rung = Rung::default();
+    let mut rung = Rung::of(S::Coefficient::default());
     let (machine, lengths) = shortest(machine, step, 0, how);
     Maps::new(&machine, lengths[0], how)?.lower(&mut rung)?;
     Ok(rung)
@@ -271,7 +271,7 @@ impl<S: Scalar> Timed<S> {
     fn zero() -> Self {
         let none = S::Coefficient::default();
         Timed {
-            rung: Rung::default(),
+            rung: Rung::of(none),
             timing: Timing {
                 length: none,
                 per_length: none,
@@ -299,22 +299,19 @@ impl<S: Scalar> core::ops::Deref for Timed<S> {
     }
 }
 
-impl<S: Scalar> Default for Rung<S> {
-    /// A rung on which nothing moves.
-    // Field by field and not as an array of one zero: so a compiler that minds the size sees that all of it is zero.
-    fn default() -> Self {
+impl<S: Scalar> Rung<S> {
+    /// A rung on which nothing moves, of zeros.
+    pub const fn of(none: S::Coefficient) -> Self {
         Rung {
-            current: Default::default(),
-            speed: Default::default(),
-            angle: Default::default(),
-            coast_speed: Default::default(),
-            coast_angle: Default::default(),
-            held: Default::default(),
+            current: [none; 4],
+            speed: [none; 4],
+            angle: [none; 4],
+            coast_speed: [none; 2],
+            coast_angle: [none; 2],
+            held: [none; 2],
         }
     }
-}
 
-impl<S: Scalar> Rung<S> {
     /// Multipliers of current, speed, voltage and torque for the increments of current, speed and angle, with the bridge
     /// closed.
     pub fn increments(&self) -> [&[S::Coefficient; 4]; 3] {

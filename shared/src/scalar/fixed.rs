@@ -30,6 +30,12 @@ pub struct FixedCoefficient {
 const MAX_SHIFT: i32 = 61;
 
 impl FixedCoefficient {
+    /// Nothing.
+    pub const ZERO: Self = FixedCoefficient {
+        mantissa: 0,
+        shift: 0,
+    };
+
     /// As a whole number with so many bits below the point, rounded; none if that is beyond 31 bits.
     #[cfg_attr(short_multiplier, inline(never))]
     pub fn mantissa(self, bits: i32) -> Option<i32> {
@@ -53,7 +59,7 @@ impl FixedCoefficient {
 impl Fixed {
     /// From its bits, of which 60 are below the point.
     #[inline(always)]
-    pub fn from_bits(bits: i64) -> Self {
+    pub const fn from_bits(bits: i64) -> Self {
         Fixed(bits)
     }
 
