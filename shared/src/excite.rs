@@ -76,6 +76,17 @@ pub struct Experiment<R = f64> {
     pub amplitude: R,
 }
 
+impl Experiment {
+    /// In single precision.
+    pub const fn narrowed(&self) -> Experiment<f32> {
+        Experiment {
+            shape: self.shape.narrowed(),
+            seconds: self.seconds as f32,
+            amplitude: self.amplitude as f32,
+        }
+    }
+}
+
 /// A plan in single precision, ready for a device: rounded by the compiler, it spares a small core the routine for it. One
 /// with a shape that [`device_commands`] does not have does not compile.
 pub const fn narrowed<const N: usize>(plan: [Experiment; N]) -> [Experiment<f32>; N] {
@@ -86,12 +97,8 @@ pub const fn narrowed<const N: usize>(plan: [Experiment; N]) -> [Experiment<f32>
     }; N];
     let mut k = 0;
     while k < N {
-        assert!(plan[k].shape.is_commissioning(), "no shape of a device's");
-        narrowed[k] = Experiment {
-            shape: plan[k].shape.narrowed(),
-            seconds: plan[k].seconds as f32,
-            amplitude: plan[k].amplitude as f32,
-        };
+        assert!(plan[k].shape.is_devices(), "no shape of a device's");
+        narrowed[k] = plan[k].narrowed();
         k += 1;
     }
     narrowed
@@ -169,7 +176,7 @@ impl Shape {
     ];
 
     /// Whether a device's own plans may have it.
-    const fn is_commissioning(&self) -> bool {
+    const fn is_devices(&self) -> bool {
         match self {
             Shape::Steps { .. }
             | Shape::Triangle { .. }

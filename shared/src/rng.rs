@@ -18,6 +18,11 @@ pub trait Rng {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Generator([u32; 4]);
 
+impl Generator {
+    /// Not seeded: it would give zeros for ever.
+    pub(crate) const EMPTY: Self = Generator([0; 4]);
+}
+
 impl Rng for Generator {
     #[cfg_attr(short_multiplier, inline(never))]
     fn next_u32(&mut self) -> u32 {

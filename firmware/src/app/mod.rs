@@ -123,6 +123,8 @@ const NO_REPORT: Report = Report {
 
 impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// Takes the board over, opens its bridge and waits in [`Phase::Idle`].
+    // Out of line: made and moved in one place, it would stand on the stack twice for good.
+    #[inline(never)]
     pub fn new(mut board: B, memory: &'m mut Memory<S>, log: &'m mut Log<N>) -> Self {
         board.coast();
         let count = board.count();

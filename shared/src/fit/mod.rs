@@ -92,40 +92,6 @@ const SWARM: PsoSettings = PsoSettings {
     fastest: 1.0,
 };
 
-/// The search, of either method. There is no heap to put the larger one on.
-#[allow(clippy::large_enum_variant)]
-#[derive(Clone, Debug)]
-enum Search {
-    Pso(Pso<f32, POPULATION, MOST>),
-    Firefly(Firefly<f32, POPULATION, MOST>),
-}
-
-impl Search {
-    // Out of line: it stands on the stack no longer than it runs.
-    #[inline(never)]
-    fn new(settings: &Settings, dim: usize) -> Self {
-        let population = settings.population.clamp(2, POPULATION as u8) as usize;
-        let (evaluations, seed) = (settings.evaluations, settings.seed);
-        match settings.method {
-            Method::Pso => Search::Pso(Pso::new(dim, population, SWARM, seed)),
-            Method::Firefly => {
-                let cooled = FireflySettings {
-                    evaluations: evaluations.into(),
-                    ..FireflySettings::default()
-                };
-                Search::Firefly(Firefly::new(dim, population, cooled, seed))
-            }
-        }
-    }
-
-    fn each(&mut self) -> &mut dyn Optimiser<f32, MOST> {
-        match self {
-            Search::Pso(pso) => pso,
-            Search::Firefly(firefly) => firefly,
-        }
-    }
-}
-
 /// Where the fit is; one stage after another in the same room.
 // The first is a zero at the front, see `Room`.
 #[allow(clippy::large_enum_variant)]
@@ -133,9 +99,44 @@ impl Search {
 #[repr(u8)]
 enum Stage {
     Idle,
-    Search(Search),
+    Pso(Pso<f32, POPULATION, MOST>),
+    Firefly(Firefly<f32, POPULATION, MOST>),
     Polish(Polish),
     Done(Stop),
+}
+
+impl Stage {
+    /// Begins the search.
+    // Out of line: what it needs of the stack is free again when the search runs.
+    #[inline(never)]
+    fn search(&mut self, settings: &Settings, dim: usize) {
+        let population = settings.population.clamp(2, POPULATION as u8) as usize;
+        let (evaluations, seed) = (settings.evaluations, settings.seed);
+        match settings.method {
+            Method::Pso => *self = Stage::Pso(Pso::EMPTY),
+            Method::Firefly => *self = Stage::Firefly(Firefly::EMPTY),
+        }
+        match self {
+            Stage::Pso(pso) => pso.begin(dim, population, SWARM, seed),
+            Stage::Firefly(firefly) => {
+                let cooled = FireflySettings {
+                    evaluations: evaluations.into(),
+                    ..FireflySettings::default()
+                };
+                firefly.begin(dim, population, cooled, seed);
+            }
+            _ => {}
+        }
+    }
+
+    /// The search, while there is one.
+    fn searching(&mut self) -> Option<&mut dyn Optimiser<f32, MOST>> {
+        match self {
+            Stage::Pso(pso) => Some(pso),
+            Stage::Firefly(firefly) => Some(firefly),
+            _ => None,
+        }
+    }
 }
 
 /// A fit under way.
@@ -182,7 +183,7 @@ impl<S: Arithmetic> Fit<S> {
         let Some(space) = Space::around(trace, &settings) else {
             return false;
         };
-        self.stage = Stage::Search(Search::new(&settings, space.dim()));
+        self.stage.search(&settings, space.dim());
         self.settings = settings;
         self.space = space;
         for run in &mut self.runs {
@@ -229,7 +230,7 @@ impl<S: Arithmetic> Fit<S> {
                     }
                     used
                 }
-                Stage::Search(_) => match self.runs[0].model() {
+                Stage::Pso(_) | Stage::Firefly(_) => match self.runs[0].model() {
                     Some(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
@@ -250,10 +251,9 @@ impl<S: Arithmetic> Fit<S> {
 
     /// Asks for the next point and builds its model.
     fn next(&mut self) {
-        let Stage::Search(search) = &mut self.stage else {
+        let Some(search) = self.stage.searching() else {
             return;
         };
-        let search = search.each();
         let (x, bound) = (search.ask(), search.bound());
         self.asked = build(&mut self.runs[0], &self.space, &x, bound);
         if !self.asked {
@@ -265,10 +265,9 @@ impl<S: Arithmetic> Fit<S> {
     fn end(&mut self, mean_square: f32) {
         self.asked = false;
         self.evaluations += 1;
-        let Stage::Search(search) = &mut self.stage else {
+        let Some(search) = self.stage.searching() else {
             return;
         };
-        let search = search.each();
         search.tell(mean_square);
         let best = search.best();
         (self.best, self.least) = (best.x, best.cost);

@@ -61,6 +61,7 @@ macro_rules! float_scalar {
 
         impl Real for $t {
             const TERMS: u32 = $terms;
+            const ZERO: Self = 0.0;
 
             #[inline(always)]
             fn to_f64(self) -> f64 {

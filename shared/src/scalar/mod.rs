@@ -168,6 +168,8 @@ pub trait Real:
 {
     /// Terms of a Taylor series in matrices of norm up to ¼ after which the rest is below the format's last digit.
     const TERMS: u32;
+    /// Zero, for what begins as zeros.
+    const ZERO: Self;
 
     /// As f64, exactly.
     fn to_f64(self) -> f64;
