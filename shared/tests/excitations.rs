@@ -1,6 +1,9 @@
 //! Laws that every excitation obeys.
 
-use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands};
+use shared::excite::{
+    COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands, device_commands,
+    narrowed,
+};
 
 fn all() -> Vec<(&'static str, Vec<Experiment>)> {
     let mut plans = vec![
