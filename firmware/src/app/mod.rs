@@ -192,22 +192,24 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     /// Gives up because of `fault`: opens the bridge, and has the fault to report.
     pub fn fail(&mut self, fault: Fault) {
-        self.trip(Tripped {
-            fault,
-            seen: 0,
-            limit: 0,
-        });
+        self.trip(Tripped::by(fault));
     }
 
     #[inline(never)]
     fn trip(&mut self, tripped: Tripped) {
+        let phase = self.failed_by(tripped);
+        self.enter(phase);
+    }
+
+    /// Keeps what to report; gives the phase that does.
+    fn failed_by(&mut self, tripped: Tripped) -> Phase {
         if !matches!(self.phase, Phase::Report(Err(_))) {
             self.failure = Some(tripped);
             self.failed_in = (self.phase, self.at);
             trail::tripped(&tripped, self.phase, self.at);
             self.send_rows();
         }
-        self.enter(self.phase.failed(tripped.fault));
+        self.phase.failed(tripped.fault)
     }
 
     fn periods(us: u32) -> u32 {
@@ -223,7 +225,17 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
-    fn enter(&mut self, phase: Phase) {
+    /// Enters a phase, or the next that has something to do.
+    #[inline(never)]
+    fn enter(&mut self, mut phase: Phase) {
+        // A loop, and no calls of its own: so there is a bound on the stack that all of it can need (`scripts/stack`).
+        while let Some(next) = self.leads_on(phase) {
+            phase = next;
+        }
+    }
+
+    /// Enters a phase; gives the one to go on to if there is nothing to do in it.
+    fn leads_on(&mut self, phase: Phase) -> Option<Phase> {
         if phase.bridge() == Bridge::Open {
             self.board.coast();
             self.duty = OPEN;
@@ -235,7 +247,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.phase = phase;
         self.work = match (phase.bridge(), phase, self.job) {
             (Bridge::Driven, _, Some(job)) if Self::length(phase, &job) == 0 => {
-                return self.done();
+                return phase.after(Event::Done).ok();
             }
             (Bridge::Driven, _, Some(_)) => {
                 self.apply(0);
@@ -243,11 +255,11 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             }
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
                 if !self.memory.fit.begin(&self.log.trace(), job.fit) {
-                    return self.fail(Fault::NothingToFit);
+                    return Some(self.failed_by(Tripped::by(Fault::NothingToFit)));
                 }
                 Work::Fit
             }
-            (_, Phase::Fit, _) => return self.done(),
+            (_, Phase::Fit, _) => return phase.after(Event::Done).ok(),
             _ => Work::Rest,
         };
         if let (true, Some(job)) = (changed, self.job) {
@@ -259,5 +271,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             self.memory.outbox.post(&stage);
         }
         self.repeat = u32::MAX;
+        None
     }
 }
