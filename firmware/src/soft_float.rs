@@ -76,3 +76,13 @@ extern "aapcs" fn __aeabi_ul2f(x: u64) -> u32 {
 extern "aapcs" fn __aeabi_l2f(x: i64) -> u32 {
     soft::from_signed(x)
 }
+
+#[unsafe(no_mangle)]
+extern "aapcs" fn fminimum_numf(a: u32, b: u32) -> u32 {
+    soft::least(a, b)
+}
+
+#[unsafe(no_mangle)]
+extern "aapcs" fn fmaximum_numf(a: u32, b: u32) -> u32 {
+    soft::greatest(a, b)
+}

@@ -72,13 +72,13 @@ impl Rp2040 {
         open_bridge();
         clocks::start();
         SIO.gpio_oe(0).value_set().write_value(1 << ENABLE);
-        connect([ENABLE], Function::Program, false);
+        connect(&[ENABLE], Function::Program, false);
         let carrier = PWM.ch(SLICE);
         carrier.top().write(|w| w.set_top(FULL - 1));
-        connect(BRIDGE, Function::Pwm, false);
-        connect([FAULT], Function::Program, true);
-        connect(ENCODER, Function::Pio, true);
-        connect(LINK, Function::Uart, true);
+        connect(&BRIDGE, Function::Pwm, false);
+        connect(&[FAULT], Function::Program, true);
+        connect(&ENCODER, Function::Pio, true);
+        connect(&LINK, Function::Uart, true);
         let mut entropy = Entropy::default();
         for _ in 0..4 {
             let noise = (0..32).fold(0, |noise, _| {
@@ -112,8 +112,8 @@ impl Rp2040 {
 }
 
 /// Gives pins a function; those that are pulled up are inputs.
-fn connect<const N: usize>(pins: [usize; N], function: Function, pulled_up: bool) {
-    for pin in pins {
+fn connect(pins: &[usize], function: Function, pulled_up: bool) {
+    for &pin in pins {
         PADS_BANK0.gpio(pin).modify(|w| {
             w.set_pde(!pulled_up);
             w.set_pue(pulled_up);

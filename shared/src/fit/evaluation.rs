@@ -243,10 +243,19 @@ impl<S: Arithmetic> Evaluation<S> {
         let (steps, rest_steps) = steps[..len].as_chunks::<N>();
         let mut left = duties.len();
         for (duties, steps) in duties.chunks(BLOCK / N).zip(steps.chunks(BLOCK / N)) {
-            for (duties, steps) in duties.iter().zip(steps) {
-                for (&duty, &step) in duties.iter().zip(steps) {
-                    at = S::follow(&rows, at, duty, step);
+            if N == 1 {
+                // No compiler that minds the size sees that the loop in the loop is none.
+                let turns = duties.as_flattened().iter().zip(steps.as_flattened());
+                for (&duty, &step) in turns {
+                    at = S::follow::<false>(&rows, at, duty, step);
                     S::collect(&mut sums, at.2);
+                }
+            } else {
+                for (duties, steps) in duties.iter().zip(steps) {
+                    for (&duty, &step) in duties.iter().zip(steps) {
+                        at = S::follow::<false>(&rows, at, duty, step);
+                        S::collect(&mut sums, at.2);
+                    }
                 }
             }
             left -= duties.len();
@@ -255,9 +264,9 @@ impl<S: Arithmetic> Evaluation<S> {
             }
         }
         let mut periods = (duties.len() - left) * N;
-        if left == 0 {
+        if N > 1 && left == 0 {
             for (&duty, &step) in rest.iter().zip(rest_steps) {
-                at = S::follow(&rows, at, duty, step);
+                at = S::follow::<true>(&rows, at, duty, step);
                 S::collect(&mut sums, at.2);
             }
             periods += rest.len();
@@ -276,7 +285,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
-            let mut to = S::follow(&rows, at, duty, step);
+            let mut to = S::follow::<true>(&rows, at, duty, step);
             to.0 = to.0 + turning.current;
             to.1 = to.1 + turning.speed;
             if !S::along(to.1, turning.sense) {

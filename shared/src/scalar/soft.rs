@@ -126,6 +126,21 @@ pub fn order(a: u32, b: u32) -> Option<Ordering> {
     Some(key(a).cmp(&key(b)))
 }
 
+/// The smaller of two numbers, as bits: of zeros the negative one, and what is a number rather than what is none.
+pub fn least(a: u32, b: u32) -> u32 {
+    let first = match order(a, b) {
+        None => a & !SIGN <= INFINITY,
+        Some(Ordering::Equal) => a & SIGN != 0,
+        Some(order) => order.is_lt(),
+    };
+    if first { a } else { b }
+}
+
+/// The larger of two.
+pub fn greatest(a: u32, b: u32) -> u32 {
+    least(a ^ SIGN, b ^ SIGN) ^ SIGN
+}
+
 /// The number next to a whole one, as bits.
 #[inline(never)]
 pub fn from_whole(x: u64) -> u32 {
@@ -195,6 +210,26 @@ mod tests {
                 theirs.to_bits()
             );
         }
+    }
+
+    #[test]
+    fn of_two_it_takes_the_one_that_a_processor_does() {
+        for a in BORDERS.into_iter().flat_map(|a| [a, a | SIGN]) {
+            for b in BORDERS.into_iter().flat_map(|b| [b, b | SIGN]) {
+                let (x, y) = (f32::from_bits(a), f32::from_bits(b));
+                let (ours, theirs) = (f32::from_bits(least(a, b)), x.min(y));
+                assert!(
+                    ours == theirs || (ours.is_nan() && theirs.is_nan()),
+                    "{x} {y}"
+                );
+                let (ours, theirs) = (f32::from_bits(greatest(a, b)), x.max(y));
+                assert!(
+                    ours == theirs || (ours.is_nan() && theirs.is_nan()),
+                    "{x} {y}"
+                );
+            }
+        }
+        assert_eq!((least(0, SIGN), least(SIGN, 0)), (SIGN, SIGN));
     }
 
     #[test]
