@@ -6,6 +6,10 @@ use rp_pac::PIO0;
 const MACHINE: usize = 0;
 
 /// What a state machine does next, as far as it is asked here (RP2040 data sheet, 3.4).
+#[expect(
+    clippy::unusual_byte_groupings,
+    reason = "grouped by the fields of the data sheet"
+)]
 mod instruction {
     /// To another place.
     pub const fn jump(to: usize) -> u16 {
