@@ -20,6 +20,17 @@ pub struct Tripped {
     pub limit: i32,
 }
 
+impl Tripped {
+    /// By what has no number.
+    pub fn by(fault: Fault) -> Self {
+        Tripped {
+            fault,
+            seen: 0,
+            limit: 0,
+        }
+    }
+}
+
 /// What a run has done so far, against its limits.
 #[derive(Debug, Clone)]
 pub struct Guard {

@@ -11,7 +11,8 @@
 //! - [`trail`]: phases and faults for somebody at a debugger, by defmt
 //! - [`bringup`]: another program for the same boards, for their first power-up
 #![cfg_attr(target_os = "none", no_std)]
-// Unsafe code is only on a microcontroller: registers of boards without a HAL, and the macros that bind interrupts.
+// Unsafe code is only on a microcontroller: what the compiler or the chip finds by its name or section, and the macros that
+// bind interrupts.
 #![cfg_attr(not(target_os = "none"), forbid(unsafe_code))]
 
 pub mod app;
@@ -26,5 +27,7 @@ mod halt;
 pub mod phase;
 pub mod plant;
 pub mod proof;
+#[cfg(no_float)]
+mod soft_float;
 pub mod trail;
 pub mod trials;

@@ -176,18 +176,18 @@ fn multiply<R: Real>(numbers: &mut [R], factor: R) {
 /// [`ModelError::Range`] for one that is beyond a quarter of the format's limit.
 // Inlined, and only what it asks is a routine: who does not look at the error is spared its making and its name.
 #[inline(always)]
-pub fn lowered<S: Scalar, R: Real, const K: usize>(
+pub fn lower<S: Scalar, R: Real>(
     name: &'static str,
-    row: [R; K],
-) -> Result<[S::Coefficient; K], ModelError> {
-    let mut lowered = [S::coefficient(0.0); K];
-    match lower_within::<S, R>(&mut lowered, &row) {
+    lowered: &mut [S::Coefficient],
+    row: &[R],
+) -> Result<(), ModelError> {
+    match lower_within::<S, R>(lowered, row) {
         Some(k) => Err(ModelError::Range {
             name,
             value: k.to_f64(),
             limit: S::LIMIT / 4.0,
         }),
-        None => Ok(lowered),
+        None => Ok(()),
     }
 }
 
@@ -198,25 +198,25 @@ fn lower_within<S: Scalar, R: Real>(lowered: &mut [S::Coefficient], row: &[R]) -
         if k.abs() > limit || !k.is_finite() {
             return Some(k);
         }
-        *lowered = S::coefficient(k.to_f64());
+        *lowered = S::coefficient_of(k);
     }
     None
 }
 
-/// [`lowered`] multipliers of numbers that are kept in other measures: the result of the row times
+/// Multipliers, as by [`lower`], of numbers that are kept in other measures: the result of the row times
 /// `row_scale`, and each factor times its entry of `column_scales`.
 ///
 /// # Errors
-/// As [`lowered`], before the scaling: what is large then multiplies what is small.
+/// As [`lower`], before the scaling: what is large then multiplies what is small.
 pub fn scaled<S: Scalar, R: Real, const K: usize>(
     name: &'static str,
     row: [R; K],
     row_scale: R,
     column_scales: [R; K],
 ) -> Result<[S::Coefficient; K], ModelError> {
-    lowered::<S, R, K>(name, row)?;
+    lower::<S, R>(name, &mut [S::Coefficient::default(); K], &row)?;
     Ok(core::array::from_fn(|k| {
-        S::coefficient((row[k] * row_scale * column_scales[k]).to_f64())
+        S::coefficient_of(row[k] * row_scale * column_scales[k])
     }))
 }
 

@@ -17,7 +17,7 @@ pub struct Command<R> {
 
 /// The form of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
+pub enum Shape<R = f64> {
     /// Nothing.
     Rest,
     /// One step at the start.
@@ -45,21 +45,21 @@ pub enum Shape {
     /// Sine of rising frequency (logarithmic).
     Chirp {
         /// Frequency at the start, Hz.
-        from_hz: f64,
+        from_hz: R,
         /// Frequency at the end, Hz.
-        to_hz: f64,
+        to_hz: R,
     },
     /// Random levels held for random times.
     Telegraph {
         /// Number of levels, from −1 to 1.
         levels: u32,
         /// Mean holding time, s.
-        hold_s: f64,
+        hold_s: R,
     },
     /// Sum of odd sine lines with phases that keep the crest low (Schroeder, 1970).
     Multisine {
         /// Lowest line, Hz.
-        base_hz: f64,
+        base_hz: R,
         /// Number of odd lines.
         lines: u32,
     },
@@ -67,13 +67,41 @@ pub enum Shape {
 
 /// A shape, its length and its amplitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Experiment {
+pub struct Experiment<R = f64> {
     /// The form.
-    pub shape: Shape,
+    pub shape: Shape<R>,
     /// Length, s.
-    pub seconds: f64,
+    pub seconds: R,
     /// Largest drive, as a part of the supply.
-    pub amplitude: f64,
+    pub amplitude: R,
+}
+
+impl Experiment {
+    /// In single precision.
+    pub const fn narrowed(&self) -> Experiment<f32> {
+        Experiment {
+            shape: self.shape.narrowed(),
+            seconds: self.seconds as f32,
+            amplitude: self.amplitude as f32,
+        }
+    }
+}
+
+/// A plan in single precision, ready for a device: rounded by the compiler, it spares a small core the routine for it. One
+/// with a shape that [`device_commands`] does not have does not compile.
+pub const fn narrowed<const N: usize>(plan: [Experiment; N]) -> [Experiment<f32>; N] {
+    let mut narrowed = [Experiment {
+        shape: Shape::Rest,
+        seconds: 0.0,
+        amplitude: 0.0,
+    }; N];
+    let mut k = 0;
+    while k < N {
+        assert!(plan[k].shape.is_devices(), "no shape of a device's");
+        narrowed[k] = plan[k].narrowed();
+        k += 1;
+    }
+    narrowed
 }
 
 const fn experiment(shape: Shape, seconds: f64, amplitude: f64) -> Experiment {
@@ -147,6 +175,41 @@ impl Shape {
         ),
     ];
 
+    /// Whether a device's own plans may have it.
+    const fn is_devices(&self) -> bool {
+        match self {
+            Shape::Steps { .. }
+            | Shape::Triangle { .. }
+            | Shape::Reversals { .. }
+            | Shape::Chirp { .. }
+            | Shape::Telegraph { .. } => true,
+            Shape::Rest | Shape::Step | Shape::Staircase { .. } | Shape::Multisine { .. } => false,
+        }
+    }
+
+    const fn narrowed(self) -> Shape<f32> {
+        match self {
+            Shape::Rest => Shape::Rest,
+            Shape::Step => Shape::Step,
+            Shape::Steps { open } => Shape::Steps { open },
+            Shape::Staircase { levels } => Shape::Staircase { levels },
+            Shape::Triangle { waves } => Shape::Triangle { waves },
+            Shape::Reversals { count } => Shape::Reversals { count },
+            Shape::Chirp { from_hz, to_hz } => Shape::Chirp {
+                from_hz: from_hz as f32,
+                to_hz: to_hz as f32,
+            },
+            Shape::Telegraph { levels, hold_s } => Shape::Telegraph {
+                levels,
+                hold_s: hold_s as f32,
+            },
+            Shape::Multisine { base_hz, lines } => Shape::Multisine {
+                base_hz: base_hz as f32,
+                lines,
+            },
+        }
+    }
+
     /// What it reveals.
     pub fn reveals(self) -> &'static str {
         match self {
@@ -167,7 +230,24 @@ impl Shape {
 }
 
 /// The commands of a plan, one a sample of `interval` seconds. The seed matters to telegraphs only.
-pub fn commands<R: Real>(plan: &[Experiment], interval: R, seed: u64) -> Commands<'_, R> {
+pub fn commands<R: Real>(plan: &[Experiment<R>], interval: R, seed: u64) -> Commands<'_, R> {
+    begun(plan, interval, seed)
+}
+
+/// Of a [`narrowed`] plan: the same without the shapes that no device plays, which take 300 bytes of its flash.
+pub fn device_commands(
+    plan: &[Experiment<f32>],
+    interval: f32,
+    seed: u64,
+) -> Commands<'_, f32, false> {
+    begun(plan, interval, seed)
+}
+
+fn begun<R: Real, const EVERY: bool>(
+    plan: &[Experiment<R>],
+    interval: R,
+    seed: u64,
+) -> Commands<'_, R, EVERY> {
     Commands {
         plan,
         interval,
@@ -178,10 +258,10 @@ pub fn commands<R: Real>(plan: &[Experiment], interval: R, seed: u64) -> Command
     }
 }
 
-/// Iterator over the commands of a plan.
+/// Iterator over the commands of a plan, of every shape or of those that a device plays.
 #[derive(Clone, Debug)]
-pub struct Commands<'a, R> {
-    plan: &'a [Experiment],
+pub struct Commands<'a, R, const EVERY: bool = true> {
+    plan: &'a [Experiment<R>],
     interval: R,
     sample: u32,
     rng: Generator,
@@ -189,12 +269,12 @@ pub struct Commands<'a, R> {
     hold: u32,
 }
 
-impl<R: Real> Iterator for Commands<'_, R> {
+impl<R: Real, const EVERY: bool> Iterator for Commands<'_, R, EVERY> {
     type Item = Command<R>;
 
     fn next(&mut self) -> Option<Command<R>> {
         let (first, rest) = self.plan.split_first()?;
-        let samples = rounded(R::from_f64(first.seconds) / self.interval);
+        let samples = rounded(first.seconds / self.interval);
         if self.sample >= samples {
             self.plan = rest;
             self.sample = 0;
@@ -207,31 +287,37 @@ impl<R: Real> Iterator for Commands<'_, R> {
         let seconds = R::from_whole(k) * self.interval;
         let (value, enabled) = self.value(first, whole, seconds);
         let limit = R::from_f64(1.0);
-        let drive = (value * R::from_f64(first.amplitude))
-            .min(limit)
-            .max(-limit);
+        let drive = (value * first.amplitude).min(limit).max(-limit);
         Some(Command { drive, enabled })
     }
 }
 
-impl<R: Real> Commands<'_, R> {
+impl<R: Real, const EVERY: bool> Commands<'_, R, EVERY> {
     /// Value in `[-1, 1]` at the part `whole` of the experiment, `seconds` after its start.
-    fn value(&mut self, experiment: &Experiment, whole: R, seconds: R) -> (R, bool) {
+    fn value(&mut self, experiment: &Experiment<R>, whole: R, seconds: R) -> (R, bool) {
         let one = R::from_f64(1.0);
         let real = R::from_f64;
         match experiment.shape {
+            Shape::Rest | Shape::Step | Shape::Staircase { .. } | Shape::Multisine { .. }
+                if !EVERY =>
+            {
+                (R::zero(), true)
+            }
             Shape::Rest => (R::zero(), true),
             Shape::Step => (one, true),
             Shape::Steps { open } => {
-                const LEVELS: [f64; 6] = [0.30, -0.30, 0.65, -0.65, 1.0, -1.0];
-                let twelfth = slot(whole, 2 * LEVELS.len() as u32);
-                let driven = twelfth.is_multiple_of(2);
-                let level = if driven {
-                    LEVELS[twelfth as usize / 2]
-                } else {
-                    0.0
+                // Forward, pause, back, pause.
+                let twelfth = slot(whole, 12);
+                let level = match twelfth / 4 {
+                    0 => real(0.30),
+                    1 => real(0.65),
+                    _ => one,
                 };
-                (real(level), driven || !open)
+                match twelfth % 4 {
+                    0 => (level, true),
+                    2 => (-level, true),
+                    _ => (R::zero(), !open),
+                }
             }
             Shape::Staircase { levels } => {
                 let levels = levels.max(1);
@@ -265,8 +351,8 @@ impl<R: Real> Commands<'_, R> {
             }
             Shape::Chirp { from_hz, to_hz } => {
                 // Phase of a logarithmic sweep: f0·T/ln(f1/f0)·((f1/f0)^(t/T) − 1).
-                let ratio = (real(to_hz) / real(from_hz)).ln();
-                let span = real(from_hz) * real(experiment.seconds) / ratio;
+                let ratio = (to_hz / from_hz).ln();
+                let span = from_hz * experiment.seconds / ratio;
                 let turns = span * ((ratio * whole).exp() - one);
                 (turns.sin_cos_turns().0, true)
             }
@@ -275,7 +361,7 @@ impl<R: Real> Commands<'_, R> {
                     let levels = levels.max(2);
                     let k = rng::below(&mut self.rng, levels);
                     self.level = R::from_whole(2 * k) / R::from_whole(levels - 1) - one;
-                    let mean = real(hold_s) / self.interval;
+                    let mean = hold_s / self.interval;
                     let part = real(0.5) + rng::uniform::<R>(&mut self.rng);
                     self.hold = rounded(mean * part).max(1);
                 }
@@ -285,7 +371,7 @@ impl<R: Real> Commands<'_, R> {
             Shape::Multisine { base_hz, lines } => {
                 let mut sum = R::zero();
                 for line in 0..lines {
-                    let hz = real(base_hz) * R::from_whole(2 * line + 1);
+                    let hz = base_hz * R::from_whole(2 * line + 1);
                     let lag = R::from_whole(line * (line + 1)) / R::from_whole(2 * lines);
                     sum = sum + (hz * seconds - lag).sin_cos_turns().0;
                 }

@@ -131,12 +131,12 @@ impl<R: Real> PerUnit<R> {
 
     /// From SI to per unit, as a number of the format `S`.
     pub fn number<S: Scalar>(&self, value: R, quantity: Quantity) -> S {
-        S::from_f64(self.lower(value, quantity).to_f64())
+        S::of(self.lower(value, quantity))
     }
 
     /// From SI to per unit, as a multiplier of the format `S`.
     pub fn multiplier<S: Scalar>(&self, value: R, quantity: Quantity) -> S::Coefficient {
-        S::coefficient(self.lower(value, quantity).to_f64())
+        S::coefficient_of(self.lower(value, quantity))
     }
 
     /// From per unit to SI.

@@ -1,6 +1,9 @@
 //! Laws that every excitation obeys.
 
-use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands};
+use shared::excite::{
+    COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands, device_commands,
+    narrowed,
+};
 
 fn all() -> Vec<(&'static str, Vec<Experiment>)> {
     let mut plans = vec![
@@ -78,7 +81,8 @@ fn the_same_seed_gives_the_same_bits_and_seeds_matter_to_telegraphs_only() {
 #[test]
 fn single_precision_commands_are_the_same_to_its_precision() {
     for (name, plan) in all() {
-        let single: Vec<Command<f32>> = commands::<f32>(&plan, 1e-3, 3).collect();
+        let narrowed: Vec<Experiment<f32>> = plan.iter().map(Experiment::narrowed).collect();
+        let single: Vec<Command<f32>> = commands(&narrowed, 1e-3, 3).collect();
         let double = run(&plan, 3);
         assert_eq!(single.len(), double.len(), "{name}");
         // At the edge between two levels rounding may decide for one sample; nowhere else.
@@ -87,6 +91,14 @@ fn single_precision_commands_are_the_same_to_its_precision() {
             .zip(&double)
             .filter(|(a, b)| (f64::from(a.drive) - b.drive).abs() > 2e-3);
         assert!(apart.count() <= 20, "{name}");
+    }
+}
+
+#[test]
+fn a_device_plays_its_plans_as_anybody_does() {
+    for plan in [narrowed(COMMISSIONING), narrowed(COMMISSIONING_COAST)] {
+        let device = device_commands(&plan, 1e-3, 5);
+        assert!(device.eq(commands(&plan, 1e-3, 5)));
     }
 }
 

@@ -59,7 +59,7 @@ enum Work {
 }
 
 /// The large part of the application's memory but for the [`Log`], apart so that a `static` can hold it: an application
-/// that is moved once stands on the stack once more.
+/// that is moved once stands on the stack once more. Empty it is all zeros, which takes no flash.
 #[derive(Debug)]
 pub struct Memory<S: Arithmetic> {
     fit: Fit<S>,
@@ -77,15 +77,6 @@ impl<S: Arithmetic> Memory<S> {
             inbox: Deframer::new(),
             outbox: Outbox::new(),
         }
-    }
-}
-
-#[cfg(all(target_os = "none", any(feature = "cortex-m", feature = "trials")))]
-impl<S: Arithmetic> Memory<S> {
-    /// Empty, in a `static`. Out of line: it is put together on the stack, which must be free again when the rest runs.
-    #[inline(never)]
-    pub fn placed(cell: &'static static_cell::StaticCell<Self>) -> &'static mut Self {
-        cell.init_with(Self::new)
     }
 }
 
@@ -132,6 +123,8 @@ const NO_REPORT: Report = Report {
 
 impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// Takes the board over, opens its bridge and waits in [`Phase::Idle`].
+    // Out of line: made and moved in one place, it would stand on the stack twice for good.
+    #[inline(never)]
     pub fn new(mut board: B, memory: &'m mut Memory<S>, log: &'m mut Log<N>) -> Self {
         board.coast();
         let count = board.count();
@@ -199,22 +192,24 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
 
     /// Gives up because of `fault`: opens the bridge, and has the fault to report.
     pub fn fail(&mut self, fault: Fault) {
-        self.trip(Tripped {
-            fault,
-            seen: 0,
-            limit: 0,
-        });
+        self.trip(Tripped::by(fault));
     }
 
     #[inline(never)]
     fn trip(&mut self, tripped: Tripped) {
+        let phase = self.failed_by(tripped);
+        self.enter(phase);
+    }
+
+    /// Keeps what to report; gives the phase that does.
+    fn failed_by(&mut self, tripped: Tripped) -> Phase {
         if !matches!(self.phase, Phase::Report(Err(_))) {
             self.failure = Some(tripped);
             self.failed_in = (self.phase, self.at);
             trail::tripped(&tripped, self.phase, self.at);
             self.send_rows();
         }
-        self.enter(self.phase.failed(tripped.fault));
+        self.phase.failed(tripped.fault)
     }
 
     fn periods(us: u32) -> u32 {
@@ -230,7 +225,17 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
     }
 
-    fn enter(&mut self, phase: Phase) {
+    /// Enters a phase, or the next that has something to do.
+    #[inline(never)]
+    fn enter(&mut self, mut phase: Phase) {
+        // A loop, and no calls of its own: so there is a bound on the stack that all of it can need (`scripts/stack`).
+        while let Some(next) = self.leads_on(phase) {
+            phase = next;
+        }
+    }
+
+    /// Enters a phase; gives the one to go on to if there is nothing to do in it.
+    fn leads_on(&mut self, phase: Phase) -> Option<Phase> {
         if phase.bridge() == Bridge::Open {
             self.board.coast();
             self.duty = OPEN;
@@ -242,7 +247,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.phase = phase;
         self.work = match (phase.bridge(), phase, self.job) {
             (Bridge::Driven, _, Some(job)) if Self::length(phase, &job) == 0 => {
-                return self.done();
+                return phase.after(Event::Done).ok();
             }
             (Bridge::Driven, _, Some(_)) => {
                 self.apply(0);
@@ -250,11 +255,11 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             }
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
                 if !self.memory.fit.begin(&self.log.trace(), job.fit) {
-                    return self.fail(Fault::NothingToFit);
+                    return Some(self.failed_by(Tripped::by(Fault::NothingToFit)));
                 }
                 Work::Fit
             }
-            (_, Phase::Fit, _) => return self.done(),
+            (_, Phase::Fit, _) => return phase.after(Event::Done).ok(),
             _ => Work::Rest,
         };
         if let (true, Some(job)) = (changed, self.job) {
@@ -266,5 +271,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             self.memory.outbox.post(&stage);
         }
         self.repeat = u32::MAX;
+        None
     }
 }

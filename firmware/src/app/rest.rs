@@ -70,11 +70,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     #[inline(never)]
     pub(super) fn failed(&self, fault: Fault) -> Failure {
         let (phase, at) = self.failed_in;
-        let tripped = self.failure.unwrap_or(Tripped {
-            fault,
-            seen: 0,
-            limit: 0,
-        });
+        let tripped = self.failure.unwrap_or(Tripped::by(fault));
         Failure {
             fault,
             stage: phase.stage(),

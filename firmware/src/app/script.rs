@@ -1,7 +1,9 @@
 //! What duty comes next, in each phase that drives.
 
 use heapless::Vec;
-use shared::excite::{self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape};
+use shared::excite::{
+    self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape, narrowed,
+};
 use shared::trace::OPEN;
 use shared::wire::Segment;
 
@@ -13,7 +15,7 @@ pub type Plan = Vec<Segment, PLAN>;
 
 /// The short excitation that is fitted: levels of both signs for the time constants, a slow triangle for friction. Two
 /// seconds; longer or shorter recordings stretch it.
-const RECORD: [Experiment; 2] = [
+const RECORD: [Experiment<f32>; 2] = narrowed([
     Experiment {
         shape: Shape::Telegraph {
             levels: 9,
@@ -27,10 +29,14 @@ const RECORD: [Experiment; 2] = [
         seconds: 0.6,
         amplitude: 0.6,
     },
-];
+]);
+
+/// The long ones.
+const EXCITE: [Experiment<f32>; 7] = narrowed(COMMISSIONING);
+const EXCITE_COAST: [Experiment<f32>; 7] = narrowed(COMMISSIONING_COAST);
 
 /// What the fit has not seen: steps, and levels in another order.
-const VERIFY: [Experiment; 2] = [
+const VERIFY: [Experiment<f32>; 2] = narrowed([
     Experiment {
         shape: Shape::Steps { open: false },
         seconds: 1.2,
@@ -44,7 +50,7 @@ const VERIFY: [Experiment; 2] = [
         seconds: 0.8,
         amplitude: 0.9,
     },
-];
+]);
 
 /// A source of duties.
 #[derive(Debug, Clone)]
@@ -65,7 +71,7 @@ pub enum Script {
     /// An excitation.
     Excitation {
         /// Its commands.
-        commands: Commands<'static, f32>,
+        commands: Commands<'static, f32, false>,
         /// Duty of its largest command.
         amplitude: i16,
         /// Periods left.
@@ -109,13 +115,13 @@ impl Script {
 
     /// An excitation stretched to `periods`, with `amplitude` as its largest duty.
     pub fn excitation(which: Which, periods: u32, amplitude: i16, seed: u64) -> Self {
-        let plan: &'static [Experiment] = match which {
-            Which::Excite { coast: true } => &COMMISSIONING_COAST,
-            Which::Excite { coast: false } => &COMMISSIONING,
+        let plan: &'static [Experiment<f32>] = match which {
+            Which::Excite { coast: true } => &EXCITE_COAST,
+            Which::Excite { coast: false } => &EXCITE,
             Which::Record => &RECORD,
             Which::Verify => &VERIFY,
         };
-        let seconds = plan.iter().fold(0.0, |sum, part| sum + part.seconds as f32);
+        let seconds = plan.iter().fold(0.0, |sum, part| sum + part.seconds);
         let interval = seconds / periods.max(1) as f32;
         // The verification is drawn from another seed, or its levels would be those of the fit.
         let seed = match which {
@@ -123,7 +129,7 @@ impl Script {
             _ => seed,
         };
         Script::Excitation {
-            commands: excite::commands(plan, interval, seed),
+            commands: excite::device_commands(plan, interval, seed),
             amplitude,
             left: periods,
         }

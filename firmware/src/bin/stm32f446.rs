@@ -5,15 +5,15 @@
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let board = firmware::board::stm32f446::Stm32f446::start();
-    let mut app =
-        firmware::app::App::new(board, firmware::app::Memory::placed(&MEMORY), LOG.take());
+    let mut app = firmware::app::App::new(board, MEMORY.take(), LOG.take());
     loop {
         app.period();
     }
 }
 
 #[cfg(target_os = "none")]
-static MEMORY: static_cell::StaticCell<firmware::app::Memory<f32>> = static_cell::StaticCell::new();
+static MEMORY: static_cell::ConstStaticCell<firmware::app::Memory<f32>> =
+    static_cell::ConstStaticCell::new(firmware::app::Memory::new());
 #[cfg(target_os = "none")]
 static LOG: static_cell::ConstStaticCell<firmware::app::Log<2000>> =
     static_cell::ConstStaticCell::new(firmware::app::Log::new());

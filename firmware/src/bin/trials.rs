@@ -13,7 +13,7 @@ type Format = shared::scalar::Fixed;
 #[cfg(target_os = "none")]
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    let memory = Memory::<Format>::placed(&MEMORY);
+    let memory = MEMORY.take();
     // The standard output is the log's, if there is one.
     let out = if cfg!(feature = "defmt-semihosting") {
         cortex_m_semihosting::hio::hstderr()
@@ -25,7 +25,8 @@ fn main() -> ! {
 }
 
 #[cfg(target_os = "none")]
-static MEMORY: static_cell::StaticCell<Memory<Format>> = static_cell::StaticCell::new();
+static MEMORY: static_cell::ConstStaticCell<Memory<Format>> =
+    static_cell::ConstStaticCell::new(Memory::new());
 #[cfg(target_os = "none")]
 static LOG: static_cell::ConstStaticCell<Log<{ trials::RECORD }>> =
     static_cell::ConstStaticCell::new(Log::new());

@@ -6,8 +6,6 @@ use core::task::Poll;
 use embassy_futures::poll_once;
 use embedded_io_async::{Read, Write};
 
-/// Speed of the link, baud: the fastest of the usual ones, which every adapter and debugger offers.
-pub const BAUD: u32 = 921_600;
 /// Bytes that wait to be sent. At this speed the line empties 92 of them in a millisecond.
 pub const SEND_BUFFER: usize = 512;
 /// Bytes that wait to be received: what comes in two milliseconds, and some.

@@ -6,7 +6,7 @@
 pub mod current;
 pub mod entropy;
 pub mod half_bridges;
-#[cfg(all(target_os = "none", feature = "cortex-m"))]
+#[cfg(all(target_os = "none", feature = "stm32"))]
 mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]
 pub mod lockstep;
@@ -51,6 +51,9 @@ pub use stm32f446::Stm32f446 as Fitted;
 pub use stm32g431::Stm32g431 as Fitted;
 
 use crate::phase::Fault;
+
+/// Speed of the link, baud: the fastest of the usual ones, which every adapter and debugger offers.
+pub const BAUD: u32 = 921_600;
 
 /// An H bridge, a quadrature encoder, a control period and a link to the host.
 pub trait Board {

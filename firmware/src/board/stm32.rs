@@ -14,10 +14,11 @@ use embassy_stm32::usart::{self, BufferedUart};
 use embassy_stm32::{Peri, pac, uid};
 use shared::encoder::Extended;
 
+use super::BAUD;
 use super::Board;
 use super::entropy::Entropy;
 use super::half_bridges::HalfBridges;
-use super::link::{BAUD, Link};
+use super::link::Link;
 use super::period::Period;
 use crate::phase::Fault;
 

@@ -1,9 +1,8 @@
 //! A number format that a device can fit in, and the few operations of its hot loop.
 
 use super::Evaluation;
-use crate::error::ModelError;
 use crate::model::{Motion, Rigid, RigidPlan};
-use crate::scalar::{Fixed, Readable, Scalar, product};
+use crate::scalar::{Fixed, FixedCoefficient, Readable, Scalar, product};
 use crate::wire::Format;
 use core::ops::Add;
 
@@ -18,6 +17,8 @@ pub type Row<C> = [C; 3];
 pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     /// As the host is told.
     const FORMAT: Format;
+    /// Of nothing, all of it zero.
+    const EMPTY: Evaluation<Self>;
     /// Multipliers of current, speed and duty.
     type Rows: Copy + Default + core::fmt::Debug;
     /// Counts by which a model is ahead of the reading.
@@ -25,14 +26,14 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     /// Sum and sum of squares of leads.
     type Sums: Copy + Default + core::fmt::Debug;
 
-    /// Rows for the increments of current, speed and angle (in units of angle, of which each is so many counts). None if the
-    /// format does not hold them.
+    /// Rows for the increments of current, speed and angle (in units of angle, of which each is so many counts) by current,
+    /// speed, voltage and torque. None if the format does not hold them.
     fn rows(
-        increments: [Row<Self::Coefficient>; 3],
+        increments: [&[Self::Coefficient; 4]; 3],
         counts_per_unit: Self::Coefficient,
     ) -> Option<Self::Rows>;
-    /// A period without torque on the shaft: current, speed and lead at its end.
-    fn follow(
+    /// A period without torque on the shaft: current, speed and lead at its end. With `APART` shorter, where that is slower.
+    fn follow<const APART: bool>(
         rows: &Self::Rows,
         from: (Self, Self, Self::Lead),
         duty: i16,
@@ -44,7 +45,7 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn counts(lead: Self::Lead) -> f32;
     /// Whether a speed has the sign of `sense`.
     fn along(speed: Self, sense: Self) -> bool;
-    /// Adds a lead to the sums. Fixed point saturates at 2¹⁶ counts.
+    /// Adds a lead to the sums.
     fn collect(sums: &mut Self::Sums, lead: Self::Lead);
     /// Sum in counts, and of squares in counts².
     fn sums(sums: &Self::Sums) -> (f32, f32);
@@ -52,12 +53,9 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     /// Whether the squares are below `most` counts² beyond doubt; cheaper than to ask how many they are.
     fn surely_below(sums: &Self::Sums, most: f32) -> bool;
 
-    /// [`Rigid::set`] in this format. Here, and not where it is called, because this crate is compiled for speed and a
-    /// device's application for size; so are the next three.
-    ///
-    /// # Errors
-    /// As there.
-    fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> Result<(), ModelError>;
+    /// Whether [`Rigid::set`] succeeds in this format. Here, and not where it is called, because this crate is compiled for
+    /// speed and a device's application for size; so are the next three.
+    fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> bool;
     /// [`Rigid::step`] in this format.
     fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool);
     /// [`Evaluation`](super::Evaluation)'s short way in this format.
@@ -69,8 +67,8 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
 /// What is compiled here; without friction so many periods a turn of the loop, whose counter costs as much as one of f32's sums.
 macro_rules! compiled_here {
     ($at_a_time:literal) => {
-        fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> Result<(), ModelError> {
-            model.set(plan)
+        fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> bool {
+            model.set(plan).is_ok()
         }
 
         fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool) {
@@ -94,15 +92,16 @@ macro_rules! compiled_here {
 
 impl Arithmetic for f32 {
     const FORMAT: Format = Format::F32;
+    const EMPTY: Evaluation<f32> = Evaluation::of(0.0, 0.0, [[0.0; 3]; 3], 0.0, (0.0, 0.0));
     type Rows = [Row<f32>; 3];
     type Lead = f32;
     type Sums = (f32, f32);
 
     compiled_here!(6);
 
-    fn rows(increments: [Row<f32>; 3], counts_per_unit: f32) -> Option<Self::Rows> {
-        let [mut current, mut speed, angle] = increments;
-        let mut angle = angle.map(|k| k * counts_per_unit);
+    fn rows(increments: [&[f32; 4]; 3], counts_per_unit: f32) -> Option<Self::Rows> {
+        let [mut current, mut speed, mut angle] = increments.map(|&[a, b, c, _]| [a, b, c]);
+        angle = angle.map(|k| k * counts_per_unit);
         // The current forgets fast: as a whole it needs one addition less, and loses nothing.
         current[0] += 1.0;
         for row in [&mut current, &mut speed, &mut angle] {
@@ -112,7 +111,7 @@ impl Arithmetic for f32 {
     }
 
     #[inline(always)]
-    fn follow(
+    fn follow<const APART: bool>(
         [by_current, by_speed, by_angle]: &Self::Rows,
         (current, speed, lead): (f32, f32, f32),
         duty: i16,
@@ -180,31 +179,78 @@ const TRAVEL_POINT: i32 = 18;
 /// Left shift that makes a duty in Q15 an upper word, which has 28 bits below the point.
 const DUTY_SHIFT: i32 = 28 - 15;
 
-/// The product with a duty as an upper word.
+/// A row times current, speed and duty, with the bits below the point of all of them.
 #[inline(always)]
 #[cfg(not(short_multiplier))]
-fn by_duty(a: i32, duty: i16) -> i64 {
-    product(a, i32::from(duty) << DUTY_SHIFT)
+fn inlined(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+    let duty = i32::from(duty) << DUTY_SHIFT;
+    product(row[0], current) + product(row[1], speed) + product(row[2], duty)
 }
 
-/// The product with a duty as an upper word: half the bits, half the work.
+/// The same of halves: those of one weight are summed first, and moved to their place together. The product with a duty is
+/// half the bits, and half the work.
 #[inline(always)]
 #[cfg(short_multiplier)]
-fn by_duty(a: i32, duty: i16) -> i64 {
+fn inlined(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+    let halves = |x: i32| (x & 0xffff, x >> 16);
+    let ((c_low, c_high), (s_low, s_high)) = (halves(current), halves(speed));
+    let ((a_low, a_high), (b_low, b_high)) = (halves(row[0]), halves(row[1]));
+    let (d_low, d_high) = halves(row[2]);
+    let times = |a: i32, b: i32| i64::from(a.wrapping_mul(b));
+    let high = (a_high.wrapping_mul(c_high)).wrapping_add(b_high.wrapping_mul(s_high));
+    let cross =
+        times(a_high, c_low) + times(a_low, c_high) + times(b_high, s_low) + times(b_low, s_high);
+    let low =
+        i64::from(a_low.wrapping_mul(c_low) as u32) + i64::from(b_low.wrapping_mul(s_low) as u32);
     let duty = i32::from(duty);
-    let (low, high) = (
-        (a & 0xffff).wrapping_mul(duty),
-        (a >> 16).wrapping_mul(duty),
-    );
-    ((i64::from(high) << 16) + i64::from(low)) << DUTY_SHIFT
+    // In all 45 bits: shifted as one.
+    let by_duty = (times(d_high, duty) << 16) + times(d_low, duty);
+    (i64::from(high) << 32)
+        .wrapping_add(cross << 16)
+        .wrapping_add(low)
+        .wrapping_add(raised(by_duty, DUTY_SHIFT))
+}
+
+/// The same as a routine.
+#[cfg_attr(short_multiplier, inline(never))]
+#[cfg_attr(not(short_multiplier), inline(always))]
+fn apart(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+    inlined(row, current, speed, duty)
+}
+
+/// The same, `APART` if speed matters less than length.
+#[inline(always)]
+fn weighed<const APART: bool>(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+    if APART {
+        apart(row, current, speed, duty)
+    } else {
+        inlined(row, current, speed, duty)
+    }
 }
 
 /// Where leads saturate, counts.
 const MOST_COUNTS: i32 = 1 << 16;
 
-/// A lead that saturates. Out of line: few do, and a choice in place costs each period three times as much as a look.
-#[cold]
-#[inline(never)]
+/// A lead as far as it counts: an instruction where there is one for it.
+#[cfg(not(short_multiplier))]
+#[inline(always)]
+fn limited(whole: i32) -> i32 {
+    saturated(whole)
+}
+
+/// The same where a choice in place would cost each period three times as much as a look: few saturate.
+#[cfg(short_multiplier)]
+#[inline(always)]
+fn limited(whole: i32) -> i32 {
+    if (-MOST_COUNTS..MOST_COUNTS).contains(&whole) {
+        whole
+    } else {
+        saturated(whole)
+    }
+}
+
+#[cfg_attr(short_multiplier, cold, inline(never))]
+#[cfg_attr(not(short_multiplier), inline(always))]
 fn saturated(whole: i32) -> i32 {
     whole.clamp(-MOST_COUNTS, MOST_COUNTS - 1)
 }
@@ -217,47 +263,68 @@ fn raised(x: i64, n: i32) -> i64 {
     (i64::from(high as i32) << 32) | i64::from(low << n)
 }
 
+/// A row of a map as mantissas with so many bits below the point.
+fn mantissas(of: &[FixedCoefficient; 4], bits: i32) -> Option<Row<i32>> {
+    let [a, b, c, _] = of;
+    Some([a.mantissa(bits)?, b.mantissa(bits)?, c.mantissa(bits)?])
+}
+
 impl Arithmetic for Fixed {
     const FORMAT: Format = Format::Fixed;
+    const EMPTY: Evaluation<Fixed> = Evaluation::of(
+        Fixed::from_bits(0),
+        FixedCoefficient::ZERO,
+        FixedRows {
+            current: [0; 3],
+            speed: [0; 3],
+            travel: [0; 3],
+        },
+        0,
+        (0, 0),
+    );
     type Rows = FixedRows;
     /// With 32 bits below the point.
     type Lead = i64;
-    /// With 10 and 20 bits below the point.
-    type Sums = (i64, i64);
+    /// With 10 and 20 bits below the point. The sum wraps beyond a mean of 1,024 counts, where all that it could take off the
+    /// squares is less than a thousandth of them: 32 bits save each period three instructions.
+    type Sums = (i32, i64);
 
     compiled_here!(1);
 
     fn rows(
-        increments: [Row<Self::Coefficient>; 3],
+        increments: [&[Self::Coefficient; 4]; 3],
         counts_per_unit: Self::Coefficient,
     ) -> Option<FixedRows> {
         let [current, speed, angle] = increments;
-        let mantissas = |of: &Row<Self::Coefficient>, bits: i32| {
-            let [a, b, c] = of.map(|k| k.mantissa(bits));
-            Some([a?, b?, c?])
-        };
         let travel = angle.map(|k| k.by(counts_per_unit));
         Some(FixedRows {
-            current: mantissas(&current, 32 - CURRENT_SHIFT)?,
-            speed: mantissas(&speed, 32 - SPEED_SHIFT)?,
+            current: mantissas(current, 32 - CURRENT_SHIFT)?,
+            speed: mantissas(speed, 32 - SPEED_SHIFT)?,
             travel: mantissas(&travel, TRAVEL_POINT)?,
         })
     }
 
     #[inline(always)]
-    fn follow(
+    fn follow<const APART: bool>(
         rows: &FixedRows,
         (current, speed, lead): (Fixed, Fixed, i64),
         duty: i16,
         step: i16,
     ) -> (Fixed, Fixed, i64) {
         let (c, s) = (current.word(), speed.word());
-        let sum = |row: &Row<i32>| product(row[0], c) + product(row[1], s) + by_duty(row[2], duty);
         // Upper words have 28 bits below the point, leads 32.
-        let travel = sum(&rows.travel) >> (TRAVEL_POINT - 4);
+        let travel = weighed::<APART>(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
         (
-            current + Fixed::from_bits(raised(sum(&rows.current), CURRENT_SHIFT)),
-            speed + Fixed::from_bits(raised(sum(&rows.speed), SPEED_SHIFT)),
+            current
+                + Fixed::from_bits(raised(
+                    weighed::<APART>(&rows.current, c, s, duty),
+                    CURRENT_SHIFT,
+                )),
+            speed
+                + Fixed::from_bits(raised(
+                    weighed::<APART>(&rows.speed, c, s, duty),
+                    SPEED_SHIFT,
+                )),
             lead.wrapping_add(travel)
                 .wrapping_sub(i64::from(step) << 32),
         )
@@ -281,12 +348,9 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn collect(sums: &mut Self::Sums, lead: i64) {
-        let mut whole = (lead >> 32) as i32;
-        if !(-MOST_COUNTS..MOST_COUNTS).contains(&whole) {
-            whole = saturated(whole);
-        }
+        let whole = limited((lead >> 32) as i32);
         let lead = (whole << 10) | (lead as u32 >> 22) as i32;
-        sums.0 += i64::from(lead);
+        sums.0 = sums.0.wrapping_add(lead);
         // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
         sums.1 = sums.1.wrapping_add(product(lead, lead));
     }

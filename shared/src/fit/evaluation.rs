@@ -11,25 +11,47 @@ const BLOCK: usize = 72;
 /// Largest mean error that where the shaft stood within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
 
-/// Room for as many models as ever run side by side.
-pub(super) type Runs<S> = [Option<Evaluation<S>>; 3];
+/// Room for a model. Not an `Option`, whose nothing may be marked by any number in any place: an empty room is all zeros, so
+/// that a static of it is memory that starts as zeros, and no image is copied there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Room<S: Arithmetic> {
+    taken: bool,
+    run: Evaluation<S>,
+}
 
-/// Puts the motor at `x` into `slot`; says whether there is one. Out of line, so that its copies of a model stand on the
-/// stack no longer than it runs.
+impl<S: Arithmetic> Room<S> {
+    /// With nothing in it.
+    pub(super) const EMPTY: Self = Room {
+        taken: false,
+        run: S::EMPTY,
+    };
+
+    /// Takes the model out.
+    pub(super) fn clear(&mut self) {
+        self.taken = false;
+    }
+
+    /// The model in it.
+    pub(super) fn model(&mut self) -> Option<&mut Evaluation<S>> {
+        self.taken.then_some(&mut self.run)
+    }
+}
+
+/// Room for as many models as ever run side by side.
+pub(super) type Runs<S> = [Room<S>; 3];
+
+/// Puts the motor at `x` into `room`; says whether there is one. In place: to hand a model on costs as much as to make it.
+// Out of line, so that what it needs of the stack is free again when the model runs.
 #[inline(never)]
 pub(super) fn build<S: Arithmetic>(
-    slot: &mut Option<Evaluation<S>>,
+    room: &mut Room<S>,
     space: &Space,
     x: &Point,
     bound: f32,
 ) -> bool {
-    // In place: to hand a model on costs as much as to make it.
-    let evaluation = slot.get_or_insert_with(Evaluation::idle);
-    let built = space.set(&mut evaluation.model, x).is_ok() && evaluation.begin(bound);
-    if !built {
-        *slot = None;
-    }
-    built
+    let run = &mut room.run;
+    room.taken = space.set(&mut run.model, x) && run.begin(bound);
+    room.taken
 }
 
 /// What load and friction add in each period while the shaft turns one way.
@@ -66,27 +88,31 @@ pub struct Evaluation<S: Arithmetic> {
 }
 
 impl<S: Arithmetic> Evaluation<S> {
-    fn idle() -> Self {
+    /// Of nothing: of zeros in its format.
+    pub(super) const fn of(
+        zero: S,
+        none: S::Coefficient,
+        rows: S::Rows,
+        lead: S::Lead,
+        sums: S::Sums,
+    ) -> Self {
         Evaluation {
-            model: Rigid::idle(),
-            rows: Default::default(),
+            model: Rigid::of(zero, none),
+            rows,
             turning: None,
-            current: S::zero(),
-            speed: S::zero(),
-            lead: Default::default(),
+            current: zero,
+            speed: zero,
+            lead,
             at: 0,
-            sums: Default::default(),
-            bound: f32::INFINITY,
+            sums,
+            bound: 0.0,
             result: None,
         }
     }
 
     /// Of a model; none if it is beyond the format.
     pub fn new(model: Rigid<S>) -> Option<Self> {
-        let mut evaluation = Evaluation {
-            model,
-            ..Self::idle()
-        };
+        let mut evaluation = Evaluation { model, ..S::EMPTY };
         evaluation.begin(f32::INFINITY).then_some(evaluation)
     }
 
@@ -217,10 +243,19 @@ impl<S: Arithmetic> Evaluation<S> {
         let (steps, rest_steps) = steps[..len].as_chunks::<N>();
         let mut left = duties.len();
         for (duties, steps) in duties.chunks(BLOCK / N).zip(steps.chunks(BLOCK / N)) {
-            for (duties, steps) in duties.iter().zip(steps) {
-                for (&duty, &step) in duties.iter().zip(steps) {
-                    at = S::follow(&rows, at, duty, step);
+            if N == 1 {
+                // No compiler that minds the size sees that the loop in the loop is none.
+                let turns = duties.as_flattened().iter().zip(steps.as_flattened());
+                for (&duty, &step) in turns {
+                    at = S::follow::<false>(&rows, at, duty, step);
                     S::collect(&mut sums, at.2);
+                }
+            } else {
+                for (duties, steps) in duties.iter().zip(steps) {
+                    for (&duty, &step) in duties.iter().zip(steps) {
+                        at = S::follow::<false>(&rows, at, duty, step);
+                        S::collect(&mut sums, at.2);
+                    }
                 }
             }
             left -= duties.len();
@@ -229,9 +264,9 @@ impl<S: Arithmetic> Evaluation<S> {
             }
         }
         let mut periods = (duties.len() - left) * N;
-        if left == 0 {
+        if N > 1 && left == 0 {
             for (&duty, &step) in rest.iter().zip(rest_steps) {
-                at = S::follow(&rows, at, duty, step);
+                at = S::follow::<true>(&rows, at, duty, step);
                 S::collect(&mut sums, at.2);
             }
             periods += rest.len();
@@ -250,7 +285,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
-            let mut to = S::follow(&rows, at, duty, step);
+            let mut to = S::follow::<true>(&rows, at, duty, step);
             to.0 = to.0 + turning.current;
             to.1 = to.1 + turning.speed;
             if !S::along(to.1, turning.sense) {

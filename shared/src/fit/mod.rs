@@ -18,13 +18,14 @@ mod space;
 
 pub use arithmetic::Arithmetic;
 pub use evaluation::Evaluation;
-use evaluation::{Runs, build};
+use evaluation::{Room, Runs, build};
 pub use outcome::{Estimate, Outcome, Stop};
 pub use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
 use crate::trace::Trace;
+use crate::wire::coded;
 use serde::{Deserialize, Serialize};
 
 /// Largest population.
@@ -39,7 +40,14 @@ pub enum Method {
     Firefly,
 }
 
-/// What to search for, and how.
+coded!(
+    enum Method {
+        Pso,
+        Firefly,
+    }
+);
+
+/// What to search for, and how. Hosts keep it in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// The method.
@@ -55,6 +63,8 @@ pub struct Settings {
     /// Search for a constant load.
     pub load: bool,
 }
+
+coded!(struct Settings { method, population, evaluations, seed, coulomb, load });
 
 impl Settings {
     /// What suits most motors.
@@ -82,47 +92,51 @@ const SWARM: PsoSettings = PsoSettings {
     fastest: 1.0,
 };
 
-/// The search, of either method. There is no heap to put the larger one on.
+/// Where the fit is; one stage after another in the same room.
+// The first is a zero at the front, see `Room`.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
-enum Search {
+#[repr(u8)]
+enum Stage {
+    Idle,
     Pso(Pso<f32, POPULATION, MOST>),
     Firefly(Firefly<f32, POPULATION, MOST>),
+    Polish(Polish),
+    Done(Stop),
 }
 
-impl Search {
-    // Out of line: it stands on the stack no longer than it runs.
+impl Stage {
+    /// Begins the search.
+    // Out of line: what it needs of the stack is free again when the search runs.
     #[inline(never)]
-    fn new(settings: &Settings, dim: usize) -> Self {
+    fn search(&mut self, settings: &Settings, dim: usize) {
         let population = settings.population.clamp(2, POPULATION as u8) as usize;
         let (evaluations, seed) = (settings.evaluations, settings.seed);
         match settings.method {
-            Method::Pso => Search::Pso(Pso::new(dim, population, SWARM, seed)),
-            Method::Firefly => {
+            Method::Pso => *self = Stage::Pso(Pso::EMPTY),
+            Method::Firefly => *self = Stage::Firefly(Firefly::EMPTY),
+        }
+        match self {
+            Stage::Pso(pso) => pso.begin(dim, population, SWARM, seed),
+            Stage::Firefly(firefly) => {
                 let cooled = FireflySettings {
                     evaluations: evaluations.into(),
                     ..FireflySettings::default()
                 };
-                Search::Firefly(Firefly::new(dim, population, cooled, seed))
+                firefly.begin(dim, population, cooled, seed);
             }
+            _ => {}
         }
     }
 
-    fn each(&mut self) -> &mut dyn Optimiser<f32, MOST> {
+    /// The search, while there is one.
+    fn searching(&mut self) -> Option<&mut dyn Optimiser<f32, MOST>> {
         match self {
-            Search::Pso(pso) => pso,
-            Search::Firefly(firefly) => firefly,
+            Stage::Pso(pso) => Some(pso),
+            Stage::Firefly(firefly) => Some(firefly),
+            _ => None,
         }
     }
-}
-
-/// Where the fit is; one stage after another in the same room.
-#[allow(clippy::large_enum_variant)]
-#[derive(Clone, Debug)]
-enum Stage {
-    Search(Search),
-    Polish(Polish),
-    Done(Stop),
 }
 
 /// A fit under way.
@@ -141,17 +155,25 @@ pub struct Fit<S: Arithmetic> {
 }
 
 impl<S: Arithmetic> Fit<S> {
-    /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack.
+    /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack. All of it is zero, as what a
+    /// static of it begins with.
     pub const fn idle() -> Self {
         Fit {
-            settings: Settings::USUAL,
+            settings: Settings {
+                method: Method::Pso,
+                population: 0,
+                evaluations: 0,
+                seed: 0,
+                coulomb: false,
+                load: false,
+            },
             space: Space::NONE,
-            stage: Stage::Done(Stop::NoModel),
-            runs: [None; 3],
+            stage: Stage::Idle,
+            runs: [Room::EMPTY; 3],
             asked: false,
             evaluations: 0,
-            best: [0.5; MOST],
-            least: f32::INFINITY,
+            best: [0.0; MOST],
+            least: 0.0,
             curvature: None,
         }
     }
@@ -161,12 +183,11 @@ impl<S: Arithmetic> Fit<S> {
         let Some(space) = Space::around(trace, &settings) else {
             return false;
         };
-        self.stage = Stage::Search(Search::new(&settings, space.dim()));
+        self.stage.search(&settings, space.dim());
         self.settings = settings;
         self.space = space;
-        // One by one: as a whole array they are a constant in flash, two kilobytes to copy from.
         for run in &mut self.runs {
-            *run = None;
+            run.clear();
         }
         self.asked = false;
         self.evaluations = 0;
@@ -194,6 +215,7 @@ impl<S: Arithmetic> Fit<S> {
         let mut left = samples;
         while left > 0 {
             let used = match &mut self.stage {
+                Stage::Idle => return Some(self.outcome(trace, Stop::NoModel)),
                 Stage::Done(stop) => {
                     let stop = *stop;
                     return Some(self.outcome(trace, stop));
@@ -208,7 +230,7 @@ impl<S: Arithmetic> Fit<S> {
                     }
                     used
                 }
-                Stage::Search(_) => match &mut self.runs[0] {
+                Stage::Pso(_) | Stage::Firefly(_) => match self.runs[0].model() {
                     Some(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
@@ -229,10 +251,9 @@ impl<S: Arithmetic> Fit<S> {
 
     /// Asks for the next point and builds its model.
     fn next(&mut self) {
-        let Stage::Search(search) = &mut self.stage else {
+        let Some(search) = self.stage.searching() else {
             return;
         };
-        let search = search.each();
         let (x, bound) = (search.ask(), search.bound());
         self.asked = build(&mut self.runs[0], &self.space, &x, bound);
         if !self.asked {
@@ -244,10 +265,9 @@ impl<S: Arithmetic> Fit<S> {
     fn end(&mut self, mean_square: f32) {
         self.asked = false;
         self.evaluations += 1;
-        let Stage::Search(search) = &mut self.stage else {
+        let Some(search) = self.stage.searching() else {
             return;
         };
-        let search = search.each();
         search.tell(mean_square);
         let best = search.best();
         (self.best, self.least) = (best.x, best.cost);
@@ -281,7 +301,7 @@ impl<S: Arithmetic> Fit<S> {
 
     /// The motor that [`predict`](Self::predict) got ready.
     pub fn prediction(&mut self) -> Option<&mut Evaluation<S>> {
-        self.runs[0].as_mut()
+        self.runs[0].model()
     }
 }
 

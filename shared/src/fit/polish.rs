@@ -4,7 +4,7 @@
 //! two others, each displaced along one axis, for each pair of axes in turn. So the normal equations are summed up in the
 //! room of three models, however many unknowns there are, and d·(d − 1)/2 passes give all of them.
 
-use super::evaluation::{Runs, build};
+use super::evaluation::{Room, Runs, build};
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
 use crate::trace::Trace;
@@ -87,7 +87,7 @@ impl Differences {
         let from = self.at;
         for k in from..to {
             let mut errors = [0.0f32; 3];
-            for (run, error) in runs.iter_mut().flatten().zip(&mut errors) {
+            for (run, error) in runs.iter_mut().filter_map(Room::model).zip(&mut errors) {
                 run.step(trace.duties[k], trace.steps[k]);
                 *error = run.error();
             }
@@ -193,7 +193,7 @@ impl Polish {
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
     // Out of line: in one with what calls it, its stack is beyond the reach of a small core's short instructions.
     #[inline(never)]
-    pub fn work<S: Arithmetic>(
+    pub(super) fn work<S: Arithmetic>(
         &mut self,
         space: &Space,
         trace: &Trace<'_>,
@@ -230,7 +230,7 @@ impl Polish {
                 super::BUILD
             }
             Work::Try => {
-                let Some(trial) = &mut runs[0] else {
+                let Some(trial) = runs[0].model() else {
                     self.work = Work::Done;
                     return 1;
                 };

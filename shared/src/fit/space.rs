@@ -5,7 +5,6 @@
 //! 8 % of drawn motors with it, 3 % without).
 
 use super::{Arithmetic, Settings};
-use crate::error::ModelError;
 use crate::model::{Rigid, RigidPlan};
 use crate::motor::Machine;
 use crate::scalar::Real;
@@ -145,13 +144,11 @@ impl Space {
         gradient
     }
 
-    /// Makes `model` the motor at `x`.
-    ///
-    /// # Errors
-    /// A coefficient beyond the range of `S`; an electrical time constant far above the mechanical one.
+    /// Makes `model` the motor at `x`; says whether there is one: none with a coefficient beyond the range of `S`, or an
+    /// electrical time constant far above the mechanical one.
     // Out of line, as `build`, and for the sake of short instructions, which reach the first kilobyte of a stack.
     #[inline(never)]
-    pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> Result<(), ModelError> {
+    pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> bool {
         let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);
         for (k, unknown) in self.unknowns().iter().enumerate() {
@@ -165,10 +162,7 @@ impl Space {
             *slot = self.value(k, x);
         }
         if electrical > SLOWEST_WINDING * mechanical {
-            return Err(ModelError::Parameter {
-                name: "electrical time constant",
-                value: electrical.into(),
-            });
+            return false;
         }
         // A count is the unit of angle, a period that of time, the supply that of voltage: SI in all but name.
         let kb = 1.0 / gain;

@@ -14,7 +14,7 @@
 
 use super::body::{Body, Increment};
 use super::friction::is_zero;
-use super::rung::{RUNGS, Rung, Timing, shortest, weighed};
+use super::rung::{RUNGS, Timed, Timing, shortest, weighed};
 use super::state::Motion;
 use crate::discretise::{Discretisation, LinearMap, LinearSystem, scaled};
 use crate::effects::Coupling;
@@ -280,7 +280,7 @@ impl<S: Scalar> Joint<S> {
 /// A [`Coupled`] and, for the time of free flight, the maps of the motor alone.
 pub struct MotorAndLoad<'a, S: Scalar> {
     /// The motor alone.
-    pub motor: &'a [Rung<S>; RUNGS],
+    pub motor: &'a [Timed<S>; RUNGS],
     /// Both.
     pub coupled: &'a Coupled<S>,
 }
@@ -303,20 +303,20 @@ impl<S: Scalar> MotorAndLoad<'_, S> {
             let [speed, twist, slip, angle] = &maps.coast;
             return Increment {
                 current: -from.current,
-                speed: weighed(by, speed),
-                angle: weighed(by, angle),
-                twist: weighed(by, twist),
-                slip: weighed(by, slip),
+                speed: weighed(&by, speed),
+                angle: weighed(&by, angle),
+                twist: weighed(&by, twist),
+                slip: weighed(&by, slip),
             };
         }
         let by = [from.current, speed, bend, slip, volts, torque];
         let [current, speed, twist, slip, angle] = &maps.driven;
         Increment {
-            current: weighed(by, current),
-            speed: weighed(by, speed),
-            angle: weighed(by, angle),
-            twist: weighed(by, twist),
-            slip: weighed(by, slip),
+            current: weighed(&by, current),
+            speed: weighed(&by, speed),
+            angle: weighed(&by, angle),
+            twist: weighed(&by, twist),
+            slip: weighed(&by, slip),
         }
     }
 }
@@ -379,8 +379,8 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         let by = [bend, from.slip];
         let still = self.motor.settle(level, from, side, volts, open);
         let touching = Increment {
-            twist: weighed(by, &maps.held[0]),
-            slip: weighed(by, &maps.held[1]),
+            twist: weighed(&by, &maps.held[0]),
+            slip: weighed(&by, &maps.held[1]),
             ..still
         };
         if !joint.loose {

@@ -108,7 +108,7 @@ impl<S: Scalar> Piece<S> {
     /// better.
     #[inline(always)]
     fn settle_speed<B: Body<S>>(&mut self, body: &B, level: usize, budget: &Budget<S>) {
-        let started = started(body, level, self.pull, budget);
+        let started = started(self.pull, budget, |torque| body.yields(level, torque));
         let passed = passed_through(self.end.speed, self.pull.1, budget);
         let sliding = S::select(self.turns_back, passed, self.end.speed);
         let held = S::select(self.breaks_loose, started, S::zero());
@@ -213,17 +213,12 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
 /// Speed of a shaft that broke loose within the smallest piece, in which the pull rose evenly from
 /// `pull.0` to `pull.1`: the excess over friction acts for the rest of the piece.
 #[inline(always)]
-pub fn started<S: Scalar, B: Body<S>>(
-    body: &B,
-    level: usize,
-    pull: (S, S),
-    budget: &Budget<S>,
-) -> S {
+pub fn started<S: Scalar>(pull: (S, S), budget: &Budget<S>, yields: impl FnOnce(S) -> S) -> S {
     let (before, pull) = pull;
     let excess = pull.abs() - budget.holding;
     let rest = excess.part_of(pull.abs() - before.abs());
     let mean = excess * S::from_f64(0.5) + (budget.holding - budget.moving);
-    body.yields(level, -(mean * rest * pull.signum()))
+    yields(-(mean * rest * pull.signum()))
 }
 
 /// Speed after a reversal within the smallest piece. It was run with friction on the old side

@@ -30,7 +30,7 @@ impl Increments {
         let rung = rung::<f64, f64>(&machine, 1.0, plan.discretisation)?;
         let [current, speed, angle] = rung.increments();
         let counts = plan.units.counts_per_unit();
-        let [by_current, by_speed, by_command] = angle.map(|by| by * counts);
+        let [by_current, by_speed, by_command, _] = angle.map(|by| by * counts);
         let [current_by_torque, speed_by_torque, angle_by_torque] = rung.by_torque(1.0);
         Ok(Increments {
             state: [[current[0], current[1]], [speed[0], speed[1]]],

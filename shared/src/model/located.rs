@@ -88,7 +88,7 @@ fn rest<S: Scalar<Mask = bool>>(
         }
         motion.current = current;
         motion.speed = if breaks_loose {
-            started(rungs, level, (pull, after), &budget)
+            started((pull, after), &budget, |torque| rungs[level].yields(torque))
         } else {
             S::zero()
         };

@@ -40,7 +40,7 @@ pub use glide::Glide;
 pub use led::Seen;
 pub use linear::Increments;
 pub use rigid::{Rigid, RigidPlan};
-use rung::{RUNGS, Rung};
+use rung::{RUNGS, Timed};
 pub use state::{MAX_DELAY, Motion, Past, State};
 
 /// What a model is made of, in SI.
@@ -110,7 +110,7 @@ abreast!(Model {
 /// A stretch of a step under one command.
 #[derive(Clone, Copy, Debug)]
 struct Stretch<S: Scalar> {
-    motor: [Rung<S>; RUNGS],
+    motor: [Timed<S>; RUNGS],
     coupled: Option<Coupled<S>>,
     /// Equal parts.
     parts: u16,

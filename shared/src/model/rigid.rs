@@ -37,22 +37,28 @@ pub struct Rigid<S: Scalar> {
     counts_per_unit: S::Coefficient,
 }
 
-impl<S: Scalar<Mask = bool>> Rigid<S> {
-    /// A motor that nothing moves, to be [`set`](Self::set).
-    pub fn idle() -> Self {
+impl<S: Scalar> Rigid<S> {
+    /// A motor that nothing moves, of zeros in its format, to be [`set`](Self::set).
+    pub const fn of(zero: S, none: S::Coefficient) -> Self {
         Rigid {
-            motor: [Rung::zero(); RUNGS],
+            motor: [Rung::of(none); RUNGS],
             forces: Forces {
-                volts: S::zero(),
-                torque: S::zero(),
-                budget: Budget::even(S::zero()),
+                volts: zero,
+                torque: zero,
+                budget: Budget {
+                    moving: zero,
+                    holding: zero,
+                    bias: zero,
+                },
             },
             rubs: false,
-            free: true,
-            counts_per_unit: S::coefficient(0.0),
+            free: false,
+            counts_per_unit: none,
         }
     }
+}
 
+impl<S: Scalar<Mask = bool>> Rigid<S> {
     /// Discretises and lowers a plan, in place. After an error it is no motor.
     ///
     /// # Errors
@@ -65,10 +71,10 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         let depth = if self.rubs { RUNGS - 1 } else { 0 };
         let machine = plan.machine.lower(units);
         let one = R::from_f64(1.0);
-        rung::climb(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
+        rung::bare_ladder(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
         self.forces.torque = units.number(plan.load, Quantity::Torque);
         self.forces.budget = Budget::even(units.number(plan.coulomb, Quantity::Torque));
-        self.counts_per_unit = S::coefficient(units.counts_per_unit().to_f64());
+        self.counts_per_unit = S::coefficient_of(units.counts_per_unit());
         Ok(())
     }
 
@@ -77,13 +83,13 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
     /// # Errors
     /// As there.
     pub fn new<R: Real>(plan: &RigidPlan<R>) -> Result<Self, ModelError> {
-        let mut rigid = Rigid::idle();
+        let mut rigid = Rigid::of(S::zero(), S::Coefficient::default());
         rigid.set(plan)?;
         Ok(rigid)
     }
 
-    /// What current, speed and command each add to current, speed and angle in an interval with the bridge closed.
-    pub fn increments(&self) -> [[S::Coefficient; 3]; 3] {
+    /// What current, speed, command and torque each add to current, speed and angle in an interval with the bridge closed.
+    pub fn increments(&self) -> [&[S::Coefficient; 4]; 3] {
         self.motor[0].increments()
     }
 

@@ -2,7 +2,7 @@
 
 use super::body::{Body, Increment};
 use super::state::Motion;
-use crate::discretise::{Discretisation, LinearMap, LinearSystem, lowered};
+use crate::discretise::{Discretisation, LinearMap, LinearSystem, lower};
 use crate::error::ModelError;
 use crate::motor::Machine;
 use crate::scalar::{Real, Scalar, abreast};
@@ -55,7 +55,6 @@ pub struct Rung<S: Scalar> {
     coast_angle: [S::Coefficient; 2],
     /// Current by `[c, v]` of a shaft that friction holds.
     held: [S::Coefficient; 2],
-    timing: Timing<S>,
 }
 
 abreast!(Rung {
@@ -64,16 +63,41 @@ abreast!(Rung {
     angle,
     coast_speed,
     coast_angle,
-    held,
-    timing
+    held
 });
+
+/// A rung with what effects ask of it. Apart, because a small device has neither the room nor the time for that.
+#[derive(Clone, Copy, Debug)]
+pub struct Timed<S: Scalar> {
+    rung: Rung<S>,
+    timing: Timing<S>,
+}
+
+abreast!(Timed { rung, timing });
 
 /// The maps of a step in R, before they are lowered.
 #[derive(Clone, Copy)]
 struct Maps<R> {
     driven: LinearMap<R, 2, 2>,
-    coast: LinearMap<R, 1, 1>,
-    held: LinearMap<R, 1, 1>,
+    coast: LinearMap<R, ALONE, ALONE>,
+    held: LinearMap<R, ALONE, ALONE>,
+}
+
+/// States and inputs of a system that has one of each. On a small core another of each, that stays zero: so its maps are made
+/// by the code for two, to the same bits.
+const ALONE: usize = if cfg!(short_multiplier) { 2 } else { 1 };
+
+/// One state, by itself and by one input.
+fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, ALONE, ALONE> {
+    let none = [[R::zero(); ALONE]; ALONE];
+    let mut system = LinearSystem {
+        states: none,
+        inputs: none,
+        speed: 0,
+    };
+    system.states[0][0] = state;
+    system.inputs[0][0] = input;
+    system
 }
 
 impl<R: Real> Maps<R> {
@@ -87,20 +111,10 @@ impl<R: Real> Maps<R> {
             inputs: [[rate, zero], [zero, -push]],
             speed: 1,
         };
-        let coast = LinearSystem {
-            states: [[-drag]],
-            inputs: [[-push]],
-            speed: 0,
-        };
-        let held = LinearSystem {
-            states: [[-rate]],
-            inputs: [[rate]],
-            speed: 0,
-        };
         Ok(Maps {
             driven: driven.step(length, how)?,
-            coast: coast.step(length, how)?,
-            held: held.step(length, how)?,
+            coast: alone(-drag, -push).step(length, how)?,
+            held: alone(-rate, rate).step(length, how)?,
         })
     }
 
@@ -113,35 +127,40 @@ impl<R: Real> Maps<R> {
     }
 
     /// Into a rung where it stays: a device has neither the stack nor the time to hand on many of them.
-    fn lower<S: Scalar>(
-        &self,
-        rung: &mut Rung<S>,
-        machine: &Machine<R>,
-        length: R,
-    ) -> Result<(), ModelError> {
+    fn lower<S: Scalar>(&self, rung: &mut Rung<S>) -> Result<(), ModelError> {
         let driven = &self.driven;
         let row = |k: usize| {
             let (x, u) = (driven.states[k], driven.inputs[k]);
             [x[0], x[1], u[0], u[1]]
         };
         let (x, u) = (driven.angle_by_states, driven.angle_by_inputs);
-        rung.timing = Timing::new(machine, length, driven.inputs[0][0], u);
-        rung.current = lowered::<S, R, 4>("current increment", row(0))?;
-        rung.speed = lowered::<S, R, 4>("speed increment", row(1))?;
-        rung.angle = lowered::<S, R, 4>("angle increment", [x[0], x[1], u[0], u[1]])?;
-        rung.coast_speed = lowered::<S, R, 2>(
-            "coasting speed increment",
-            [self.coast.states[0][0], self.coast.inputs[0][0]],
+        let (coast, held) = (&self.coast, &self.held);
+        lower::<S, R>("current increment", &mut rung.current, &row(0))?;
+        lower::<S, R>("speed increment", &mut rung.speed, &row(1))?;
+        lower::<S, R>(
+            "angle increment",
+            &mut rung.angle,
+            &[x[0], x[1], u[0], u[1]],
         )?;
-        rung.coast_angle = lowered::<S, R, 2>(
-            "coasting angle increment",
-            [self.coast.angle_by_states[0], self.coast.angle_by_inputs[0]],
-        )?;
-        rung.held = lowered::<S, R, 2>(
-            "held current increment",
-            [self.held.states[0][0], self.held.inputs[0][0]],
-        )?;
-        Ok(())
+        let speed = [coast.states[0][0], coast.inputs[0][0]];
+        lower::<S, R>("coasting speed increment", &mut rung.coast_speed, &speed)?;
+        let angle = [coast.angle_by_states[0], coast.angle_by_inputs[0]];
+        lower::<S, R>("coasting angle increment", &mut rung.coast_angle, &angle)?;
+        let held = [held.states[0][0], held.inputs[0][0]];
+        lower::<S, R>("held current increment", &mut rung.held, &held)
+    }
+
+    /// The same with its timing.
+    fn lower_timed<S: Scalar>(
+        &self,
+        machine: &Machine<R>,
+        length: R,
+    ) -> Result<Timed<S>, ModelError> {
+        let driven = &self.driven;
+        let mut rung = Rung::of(S::Coefficient::default());
+        self.lower(&mut rung)?;
+        let timing = Timing::new(machine, length, driven.inputs[0][0], driven.angle_by_inputs);
+        Ok(Timed { rung, timing })
     }
 }
 
@@ -189,9 +208,9 @@ pub fn rung<S: Scalar, R: Real>(
     step: R,
     how: Discretisation,
 ) -> Result<Rung<S>, ModelError> {
-    let mut rung = Rung::zero();
+    let mut rung = Rung::of(S::Coefficient::default());
     let (machine, lengths) = shortest(machine, step, 0, how);
-    Maps::new(&machine, lengths[0], how)?.lower(&mut rung, &machine, lengths[0])?;
+    Maps::new(&machine, lengths[0], how)?.lower(&mut rung)?;
     Ok(rung)
 }
 
@@ -202,21 +221,36 @@ pub fn ladder<S: Scalar, R: Real>(
     step: R,
     depth: usize,
     how: Discretisation,
-) -> Result<[Rung<S>; RUNGS], ModelError> {
-    let mut rungs = [Rung::zero(); RUNGS];
-    climb(&mut rungs, machine, step, depth, how)?;
-    let last = rungs[depth];
-    rungs[depth..].fill(last);
-    Ok(rungs)
+) -> Result<[Timed<S>; RUNGS], ModelError> {
+    let mut rungs = [None; RUNGS];
+    climb(machine, step, depth, how, |level, maps, machine, length| {
+        rungs[level] = Some(maps.lower_timed(machine, length)?);
+        Ok(())
+    })?;
+    let last = rungs[depth].unwrap_or(Timed::zero());
+    Ok(rungs.map(|rung| rung.unwrap_or(last)))
 }
 
-/// Fills the ladder down to `depth`. The shortest is computed, the others follow by doubling.
-pub fn climb<S: Scalar, R: Real>(
+/// The same without timing, where the rungs stay; those beyond the `depth` stay as they are.
+pub fn bare_ladder<S: Scalar, R: Real>(
     rungs: &mut [Rung<S>; RUNGS],
     machine: &Machine<R>,
     step: R,
     depth: usize,
     how: Discretisation,
+) -> Result<(), ModelError> {
+    climb(machine, step, depth, how, |level, maps, _, _| {
+        maps.lower(&mut rungs[level])
+    })
+}
+
+/// Hands on the maps from the shortest part to the whole step. The shortest is computed, the others follow by doubling.
+fn climb<R: Real>(
+    machine: &Machine<R>,
+    step: R,
+    depth: usize,
+    how: Discretisation,
+    mut take: impl FnMut(usize, &Maps<R>, &Machine<R>, R) -> Result<(), ModelError>,
 ) -> Result<(), ModelError> {
     let (machine, lengths) = shortest(machine, step, depth, how);
     let mut maps = Maps::new(&machine, lengths[depth], how)?;
@@ -228,22 +262,16 @@ pub fn climb<S: Scalar, R: Real>(
                 Discretisation::Euler => Maps::new(&machine, lengths[level], how)?,
             };
         }
-        maps.lower(&mut rungs[level], &machine, lengths[level])?;
+        take(level, &maps, &machine, lengths[level])?;
     }
     Ok(())
 }
 
-impl<S: Scalar> Rung<S> {
-    /// A rung on which nothing moves.
-    pub fn zero() -> Self {
-        let none = S::coefficient(0.0);
-        Rung {
-            current: [none; 4],
-            speed: [none; 4],
-            angle: [none; 4],
-            coast_speed: [none; 2],
-            coast_angle: [none; 2],
-            held: [none; 2],
+impl<S: Scalar> Timed<S> {
+    fn zero() -> Self {
+        let none = S::Coefficient::default();
+        Timed {
+            rung: Rung::of(none),
             timing: Timing {
                 length: none,
                 per_length: none,
@@ -260,11 +288,34 @@ impl<S: Scalar> Rung<S> {
     pub fn timing(&self) -> &Timing<S> {
         &self.timing
     }
+}
 
-    /// Multipliers of current, speed and voltage for the increments of current, speed and angle, with the bridge closed.
-    pub fn increments(&self) -> [[S::Coefficient; 3]; 3] {
-        [self.current, self.speed, self.angle]
-            .map(|[current, speed, volts, _]| [current, speed, volts])
+impl<S: Scalar> core::ops::Deref for Timed<S> {
+    type Target = Rung<S>;
+
+    #[inline(always)]
+    fn deref(&self) -> &Rung<S> {
+        &self.rung
+    }
+}
+
+impl<S: Scalar> Rung<S> {
+    /// A rung on which nothing moves, of zeros.
+    pub const fn of(none: S::Coefficient) -> Self {
+        Rung {
+            current: [none; 4],
+            speed: [none; 4],
+            angle: [none; 4],
+            coast_speed: [none; 2],
+            coast_angle: [none; 2],
+            held: [none; 2],
+        }
+    }
+
+    /// Multipliers of current, speed, voltage and torque for the increments of current, speed and angle, with the bridge
+    /// closed.
+    pub fn increments(&self) -> [&[S::Coefficient; 4]; 3] {
+        [&self.current, &self.speed, &self.angle]
     }
 
     /// What a held torque adds to current, speed and angle, with the bridge closed.
@@ -329,9 +380,9 @@ impl<S: Scalar> Rung<S> {
     #[inline(always)]
     pub fn slide_speed(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> S {
         if open {
-            weighed([from.speed, torque], &self.coast_speed)
+            weighed(&[from.speed, torque], &self.coast_speed)
         } else {
-            weighed([from.current, from.speed, volts, torque], &self.speed)
+            weighed(&[from.current, from.speed, volts, torque], &self.speed)
         }
     }
 
@@ -339,11 +390,17 @@ impl<S: Scalar> Rung<S> {
     #[inline(always)]
     pub fn slide_rest(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> (S, S) {
         if open {
-            let angle = weighed([from.speed, torque], &self.coast_angle);
+            let angle = weighed(&[from.speed, torque], &self.coast_angle);
             return (-from.current, angle);
         }
         let by = [from.current, from.speed, volts, torque];
-        (weighed(by, &self.current), weighed(by, &self.angle))
+        (weighed(&by, &self.current), weighed(&by, &self.angle))
+    }
+
+    /// Speed that a torque against positive rotation adds, with the bridge closed.
+    #[inline(always)]
+    pub fn yields(&self, torque: S) -> S {
+        torque.times(self.speed[3])
     }
 
     /// What the current gains while friction holds the shaft.
@@ -359,7 +416,8 @@ impl<S: Scalar> Rung<S> {
 
 /// The sum of numbers, each times its own multiplier.
 #[inline(always)]
-pub fn weighed<S: Scalar, const K: usize>(numbers: [S; K], by: &[S::Coefficient; K]) -> S {
+#[cfg(not(short_multiplier))]
+pub fn weighed<S: Scalar, const K: usize>(numbers: &[S; K], by: &[S::Coefficient; K]) -> S {
     let mut sum = numbers[0].times(by[0]);
     for k in 1..K {
         sum = sum + numbers[k].times(by[k]);
@@ -367,7 +425,15 @@ pub fn weighed<S: Scalar, const K: usize>(numbers: [S; K], by: &[S::Coefficient;
     sum
 }
 
-impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {
+/// The same as a loop and a routine, where each product is one already.
+#[inline(never)]
+#[cfg(short_multiplier)]
+pub fn weighed<S: Scalar>(numbers: &[S], by: &[S::Coefficient]) -> S {
+    let products = numbers.iter().zip(by).map(|(x, &k)| x.times(k));
+    products.reduce(S::add).unwrap_or(S::zero())
+}
+
+impl<S: Scalar> Body<S> for [Timed<S>; RUNGS] {
     const COUPLED: bool = false;
 
     #[inline(always)]
@@ -405,6 +471,6 @@ impl<S: Scalar> Body<S> for [Rung<S>; RUNGS] {
 
     #[inline(always)]
     fn yields(&self, level: usize, torque: S) -> S {
-        torque.times(self[level].speed[3])
+        self[level].yields(torque)
     }
 }

@@ -59,33 +59,49 @@ pub struct Firefly<R, const P: usize, const D: usize> {
 }
 
 impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
+    /// Not begun, and all zeros. A search is begun where it stays: it is much of what a device has for a stack.
+    pub const EMPTY: Self = Firefly {
+        attraction: R::ZERO,
+        absorption: R::ZERO,
+        narrowest: R::ZERO,
+        dim: 0,
+        flies: [Candidate::EMPTY; P],
+        population: 0,
+        mover: 0,
+        trial: [R::ZERO; D],
+        placed: 0,
+        step: R::ZERO,
+        cooling: R::ZERO,
+        rng: Generator::EMPTY,
+        best: Candidate::EMPTY,
+    };
+
     /// `population` (at most `P`) fireflies over `dim` (at most `D`) unknowns.
     pub fn new(dim: usize, population: usize, settings: FireflySettings, seed: u64) -> Self {
-        let mut rng = rng::seeded(seed);
-        let dim = dim.min(D);
-        let flies = core::array::from_fn(|_| {
-            let mut fly = Candidate::unknown();
-            for x in &mut fly.x[..dim] {
-                *x = rng::uniform(&mut rng);
+        let mut firefly = Self::EMPTY;
+        firefly.begin(dim, population, settings, seed);
+        firefly
+    }
+
+    /// [`new`](Self::new) in place of an [empty](Self::EMPTY) one.
+    pub fn begin(&mut self, dim: usize, population: usize, settings: FireflySettings, seed: u64) {
+        self.rng = rng::seeded(seed);
+        self.dim = dim.min(D);
+        for fly in &mut self.flies {
+            *fly = Candidate::unknown();
+            for x in fly.x.iter_mut().take(self.dim) {
+                *x = rng::uniform(&mut self.rng);
             }
-            fly
-        });
-        let fall = R::from_f64(settings.narrowest / settings.widest).ln();
-        Firefly {
-            attraction: R::from_f64(settings.attraction),
-            absorption: R::from_f64(settings.absorption),
-            narrowest: R::from_f64(settings.narrowest),
-            dim,
-            flies,
-            population: population.clamp(1, P),
-            mover: 0,
-            trial: [R::zero(); D],
-            placed: 0,
-            step: R::from_f64(settings.widest),
-            cooling: (fall / R::from_whole(settings.evaluations.max(1))).exp(),
-            rng,
-            best: Candidate::unknown(),
         }
+        let real = R::from_f64;
+        let fall = real(settings.narrowest / settings.widest).ln();
+        self.attraction = real(settings.attraction);
+        self.absorption = real(settings.absorption);
+        self.narrowest = real(settings.narrowest);
+        self.population = population.clamp(1, P);
+        self.step = real(settings.widest);
+        self.cooling = (fall / R::from_whole(settings.evaluations.max(1))).exp();
+        self.best = Candidate::unknown();
     }
 
     /// One of those brighter than the mover, at random.

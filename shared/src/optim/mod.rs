@@ -24,6 +24,12 @@ pub struct Candidate<R, const D: usize> {
 }
 
 impl<R: Real, const D: usize> Candidate<R, D> {
+    /// Of zeros, before a search begins.
+    const EMPTY: Self = Candidate {
+        x: [R::ZERO; D],
+        cost: R::ZERO,
+    };
+
     fn unknown() -> Self {
         Candidate {
             x: [R::zero(); D],

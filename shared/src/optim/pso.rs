@@ -57,38 +57,52 @@ pub struct Pso<R, const P: usize, const D: usize> {
 }
 
 impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
+    /// Not begun, and all zeros. A search is begun where it stays: it is half of what a device has for a stack.
+    pub const EMPTY: Self = Pso {
+        inertia: R::ZERO,
+        cognitive: R::ZERO,
+        social: R::ZERO,
+        fastest: R::ZERO,
+        dim: 0,
+        particles: [Particle {
+            x: [R::ZERO; D],
+            velocity: [R::ZERO; D],
+            best: Candidate::EMPTY,
+        }; P],
+        population: 0,
+        asked: 0,
+        told: 0,
+        flying: false,
+        rng: Generator::EMPTY,
+        best: Candidate::EMPTY,
+    };
+
     /// `population` (at most `P`) particles over `dim` (at most `D`) unknowns.
     pub fn new(dim: usize, population: usize, settings: PsoSettings, seed: u64) -> Self {
-        let mut rng = rng::seeded(seed);
-        let dim = dim.min(D);
-        let particles = core::array::from_fn(|_| {
-            let mut particle = Particle {
-                x: [R::zero(); D],
-                velocity: [R::zero(); D],
-                best: Candidate::unknown(),
-            };
-            for d in 0..dim {
-                particle.x[d] = rng::uniform(&mut rng);
-                particle.velocity[d] =
-                    (rng::uniform::<R>(&mut rng) - particle.x[d]) * R::from_f64(0.5);
+        let mut pso = Self::EMPTY;
+        pso.begin(dim, population, settings, seed);
+        pso
+    }
+
+    /// [`new`](Self::new) in place of an [empty](Self::EMPTY) one.
+    pub fn begin(&mut self, dim: usize, population: usize, settings: PsoSettings, seed: u64) {
+        self.rng = rng::seeded(seed);
+        self.dim = dim.min(D);
+        for particle in &mut self.particles {
+            let places = particle.x.iter_mut().zip(&mut particle.velocity);
+            for (x, velocity) in places.take(self.dim) {
+                *x = rng::uniform(&mut self.rng);
+                *velocity = (rng::uniform::<R>(&mut self.rng) - *x) * R::from_f64(0.5);
             }
-            particle
-        });
-        let real = R::from_f64;
-        Pso {
-            inertia: real(settings.inertia),
-            cognitive: real(settings.cognitive),
-            social: real(settings.social),
-            fastest: real(settings.fastest),
-            dim,
-            particles,
-            population: population.clamp(1, P),
-            asked: 0,
-            told: 0,
-            flying: false,
-            rng,
-            best: Candidate::unknown(),
+            particle.best = Candidate::unknown();
         }
+        let real = R::from_f64;
+        self.inertia = real(settings.inertia);
+        self.cognitive = real(settings.cognitive);
+        self.social = real(settings.social);
+        self.fastest = real(settings.fastest);
+        self.population = population.clamp(1, P);
+        self.best = Candidate::unknown();
     }
 
     /// Moves particle `i`. One that would leave the cube stops at random between where it was and

@@ -7,7 +7,7 @@
 //!
 //! A multiplier keeps 31 significant bits whatever its size: a mantissa and a shift.
 
-use super::{Angle, ErrorValue, Readable, Scalar, quotient};
+use super::{Angle, ErrorValue, Readable, Real, Scalar, quotient};
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Bits below the point.
@@ -20,7 +20,7 @@ const UPPER_POINT: u32 = POINT - 32;
 pub struct Fixed(i64);
 
 /// A multiplier: `mantissa · 2^(−shift)`, the mantissa normalised to 31 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FixedCoefficient {
     mantissa: i32,
     shift: i32,
@@ -30,7 +30,14 @@ pub struct FixedCoefficient {
 const MAX_SHIFT: i32 = 61;
 
 impl FixedCoefficient {
+    /// Nothing.
+    pub const ZERO: Self = FixedCoefficient {
+        mantissa: 0,
+        shift: 0,
+    };
+
     /// As a whole number with so many bits below the point, rounded; none if that is beyond 31 bits.
+    #[cfg_attr(short_multiplier, inline(never))]
     pub fn mantissa(self, bits: i32) -> Option<i32> {
         i32::try_from(shifted(self.mantissa.into(), self.shift - bits)).ok()
     }
@@ -52,7 +59,7 @@ impl FixedCoefficient {
 impl Fixed {
     /// From its bits, of which 60 are below the point.
     #[inline(always)]
-    pub fn from_bits(bits: i64) -> Self {
+    pub const fn from_bits(bits: i64) -> Self {
         Fixed(bits)
     }
 
@@ -113,13 +120,36 @@ pub(crate) fn product(a: i32, b: i32) -> i64 {
     ((i64::from(high) << 32) | i64::from(low)).wrapping_add(cross << 16)
 }
 
-/// `|x| = significand · 2^(exponent − 52)`. Only the bits of the float are read: small cores are spared the routines for its
-/// arithmetic.
+/// As `(x · 2⁶⁰) as i64` saturates, gives zero for NaN and drops what is below the last bit. Only the bits of a float are
+/// read: small cores are spared the routines for its arithmetic.
 #[inline(never)]
-fn exponent_and_significand(x: f64) -> (i32, u64) {
-    let bits = x.to_bits();
-    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
-    (exponent, (bits & ((1 << 52) - 1)) | (1 << 52))
+fn from_binary((negative, exponent, significand): (bool, i32, u64)) -> Fixed {
+    let magnitude = match exponent + POINT as i32 - 52 {
+        _ if exponent == 1024 && significand != 1 << 52 => 0,
+        left @ 0..11 => (significand << left) as i64,
+        right @ ..0 => (significand >> (-right).min(63)) as i64,
+        _ if negative => i64::MIN,
+        _ => i64::MAX,
+    };
+    Fixed(if negative {
+        magnitude.wrapping_neg()
+    } else {
+        magnitude
+    })
+}
+
+#[inline(never)]
+fn coefficient((negative, exponent, significand): (bool, i32, u64)) -> FixedCoefficient {
+    if !(30 - MAX_SHIFT..=30).contains(&exponent) {
+        return FixedCoefficient::default();
+    }
+    // 53 bits to 31 (value in [2³⁰, 2³¹)), rounded; a carry to 2³¹ is clipped by one part in 2³¹.
+    let rounded = ((significand >> 21) + 1) >> 1;
+    let magnitude = rounded.min(i32::MAX as u64) as i32;
+    FixedCoefficient {
+        mantissa: if negative { -magnitude } else { magnitude },
+        shift: 30 - exponent,
+    }
 }
 
 impl Add for Fixed {
@@ -161,21 +191,14 @@ impl Scalar for Fixed {
     type Angle = FixedAngle;
     const LIMIT: f64 = 8.0;
 
+    #[inline]
     fn from_f64(x: f64) -> Self {
-        // As `(x · 2⁶⁰) as i64` saturates, gives zero for NaN and drops what is below the last bit.
-        let (exponent, significand) = exponent_and_significand(x);
-        let magnitude = match exponent + POINT as i32 - 52 {
-            _ if exponent == 1024 && significand != 1 << 52 => 0,
-            left @ 0..11 => (significand << left) as i64,
-            right @ ..0 => (significand >> (-right).min(63)) as i64,
-            _ if x.is_sign_negative() => i64::MIN,
-            _ => i64::MAX,
-        };
-        Fixed(if x.is_sign_negative() {
-            magnitude.wrapping_neg()
-        } else {
-            magnitude
-        })
+        from_binary(x.binary())
+    }
+
+    #[inline]
+    fn of<R: Real>(x: R) -> Self {
+        from_binary(x.binary())
     }
 
     #[inline(always)]
@@ -188,21 +211,14 @@ impl Scalar for Fixed {
         Fixed(i64::from(duty) << (POINT - 15))
     }
 
+    #[inline]
     fn coefficient(x: f64) -> FixedCoefficient {
-        let (exponent, significand) = exponent_and_significand(x);
-        if !(30 - MAX_SHIFT..=30).contains(&exponent) {
-            return FixedCoefficient {
-                mantissa: 0,
-                shift: 0,
-            };
-        }
-        // 53 bits to 31 (value in [2³⁰, 2³¹)), rounded; a carry to 2³¹ is clipped by one part in 2³¹.
-        let rounded = ((significand >> 21) + 1) >> 1;
-        let magnitude = rounded.min(i32::MAX as u64) as i32;
-        FixedCoefficient {
-            mantissa: if x < 0.0 { -magnitude } else { magnitude },
-            shift: 30 - exponent,
-        }
+        coefficient(x.binary())
+    }
+
+    #[inline]
+    fn coefficient_of<R: Real>(x: R) -> FixedCoefficient {
+        coefficient(x.binary())
     }
 
     #[inline(always)]

@@ -61,10 +61,26 @@ macro_rules! float_scalar {
 
         impl Real for $t {
             const TERMS: u32 = $terms;
+            const ZERO: Self = 0.0;
 
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 self as f64
+            }
+            #[inline]
+            fn binary(self) -> (bool, i32, u64) {
+                const FRACTION: u32 = <$t>::MANTISSA_DIGITS - 1;
+                const LARGEST: u32 = (<$t>::MAX_EXP * 2 - 1) as u32;
+                let bits = self.to_bits();
+                let exponent = (bits >> FRACTION) as u32 & LARGEST;
+                let fraction = bits & ((1 << FRACTION) - 1);
+                let significand = (fraction as u64) << (52 - FRACTION) | 1 << 52;
+                let exponent = if exponent == LARGEST {
+                    1024
+                } else {
+                    exponent as i32 - (<$t>::MAX_EXP - 1)
+                };
+                (self.is_sign_negative(), exponent, significand)
             }
             fn exp(self) -> Self {
                 $exp(self)
@@ -83,7 +99,8 @@ macro_rules! float_scalar {
             fn from_whole(x: u32) -> Self {
                 x as $t
             }
-            #[inline(always)]
+            #[cfg_attr(short_multiplier, inline(never))]
+            #[cfg_attr(not(short_multiplier), inline(always))]
             fn whole(self) -> u32 {
                 self as u32
             }

@@ -16,6 +16,7 @@ mod float;
 mod mask;
 mod quotient;
 mod root;
+pub mod soft;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
@@ -39,8 +40,8 @@ pub trait Scalar:
 {
     /// Result of a comparison.
     type Mask: Mask;
-    /// A multiplier that is fixed for the life of a model.
-    type Coefficient: Copy + Debug;
+    /// A multiplier that is fixed for the life of a model; zero by default.
+    type Coefficient: Copy + Default + Debug;
     /// The shaft angle in encoder counts.
     type Angle: Angle<Self>;
     /// Magnitudes below this are represented; infinity for floats.
@@ -55,6 +56,16 @@ pub trait Scalar:
     }
     /// A multiplier of any size from 2⁻³⁰ to 2³⁰ in magnitude, or nearly zero.
     fn coefficient(x: f64) -> Self::Coefficient;
+    /// [`from_f64`](Self::from_f64) of another format's number.
+    #[inline(always)]
+    fn of<R: Real>(x: R) -> Self {
+        Self::from_f64(x.to_f64())
+    }
+    /// [`coefficient`](Self::coefficient) of another format's number.
+    #[inline(always)]
+    fn coefficient_of<R: Real>(x: R) -> Self::Coefficient {
+        Self::coefficient(x.to_f64())
+    }
     /// `self · k`.
     fn times(self, k: Self::Coefficient) -> Self;
     /// `self < other`.
@@ -157,9 +168,14 @@ pub trait Real:
 {
     /// Terms of a Taylor series in matrices of norm up to ¼ after which the rest is below the format's last digit.
     const TERMS: u32;
+    /// Zero, for what begins as zeros.
+    const ZERO: Self;
 
     /// As f64, exactly.
     fn to_f64(self) -> f64;
+    /// Whether it is negative, and `|self| = significand · 2^(exponent − 52)` with 53 bits of significand; the exponent is 1024 of
+    /// what is not finite, and below −126 of what is nearly nothing.
+    fn binary(self) -> (bool, i32, u64);
     /// Natural exponential.
     fn exp(self) -> Self;
     /// Natural logarithm.

@@ -1,10 +1,10 @@
 //! Why a run was given up.
 
+use super::codec::coded;
 use core::fmt;
-use serde::{Deserialize, Serialize};
 
 /// Why a run was given up: the cause code of a report. Append only.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     /// The user or the host asked to stop.
     Stopped,
@@ -33,6 +33,24 @@ pub enum Fault {
     /// The recording holds nothing to fit.
     NothingToFit,
 }
+
+coded!(
+    enum Fault {
+        Stopped,
+        LinkLost,
+        Overrun,
+        Bridge,
+        Stall,
+        Overtravel,
+        NotVerified,
+        Runaway,
+        Overcurrent,
+        Overheated,
+        Overspeed,
+        TimeUp,
+        NothingToFit,
+    }
+);
 
 impl Fault {
     /// All of them, in the order of the wire.
