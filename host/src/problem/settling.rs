@@ -47,8 +47,7 @@ impl Settling {
         let step = held.step();
         let e = step.state;
         let det = determinant(&e);
-        // A NaN is not above it either.
-        if !(det.abs() > f64::MIN_POSITIVE) {
+        if det.is_nan() || det.abs() <= f64::MIN_POSITIVE {
             return None;
         }
         let inverse = [
@@ -64,18 +63,19 @@ impl Settling {
             ahead: ahead.by_state,
             most: [0.0; 2],
         };
-        for k in 0..2 {
+        let tables = settling.ahead.iter_mut().zip(&mut settling.most);
+        for ((table, largest), transient) in tables.zip(transient) {
             // Eight by eight, which the processor does at once.
             let mut most = [0.0; 8];
-            let (rows, _) = settling.ahead[k].as_chunks_mut::<8>();
+            let (rows, _) = table.as_chunks_mut::<8>();
             for row in rows {
                 for (ahead, most) in row.iter_mut().zip(&mut most) {
-                    *ahead += transient[k];
+                    *ahead += transient;
                     let x = ahead.abs();
                     *most = if x > *most { x } else { *most };
                 }
             }
-            settling.most[k] = most.into_iter().fold(0.0, f64::max);
+            *largest = most.into_iter().fold(0.0, f64::max);
         }
         Some(settling)
     }
