@@ -146,6 +146,41 @@ fn a_quick_cost_is_the_cost() {
     assert!(checked > 300);
 }
 
+/// The slowest motors that the paper's box has and the fastest, whose lines and transients would be numbers far larger than
+/// their angles.
+#[test]
+fn motors_in_the_corners_of_the_box_cost_the_same() {
+    let experiment = Experiment {
+        seconds: 5.0,
+        sample_s: 1e-3,
+    };
+    let data = experiment.record().expect("a recording");
+    let mut finite = 0;
+    for variant in Variant::all() {
+        let problem = paper_problem(&data, variant, BOX);
+        let quick = Quick::new(&problem);
+        for corner in 0..1 << problem.dim() {
+            let x: Vec<f64> = (0..problem.dim())
+                .map(|k| f64::from(corner >> k & 1))
+                .collect();
+            let label = format!("{}, corner {corner}", variant.name());
+            let (plain, cost) = (problem.cost(&x), quick.cost(&x));
+            let apart = (plain - cost).abs() <= 3.0 * problem.weight;
+            let floored = problem.cost == COSTS[1];
+            assert!(
+                same(plain, cost) || (floored && apart),
+                "{label}: {plain} is not {cost}"
+            );
+            if cost.is_finite() {
+                finite += 1;
+                assert_eq!(quick.cost_within(&x, cost), cost, "{label}");
+                assert!(quick.cost_within(&x, 0.9 * cost) > 0.9 * cost, "{label}");
+            }
+        }
+    }
+    assert!(finite > 100, "{finite}");
+}
+
 /// Far more than single precision has: readings of up to eight digits.
 const FAR: [f64; 3] = [0.0, 1e6, -5e7];
 /// Most that the bounds of a cost may lie apart, as a part of it: wider ones would decide too little.

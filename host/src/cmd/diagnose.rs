@@ -111,10 +111,10 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
         })?;
         first.check_excited()?;
         rest.check_excited()?;
-        let whole = Arc::new(Data::new(&recording)?);
+        let whole = Arc::new(Data::taken(recording)?);
         let recordings = Recordings {
-            data: Data::new(&first)?,
-            held_out: Data::new(&rest)?.at_end_of(Arc::clone(&whole)),
+            data: Data::taken(first)?,
+            held_out: Data::taken(rest)?.at_end_of(Arc::clone(&whole)),
             kind,
             remarks,
             whole: Some(whole),
@@ -138,7 +138,7 @@ fn recordings(session: &Session, args: &DiagnoseArgs) -> Result<(Options, Record
                 .to_owned(),
         ));
     }
-    let (data, held_out) = (Data::new(&recording)?, Data::new(&other)?);
+    let (data, held_out) = (Data::taken(recording)?, Data::taken(other)?);
     for data in [&data, &held_out] {
         if fit::is_reversed(data, &options) {
             // The message with its remedy.

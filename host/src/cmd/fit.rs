@@ -29,11 +29,9 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         args.validate.as_deref(),
     )?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
-    let data = Data::new(&recording)?;
-    // Of an hour it is as large as what it was lowered to.
-    drop(recording);
+    let data = Data::taken(recording)?;
     let validation = match &args.validate {
-        Some(path) => Some(Data::new(&motor::recording(&args.motor, path)?.0)?),
+        Some(path) => Some(Data::taken(motor::recording(&args.motor, path)?.0)?),
         None => None,
     };
     let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;

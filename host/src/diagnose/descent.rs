@@ -182,15 +182,19 @@ impl<'a> Search<'a> {
                 moved
             })
             .collect();
+        // Of a long recording each is large: the old ones go before the new ones come.
+        self.columns = Vec::new();
         let changes = self.objective.changes(&self.x, &moved);
         self.evaluations += moved.len();
         self.columns = changes
             .into_iter()
             .zip(&steps)
             .map(|(change, step)| match change {
-                Some(change) => {
-                    let slopes = change.iter().map(|change| change / step);
-                    slopes.step_by(self.settings.stride.max(1)).collect()
+                Some(mut change) => {
+                    for change in &mut change {
+                        *change /= step;
+                    }
+                    thinned(change, self.settings.stride)
                 }
                 None => vec![0.0; self.residuals.len()],
             })

@@ -169,7 +169,7 @@ pub fn diagnose(
     let left = steadied.map_or(f64::INFINITY, |(_, rms)| rms);
     let span = workshop.span.clone().after(data, &base, left);
     if span != workshop.span {
-        workshop = Workshop::over(span, data, held_out, options, effort);
+        workshop = workshop.over(span);
         base = workshop.base(options)?;
     }
     let workshop = workshop;

@@ -24,13 +24,18 @@ impl Motion {
             * data.units.counts_per_rev;
         let half =
             ((WINDOW_COUNTS / fastest.max(f64::MIN_POSITIVE)) as usize).clamp(HALF.0, HALF.1);
-        let speed: Vec<f64> = (0..data.len()).map(|k| slope(data, k, half)).collect();
         let turns: Vec<f64> = (0..data.len())
             .map(|k| (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0))
             .collect();
+        // At this sample, and at the next.
+        let (mut speed, mut next_speed) = (0.0, slope(data, 0, half));
         let seen = (0..data.len())
             .map(|k| {
                 let next = (k + 1).min(data.len() - 1);
+                speed = next_speed;
+                if next > k {
+                    next_speed = slope(data, next, half);
+                }
                 let travel = (data.centre(next) - data.centre(k)) / data.units.counts_per_rev;
                 let still = still(data, k, half);
                 Seen {
@@ -38,9 +43,9 @@ impl Motion {
                     speed: if still {
                         0.0
                     } else {
-                        0.5 * (speed[k] + speed[next])
+                        0.5 * (speed + next_speed)
                     },
-                    speed_change: if still { 0.0 } else { speed[next] - speed[k] },
+                    speed_change: if still { 0.0 } else { next_speed - speed },
                 }
             })
             .collect();

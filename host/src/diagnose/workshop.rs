@@ -58,24 +58,10 @@ impl<'a> Workshop<'a> {
         options: &Options,
         effort: &'a Effort<'a>,
     ) -> Self {
-        Workshop::over(Span::of(data, options), data, held_out, options, effort)
-    }
-
-    /// Prepares for runs over a span.
-    pub fn over(
-        span: Span,
-        data: &'a Data,
-        held_out: &'a Data,
-        options: &Options,
-        effort: &'a Effort<'a>,
-    ) -> Self {
-        let horizon = |data| match span.window_s {
-            Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
-            None => Horizon::Whole,
-        };
+        let span = Span::of(data, options);
         Workshop {
-            fitted_horizon: horizon(data),
-            held_out_horizon: horizon(held_out),
+            fitted_horizon: horizon(&span, data),
+            held_out_horizon: horizon(&span, held_out),
             span,
             floor: FLOOR_RMS_COUNTS,
             data,
@@ -86,6 +72,18 @@ impl<'a> Workshop<'a> {
                 ..options.method
             },
             effort,
+        }
+    }
+
+    /// The same for runs over another span.
+    #[must_use]
+    pub fn over(self, span: Span) -> Self {
+        Workshop {
+            fitted_horizon: horizon(&span, self.data),
+            held_out_horizon: horizon(&span, self.held_out),
+            span,
+            floor: FLOOR_RMS_COUNTS,
+            ..self
         }
     }
 
@@ -191,6 +189,14 @@ impl<'a> Workshop<'a> {
         let candidate = candidate_of(&self.beside_offset(&options).ok()?);
         let errors = scores::whole(self.data, &candidate, self.method).ok()?;
         Some((candidate.machine, rms_counts(self.data, &errors)))
+    }
+}
+
+/// How far models run along data on their own.
+fn horizon(span: &Span, data: &Data) -> Horizon {
+    match span.window_s {
+        Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
+        None => Horizon::Whole,
     }
 }
 

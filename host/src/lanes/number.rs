@@ -50,6 +50,17 @@ impl<T: Token, const M: usize> Lanes<T, M> {
         self
     }
 
+    /// `self + a·b`, the product not rounded before it is added: as [`f64::mul_add`].
+    #[inline(always)]
+    pub fn plus_product(mut self, a: Self, b: Self) -> Self {
+        for k in 0..M {
+            self.registers[k] =
+                self.token
+                    .mul_add_f64s(a.registers[k], b.registers[k], self.registers[k]);
+        }
+        self
+    }
+
     /// Numbers of each candidate from one number each of all of them, and the other way round.
     #[inline(always)]
     pub fn turned(rows: Square) -> [Self; LANES] {

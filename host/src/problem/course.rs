@@ -40,6 +40,19 @@ pub struct Leg {
     pub speed: f64,
 }
 
+/// The whole of the data for a candidate.
+pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Leg {
+    let angle = match start_angle {
+        StartAngle::Known => data.counts[0],
+        StartAngle::Free => data.centre(0) + candidate.start_offset,
+    };
+    Leg {
+        range: 0..data.len(),
+        angle,
+        speed: candidate.start_speed,
+    }
+}
+
 /// The legs of a horizon for a candidate.
 pub fn legs(
     data: &Data,
@@ -47,19 +60,12 @@ pub fn legs(
     horizon: &Horizon,
     start_angle: StartAngle,
 ) -> Vec<Leg> {
-    let whole = |angle| {
-        vec![Leg {
-            range: 0..data.len(),
-            angle,
-            speed: candidate.start_speed,
-        }]
-    };
     match horizon {
-        Horizon::Whole => whole(match start_angle {
-            StartAngle::Known => data.counts[0],
-            StartAngle::Free => data.centre(0) + candidate.start_offset,
-        }),
-        Horizon::Nudged(_) => whole(data.centre(0)),
+        Horizon::Whole => vec![whole(data, candidate, start_angle)],
+        Horizon::Nudged(_) => vec![Leg {
+            angle: data.centre(0),
+            ..whole(data, candidate, start_angle)
+        }],
         Horizon::Windows(windows) => {
             let leg = |window: &super::cost::Window| Leg {
                 range: window.range.clone(),

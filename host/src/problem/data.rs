@@ -49,13 +49,24 @@ impl Data {
     /// # Errors
     /// Bases that are not positive: no command, no motion, no samples.
     pub fn new(recording: &Recording) -> Result<Self, ModelError> {
+        Data::taken(recording.clone())
+    }
+
+    /// Lowers a recording where it is: one of an hour is as large as what it is lowered to.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn taken(recording: Recording) -> Result<Self, ModelError> {
         let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let supply = recording
             .supply_v
             .filter(|_| recording.drive == Drive::Voltage)
             .unwrap_or(largest);
         let first = recording.time_s.first().copied().unwrap_or(0.0);
-        let time_s: Vec<f64> = recording.time_s.iter().map(|t| t - first).collect();
+        let mut time_s = recording.time_s;
+        for time in &mut time_s {
+            *time -= first;
+        }
         let interval = median_interval(&time_s);
         let fastest = recording
             .counts
@@ -69,15 +80,20 @@ impl Data {
             recording.counts_per_rev,
         )?;
         let (lengths, length_of) = interval_lengths(&time_s, interval, fastest);
+        let mut command = recording.command;
+        for command in &mut command {
+            *command /= units.volts;
+        }
+        let mut open = recording.enabled;
+        for open in open.iter_mut().flatten() {
+            *open = !*open;
+        }
         Ok(Data {
-            source: recording.source.clone(),
-            command: recording.command.iter().map(|v| v / units.volts).collect(),
-            counts: recording.counts.clone(),
-            open: recording
-                .enabled
-                .as_ref()
-                .map(|on| on.iter().map(|on| !on).collect()),
-            current_a: recording.current_a.clone(),
+            source: recording.source,
+            command,
+            counts: recording.counts,
+            open,
+            current_a: recording.current_a,
             quantised: recording.quantised,
             drive: recording.drive,
             supply,

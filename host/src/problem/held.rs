@@ -1,90 +1,153 @@
 //! What a linear motor does while its command is held, at any sample, without the samples before.
 //!
-//! The state less where it tends to, `d`, then obeys `d(k+1) = (I + E)·d(k)`, so that the angle is a line and a
-//! transient, `θ(k) = level + slope·k + z(k)` with `z = P·d` and `P = T·E⁻¹`, `T` being what a step's angle takes of
-//! the state. Transients `s` samples apart obey
+//! With the state `x` at the first sample and the command `c`, the angle of the sample `k` behind it is
 //!
 //! ```text
-//! z(k+s) = tr·z(k) − det·z(k−s)
+//! θ(k) = θ(0) + a(k)·x + α(k)·c
 //! ```
 //!
-//! with trace and determinant of `(I + E)^s` (Cayley, Hamilton). So two products give an angle, whatever the modes,
-//! equal and complex ones too, and neighbouring samples do not wait for each other. Sums of the transient over
-//! samples follow from its ends: `Σ z = P·E⁻¹·(d(end) − d(start))`.
+//! and what `n` samples add to the state, to the angle and to the sum of the angles is of the same form. From `n` samples
+//! follows what `2·n` do. Nothing is divided by and no large numbers cancel, however slow the modes are, equal and complex ones
+//! too. All of it comes from the increments of the model's own step.
 //!
-//! All of it comes from the increments of the model's own step.
+//! Where a motor [settles](super::settling), less will do.
 
 use shared::model::Increments;
 
-/// Samples from a transient to the one that follows from it.
+/// Samples whose angles follow from one state.
 pub const STRIDE: usize = 32;
-/// Strides that are looked ahead.
+/// Strides of the longest span.
 pub const STRIDES: usize = 16;
-/// Doublings from a step to the longest map, of which shorter paths are put together.
-const DOUBLINGS: usize = 12;
-/// Which of them is a stride.
+/// Strides whose beginnings follow from one state.
+pub const BEGINS: usize = 8;
+/// Spans of 1, 2, 4 … samples.
+const SPANS: usize = (STRIDE * STRIDES).ilog2() as usize + 1;
+/// Which of them is a stride,
 const OF_STRIDE: usize = STRIDE.ilog2() as usize;
-/// Error of an angle that is allowed, counts. A motor whose modes are so slow that rounding might add up to more
-/// is left to plain steps.
-pub(super) const ANGLE_ERROR_COUNTS: f64 = 1e-7;
+/// and which as many as begin abreast.
+const OF_BEGINS: usize = OF_STRIDE + BEGINS.ilog2() as usize;
 
-type Pair = [f64; 2];
-type Matrix = [Pair; 2];
+type Abreast = [f64; BEGINS];
+pub(super) type Pair = [f64; 2];
+pub(super) type Matrix = [Pair; 2];
 
-fn dot(a: Pair, b: Pair) -> f64 {
+#[inline(always)]
+pub(super) fn dot(a: Pair, b: Pair) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn times(a: &Matrix, x: Pair) -> Pair {
+#[inline(always)]
+pub(super) fn times(a: &Matrix, x: Pair) -> Pair {
     [dot(a[0], x), dot(a[1], x)]
 }
 
 /// Row by matrix.
-fn across(x: Pair, a: &Matrix) -> Pair {
+#[inline(always)]
+pub(super) fn across(x: Pair, a: &Matrix) -> Pair {
     [
         x[0] * a[0][0] + x[1] * a[1][0],
         x[0] * a[0][1] + x[1] * a[1][1],
     ]
 }
 
-fn plus(a: Pair, b: Pair) -> Pair {
+#[inline(always)]
+pub(super) fn plus(a: Pair, b: Pair) -> Pair {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-fn determinant(a: &Matrix) -> f64 {
+pub(super) fn determinant(a: &Matrix) -> f64 {
     a[0][0] * a[1][1] - a[0][1] * a[1][0]
 }
 
-/// Increments of twice as many steps: `2·E + E²`, which keeps the digits of slow ones.
-fn twice(e: &Matrix) -> Matrix {
-    let doubled = |k: usize| {
-        let squared = across(e[k], e);
-        [2.0 * e[k][0] + squared[0], 2.0 * e[k][1] + squared[1]]
-    };
-    [doubled(0), doubled(1)]
+/// What so many samples under a held command add.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    /// Their number.
+    pub samples: f64,
+    /// To the state, by state and by command.
+    pub state: Matrix,
+    /// See [`state`](Self::state).
+    pub state_by_command: Pair,
+    /// To the angle, counts.
+    pub angle: Pair,
+    /// See [`angle`](Self::angle).
+    pub angle_by_command: f64,
+    /// To the sum of their angles above the first one's, counts.
+    sum: Pair,
+    sum_by_command: f64,
+}
+
+impl Span {
+    fn of_step(step: &Increments) -> Self {
+        Span {
+            samples: 1.0,
+            state: step.state,
+            state_by_command: step.state_by_command,
+            angle: step.angle,
+            angle_by_command: step.angle_by_command,
+            sum: [0.0; 2],
+            sum_by_command: 0.0,
+        }
+    }
+
+    /// Of twice as many samples. The second half starts where the first one ends: `2·E + E²` keeps the digits of slow modes.
+    #[inline(always)]
+    fn twice(&self) -> Self {
+        let e = &self.state;
+        let doubled = |row: Pair| {
+            let further = across(row, e);
+            [2.0 * row[0] + further[0], 2.0 * row[1] + further[1]]
+        };
+        let by = self.state_by_command;
+        let pushed = |row: Pair, push: f64| 2.0 * push + dot(row, by);
+        let sum = doubled(self.sum);
+        Span {
+            samples: 2.0 * self.samples,
+            state: [doubled(e[0]), doubled(e[1])],
+            state_by_command: [pushed(e[0], by[0]), pushed(e[1], by[1])],
+            angle: doubled(self.angle),
+            angle_by_command: pushed(self.angle, self.angle_by_command),
+            sum: [
+                sum[0] + self.samples * self.angle[0],
+                sum[1] + self.samples * self.angle[1],
+            ],
+            sum_by_command: pushed(self.sum, self.sum_by_command)
+                + self.samples * self.angle_by_command,
+        }
+    }
+
+    /// Where a command leads in so many samples.
+    #[inline(always)]
+    pub fn on(&self, Place { state, angle }: Place, command: f64) -> Place {
+        // In this order, since the next span waits for it.
+        let by = self.state_by_command.map(|by| by * command);
+        Place {
+            state: plus(plus(state, by), times(&self.state, state)),
+            angle: angle + (dot(self.angle, state) + self.angle_by_command * command),
+        }
+    }
+
+    /// What their angles sum to.
+    #[inline(always)]
+    fn summed(&self, Place { state, angle }: Place, command: f64) -> Summed {
+        let level = self.samples * angle;
+        let [by_current, by_speed] = self.sum;
+        let rises = [
+            by_current * state[0],
+            by_speed * state[1],
+            self.sum_by_command * command,
+        ];
+        let [current, speed, driven] = rises.map(f64::abs);
+        Summed {
+            sum: level + ((rises[0] + rises[1]) + rises[2]),
+            terms: level.abs() + ((current + speed) + driven),
+        }
+    }
 }
 
 /// A linear motor, ready to be held.
 pub struct Held {
-    increments: Increments,
-    /// `E` of 1, 2, 4 … steps.
-    maps: [Matrix; DOUBLINGS],
-    /// Inverse of the first.
-    inverse: Matrix,
-    /// Transient by state.
-    transient: Pair,
-    /// Sum of the transient by state.
-    summed: Pair,
-    /// Transient after each of the samples of a stride by the state at its start.
-    ahead: [[f64; STRIDE]; 2],
-    /// Largest magnitude of each of these.
-    most: Pair,
-    /// Trace and determinant of the map of a stride.
-    pub trace: f64,
-    /// See [`trace`](Self::trace).
-    pub determinant: f64,
-    /// What a rounding of the transient grows to, at most.
-    growth: f64,
+    spans: [Span; SPANS],
 }
 
 /// Where a motor is.
@@ -96,173 +159,170 @@ pub struct Place {
     pub angle: f64,
 }
 
-/// What a held command makes of a motor: its angle as a line and a transient.
-#[derive(Clone, Copy, Debug)]
-pub struct Path {
-    /// Where the line begins, counts.
-    pub level: f64,
-    /// How it rises with each sample, counts.
-    pub slope: f64,
-    /// Where the state tends to.
-    rest: Pair,
-    /// The state less that, at the start.
-    pub off: Pair,
+/// The sum of the angles of some samples, counts, and how large what was added up is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Summed {
+    /// The sum.
+    pub sum: f64,
+    /// Magnitudes of its terms.
+    pub terms: f64,
+}
+
+/// Angles of the samples of a stride above that of the first, counts.
+#[derive(Clone, Copy)]
+pub struct Ahead {
+    /// By current and by speed at the first.
+    pub by_state: [[f64; STRIDE]; 2],
+    /// By the command.
+    pub by_command: [f64; STRIDE],
+}
+
+/// What the first strides add, from none of them on: a motor's place where each begins.
+pub struct Begins {
+    /// To the state, by state and by command.
+    pub state: [[Abreast; 2]; 2],
+    /// See [`state`](Self::state).
+    pub state_by_command: [Abreast; 2],
+    /// To the angle, counts.
+    pub angle: [Abreast; 2],
+    /// See [`angle`](Self::angle).
+    pub angle_by_command: Abreast,
 }
 
 impl Held {
-    /// `None` for motors that do not settle.
-    pub fn new(increments: Increments) -> Option<Self> {
-        let e = increments.state;
-        let det = determinant(&e);
-        let inverse = [
-            [e[1][1] / det, -e[0][1] / det],
-            [-e[1][0] / det, e[0][0] / det],
-        ];
-        let mut maps = [e; DOUBLINGS];
-        for k in 1..DOUBLINGS {
-            maps[k] = twice(&maps[k - 1]);
-        }
-        let of_stride = maps[OF_STRIDE];
-        let by_trace = of_stride[0][0] + of_stride[1][1];
-        let gap = determinant(&of_stride);
+    /// `None` for motors whose modes grow.
+    // Inlined, as what it makes is large to be handed on.
+    #[inline(always)]
+    pub fn new(step: &Increments) -> Option<Self> {
+        let mut span = Span::of_step(step);
+        let spans: [Span; SPANS] = std::array::from_fn(|doubling| {
+            if doubling > 0 {
+                span = span.twice();
+            }
+            span
+        });
+        let stride = &spans[OF_STRIDE].state;
+        let by_trace = stride[0][0] + stride[1][1];
+        let gap = determinant(stride);
         let determinant = 1.0 + by_trace + gap;
         // Both modes within the unit circle; infinities and NaN are not.
         let settles = gap > 0.0 && determinant < 1.0 && 2.0 + by_trace + determinant > -1.0;
-        if !(settles && det.abs() > f64::MIN_POSITIVE) {
-            return None;
-        }
-        let transient = across(increments.angle, &inverse);
-        // Sum of the stride's impulse response: exact for real modes, a bound for complex ones.
-        let growth = 1.0 / gap.min((1.0 - determinant.max(0.0).sqrt()).powi(2));
-        let mut held = Held {
-            increments,
-            maps,
-            inverse,
-            transient,
-            summed: across(transient, &inverse),
-            ahead: [[0.0; STRIDE]; 2],
-            most: [0.0; 2],
-            trace: 2.0 + by_trace,
-            determinant,
-            growth,
-        };
-        held.look_ahead();
-        Some(held)
+        settles.then_some(Held { spans })
     }
 
-    fn look_ahead(&mut self) {
-        [self.ahead[0][0], self.ahead[1][0]] = self.transient;
-        let [by_current, by_speed] = &mut self.ahead;
-        for (doubling, map) in self.maps.iter().enumerate().take(OF_STRIDE) {
-            let known = 1 << doubling;
-            let (near, far) = by_current.split_at_mut(known);
-            let (near_speed, far_speed) = by_speed.split_at_mut(known);
-            for k in 0..known {
-                let row = [near[k], near_speed[k]];
-                let row = plus(row, across(row, map));
-                [far[k], far_speed[k]] = row;
-            }
-        }
-        self.most = self
-            .ahead
-            .map(|row| row.iter().fold(0.0, |most, x| x.abs().max(most)));
+    /// Of a step.
+    pub fn step(&self) -> &Span {
+        &self.spans[0]
     }
 
-    /// Bound of the transients of a stride that begins in a state, counts.
+    /// Of a stride.
     #[inline(always)]
-    pub fn largest(&self, off: Pair) -> f64 {
-        (self.most[0] * off[0]).abs() + (self.most[1] * off[1]).abs()
+    pub fn stride(&self) -> &Span {
+        &self.spans[OF_STRIDE]
     }
 
-    /// The path from a place under a command; `None` where rounding may tell.
-    pub fn path(&self, from: &Place, command: f64) -> Option<Path> {
-        let pushed = self.increments.state_by_command.map(|by| by * command);
-        let rest = times(&self.inverse, pushed).map(|x| -x);
-        let off = [from.state[0] - rest[0], from.state[1] - rest[1]];
-        let terms = (self.transient[0] * off[0]).abs() + (self.transient[1] * off[1]).abs();
-        let rounding = 4.0 * f64::EPSILON * terms * self.growth;
-        // A NaN is not below it either.
-        (rounding < ANGLE_ERROR_COUNTS).then(|| Path {
-            level: from.angle - dot(self.transient, off),
-            slope: dot(self.increments.angle, rest) + self.increments.angle_by_command * command,
-            rest,
-            off,
-        })
+    /// Of as many strides as begin abreast.
+    #[inline(always)]
+    pub fn abreast(&self) -> &Span {
+        &self.spans[OF_BEGINS]
     }
 
-    /// The state less where it tends to, so many samples on.
-    pub fn on(&self, off: Pair, samples: usize) -> Pair {
-        let (last, longest) = (&self.maps[DOUBLINGS - 1], 1 << (DOUBLINGS - 1));
-        let mut off = off;
-        for _ in 0..samples / longest {
-            off = plus(off, times(last, off));
+    /// The spans from a stride on.
+    pub fn strides(&self) -> &[Span] {
+        &self.spans[OF_STRIDE..]
+    }
+
+    /// Where a command leads in so many samples, and what their angles sum to.
+    #[inline(always)]
+    pub fn lead(&self, from: Place, command: f64, samples: usize) -> (Place, Summed) {
+        let (mut place, mut summed) = (from, Summed::default());
+        let mut go = |span: &Span| {
+            let some = span.summed(place, command);
+            summed.sum += some.sum;
+            summed.terms += some.terms;
+            place = span.on(place, command);
+        };
+        let longest = SPANS - 1;
+        for _ in 0..samples >> longest {
+            go(&self.spans[longest]);
         }
-        let mut rest = samples % longest;
+        let mut rest = samples % (1 << longest);
         while rest > 0 {
-            off = plus(off, times(&self.maps[rest.trailing_zeros() as usize], off));
+            go(&self.spans[rest.trailing_zeros() as usize]);
             rest &= rest - 1;
         }
-        off
+        (place, summed)
     }
 
-    /// Of the state less where it tends to, what its current and its speed have at the start of each of so many strides, by
-    /// current and by speed at the start of the first: `[[current by current, by speed], [speed by current, by speed]]`.
-    pub fn at_strides(&self) -> [[[f64; STRIDES]; 2]; 2] {
-        let mut at = [[[0.0; STRIDES]; 2]; 2];
-        (at[0][0][0], at[1][1][0]) = (1.0, 1.0);
-        for (doubling, map) in self.maps[OF_STRIDE..].iter().enumerate() {
+    /// The angles of a stride.
+    #[inline(always)]
+    pub fn ahead(&self) -> Ahead {
+        let mut ahead = Ahead {
+            by_state: [[0.0; STRIDE]; 2],
+            by_command: [0.0; STRIDE],
+        };
+        for (doubling, span) in self.spans[..OF_STRIDE].iter().enumerate() {
+            further(
+                span,
+                1 << doubling,
+                &mut ahead.by_state,
+                &mut ahead.by_command,
+                span.angle,
+                span.angle_by_command,
+            );
+        }
+        ahead
+    }
+
+    /// Where strides begin.
+    #[inline(always)]
+    pub fn begins(&self) -> Begins {
+        let none = [0.0; BEGINS];
+        let mut begins = Begins {
+            state: [[none; 2]; 2],
+            state_by_command: [none; 2],
+            angle: [none; 2],
+            angle_by_command: none,
+        };
+        for (doubling, span) in self.spans[OF_STRIDE..OF_BEGINS].iter().enumerate() {
             let known = 1 << doubling;
-            if known >= STRIDES {
-                break;
+            for k in 0..2 {
+                let (rows, by) = (&mut begins.state[k], &mut begins.state_by_command[k]);
+                further(
+                    span,
+                    known,
+                    rows,
+                    by,
+                    span.state[k],
+                    span.state_by_command[k],
+                );
             }
-            for [by_current, by_speed] in &mut at {
-                for k in 0..known {
-                    let row = [by_current[k], by_speed[k]];
-                    [by_current[known + k], by_speed[known + k]] = plus(row, across(row, map));
-                }
-            }
+            let (rows, by) = (&mut begins.angle, &mut begins.angle_by_command);
+            further(span, known, rows, by, span.angle, span.angle_by_command);
         }
-        at
+        begins
     }
+}
 
-    /// Largest magnitudes in [`ahead`](Self::ahead).
-    #[inline(always)]
-    pub fn most(&self) -> [f64; 2] {
-        self.most
-    }
-
-    /// Transient after each of the samples of a stride by the state, less where it tends to, at its start: counts per unit of
-    /// current and of speed.
-    #[inline(always)]
-    pub fn ahead(&self) -> [&[f64; STRIDE]; 2] {
-        self.ahead.each_ref()
-    }
-
-    /// Where a path ends after so many samples, `off` being its state there.
-    pub fn end(&self, path: &Path, samples: usize, off: Pair) -> Place {
-        Place {
-            state: plus(path.rest, off),
-            angle: path.level + path.slope * samples as f64 + dot(self.transient, off),
-        }
-    }
-
-    /// Sum of the transient from one state of a path to another, and how large what was added up is.
-    pub fn sum(&self, from: Pair, to: Pair) -> (f64, f64) {
-        let terms = |x: Pair| (self.summed[0] * x[0]).abs() + (self.summed[1] * x[1]).abs();
-        (
-            dot(self.summed, to) - dot(self.summed, from),
-            terms(from) + terms(to),
-        )
-    }
-
-    /// Transient at each sample of the stride that begins in a state.
-    #[inline(always)]
-    pub fn transients(&self, off: Pair) -> [f64; STRIDE] {
-        // Not `from_fn`, which was not inlined.
-        let mut transients = [0.0; STRIDE];
-        for (k, transient) in transients.iter_mut().enumerate() {
-            *transient = self.ahead[0][k] * off[0] + self.ahead[1][k] * off[1];
-        }
-        transients
+/// Doubles a table of what so many spans of a length add to something, `added` by state and `driven` by command being what
+/// as many of them add as are known: those, and then the others.
+#[inline(always)]
+fn further<const N: usize>(
+    span: &Span,
+    known: usize,
+    [by_current, by_speed]: &mut [[f64; N]; 2],
+    by_command: &mut [f64; N],
+    added: Pair,
+    driven: f64,
+) {
+    let (current, current_on) = by_current.split_at_mut(known);
+    let (speed, speed_on) = by_speed.split_at_mut(known);
+    let (command, command_on) = by_command.split_at_mut(known);
+    for k in 0..known {
+        let row = [current[k], speed[k]];
+        let more = across(row, &span.state);
+        current_on[k] = added[0] + (row[0] + more[0]);
+        speed_on[k] = added[1] + (row[1] + more[1]);
+        command_on[k] = driven + (command[k] + dot(row, span.state_by_command));
     }
 }

@@ -13,6 +13,7 @@ pub mod data;
 pub mod held;
 mod nearby;
 pub mod quick;
+mod settling;
 pub mod simulate;
 mod spread;
 pub mod unknowns;

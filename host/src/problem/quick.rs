@@ -1,9 +1,9 @@
 //! The cost of a linear motor whose commands are held for long: many samples at a time, and no more of them than
 //! show that the cost is above a limit.
 //!
-//! Samples side by side in lanes go through [`held`](super::held)'s recurrence. Where the transient has died away
-//! only the line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
-//! that follows from the block's ends. Whoever only compares costs loses nothing by it. Sums in single precision come
+//! The angles of [`held`](super::held)'s strides come side by side in lanes. Where the transient has died away
+//! only a line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
+//! that follows from where the block begins. Whoever only compares costs loses nothing by it. Sums in single precision come
 //! with bounds, between which the cost lies.
 
 mod bounds;
@@ -13,28 +13,31 @@ mod sum;
 
 use super::compress::Compress;
 use super::cost::reading_shift;
-use super::course::legs;
+use super::course::whole;
 use super::data::Data;
-use super::held::{Held, Path, Place, STRIDE};
+use super::held::{Ahead, Held, Place, STRIDE, STRIDES, Summed};
+use super::settling::Settling;
 use super::simulate::Candidate;
 use super::{FitProblem, Horizon, StartAngle};
 use crate::solve::{Compressed, Objective, Tangent};
 use bounds::Bounds;
-use errors::errors;
+use errors::{Motion, errors};
 use rebased::Rebased;
 use shared::cost::Cost;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
-use shared::model::{Increments, Plan};
+use shared::model::Increments;
 use std::ops::{Range, RangeInclusive};
 use sum::{Floored, Plain, Squares, Sum};
 
 /// Fewest samples that a command must be held for, on average.
 const HELD: usize = 2 * STRIDE;
 /// Samples of a block.
-const BLOCK: usize = 512;
+const BLOCK: usize = STRIDE * STRIDES;
 /// Rounding of a sum of a block, as a part of what is added up.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// The same of a whole cost.
+/// Most that an angle which is summed may lack of a transient that has died away, counts, and what rounding loses of a line.
+const LEFT_OUT_COUNTS: f64 = 1e-9;
+/// Rounding of a whole cost, as a part of it.
 const SLACK: f64 = 1e-9;
 
 /// A problem with a quicker cost.
@@ -50,19 +53,14 @@ pub struct Quick<'a> {
 struct Block {
     range: Range<usize>,
     command: f64,
-    /// Whether the command was another before.
-    begins: bool,
     /// Sum of the readings.
     readings: f64,
 }
 
-/// A block of a motor's path.
+/// A block of a motor's course.
 struct Piece {
-    path: Path,
-    /// Samples from the path's start to the block's.
-    after: usize,
-    /// The state less where it tends to, at the block's start.
-    off: [f64; 2],
+    /// Where it begins.
+    place: Place,
     /// The block costs no less.
     least: f64,
 }
@@ -78,10 +76,7 @@ impl<'a> Quick<'a> {
         };
         let even = data.lengths == [1.0] && !data.coasts() && problem.horizon == Horizon::Whole;
         let apt = summed && even && problem.structure.effects.is_empty();
-        let blocks = apt.then(|| blocks(data)).filter(|blocks| {
-            let stretches = blocks.iter().filter(|block| block.begins).count();
-            data.len() >= HELD * stretches
-        });
+        let blocks = apt.then(|| blocks(data)).flatten();
         let magnitudes = problem.cost
             == Cost::Absolute {
                 model_floored: false,
@@ -118,9 +113,11 @@ impl<'a> Quick<'a> {
             return None;
         }
         let (held, pieces, _) = self.course(candidate, f64::INFINITY)?;
+        let settling = Settling::new(&held, &held.ahead())?;
         let bounds = Bounds {
             rebased: &self.rebased,
             held: &held,
+            settling: &settling,
             blocks: self.blocks.as_ref()?,
             pieces: &pieces,
         };
@@ -134,26 +131,24 @@ impl<'a> Quick<'a> {
             .unwrap_or_else(|| self.problem.cost_of(candidate))
     }
 
-    /// The motor and its path, as far as needed to see that the cost, without its weight, is above `limit`; and what it
+    /// The motor and its course, as far as needed to see that the cost, without its weight, is above `limit`; and what it
     /// costs at least. `None` where it must be run sample by sample.
+    // Inlined, as a motor is large to be handed on.
+    #[inline(always)]
     fn course(&self, candidate: &Candidate, limit: f64) -> Option<(Held, Vec<Piece>, f64)> {
         let blocks = self.blocks.as_ref()?;
         let problem = self.problem;
         let data = problem.data;
         // A model that cannot run says so where it is summed sample by sample.
-        let plan = Plan {
-            discretisation: problem.method.discretisation,
-            ..Plan::linear(candidate.machine, data.units)
-        };
-        let held = Held::new(Increments::new(&plan).ok()?)?;
-        let [leg] = &legs(data, candidate, &problem.horizon, problem.start_angle)[..] else {
-            return None;
-        };
+        let discretisation = problem.method.discretisation;
+        let step = Increments::of(&candidate.machine, &data.units, discretisation).ok()?;
+        let held = Held::new(&step)?;
+        let leg = whole(data, candidate, problem.start_angle);
         let start = Place {
             state: [0.0, leg.speed / data.units.speed],
             angle: leg.angle + reading_shift(data),
         };
-        let (pieces, least) = self.pieces(blocks, &held, start, limit)?;
+        let (pieces, least) = self.pieces(blocks, &held, start, limit);
         Some((held, pieces, least))
     }
 
@@ -194,67 +189,34 @@ impl<'a> Quick<'a> {
         sum.is_finite().then_some(sum * problem.weight)
     }
 
-    /// The pieces of a motor's path, as far as needed to see that the cost is above `limit`, and the least cost.
-    fn pieces(
-        &self,
-        blocks: &[Block],
-        held: &Held,
-        start: Place,
-        limit: f64,
-    ) -> Option<(Vec<Piece>, f64)> {
+    /// The pieces of a motor's course, as far as needed to see that the cost is above `limit`, and the least cost.
+    fn pieces(&self, blocks: &[Block], held: &Held, start: Place, limit: f64) -> (Vec<Piece>, f64) {
         let mut pieces: Vec<Piece> = Vec::with_capacity(blocks.len());
-        let mut total = 0.0;
-        let (mut place, mut path, mut off, mut after) = (start, None, [0.0; 2], 0);
+        let (mut place, mut total) = (start, 0.0);
         for block in blocks {
-            if block.begins {
-                if let Some(path) = &path {
-                    place = held.end(path, after, off);
-                }
-                let next = held.path(&place, block.command)?;
-                (off, after) = (next.off, 0);
-                path = Some(next);
-            }
-            let current = path?;
-            let samples = block.range.len();
-            let to = held.on(off, samples);
-            let least = self.least(block, held, &current, after, off, to);
+            let (to, summed) = held.lead(place, block.command, block.range.len());
+            let least = self.least(block, summed);
             total += least;
-            pieces.push(Piece {
-                path: current,
-                after,
-                off,
-                least,
-            });
+            pieces.push(Piece { place, least });
             if total * (1.0 - SLACK) > limit {
                 break;
             }
-            (off, after) = (to, after + samples);
+            place = to;
         }
-        Some((pieces, total))
+        (pieces, total)
     }
 
     /// A block costs at least this: its errors' sum, however they are spread.
-    fn least(
-        &self,
-        block: &Block,
-        held: &Held,
-        path: &Path,
-        after: usize,
-        off: [f64; 2],
-        to: [f64; 2],
-    ) -> f64 {
+    fn least(&self, block: &Block, angles: Summed) -> f64 {
         let Cost::Absolute { model_floored } = self.problem.cost else {
             return 0.0;
         };
         let samples = block.range.len() as f64;
-        let places = samples * (after as f64 + 0.5 * (samples - 1.0));
-        let (transients, terms) = held.sum(off, to);
-        let (levels, rises) = (path.level * samples, path.slope * places);
-        let sum = levels + rises + transients - block.readings;
-        let terms = terms + levels.abs() + rises.abs() + block.readings.abs();
+        let sum = angles.sum - block.readings;
+        let lost = ROUNDING * (angles.terms + block.readings.abs()) + LEFT_OUT_COUNTS * samples;
         // Rounded down, an error is less by up to one.
         let above = if model_floored { sum - samples } else { sum };
-        (above.max(-sum) - ROUNDING * terms).max(0.0)
+        (above.max(-sum) - lost).max(0.0)
     }
 }
 
@@ -304,11 +266,22 @@ impl Quick<'_> {
             .collect::<Option<_>>()?;
         let zero = (problem.start_angle == StartAngle::Known).then_some(FLOOR_OFFSET_COUNTS);
         let mut compress = Compress::new(candidates.len() - 1, zero);
+        let aheads: Vec<Ahead> = courses.iter().map(|(held, ..)| held.ahead()).collect();
         let mut some = vec![[0.0; BLOCK]; candidates.len()];
         for (number, block) in self.blocks.as_ref()?.iter().enumerate() {
             let readings = &problem.data.counts[block.range.clone()];
-            for ((held, pieces, _), some) in courses.iter().zip(&mut some) {
-                errors(held, &pieces[number], readings, &mut some[..readings.len()]);
+            for (((held, pieces, _), ahead), some) in courses.iter().zip(&aheads).zip(&mut some) {
+                let motion = Motion {
+                    stride: held.stride(),
+                    ahead,
+                    command: block.command,
+                };
+                errors(
+                    &motion,
+                    pieces[number].place,
+                    readings,
+                    &mut some[..readings.len()],
+                );
             }
             let (here, others) = some.split_at_mut(1);
             let here = &here[0][..readings.len()];
@@ -340,9 +313,10 @@ impl Compressed for Quick<'_> {
     }
 }
 
-fn blocks(data: &Data) -> Vec<Block> {
+/// The blocks of data whose commands are held; `None` where they change too often.
+fn blocks(data: &Data) -> Option<Vec<Block>> {
     let mut blocks = Vec::new();
-    let mut from = 0;
+    let (mut from, mut stretches) = (0, 0);
     while from < data.len() {
         let command = data.command[from];
         let held = data.command[from..].iter().take_while(|c| **c == command);
@@ -352,11 +326,11 @@ fn blocks(data: &Data) -> Vec<Block> {
             blocks.push(Block {
                 readings: data.counts[range.clone()].iter().sum(),
                 command,
-                begins: begin == from,
                 range,
             });
         }
+        stretches += 1;
         from = to;
     }
-    blocks
+    (data.len() >= HELD * stretches).then_some(blocks)
 }

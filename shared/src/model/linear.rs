@@ -1,8 +1,11 @@
 //! The step of a motor without effects as what it is: a linear map. For those who take many steps at once.
 
 use super::Plan;
-use super::rung::rung;
+use super::rung::{driven, shortest};
+use crate::discretise::{Discretisation, lower};
 use crate::error::ModelError;
+use crate::motor::Machine;
+use crate::units::PerUnit;
 
 /// What a step with the bridge closed adds to the state, per unit; to the angle, counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,22 +28,48 @@ impl Increments {
     /// # Errors
     /// Those of the model.
     pub fn new(plan: &Plan<f64>) -> Result<Self, ModelError> {
-        plan.machine.check()?;
-        let machine = plan.machine.lower(&plan.units);
-        let rung = rung::<f64, f64>(&machine, 1.0, plan.discretisation)?;
-        let [current, speed, angle] = rung.increments();
-        let counts = plan.units.counts_per_unit();
-        let [by_current, by_speed, by_command, _] = angle.map(|by| by * counts);
-        let [current_by_torque, speed_by_torque, angle_by_torque] = rung.by_torque(1.0);
+        Self::of(&plan.machine, &plan.units, plan.discretisation)
+    }
+
+    /// The same of a machine.
+    ///
+    /// # Errors
+    /// Those of a model of it.
+    pub fn of(
+        machine: &Machine<f64>,
+        units: &PerUnit<f64>,
+        how: Discretisation,
+    ) -> Result<Self, ModelError> {
+        machine.check()?;
+        // Of a rung's maps, only the one that a closed bridge needs: searches come here with every candidate.
+        let (machine, lengths) = shortest(&machine.lower(units), 1.0, 0, how);
+        let map = driven(&machine, lengths[0]).step(lengths[0], how)?;
+        let [current, speed] = map.states;
+        let [current_by, speed_by] = map.inputs;
+        let (angle, angle_by) = (map.angle_by_states, map.angle_by_inputs);
+        let all = [current, speed, current_by, speed_by, angle, angle_by];
+        for (name, [a, b]) in NAMES.into_iter().zip(all) {
+            lower::<f64, f64>(name, &mut [0.0; 2], &[a, b])?;
+        }
+        let counts = units.counts_per_unit();
         Ok(Increments {
-            state: [[current[0], current[1]], [speed[0], speed[1]]],
-            state_by_command: [current[2], speed[2]],
-            angle: [by_current, by_speed],
-            angle_by_command: by_command,
-            by_torque: [current_by_torque, speed_by_torque, angle_by_torque * counts],
+            state: [current, speed],
+            state_by_command: [current_by[0], speed_by[0]],
+            angle: angle.map(|by| by * counts),
+            angle_by_command: angle_by[0] * counts,
+            by_torque: [current_by[1], speed_by[1], angle_by[1] * counts],
         })
     }
 }
+
+const NAMES: [&str; 6] = [
+    "current increment",
+    "speed increment",
+    "current increment",
+    "speed increment",
+    "angle increment",
+    "angle increment",
+];
 
 #[cfg(test)]
 mod tests {

@@ -100,17 +100,28 @@ fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, ALONE, ALONE> {
     system
 }
 
+/// A motor with the bridge closed, over `length` intervals: current and speed by voltage and a torque against it.
+#[inline(always)]
+pub fn driven<R: Real>(machine: &Machine<R>, length: R) -> LinearSystem<R, 2, 2> {
+    let zero = R::zero();
+    let rate = length / machine.electrical;
+    let push = length / machine.inertia;
+    LinearSystem {
+        states: [
+            [-rate, -(machine.kb * rate)],
+            [push, -(machine.damping * push)],
+        ],
+        inputs: [[rate, zero], [zero, -push]],
+        speed: 1,
+    }
+}
+
 impl<R: Real> Maps<R> {
     fn new(machine: &Machine<R>, length: R, how: Discretisation) -> Result<Self, ModelError> {
-        let zero = R::zero();
         let rate = length / machine.electrical;
         let push = length / machine.inertia;
         let drag = machine.damping * push;
-        let driven = LinearSystem {
-            states: [[-rate, -(machine.kb * rate)], [push, -drag]],
-            inputs: [[rate, zero], [zero, -push]],
-            speed: 1,
-        };
+        let driven = driven(machine, length);
         Ok(Maps {
             driven: driven.step(length, how)?,
             coast: alone(-drag, -push).step(length, how)?,
@@ -200,18 +211,6 @@ pub fn shortest<R: Real>(
         machine.electrical = machine.electrical.max(fastest);
     }
     (machine, lengths)
-}
-
-/// The maps of a step of `step` intervals alone.
-pub fn rung<S: Scalar, R: Real>(
-    machine: &Machine<R>,
-    step: R,
-    how: Discretisation,
-) -> Result<Rung<S>, ModelError> {
-    let mut rung = Rung::of(S::Coefficient::default());
-    let (machine, lengths) = shortest(machine, step, 0, how);
-    Maps::new(&machine, lengths[0], how)?.lower(&mut rung)?;
-    Ok(rung)
 }
 
 /// The maps of a step of `step` intervals and of its halvings down to `depth` (the rest repeats the

@@ -21,7 +21,8 @@ use super::rebased::{ROUNDING, Rebased};
 use super::sum::SETTLED_COUNTS;
 use super::{BLOCK, Block, Piece, SLACK};
 use crate::lanes::{LANES, SINGLES, Singles, Token, Work, work};
-use crate::problem::held::{ANGLE_ERROR_COUNTS, Held, Path, STRIDE, STRIDES};
+use crate::problem::held::{Held, STRIDE, STRIDES};
+use crate::problem::settling::{ANGLE_ERROR_COUNTS, Path, Settling};
 use std::ops::RangeInclusive;
 
 /// Registers to a stride.
@@ -40,6 +41,8 @@ pub(super) struct Bounds<'s> {
     pub(super) rebased: &'s [Rebased],
     /// The motor.
     pub(super) held: &'s Held,
+    /// What it tends to.
+    pub(super) settling: &'s Settling,
     /// Where commands are held,
     pub(super) blocks: &'s [Block],
     /// and the motor's path there.
@@ -50,7 +53,7 @@ impl Bounds<'_> {
     /// The least and the greatest that the sum of magnitudes may be, as the run in double precision has it. `None` where there
     /// are no lanes, or what is summed does not fit single precision.
     pub(super) fn of_magnitudes(&self) -> Option<RangeInclusive<f64>> {
-        let [least, most] = work(Bounding(self))?;
+        let [least, most] = work(Bounding(self))??;
         (least.is_finite() && most.is_finite()).then_some(least..=most)
     }
 }
@@ -58,30 +61,31 @@ impl Bounds<'_> {
 struct Bounding<'r, 's>(&'r Bounds<'s>);
 
 impl Work for Bounding<'_, '_> {
-    type Output = [f64; 2];
+    type Output = Option<[f64; 2]>;
 
     #[inline(always)]
-    fn run<T: Token, const M: usize>(self) -> [f64; 2] {
+    fn run<T: Token, const M: usize>(self) -> Option<[f64; 2]> {
         let run = self.0;
         let zero = Singles::<T, M>::zero();
-        let [by_current, by_speed] = run.held.ahead();
+        let [by_current, by_speed] = run.settling.ahead();
         let motion = Motion {
             ahead: [
                 rows(zero, &singles(by_current)),
                 rows(zero, &singles(by_speed)),
             ],
-            most: run.held.most(),
-            at_strides: run.held.at_strides(),
+            most: run.settling.most(),
+            at_strides: run.settling.at_strides(run.held),
         };
         let (mut least, mut most) = (0.0, 0.0);
         let pieces = run.pieces.iter().zip(run.rebased);
         for ((piece, rebased), block) in pieces.zip(run.blocks) {
-            let (sum, off) = run.block(block.range.len(), piece, rebased, &motion);
+            let path = run.settling.path(&piece.place, block.command)?;
+            let (sum, off) = run.block(block.range.len(), path, rebased, &motion);
             // A NaN stays one.
             least += (sum - off) * (1.0 - SLACK);
             most += (sum + off) * (1.0 + SLACK);
         }
-        [least, most]
+        Some([least, most])
     }
 }
 
@@ -239,18 +243,21 @@ impl Bounds<'_> {
     fn block<T: Token, const M: usize>(
         &self,
         samples: usize,
-        piece: &Piece,
+        path: Path,
         rebased: &Rebased,
         motion: &Motion<T, M>,
     ) -> (f64, f64) {
-        let Path { level, slope, .. } = piece.path;
-        let begin = level + slope * piece.after as f64;
+        let Path {
+            level: begin,
+            slope,
+            off,
+        } = path;
         let line = Line {
             begin: begin - rebased.level,
             rise: slope - rebased.slope,
         };
-        let settled = self.held.largest(piece.off) < SETTLED_COUNTS;
-        let off = if settled { [0.0; 2] } else { piece.off };
+        let settled = self.settling.largest(off) < SETTLED_COUNTS;
+        let off = if settled { [0.0; 2] } else { off };
         let strides = Strides {
             ramp: rows(motion.ahead[0][0], &line.ramp()),
             ahead: &motion.ahead,

@@ -1,36 +1,47 @@
 //! The errors of a block of samples, a stride at a time.
 
-use super::Piece;
 use crate::lanes::with_vectors;
-use crate::problem::held::{Held, Path, STRIDE};
+use crate::problem::held::{Ahead, Place, STRIDE, Span};
 
-/// Model minus reading at each of the samples of a block, counts.
-pub(super) fn errors(held: &Held, piece: &Piece, readings: &[f64], errors: &mut [f64]) {
+/// A motor under a command.
+pub(super) struct Motion<'m> {
+    /// What a stride adds.
+    pub(super) stride: &'m Span,
+    /// The angles in it.
+    pub(super) ahead: &'m Ahead,
+    /// The command.
+    pub(super) command: f64,
+}
+
+/// Model minus reading at each of the samples of a block that begins at a place, counts.
+pub(super) fn errors(motion: &Motion<'_>, place: Place, readings: &[f64], errors: &mut [f64]) {
     with_vectors(
         #[inline(always)]
-        || of_block(held, piece, readings, errors),
+        || of_block(motion, place, readings, errors),
     );
 }
 
 #[inline(always)]
-fn of_block(held: &Held, piece: &Piece, readings: &[f64], errors: &mut [f64]) {
-    let Path { level, slope, .. } = piece.path;
-    let begin = level + slope * piece.after as f64;
-    let mut line: [f64; STRIDE] = std::array::from_fn(|k| begin + slope * k as f64);
-    let rise = slope * STRIDE as f64;
-    let mut now = held.transients(piece.off);
-    let mut next = held.transients(held.on(piece.off, STRIDE));
+fn of_block(motion: &Motion<'_>, mut place: Place, readings: &[f64], errors: &mut [f64]) {
+    let (ahead, command) = (motion.ahead, motion.command);
+    let [by_current, by_speed] = &ahead.by_state;
+    let mut driven = ahead.by_command;
+    for driven in &mut driven {
+        *driven *= command;
+    }
     let (strides, rest) = errors.as_chunks_mut::<STRIDE>();
     let (read, last) = readings.as_chunks::<STRIDE>();
     for (errors, readings) in strides.iter_mut().zip(read) {
+        let Place { state, angle } = place;
         for k in 0..STRIDE {
-            errors[k] = (line[k] - readings[k]) + now[k];
-            let later = next[k] * held.trace - now[k] * held.determinant;
-            (now[k], next[k]) = (next[k], later);
-            line[k] += rise;
+            let turned = by_current[k] * state[0] + by_speed[k] * state[1];
+            errors[k] = ((driven[k] + angle) - readings[k]) + turned;
         }
+        place = motion.stride.on(place, command);
     }
+    let Place { state, angle } = place;
     for (k, (error, reading)) in rest.iter_mut().zip(last).enumerate() {
-        *error = (line[k] - reading) + now[k];
+        let turned = by_current[k] * state[0] + by_speed[k] * state[1];
+        *error = ((driven[k] + angle) - reading) + turned;
     }
 }

@@ -3,7 +3,8 @@
 use super::{Block, Piece, SLACK};
 use crate::lanes::{LANES, Lanes, Token, Work, work};
 use crate::problem::data::Data;
-use crate::problem::held::{Held, Path, STRIDE};
+use crate::problem::held::{BEGINS, Begins, Held, Place, STRIDE};
+use crate::problem::settling::Settling;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::scalar::Scalar;
 
@@ -87,36 +88,45 @@ impl<C: Summand> Work for Summing<'_, '_, C> {
     #[inline(always)]
     fn run<T: Token, const M: usize>(self) -> [f64; 2] {
         let run = self.0;
-        let mut sums = [[Lanes::<T, M>::default(); 2]; ROWS];
+        let zero = Lanes::<T, M>::default();
+        let mut sums = [[zero; 2]; ROWS];
+        let ahead = run.held.ahead();
+        let motion = Motion {
+            zero,
+            by_current: rows(zero, &ahead.by_state[0]),
+            by_speed: rows(zero, &ahead.by_state[1]),
+            by_command: rows(zero, &ahead.by_command),
+            begins: Abreast::new(zero, &run.held.begins()),
+            settling: Settling::new(run.held, &ahead),
+        };
         let mut rest = run.least;
-        let mut odd = [0.0; 2];
         for (block, piece) in run.blocks.iter().zip(run.pieces) {
             let readings = &run.data.counts[block.range.clone()];
-            run.block::<T, M, C>(piece, readings, &mut sums, &mut odd);
+            run.block::<T, M, C>(&motion, piece.place, block.command, readings, &mut sums);
             rest -= piece.least;
             if C::SUMS == 1 {
-                let sum = total(&sums, 0) + odd[0];
+                let sum = total(&sums, 0);
                 if (sum + rest) * (1.0 - SLACK) > run.limit {
                     return [sum + rest, 0.0];
                 }
             }
         }
-        [total(&sums, 0) + odd[0], total(&sums, 1) + odd[1]]
+        [total(&sums, 0), total(&sums, 1)]
     }
 }
 
 #[inline(always)]
 fn total<T: Token, const M: usize>(sums: &[[Lanes<T, M>; 2]; ROWS], which: usize) -> f64 {
     let all = (sums[0][which] + sums[1][which]) + (sums[2][which] + sums[3][which]);
-    all.each().iter().sum()
+    let [a, b, c, d, e, f, g, h] = all.each();
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }
+
+type Stride<T, const M: usize> = [Lanes<T, M>; ROWS];
 
 /// A stride in lanes like others.
 #[inline(always)]
-fn rows<T: Token, const M: usize>(
-    like: Lanes<T, M>,
-    stride: &[f64; STRIDE],
-) -> [Lanes<T, M>; ROWS] {
+fn rows<T: Token, const M: usize>(like: Lanes<T, M>, stride: &[f64; STRIDE]) -> Stride<T, M> {
     let (rows, _) = stride.as_chunks::<LANES>();
     [
         like.each_like(rows[0]),
@@ -126,58 +136,156 @@ fn rows<T: Token, const M: usize>(
     ]
 }
 
+/// A motor's angles within a stride.
+struct Motion<T: Token, const M: usize> {
+    zero: Lanes<T, M>,
+    by_current: Stride<T, M>,
+    by_speed: Stride<T, M>,
+    by_command: Stride<T, M>,
+    begins: Abreast<T, M>,
+    settling: Option<Settling>,
+}
+
+/// Where strides begin, one to a lane.
+struct Abreast<T: Token, const M: usize> {
+    state: [[Lanes<T, M>; 2]; 2],
+    state_by_command: [Lanes<T, M>; 2],
+    angle: [Lanes<T, M>; 2],
+    angle_by_command: Lanes<T, M>,
+}
+
+impl<T: Token, const M: usize> Abreast<T, M> {
+    #[inline(always)]
+    fn new(like: Lanes<T, M>, begins: &Begins) -> Self {
+        let two = |[a, b]: [[f64; LANES]; 2]| [like.each_like(a), like.each_like(b)];
+        Abreast {
+            state: [two(begins.state[0]), two(begins.state[1])],
+            state_by_command: two(begins.state_by_command),
+            angle: two(begins.angle),
+            angle_by_command: like.each_like(begins.angle_by_command),
+        }
+    }
+
+    /// The places of a motor: currents, speeds and angles.
+    #[inline(always)]
+    fn places(&self, Place { state, angle }: Place, command: f64) -> [[f64; LANES]; 3] {
+        let like = self.angle_by_command;
+        let (current, speed, command) =
+            (like.like(state[0]), like.like(state[1]), like.like(command));
+        let from = |x: Lanes<T, M>, by: [Lanes<T, M>; 2], by_command: Lanes<T, M>| {
+            let driven = (by_command * command).plus_product(by[0], current);
+            (x + driven.plus_product(by[1], speed)).each()
+        };
+        [
+            from(current, self.state[0], self.state_by_command[0]),
+            from(speed, self.state[1], self.state_by_command[1]),
+            from(like.like(angle), self.angle, self.angle_by_command),
+        ]
+    }
+}
+
+const _: () = assert!(BEGINS == LANES);
+
+impl<T: Token, const M: usize> Motion<T, M> {
+    /// What a stride from a state would cost in `sums`, `driven` being its angles by the command.
+    #[inline(always)]
+    fn add<C: Summand>(
+        &self,
+        driven: &Stride<T, M>,
+        Place { state, angle }: Place,
+        readings: &[f64; STRIDE],
+        sums: &mut [[Lanes<T, M>; 2]; ROWS],
+    ) {
+        let readings = rows(self.zero, readings);
+        let (angle, current, speed) = (
+            self.zero.like(angle),
+            self.zero.like(state[0]),
+            self.zero.like(state[1]),
+        );
+        for row in 0..ROWS {
+            let error = ((driven[row] + angle) - readings[row])
+                .plus_product(self.by_current[row], current)
+                .plus_product(self.by_speed[row], speed);
+            C::add(error, &mut sums[row]);
+        }
+    }
+
+    /// The line that a motor without a transient goes along: its angle, and how it rises with each sample.
+    #[inline(always)]
+    fn line(&self, place: &Place, command: f64) -> Option<[f64; 2]> {
+        let settling = self.settling.as_ref()?;
+        let path = settling.path(place, command)?;
+        (settling.largest(path.off) < SETTLED_COUNTS).then_some([path.level, path.slope])
+    }
+}
+
 impl Sum<'_> {
     #[inline(always)]
     fn block<T: Token, const M: usize, C: Summand>(
         &self,
-        piece: &Piece,
+        motion: &Motion<T, M>,
+        mut place: Place,
+        command: f64,
         readings: &[f64],
         sums: &mut [[Lanes<T, M>; 2]; ROWS],
-        odd: &mut [f64; 2],
     ) {
-        let Path { level, slope, .. } = piece.path;
-        let begin = level + slope * piece.after as f64;
-        let mut line = [0.0; STRIDE];
-        for (k, line) in line.iter_mut().enumerate() {
-            *line = begin + slope * k as f64;
-        }
-        let rise = Lanes::<T, M>::from_f64(slope * STRIDE as f64);
-        let mut line = rows(rise, &line);
-        let mut now = rows(rise, &self.held.transients(piece.off));
+        let zero = motion.zero;
         let (strides, rest) = readings.as_chunks::<STRIDE>();
-        if self.held.largest(piece.off) < SETTLED_COUNTS {
-            for stride in strides {
-                let readings = rows(rise, stride);
+        let mut driven = motion.by_command;
+        if let Some([level, slope]) = motion.line(&place, command) {
+            let mut line = [0.0; STRIDE];
+            for (k, line) in line.iter_mut().enumerate() {
+                *line = slope * k as f64;
+            }
+            driven = rows(zero, &line);
+            let rise = slope * STRIDE as f64;
+            for (k, stride) in strides.iter().enumerate() {
+                let readings = rows(zero, stride);
+                let angle = zero.like(level + rise * k as f64);
                 for row in 0..ROWS {
-                    C::add(line[row] - readings[row], &mut sums[row]);
-                    line[row] = line[row] + rise;
+                    C::add((driven[row] + angle) - readings[row], &mut sums[row]);
                 }
             }
+            place = Place {
+                state: [0.0; 2],
+                angle: level + rise * strides.len() as f64,
+            };
         } else {
-            let next = self.held.on(piece.off, STRIDE);
-            let mut next = rows(rise, &self.held.transients(next));
-            let trace = rise.like(self.held.trace);
-            let determinant = rise.like(self.held.determinant);
-            for stride in strides {
-                let readings = rows(rise, stride);
-                for row in 0..ROWS {
-                    let error = (line[row] - readings[row]) + now[row];
-                    C::add(error, &mut sums[row]);
-                    let later = next[row] * trace - now[row] * determinant;
-                    (now[row], next[row]) = (next[row], later);
-                    line[row] = line[row] + rise;
+            let command_in_lanes = zero.like(command);
+            for driven in &mut driven {
+                *driven = *driven * command_in_lanes;
+            }
+            for strides in strides.chunks(BEGINS) {
+                let [currents, speeds, angles] = motion.begins.places(place, command);
+                for (k, stride) in strides.iter().take(BEGINS).enumerate() {
+                    let place = Place {
+                        state: [currents[k], speeds[k]],
+                        angle: angles[k],
+                    };
+                    motion.add::<C>(&driven, place, stride, sums);
+                }
+                if strides.len() == BEGINS {
+                    place = self.held.abreast().on(place, command);
+                } else {
+                    let k = strides.len();
+                    place = Place {
+                        state: [currents[k], speeds[k]],
+                        angle: angles[k],
+                    };
                 }
             }
         }
         if !rest.is_empty() {
-            // Less than a stride: all of it in lanes of its own, of which those that are needed count.
+            // Less than a stride: what is behind it does not count.
+            let (mut padded, mut counts) = ([0.0; STRIDE], [0.0; STRIDE]);
+            padded[..rest.len()].copy_from_slice(rest);
+            counts[..rest.len()].fill(1.0);
+            let counts = rows(zero, &counts);
+            let mut some = [[zero; 2]; ROWS];
+            motion.add::<C>(&driven, place, &padded, &mut some);
             for row in 0..ROWS {
-                let angles = (line[row] + now[row]).each();
-                for (angle, reading) in angles.iter().zip(rest.iter().skip(row * LANES)) {
-                    let mut sum = [Lanes::<T, M>::default(); 2];
-                    C::add(Lanes::from_f64(angle - reading), &mut sum);
-                    odd[0] += sum[0].each()[0];
-                    odd[1] += sum[1].each()[0];
+                for which in 0..C::SUMS {
+                    sums[row][which] = sums[row][which] + some[row][which] * counts[row];
                 }
             }
         }

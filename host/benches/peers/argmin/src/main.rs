@@ -57,6 +57,11 @@ fn cpu_s() -> f64 {
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
+fn median(seconds: &mut [f64]) -> f64 {
+    seconds.sort_by(f64::total_cmp);
+    seconds.get(seconds.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
 fn main() -> Result<(), Error> {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, file, seeds] = &arguments[..] else {
@@ -68,7 +73,7 @@ fn main() -> Result<(), Error> {
         .collect::<Result<_, _>>()?;
     let seeds: u64 = seeds.parse()?;
     let target = WITHIN * cost(&TRUTH, &readings);
-    let (mut seconds, mut counts, mut reached) = (Vec::new(), Vec::new(), 0);
+    let (mut seconds, mut counts, mut there) = (Vec::new(), Vec::new(), Vec::new());
     for seed in 1..=seeds {
         let evaluations = Cell::new(0);
         let problem = Problem {
@@ -87,14 +92,18 @@ fn main() -> Result<(), Error> {
             .run()?;
         seconds.push(cpu_s() - began);
         counts.push(evaluations.get());
-        reached += u64::from(result.state().get_best_cost() <= target);
+        if result.state().get_best_cost() <= target {
+            there.push(seconds[seconds.len() - 1]);
+        }
     }
-    seconds.sort_by(f64::total_cmp);
     counts.sort_unstable();
+    let reached = format!("{}/{seeds}", there.len());
+    let a_success = seconds.iter().sum::<f64>() / there.len() as f64;
     println!(
-        "{:22} {:14.3} {:12} {reached:4}/{seeds}",
+        "{:22} {:14.4} {:11.4} {a_success:11.4} {:12} {reached:>8}",
         "argmin PSO",
-        seconds[seconds.len() / 2],
+        median(&mut seconds),
+        median(&mut there),
         counts[counts.len() / 2]
     );
     Ok(())

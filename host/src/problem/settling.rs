@@ -1,0 +1,137 @@
+//! What a linear motor that settles tends to while its command is held: its angle as a line and a transient that dies away.
+//!
+//! The state less where it tends to, `d`, obeys `d(k+1) = (I + E)·d(k)`, so that `θ(k) = level + slope·k + z(k)` with
+//! `z = P·d` and `P = T·E⁻¹`, `T` being what a step's angle takes of the state.
+
+use super::held::{
+    Ahead, Held, Matrix, Pair, Place, STRIDE, STRIDES, across, determinant, dot, plus, times,
+};
+
+/// Error of an angle that is allowed, counts. Of a motor whose modes are so slow that line and transient are large numbers
+/// whose difference may have lost more, there is no path.
+pub(super) const ANGLE_ERROR_COUNTS: f64 = 1e-7;
+/// Roundings of line and transient, as parts of the transient.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+
+/// A motor that settles.
+pub struct Settling {
+    /// Inverse of a step's increments.
+    inverse: Matrix,
+    /// What a step adds to the state and to the angle, by command.
+    by_command: (Pair, f64),
+    /// To the angle, by state.
+    angle: Pair,
+    /// Transient by state.
+    transient: Pair,
+    /// Transient after each of the samples of a stride by the state at its start.
+    ahead: [[f64; STRIDE]; 2],
+    /// Largest magnitude of each of these.
+    most: Pair,
+}
+
+/// What a held command makes of a motor: its angle as a line and a transient.
+#[derive(Clone, Copy, Debug)]
+pub struct Path {
+    /// Where the line begins, counts.
+    pub level: f64,
+    /// How it rises with each sample, counts.
+    pub slope: f64,
+    /// The state less where it tends to, at the start.
+    pub off: Pair,
+}
+
+impl Settling {
+    /// `None` for motors that do not settle.
+    #[inline(always)]
+    pub fn new(held: &Held, ahead: &Ahead) -> Option<Self> {
+        let step = held.step();
+        let e = step.state;
+        let det = determinant(&e);
+        if det.is_nan() || det.abs() <= f64::MIN_POSITIVE {
+            return None;
+        }
+        let inverse = [
+            [e[1][1] / det, -e[0][1] / det],
+            [-e[1][0] / det, e[0][0] / det],
+        ];
+        let transient = across(step.angle, &inverse);
+        let mut settling = Settling {
+            inverse,
+            by_command: (step.state_by_command, step.angle_by_command),
+            angle: step.angle,
+            transient,
+            ahead: ahead.by_state,
+            most: [0.0; 2],
+        };
+        let tables = settling.ahead.iter_mut().zip(&mut settling.most);
+        for ((table, largest), transient) in tables.zip(transient) {
+            // Eight by eight, which the processor does at once.
+            let mut most = [0.0; 8];
+            let (rows, _) = table.as_chunks_mut::<8>();
+            for row in rows {
+                for (ahead, most) in row.iter_mut().zip(&mut most) {
+                    *ahead += transient;
+                    let x = ahead.abs();
+                    *most = if x > *most { x } else { *most };
+                }
+            }
+            *largest = most.into_iter().fold(0.0, f64::max);
+        }
+        Some(settling)
+    }
+
+    /// The path from a place under a command; `None` where rounding may tell.
+    #[inline(always)]
+    pub fn path(&self, from: &Place, command: f64) -> Option<Path> {
+        let (state_by, angle_by) = self.by_command;
+        let rest = times(&self.inverse, state_by.map(|by| by * command)).map(|x| -x);
+        let off = [from.state[0] - rest[0], from.state[1] - rest[1]];
+        let terms = (self.transient[0] * off[0]).abs() + (self.transient[1] * off[1]).abs();
+        // A NaN is not below it either.
+        (ROUNDINGS * terms < ANGLE_ERROR_COUNTS).then(|| Path {
+            level: from.angle - dot(self.transient, off),
+            slope: dot(self.angle, rest) + angle_by * command,
+            off,
+        })
+    }
+
+    /// Bound of the transients of a stride that begins in a state, counts.
+    #[inline(always)]
+    pub fn largest(&self, off: Pair) -> f64 {
+        (self.most[0] * off[0]).abs() + (self.most[1] * off[1]).abs()
+    }
+
+    /// Of the state less where it tends to, what its current and its speed have at the start of each of so many strides, by
+    /// current and by speed at the start of the first: `[[current by current, by speed], [speed by current, by speed]]`.
+    pub fn at_strides(&self, held: &Held) -> [[[f64; STRIDES]; 2]; 2] {
+        let mut at = [[[0.0; STRIDES]; 2]; 2];
+        (at[0][0][0], at[1][1][0]) = (1.0, 1.0);
+        for (doubling, span) in held.strides().iter().enumerate() {
+            let known = 1 << doubling;
+            if known >= STRIDES {
+                break;
+            }
+            for [by_current, by_speed] in &mut at {
+                for k in 0..known {
+                    let row = [by_current[k], by_speed[k]];
+                    [by_current[known + k], by_speed[known + k]] =
+                        plus(row, across(row, &span.state));
+                }
+            }
+        }
+        at
+    }
+
+    /// Largest magnitudes in [`ahead`](Self::ahead).
+    #[inline(always)]
+    pub fn most(&self) -> [f64; 2] {
+        self.most
+    }
+
+    /// Transient after each of the samples of a stride by the state, less where it tends to, at its start: counts per unit of
+    /// current and of speed.
+    #[inline(always)]
+    pub fn ahead(&self) -> [&[f64; STRIDE]; 2] {
+        self.ahead.each_ref()
+    }
+}
