@@ -14,6 +14,9 @@ const CHAOTIC_CASES: u64 = 10;
 /// A run of 20 s that is followed to its end may leave this, counts RMS; one that is not, some hundred.
 const FOLLOWED: f64 = 1.5;
 
+/// Drawn pairs of cogging and another effect.
+const PAIRS: u64 = 6;
+
 /// The commissioning of motors with one hidden effect.
 fn hiding(effect: &str) -> SetUp {
     SetUp {
@@ -22,6 +25,52 @@ fn hiding(effect: &str) -> SetUp {
         excite: Excite::Commissioning,
         effects: vec![effect.to_owned()],
     }
+}
+
+/// Whatever its order: a wave that turns quickly beside the filter is seen, too; and what goes with cogging is not laid to a friction
+/// that comes near both.
+#[test]
+fn cogging_is_named_beside_another_effect() {
+    let set_up = SetUp {
+        hidden: HowMany::Two,
+        effects: ["cogging", "dead_zone", "load_friction"]
+            .map(str::to_owned)
+            .into(),
+        ..hiding("cogging")
+    };
+    let stop = AtomicBool::new(false);
+    let (mut pairs, mut both, mut foreign) = (0, 0, 0);
+    for number in 0..PAIRS {
+        let case = Case::record(&set_up, number).unwrap();
+        if !case
+            .drawn
+            .hidden
+            .iter()
+            .any(|hidden| hidden.starts_with("cogging"))
+        {
+            continue;
+        }
+        let (options, effort) = (Options::default(), Effort::usual(&stop));
+        let found = diagnose(&case.fitted, &case.held_out, &options, &effort, &|| ()).unwrap();
+        let named: Vec<&str> = found.steps.iter().map(|step| step.added.name()).collect();
+        println!(
+            "seed {SEED}, pair {number}, {:?}: {named:?}",
+            case.drawn.hidden
+        );
+        let is_hidden = |name: &&&str| {
+            case.drawn
+                .hidden
+                .iter()
+                .any(|hidden| hidden.starts_with(**name))
+        };
+        let right = named.iter().filter(is_hidden).count();
+        pairs += 1;
+        both += usize::from(right == 2);
+        foreign += named.len() - right;
+    }
+    println!("{both} of {pairs}, {foreign} foreign names");
+    assert!(both * 4 >= pairs * 3, "{both} of {pairs}");
+    assert_eq!(foreign, 0);
 }
 
 /// What a shaft does that may or may not slip over a detent is told by the last digits of what it is made of: those are found by

@@ -5,7 +5,7 @@
 //! whole run has no slope that leads anywhere, but that of a run that is cut where it departs has; and what one stretch teaches
 //! carries the next one further, since each tells the unknowns better by as much as it asks for.
 
-use super::descent::{Descent, Settings};
+use super::descent::{Descent, Settings, descend};
 use super::errors::ROOM;
 use super::polish::FINEST;
 use super::refit::Refit;
@@ -45,7 +45,12 @@ impl Workshop<'_> {
             substeps: FINEST,
             ..refit.method
         };
+        let book = |samples: usize, runs: usize| {
+            self.effort
+                .book((samples * usize::from(method.substeps) * runs) as u64);
+        };
         let departs = |x: &[f64]| {
+            book(self.data.len(), 1);
             let candidate = structure.candidate(&structure.values(x));
             let errors = scores::whole(self.data, &candidate, method).ok()?;
             Some(departure(self.data, &errors))
@@ -73,7 +78,8 @@ impl Workshop<'_> {
                 horizon: Horizon::Whole,
                 ..self.problem(structure, method)
             };
-            let found = self.descended(&problem, &here.x, STRETCH, method)?;
+            let found = descend(&problem, &here.x, STRETCH, self.effort)?;
+            book(to, found.evaluations);
             let evaluations = here.evaluations + found.evaluations;
             if found.squares <= noise * noise * to as f64 {
                 here = Descent {

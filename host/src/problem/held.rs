@@ -10,7 +10,7 @@
 //! follows what `2·n` do. Nothing is divided by and no large numbers cancel, however slow the modes are, equal and complex ones
 //! too. All of it comes from the increments of the model's own step.
 //!
-//! Where a motor [settles](super::settling), less will do.
+//! Where a motor settles (`settling.rs`), less will do.
 
 use shared::model::Increments;
 
