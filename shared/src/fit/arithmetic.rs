@@ -228,31 +228,32 @@ fn weighed<const APART: bool>(row: &Row<i32>, current: i32, speed: i32, duty: i1
     }
 }
 
-/// Where leads saturate, counts.
-const MOST_COUNTS: i32 = 1 << 16;
+/// Where leads saturate, in 1024ths of a count: beyond 65,536 counts. One of more than two million wraps, but it gets there through
+/// dozens of periods with leads that rule the model out.
+const MOST: i32 = 1 << 26;
 
 /// A lead as far as it counts: an instruction where there is one for it.
 #[cfg(not(short_multiplier))]
 #[inline(always)]
-fn limited(whole: i32) -> i32 {
-    saturated(whole)
+fn limited(lead: i32) -> i32 {
+    saturated(lead)
 }
 
 /// The same where a choice in place would cost each period three times as much as a look: few saturate.
 #[cfg(short_multiplier)]
 #[inline(always)]
-fn limited(whole: i32) -> i32 {
-    if (-MOST_COUNTS..MOST_COUNTS).contains(&whole) {
-        whole
+fn limited(lead: i32) -> i32 {
+    if (-MOST..MOST).contains(&lead) {
+        lead
     } else {
-        saturated(whole)
+        saturated(lead)
     }
 }
 
 #[cfg_attr(short_multiplier, cold, inline(never))]
 #[cfg_attr(not(short_multiplier), inline(always))]
-fn saturated(whole: i32) -> i32 {
-    whole.clamp(-MOST_COUNTS, MOST_COUNTS - 1)
+fn saturated(lead: i32) -> i32 {
+    lead.clamp(-MOST, MOST - 1)
 }
 
 /// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
@@ -348,8 +349,7 @@ impl Arithmetic for Fixed {
 
     #[inline(always)]
     fn collect(sums: &mut Self::Sums, lead: i64) {
-        let whole = limited((lead >> 32) as i32);
-        let lead = (whole << 10) | (lead as u32 >> 22) as i32;
+        let lead = limited((lead >> 22) as i32);
         sums.0 = sums.0.wrapping_add(lead);
         // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
         sums.1 = sums.1.wrapping_add(product(lead, lead));
