@@ -15,6 +15,8 @@ pub const HIGHEST: usize = 128;
 pub const FILTER_SAMPLES: f64 = 3.0;
 /// Fewest samples that must show a line for it to count.
 const FEWEST: f64 = 200.0;
+/// Fewest waves that the shaft must have turned through: what it met once or twice need not be a thing that repeats.
+const WAVES: f64 = 3.0;
 
 /// A line of the spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +73,8 @@ pub fn lines_of(data: &Data, residuals: &[EquationResidual], time: f64) -> Vec<L
     let Some(inverse) = beside.own.try_inverse() else {
         return Vec::new();
     };
-    let mut lines: Vec<Line> = (1..=HIGHEST)
+    let lowest = (WAVES / turned_through(data)).ceil() as usize;
+    let mut lines: Vec<Line> = (lowest.max(1)..=HIGHEST)
         .filter_map(|order| {
             let (row, lane) = ((order - 1) / ABREAST, (order - 1) % ABREAST);
             rows[row].line(order, lane, &beside, &inverse)
@@ -79,6 +82,16 @@ pub fn lines_of(data: &Data, residuals: &[EquationResidual], time: f64) -> Vec<L
         .collect();
     lines.sort_by(|a, b| b.explains.total_cmp(&a.explains));
     lines
+}
+
+/// Angle between the shaft's outermost positions, revolutions.
+fn turned_through(data: &Data) -> f64 {
+    let (low, high) = (0..data.len())
+        .map(|k| data.centre(k))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| {
+            (low.min(angle), high.max(angle))
+        });
+    (high - low) / data.units.counts_per_rev
 }
 
 /// What is fitted beside an order: friction each way, and corrections of damping and inertia.
