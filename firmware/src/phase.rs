@@ -138,8 +138,6 @@ impl core::error::Error for Refused {}
 mod tests {
     use super::*;
 
-    const FAULTS: [Fault; 13] = Fault::ALL;
-
     /// Every phase that can be reached from idle, found by trying everything: a new phase cannot be forgotten here.
     fn reachable() -> Vec<Phase> {
         let mut phases = vec![Phase::Idle];
@@ -148,7 +146,7 @@ mod tests {
             let events = [Event::Start, Event::Done]
                 .into_iter()
                 .filter_map(|event| phase.after(event).ok());
-            for next in events.chain(FAULTS.map(|fault| phase.failed(fault))) {
+            for next in events.chain(Fault::ALL.map(|fault| phase.failed(fault))) {
                 if !phases.contains(&next) {
                     phases.push(next);
                 }
@@ -161,7 +159,7 @@ mod tests {
     #[test]
     fn every_fault_in_every_phase_opens_the_bridge_and_is_reported() {
         for phase in reachable() {
-            for fault in FAULTS {
+            for fault in Fault::ALL {
                 let next = phase.failed(fault);
                 assert_eq!(next.bridge(), Bridge::Open, "{phase:?} failed by {fault:?}");
                 let reported = match phase {

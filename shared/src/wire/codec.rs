@@ -282,14 +282,17 @@ macro_rules! coded {
         }
     };
     (enum $name:ident { $($variant:ident),* $(,)? }) => {
+        impl $name {
+            /// All of them, in the order of the wire.
+            pub const ALL: [Self; [$(stringify!($variant)),*].len()] = [$($name::$variant),*];
+        }
         impl $crate::wire::Coded for $name {
             fn put(&self, to: &mut $crate::wire::Writer<'_>) {
                 $crate::wire::Coded::put(&(*self as u32), to);
             }
             fn take(from: &mut $crate::wire::Reader<'_>) -> Self {
-                const ALL: &[$name] = &[$($name::$variant),*];
-                let at = from.index(ALL.len() as u32) as usize;
-                *ALL.get(at).unwrap_or(&ALL[0])
+                let at = from.index(Self::ALL.len() as u32) as usize;
+                *Self::ALL.get(at).unwrap_or(&Self::ALL[0])
             }
         }
     };

@@ -52,25 +52,6 @@ coded!(
     }
 );
 
-impl Fault {
-    /// All of them, in the order of the wire.
-    pub const ALL: [Fault; 13] = [
-        Fault::Stopped,
-        Fault::LinkLost,
-        Fault::Overrun,
-        Fault::Bridge,
-        Fault::Stall,
-        Fault::Overtravel,
-        Fault::NotVerified,
-        Fault::Runaway,
-        Fault::Overcurrent,
-        Fault::Overheated,
-        Fault::Overspeed,
-        Fault::TimeUp,
-        Fault::NothingToFit,
-    ];
-}
-
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
