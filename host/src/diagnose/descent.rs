@@ -30,6 +30,9 @@ pub struct Settings {
     pub probe: f64,
     /// RMS change of the residuals that the steps of further differences are to make; `None` for the first step always.
     pub probed: Option<f64>,
+    /// Whether a search that ends at a wall is begun once more from a little inside: a coordinate that was driven there early may
+    /// have no slope back.
+    pub again: bool,
 }
 
 /// Where a search ended.
@@ -55,8 +58,7 @@ const INSIDE: f64 = 0.02;
 /// A second search is the better one if it lowers the sum of squares by more than this part.
 const BETTER: f64 = 0.02;
 
-/// Descends from `start`; `None` where the model cannot run there. A search that ends at a wall is begun
-/// once more from a little inside: a coordinate that was driven there early may have no slope back.
+/// Descends from `start`; `None` where the model cannot run there.
 ///
 /// Where `effort` halts the search ends with what it has.
 pub fn descend(
@@ -67,7 +69,8 @@ pub fn descend(
 ) -> Option<Descent> {
     let mut best = Search::new(objective, start, settings, effort)?.run();
     let inside = |x: &f64| x.clamp(INSIDE, 1.0 - INSIDE);
-    if best.squares > settings.enough && best.x.iter().any(|x| *x == 0.0 || *x == 1.0) {
+    let walled = best.x.iter().any(|x| *x == 0.0 || *x == 1.0);
+    if settings.again && walled && best.squares > settings.enough {
         let start: Vec<f64> = best.x.iter().map(inside).collect();
         if let Some(search) = Search::new(objective, &start, settings, effort) {
             let again = search.run();
@@ -455,6 +458,7 @@ mod tests {
             secant: false,
             probe: PROBE,
             probed: None,
+            again: true,
         };
         let stop = AtomicBool::new(false);
         let effort = Effort::usual(&stop);
@@ -509,6 +513,7 @@ mod tests {
             secant: false,
             probe: 1e-8,
             probed: Some(0.01),
+            again: true,
         };
         let stop = AtomicBool::new(false);
         let effort = Effort::usual(&stop);

@@ -117,9 +117,8 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
     // Beside other effects, dry friction is tried against bristles at the end.
     let first = parents.iter().all(|parent| parent.effects.is_empty());
     let explained = models.first().is_some_and(|model| {
-        let ran = model.ran();
         if first {
-            ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * workshop.floor
+            is_exact(workshop, model)
         } else {
             parents.iter().all(|parent| removes(parent, model))
         }
@@ -145,6 +144,12 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);
     refits(workshop, &more, models, done, |_| false)
+}
+
+/// Whether a model leaves nothing that bristles could explain.
+pub fn is_exact(workshop: &Workshop<'_>, model: &Refit) -> bool {
+    let ran = model.ran();
+    ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * workshop.floor
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
@@ -259,6 +264,10 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
             .newest()
             .is_some_and(|kind| names.contains(&kind.name()))
     });
+    if sketch.newest() == Some(Kind::Lugre) && sketch.foreseen() > BRISTLED * best.ran().fitted {
+        // Their fit takes as long as a dozen others.
+        return false;
+    }
     if best.ran().at_floor() {
         // The rest is for rivals that may do as well.
         foreseen < CLOSE || (look_alike && foreseen < FAR)
@@ -269,6 +278,8 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
 
 /// Dry friction is near the best if what it leaves is within this factor.
 const NEAR_DRY: f64 = 3.0;
+/// Bristles are fitted beyond a sketch that leaves at most this part of the best model's error.
+const BRISTLED: f64 = 0.9;
 /// Errors within this factor of the floor leave nothing to explain: five standard deviations of what a recording
 /// of some thousand readings has.
 const EXACT: f64 = 1.02;

@@ -25,6 +25,7 @@ const STRETCH: Settings = Settings {
     // Far along the run a usual step would slip a detent.
     probe: 1e-7,
     probed: Some(0.02),
+    again: true,
 };
 /// Fewest samples that say anything.
 const FEWEST: usize = 200;

@@ -62,7 +62,7 @@ fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Optio
     let mut rest = without(chosen, place);
     plainer::absorb(&mut rest, place, &super::evidence::values(chosen, place));
     let mut sketch = workshop.restarted(&rest);
-    sketch.simulated = workshop.leaves(&sketch);
+    sketch.simulated = workshop.leaves(&sketch, f64::INFINITY);
     if !sketch.rivals(chosen) {
         sketch = workshop.sketch_from(&sketch.structure, sketch.x)?;
     }

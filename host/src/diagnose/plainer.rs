@@ -72,7 +72,7 @@ fn fitted(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> O
     plain.structure.effects.push(kind);
     plain.parameters.extend(values);
     let mut sketch = workshop.restarted(&plain);
-    sketch.simulated = workshop.leaves(&sketch);
+    sketch.simulated = workshop.leaves(&sketch, f64::INFINITY);
     // Nothing was led here: the error that may be hoped for is the chosen one's.
     sketch.led = chosen.ran().fitted;
     let mut refit = workshop.refit(&sketch).ok()?;

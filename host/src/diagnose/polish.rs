@@ -17,6 +17,7 @@ const LAST: Settings = Settings {
     secant: false,
     probe: PROBE,
     probed: None,
+    again: false,
 };
 /// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
 /// polished.
@@ -25,9 +26,10 @@ const POLISHED: f64 = 5.0;
 const FINER: u16 = 4;
 /// Most parts to a sample.
 pub(super) const FINEST: u16 = 16;
-/// A finer step that changes the RMS error by less is not worth its time: counts, or a part of a
-/// larger error.
+/// A finer step that changes the RMS error by less is not worth its time: counts.
 const STEP_ERROR: f64 = 0.02;
+/// The same as a part of what an error is above a count: such a model lacks something else.
+const STEP_PART: f64 = 0.1;
 
 impl Workshop<'_> {
     /// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
@@ -43,8 +45,10 @@ impl Workshop<'_> {
         if polished.tracked.is_none() || polished.ran().at_floor() {
             return Ok(polished);
         }
-        // Near enough to the truth even a chaotic free run has a floor to go down to.
-        if let Some(mut followed) = self.followed(&polished) {
+        // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.
+        if polished.candidate.needs_angle()
+            && let Some(mut followed) = self.followed(&polished)
+        {
             self.track_like(&mut followed, &polished)?;
             self.follow_held_out(&mut followed);
             return Ok(followed);
@@ -98,7 +102,7 @@ impl Workshop<'_> {
                 .abs()
                 .max((again.held_out - ran.held_out).abs());
             if best.judged().at_floor()
-                || change < STEP_ERROR * ran.fitted.max(1.0)
+                || change < STEP_ERROR.max(STEP_PART * (ran.fitted - 1.0))
                 || finer.substeps > FINEST
             {
                 return Ok(best);

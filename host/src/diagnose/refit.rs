@@ -5,7 +5,7 @@ use super::descent::{Descent, PROBE, Settings};
 use super::errors::{Errors, ROOM};
 use super::missed::Losses;
 use super::sketch::Sketch;
-use super::track::Tracked;
+use super::track::{Tracked, Tracks};
 use super::workshop::Workshop;
 use crate::error::Error;
 use crate::fit::{scores, validate, validate_roughly};
@@ -27,6 +27,7 @@ const FULL: Settings = Settings {
     secant: true,
     probe: PROBE,
     probed: None,
+    again: true,
 };
 /// Of a stage with a short memory.
 const FADE: Settings = Settings {
@@ -38,13 +39,14 @@ const FADE: Settings = Settings {
     secant: true,
     probe: PROBE,
     probed: None,
+    again: true,
 };
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 /// A stage that leaves so many times the error of the one before has lost its way.
 const ASTRAY: f64 = 2.0;
 /// A simulation whose error is so many times the led one's has lost its way.
-const LOST: f64 = 3.0;
+pub(super) const LOST: f64 = 3.0;
 /// A chaotic run that was followed over such a part of the recording proves the model.
 const PROOF: f64 = 0.5;
 /// Tracked scores this near are as good as each other.
@@ -74,6 +76,8 @@ pub struct Refit {
     pub windowed: Option<Errors>,
     /// Errors that are soon forgotten, where free runs are chaotic.
     pub tracked: Option<Tracked>,
+    /// The same for every memory that was asked for.
+    pub(super) tracks: Tracks,
     /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
     pub followed: f64,
     /// RMS error that was foreseen before the refit, counts.
@@ -313,6 +317,7 @@ impl Workshop<'_> {
             },
             validate_rms_counts: validate_roughly(self.held_out, &candidate, method)?,
             tracked: None,
+            tracks: Tracks::default(),
             followed: 0.0,
             foreseen_rms_counts: foreseen,
             evaluations: found.evaluations,

@@ -5,15 +5,14 @@ use super::NOISE_COUNTS;
 use super::carried::{Found, carried};
 use super::descent::{PROBE, Settings};
 use super::led::{Led, follows};
-use super::refit::Refit;
+use super::refit::{LOST, Refit};
 use super::spectrum::spectrum;
 use super::starts::starts;
 use super::workshop::Workshop;
 use crate::fit::base_for;
-use crate::problem::cost::{errors, rms_counts};
 use crate::problem::unknowns::Scale;
-use crate::problem::{Candidate, StartAngle, Structure};
-use shared::cost::Cost;
+use crate::problem::{Candidate, Structure};
+use crate::solve::Objective;
 use shared::effects::{Kind, MAX_EFFECTS};
 use shared::units::Quantity;
 
@@ -28,6 +27,7 @@ const SKETCH: Settings = Settings {
     secant: true,
     probe: PROBE,
     probed: None,
+    again: true,
 };
 
 /// Starts that are left after a glance at all of them.
@@ -49,7 +49,7 @@ pub struct Sketch {
     /// What a count of that error is worth in a free run: what the model without the effect leaves there, over what it
     /// leaves when it is led, at most one.
     pub worth: f64,
-    /// RMS error of a free run from there, counts.
+    /// RMS error of a free run from there, counts; infinite where it is so far above the led one that the run has lost its way.
     pub simulated: f64,
 }
 
@@ -121,7 +121,7 @@ impl Workshop<'_> {
         // Where every fit is a simulation, a glance at each start shows which of them is worth one.
         if !follows(kind) && begun.len() > 1 {
             for sketch in &mut begun {
-                sketch.simulated = self.leaves(sketch);
+                sketch.simulated = self.leaves(sketch, f64::INFINITY);
             }
             begun.sort_by(|a, b| a.simulated.total_cmp(&b.simulated));
             begun.truncate(GLANCED);
@@ -247,23 +247,17 @@ impl Workshop<'_> {
         let found = self.descended(&led, &x, SKETCH, self.method)?;
         let mut sketch = Sketch::at(structure.clone(), found.x);
         sketch.led = (found.squares / samples).sqrt();
-        sketch.simulated = self.leaves(&sketch);
+        sketch.simulated = self.leaves(&sketch, LOST * sketch.led.max(NOISE_COUNTS));
         Some(sketch)
     }
 
-    /// RMS error of a free run from where a sketch stands, counts.
-    pub(super) fn leaves(&self, sketch: &Sketch) -> f64 {
-        errors(
-            self.data,
-            &sketch
-                .structure
-                .candidate(&sketch.structure.values(&sketch.x)),
-            self.method,
-            &self.fitted_horizon,
-            StartAngle::Free,
-            Cost::Squared,
-        )
-        .map_or(f64::INFINITY, |errors| rms_counts(self.data, &errors))
+    /// RMS error of a free run from where a sketch stands, counts; infinite where it is above `limit`.
+    pub(super) fn leaves(&self, sketch: &Sketch, limit: f64) -> f64 {
+        let samples = self.data.len() as f64;
+        self.problem(&sketch.structure, self.method)
+            .residuals_within(&sketch.x, limit * limit * samples)
+            .filter(|(_, squares)| *squares <= limit * limit * samples)
+            .map_or(f64::INFINITY, |(_, squares)| (squares / samples).sqrt())
     }
 }
 

@@ -1,5 +1,6 @@
 //! Trying earlier terms against their look-alikes: what was named first was judged without the rest.
 
+use super::extend::is_exact;
 use super::judge::best;
 use super::refit::Refit;
 use super::sketch::Sketch;
@@ -29,6 +30,9 @@ pub fn swapped(
     known: &[Refit],
 ) -> Option<Refit> {
     if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
+        return None;
+    }
+    if kind == Kind::Lugre && is_exact(workshop, chosen) {
         return None;
     }
     let without = without(chosen, place);

@@ -28,6 +28,10 @@ pub struct Tracked {
     pub memory_s: f64,
 }
 
+/// What was found for each memory, so that it is not computed again whenever models are compared.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tracks([Option<Errors>; MEMORIES_S.len()]);
+
 impl Tracked {
     /// Whether the model is held as loosely as any.
     pub fn is_loose(&self) -> bool {
@@ -41,6 +45,11 @@ impl Workshop<'_> {
     /// # Errors
     /// As [`refit`](Self::refit).
     fn track(&self, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
+        let place = MEMORIES_S.iter().position(|&memory| memory == memory_s);
+        if let Some(errors) = place.and_then(|place| refit.tracks.0[place]) {
+            refit.tracked = Some(Tracked { errors, memory_s });
+            return Ok(());
+        }
         let tracked = |data: &Data| {
             errors(
                 data,
@@ -62,6 +71,9 @@ impl Workshop<'_> {
             floor: FLOOR_RMS_COUNTS,
         };
         refit.tracked = Some(Tracked { errors, memory_s });
+        if let Some(place) = place {
+            refit.tracks.0[place] = Some(errors);
+        }
         Ok(())
     }
 

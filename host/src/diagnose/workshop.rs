@@ -25,6 +25,7 @@ const BASE: Settings = Settings {
     secant: false,
     probe: PROBE,
     probed: None,
+    again: true,
 };
 
 /// The recordings and how models are run.

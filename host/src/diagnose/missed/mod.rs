@@ -43,6 +43,7 @@ const FIT: Settings = Settings {
     secant: false,
     probe: PROBE,
     probed: None,
+    again: false,
 };
 /// Most rounds of finding and fitting.
 const ROUNDS: usize = 6;
@@ -117,6 +118,49 @@ fn to_depth(
     known: &[Loss],
     depth: Depth,
 ) -> Option<Refit> {
+    let mut found = repair(workshop, parent, known, depth)?;
+    // A better model shows the losses better, and those bring forth a better model.
+    if !found.refit.ran().at_floor()
+        && found.refit.rms_counts < PROMISING
+        && let Some(again) = repair(workshop, &found.refit, &found.losses.fitted, depth)
+        && again.refit.rms_counts < found.refit.rms_counts
+    {
+        found = again;
+    }
+    let near = found.refit.rms_counts < NEAR && found.refit.validate_rms_counts < NEAR;
+    (near || depth == Depth::Clear).then(|| found.with(place))
+}
+
+/// A model of the recordings with their lost counts put back.
+struct Repair {
+    refit: Refit,
+    losses: Losses,
+    share: f64,
+    /// Of the speed, rad/s.
+    threshold: f64,
+}
+
+impl Repair {
+    /// The same as a model of the recordings with losses, which come after `place` others.
+    fn with(self, place: usize) -> Refit {
+        let mut refit = Refit {
+            foreseen_rms_counts: self.refit.rms_counts,
+            losses: Some(self.losses),
+            ..self.refit
+        };
+        let before: usize = refit.effects[..place]
+            .iter()
+            .map(|kind| kind.description().parameters.len())
+            .sum();
+        refit.effects.insert(place, Kind::MissedCounts);
+        let parameters = [self.share, self.threshold];
+        refit.parameters.splice(before..before, parameters);
+        refit
+    }
+}
+
+/// Finds the losses that the `parent` shows, and fits it to what it then is about.
+fn repair(workshop: &Workshop<'_>, parent: &Refit, known: &[Loss], depth: Depth) -> Option<Repair> {
     let structure = &parent.structure;
     let (fitted, x) = settled(workshop, parent, known, depth)?;
     let values = structure.values(&x);
@@ -144,17 +188,16 @@ fn to_depth(
     let (share, threshold) = rate::share_and_threshold(&losses.fitted, &speed);
     let units = &workshop.data.units;
     let per_s = threshold / units.interval;
-    let threshold = per_s / units.counts_per_rev * core::f64::consts::TAU;
     let bare = Refit {
         candidate: structure.candidate(&values),
         parameters: structure.effect_values(&values).to_vec(),
         ..parent.clone()
     };
-    let refit = repaired.workshop(workshop).polish(&bare).ok()?;
-    let near = refit.rms_counts < NEAR && refit.validate_rms_counts < NEAR;
-    (near || depth == Depth::Clear).then(|| Refit {
-        foreseen_rms_counts: refit.rms_counts,
-        ..with(refit, place, [share, threshold], losses)
+    Some(Repair {
+        refit: repaired.workshop(workshop).polish(&bare).ok()?,
+        losses,
+        share,
+        threshold: per_s / units.counts_per_rev * core::f64::consts::TAU,
     })
 }
 
@@ -316,21 +359,6 @@ impl Repaired {
             effort: of.effort,
         }
     }
-}
-
-/// A model of the repaired recordings as one of the recordings with losses, which come after `place` others.
-fn with(refit: Refit, place: usize, parameters: [f64; 2], losses: Losses) -> Refit {
-    let mut refit = Refit {
-        losses: Some(losses),
-        ..refit
-    };
-    let before: usize = refit.effects[..place]
-        .iter()
-        .map(|kind| kind.description().parameters.len())
-        .sum();
-    refit.effects.insert(place, Kind::MissedCounts);
-    refit.parameters.splice(before..before, parameters);
-    refit
 }
 
 /// A model with losses as one of the repaired recordings, and the place that the losses had.
