@@ -43,7 +43,7 @@ const FIT: Settings = Settings {
     secant: false,
     probe: PROBE,
     probed: None,
-    again: false,
+    again: true,
 };
 /// Most rounds of finding and fitting.
 const ROUNDS: usize = 6;
