@@ -1,6 +1,6 @@
 //! Models with one effect more: all are sketched, the promising ones refitted.
 
-use super::judge::{look_alikes, removes};
+use super::judge::{is_exact, look_alikes, removes};
 use super::missed;
 use super::refit::Refit;
 use super::sketch::Sketch;
@@ -118,7 +118,7 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
     let first = parents.iter().all(|parent| parent.effects.is_empty());
     let explained = models.first().is_some_and(|model| {
         if first {
-            is_exact(workshop, model)
+            is_exact(model, workshop.floor)
         } else {
             parents.iter().all(|parent| removes(parent, model))
         }
@@ -144,12 +144,6 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);
     refits(workshop, &more, models, done, |_| false)
-}
-
-/// Whether a model leaves nothing that bristles could explain.
-pub fn is_exact(workshop: &Workshop<'_>, model: &Refit) -> bool {
-    let ran = model.ran();
-    ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * workshop.floor
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
@@ -280,8 +274,5 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
 const NEAR_DRY: f64 = 3.0;
 /// Bristles are fitted beyond a sketch that leaves at most this part of the best model's error.
 const BRISTLED: f64 = 0.9;
-/// Errors within this factor of the floor leave nothing to explain: five standard deviations of what a recording
-/// of some thousand readings has.
-const EXACT: f64 = 1.02;
 /// Errors that are foreseen below this many counts are as good as each other.
 const FLOOR: f64 = 0.35;

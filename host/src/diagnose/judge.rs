@@ -6,6 +6,9 @@ use crate::problem::Data;
 use shared::effects::Kind;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+/// Errors within this factor of the floor leave nothing to explain: five standard deviations of what a recording
+/// of some thousand readings has.
+const EXACT: f64 = 1.02;
 /// Part of the held-out excess over the encoder's floor that a named effect must remove.
 const MUST_REMOVE: f64 = 0.6;
 /// Lead over the best rival that is no look-alike, in the logarithm of the errors' product.
@@ -48,6 +51,12 @@ fn akin(a: &Refit, b: &Refit) -> bool {
         (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alikes(place, kind)),
         _ => false,
     }
+}
+
+/// Whether a model leaves nothing that bristles could explain, `floor` being what the reading's own noise makes of a right one.
+pub fn is_exact(model: &Refit, floor: f64) -> bool {
+    let ran = model.ran();
+    ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * floor
 }
 
 /// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.

@@ -73,7 +73,8 @@ pub fn lines_of(data: &Data, residuals: &[EquationResidual], time: f64) -> Vec<L
     let Some(inverse) = beside.own.try_inverse() else {
         return Vec::new();
     };
-    let lowest = (WAVES / turned_through(data)).ceil() as usize;
+    let turned_through = data.travel_counts() / data.units.counts_per_rev;
+    let lowest = (WAVES / turned_through).ceil() as usize;
     let mut lines: Vec<Line> = (lowest.max(1)..=HIGHEST)
         .filter_map(|order| {
             let (row, lane) = ((order - 1) / ABREAST, (order - 1) % ABREAST);
@@ -82,16 +83,6 @@ pub fn lines_of(data: &Data, residuals: &[EquationResidual], time: f64) -> Vec<L
         .collect();
     lines.sort_by(|a, b| b.explains.total_cmp(&a.explains));
     lines
-}
-
-/// Angle between the shaft's outermost positions, revolutions.
-fn turned_through(data: &Data) -> f64 {
-    let (low, high) = (0..data.len())
-        .map(|k| data.centre(k))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| {
-            (low.min(angle), high.max(angle))
-        });
-    (high - low) / data.units.counts_per_rev
 }
 
 /// What is fitted beside an order: friction each way, and corrections of damping and inertia.

@@ -5,7 +5,7 @@ use super::descent::{Descent, PROBE, Settings};
 use super::errors::{Errors, ROOM};
 use super::missed::Losses;
 use super::sketch::Sketch;
-use super::track::{Tracked, Tracks};
+use super::track::Tracked;
 use super::workshop::Workshop;
 use crate::error::Error;
 use crate::fit::{scores, validate, validate_roughly};
@@ -76,8 +76,8 @@ pub struct Refit {
     pub windowed: Option<Errors>,
     /// Errors that are soon forgotten, where free runs are chaotic.
     pub tracked: Option<Tracked>,
-    /// The same for every memory that was asked for.
-    pub(super) tracks: Tracks,
+    /// The same for every memory that was asked for, so that none is computed again whenever models are compared.
+    pub(super) tracks: Vec<Tracked>,
     /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
     pub followed: f64,
     /// RMS error that was foreseen before the refit, counts.
@@ -317,7 +317,7 @@ impl Workshop<'_> {
             },
             validate_rms_counts: validate_roughly(self.held_out, &candidate, method)?,
             tracked: None,
-            tracks: Tracks::default(),
+            tracks: Vec::new(),
             followed: 0.0,
             foreseen_rms_counts: foreseen,
             evaluations: found.evaluations,

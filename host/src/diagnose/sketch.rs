@@ -254,9 +254,10 @@ impl Workshop<'_> {
     /// RMS error of a free run from where a sketch stands, counts; infinite where it is above `limit`.
     pub(super) fn leaves(&self, sketch: &Sketch, limit: f64) -> f64 {
         let samples = self.data.len() as f64;
+        let most = limit * limit * samples;
         self.problem(&sketch.structure, self.method)
-            .residuals_within(&sketch.x, limit * limit * samples)
-            .filter(|(_, squares)| *squares <= limit * limit * samples)
+            .residuals_within(&sketch.x, most)
+            .filter(|(_, squares)| *squares <= most)
             .map_or(f64::INFINITY, |(_, squares)| (squares / samples).sqrt())
     }
 }

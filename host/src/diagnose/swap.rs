@@ -1,7 +1,6 @@
 //! Trying earlier terms against their look-alikes: what was named first was judged without the rest.
 
-use super::extend::is_exact;
-use super::judge::best;
+use super::judge::{best, is_exact};
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -32,7 +31,7 @@ pub fn swapped(
     if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
         return None;
     }
-    if kind == Kind::Lugre && is_exact(workshop, chosen) {
+    if kind == Kind::Lugre && is_exact(chosen, workshop.floor) {
         return None;
     }
     let without = without(chosen, place);

@@ -28,10 +28,6 @@ pub struct Tracked {
     pub memory_s: f64,
 }
 
-/// What was found for each memory, so that it is not computed again whenever models are compared.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Tracks([Option<Errors>; MEMORIES_S.len()]);
-
 impl Tracked {
     /// Whether the model is held as loosely as any.
     pub fn is_loose(&self) -> bool {
@@ -45,9 +41,8 @@ impl Workshop<'_> {
     /// # Errors
     /// As [`refit`](Self::refit).
     fn track(&self, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
-        let place = MEMORIES_S.iter().position(|&memory| memory == memory_s);
-        if let Some(errors) = place.and_then(|place| refit.tracks.0[place]) {
-            refit.tracked = Some(Tracked { errors, memory_s });
+        if let Some(known) = refit.tracks.iter().find(|known| known.memory_s == memory_s) {
+            refit.tracked = Some(*known);
             return Ok(());
         }
         let tracked = |data: &Data| {
@@ -70,10 +65,9 @@ impl Workshop<'_> {
             held_out: tracked(self.held_out)?,
             floor: FLOOR_RMS_COUNTS,
         };
-        refit.tracked = Some(Tracked { errors, memory_s });
-        if let Some(place) = place {
-            refit.tracks.0[place] = Some(errors);
-        }
+        let tracked = Tracked { errors, memory_s };
+        refit.tracked = Some(tracked);
+        refit.tracks.push(tracked);
         Ok(())
     }
 

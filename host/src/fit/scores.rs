@@ -109,18 +109,22 @@ pub struct EquationResidual {
     pub acceleration: f64,
 }
 
+/// The first and the last sample by which the speed at one is told.
+fn around(data: &Data, k: usize) -> (usize, usize) {
+    let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
+    (k.saturating_sub(SPEED_HALF_WIDTH), to)
+}
+
 /// Speed at a sample, counts/s, over as many samples to both sides as the restart of a window takes.
 fn speed(data: &Data, k: usize) -> f64 {
-    let from = k.saturating_sub(SPEED_HALF_WIDTH);
-    let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
+    let (from, to) = around(data, k);
     let time = data.time_s[to] - data.time_s[from];
     (data.counts[to] - data.counts[from]) / time.max(f64::MIN_POSITIVE)
 }
 
 /// Direction in which the shaft slides at a sample; zero where it may rest.
 fn sliding(data: &Data, k: usize) -> f64 {
-    let from = k.saturating_sub(SPEED_HALF_WIDTH);
-    let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
+    let (from, to) = around(data, k);
     let travel = data.counts[to] - data.counts[from];
     // On the edge of a cell the reading of a shaft at rest may change by one.
     if travel.abs() > 1.0 {

@@ -148,10 +148,7 @@ impl Repair {
             losses: Some(self.losses),
             ..self.refit
         };
-        let before: usize = refit.effects[..place]
-            .iter()
-            .map(|kind| kind.description().parameters.len())
-            .sum();
+        let before = parameters_of(&refit.effects[..place]);
         refit.effects.insert(place, Kind::MissedCounts);
         let parameters = [self.share, self.threshold];
         refit.parameters.splice(before..before, parameters);
@@ -368,12 +365,15 @@ fn without(refit: &Refit) -> Option<(usize, Refit)> {
         .effects
         .iter()
         .position(|&kind| kind == Kind::MissedCounts)?;
-    let before: usize = bare.effects[..place]
-        .iter()
-        .map(|kind| kind.description().parameters.len())
-        .sum();
+    let before = parameters_of(&bare.effects[..place]);
     bare.effects.remove(place);
     bare.parameters.drain(before..before + 2);
     bare.losses = None;
     Some((place, bare))
+}
+
+/// How many parameters some effects have.
+fn parameters_of(effects: &[Kind]) -> usize {
+    let each = effects.iter().map(|kind| kind.description().parameters);
+    each.map(<[_]>::len).sum()
 }
