@@ -44,6 +44,8 @@ pub struct Bench {
     shown: i64,
     fault_shown: bool,
     restarts: usize,
+    /// Time until the bridge's carrier turns round, ns.
+    turns_in: u64,
     /// The last stop, ns.
     last: u64,
     started: Instant,
@@ -67,6 +69,7 @@ impl Bench {
             shown: 0,
             fault_shown: false,
             restarts: usize::MAX,
+            turns_in: u64::MAX,
             last: 0,
             started: Instant::now(),
             stack: None,
@@ -111,7 +114,9 @@ impl Bench {
     fn turn(&mut self, rig: &mut Rig, at: VirtualNanos) {
         let now = at.0 as f64 * 1e-9;
         let faults = &self.settings.faults;
+        // What acted until now, then what acts from now on.
         let duty = rig.duty();
+        self.turns_in = rig.take_over(at).0;
         let terminal = match duty {
             Some(duty) => Terminal::Driven(duty * self.settings.supply),
             None => Terminal::Open(self.settings.supply),
@@ -219,6 +224,7 @@ impl Driver<Rig> for Bench {
         }
         // A stop falls between two instructions, so it may come a little late; the next one does not.
         let step = self.settings.step_ns;
-        (at.0 < self.settings.end_ns).then_some(VirtualNanos((at.0 / step + 1) * step))
+        let next = ((at.0 / step + 1) * step).min(at.0.saturating_add(self.turns_in));
+        (at.0 < self.settings.end_ns).then_some(VirtualNanos(next))
     }
 }

@@ -3,7 +3,7 @@
 use std::num::{NonZeroU32, NonZeroU64};
 
 use rigless::chip::uart::TcpPeer;
-use rigless::device::Level;
+use rigless::device::{Device, Level};
 use rigless::machine::{Board, Crystal, Target, armv7m};
 use rigless::mcu::{Mcu, Operate};
 use rigless::soc::st::tim::Channel;
@@ -11,6 +11,7 @@ use rigless::soc::stm32f427::Stm32f427;
 use rigless::soc::stm32f427::generated::tim1;
 use rigless::soc::stm32f427::peripherals::adc;
 use rigless::soc::stm32f427::peripherals::gpio::{Gpio, Pin};
+use rigless::soc::stm32f427::peripherals::rcc::Apb;
 use rigless::time::VirtualNanos;
 
 use crate::wiring::{FaultLine, PinAt, Wiring};
@@ -24,12 +25,21 @@ const CRYSTAL_HZ: u64 = 8_000_000;
 pub struct Rig {
     mcu: Stm32f427,
     wiring: Wiring,
+    carrier: Carrier,
+}
+
+/// A centred carrier: a new compare value acts when it next turns round.
+#[derive(Debug, Default)]
+struct Carrier {
+    falls: bool,
+    /// Of the legs, as they act.
+    compares: [u64; 2],
 }
 
 rigless::snapshot::store!(Rig {
     values: [],
     parts: [mcu],
-    built: [wiring]
+    built: [wiring, carrier]
 });
 
 impl Rig {
@@ -39,10 +49,36 @@ impl Rig {
         mcu.rcc.attach_crystals(CRYSTAL_HZ, Crystal::NONE.0);
         mcu.set_supply(3300);
         mcu.usart[wiring.serial_port].attach(link);
-        Ok(Self { mcu, wiring })
+        Ok(Self {
+            mcu,
+            wiring,
+            carrier: Carrier::default(),
+        })
     }
 
-    /// The part of the supply that the firmware asks for across the winding, or `None` while the bridge is open: the
+    /// Lets the carrier take new compare values over, if it has turned round since the last look; gives the time until it does
+    /// next.
+    pub fn take_over(&mut self, at: VirtualNanos) -> VirtualNanos {
+        let (clocks, registers) = self.mcu.clocks();
+        let clock = clocks.timer_clock(registers, Apb::Two).max(1);
+        let (timer, registers) = self.mcu.advanced_timer(TIM1);
+        let control = registers.get(tim1::Register::Cr1);
+        let (centred, falls) = (control >> 5 & 3 != 0, control >> 4 & 1 == 1);
+        if !centred || falls != self.carrier.falls {
+            let legs = [tim1::Register::Ccr1, tim1::Register::Ccr2];
+            self.carrier = Carrier {
+                falls,
+                compares: legs.map(|leg| registers.get(leg)),
+            };
+        }
+        let top = registers.get(tim1::Register::Arr);
+        let count = timer.peek(tim1::Register::Cnt, registers, at).unwrap_or(0);
+        let left = if falls { count } else { top.saturating_sub(count) };
+        // At least one, or a stop at the turn itself would be followed by another.
+        VirtualNanos(((left + 1) * 1_000_000_000).div_ceil(clock))
+    }
+
+    /// The part of the supply that the firmware puts across the winding, or `None` while the bridge is open: the
     /// timer's outputs off, a pin not in the timer's hands, or the driver not enabled.
     pub fn duty(&mut self) -> Option<f64> {
         let (_, timer) = self.mcu.advanced_timer(TIM1);
@@ -54,8 +90,8 @@ impl Rig {
         }
         let centred = timer.get(tim1::Register::Cr1) >> 5 & 3 != 0;
         let steps = timer.get(tim1::Register::Arr) + u64::from(!centred);
-        let high = |register| timer.get(register).min(steps) as f64 / steps as f64;
-        let duty = high(tim1::Register::Ccr1) - high(tim1::Register::Ccr2);
+        let [a, b] = self.carrier.compares.map(|c| c.min(steps) as f64);
+        let duty = (a - b) / steps as f64;
         let enabled = self.level(self.wiring.enable) == Level::High;
         (enabled && self.connected(self.wiring.legs)).then_some(duty)
     }

@@ -53,14 +53,14 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         Some(Script::excitation(which, length, amplitude, job.seed))
     }
 
-    /// A period of a phase that drives: what has just ended is looked at, kept and sent; then the next duty is applied.
+    /// A period of a phase that drives: the duty that is ready is applied; what has just ended is looked at, kept and sent; and
+    /// the next duty is made ready.
     // Out of line, as all that is long: short instructions reach the first kilobyte of a stack only.
     #[inline(never)]
-    pub(super) fn drive(&mut self, step: i32) {
+    pub(super) fn drive(&mut self) {
         let Some(job) = self.job else {
             return self.fail(Fault::Stopped);
         };
-        let current = self.board.current_ma();
         let held = self.duty;
         if let Work::Play {
             next: Some(duty), ..
@@ -68,6 +68,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         {
             self.apply(duty);
         }
+        let current = self.board.current_ma();
+        let step = self.travelled();
         let driven = (held != OPEN).then_some(held);
         let sensed = B::SENSES_CURRENT.then_some(current);
         let looked = match &mut self.guard {
@@ -141,8 +143,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     #[inline(never)]
     pub(super) fn apply(&mut self, duty: i16) {
         if duty == OPEN {
-            self.duty = OPEN;
-            self.board.coast();
+            self.open();
         } else {
             self.duty = self.board.nearest(duty);
             self.board.drive(self.duty);

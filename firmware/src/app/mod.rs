@@ -6,8 +6,9 @@
 //!
 //! Functions that are called from many places are kept out of line: inlined everywhere, they would double the image.
 //!
-//! Each period: wait for its end, read, look ([`Guard`]), keep and send the row, drive; or, with the bridge open, fit a
-//! slice. Nothing waits but [`Board::tick`].
+//! Each period: wait for the end of the last one, give the bridge its duty, read, look ([`Guard`]), keep and send the row, make
+//! the next duty ready; or, with the bridge open, fit a slice. Nothing waits but [`Board::tick`], and [`Board::count`] until the
+//! duty acts.
 //!
 //! | file | holds |
 //! |---|---|
@@ -168,26 +169,38 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// One control period.
     pub fn period(&mut self) {
         let ticked = self.board.tick();
-        let count = self.board.count();
-        let step = count.wrapping_sub(self.count);
-        self.count = count;
         self.silence = self.silence.saturating_add(1);
         self.repeat = self.repeat.saturating_add(1);
         self.at = self.at.saturating_add(1);
         if self.phase.bridge() == Bridge::Driven {
             match ticked.and_then(|()| self.listen()) {
-                Ok(()) => self.drive(step),
+                Ok(()) => self.drive(),
                 Err(fault) => self.fail(fault),
             }
         } else {
-            self.board.coast();
-            self.duty = OPEN;
+            self.open();
+            self.travelled();
             self.rest(ticked.is_ok());
         }
         // After the drive: it must not come late because the host has much to say. A stop opens the bridge here.
         self.hear();
         let (outbox, board) = (&mut self.memory.outbox, &mut self.board);
         outbox.flush(|bytes| board.send(bytes));
+    }
+
+    /// Opens the bridge.
+    fn open(&mut self) {
+        self.duty = OPEN;
+        self.board.coast();
+    }
+
+    /// Reads the encoder; gives the counts since it was read last.
+    #[inline(never)]
+    fn travelled(&mut self) -> i32 {
+        let count = self.board.count();
+        let step = count.wrapping_sub(self.count);
+        self.count = count;
+        step
     }
 
     /// Gives up because of `fault`: opens the bridge, and has the fault to report.
@@ -237,8 +250,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// Enters a phase; gives the one to go on to if there is nothing to do in it.
     fn leads_on(&mut self, phase: Phase) -> Option<Phase> {
         if phase.bridge() == Bridge::Open {
-            self.board.coast();
-            self.duty = OPEN;
+            self.open();
         }
         let changed = phase != self.phase;
         if changed {

@@ -10,7 +10,6 @@ const ROOM: usize = 1024;
 #[derive(Debug)]
 pub struct Outbox {
     bytes: Deque<u8, ROOM>,
-    refused: u32,
 }
 
 impl Outbox {
@@ -18,25 +17,20 @@ impl Outbox {
     pub const fn new() -> Self {
         Outbox {
             bytes: Deque::new(),
-            refused: 0,
         }
     }
 
-    /// Queues a message as a whole; says whether there was room.
-    pub fn post(&mut self, message: &ToHost) -> bool {
+    /// Queues a message as a whole, or drops it if there is no room: the host asks again for what it misses.
+    pub fn post(&mut self, message: &ToHost) {
         let mut buffer = [0; LONGEST_FRAME];
         let Some(frame) = encode(message, &mut buffer) else {
-            self.refused = self.refused.saturating_add(1);
-            return false;
+            return;
         };
-        if self.bytes.capacity() - self.bytes.len() < frame.len() {
-            self.refused = self.refused.saturating_add(1);
-            return false;
+        if self.bytes.capacity() - self.bytes.len() >= frame.len() {
+            for &byte in frame {
+                let _ = self.bytes.push_back(byte);
+            }
         }
-        for &byte in frame {
-            let _ = self.bytes.push_back(byte);
-        }
-        true
     }
 
     /// Offers what waits to `send`, which says how much it took.

@@ -90,6 +90,10 @@ pub trait Board {
     /// The encoder's position in counts, floor-quantised and cumulative, from wherever it started. It wraps around at
     /// the ends of `i32`: only differences taken with `wrapping_sub` mean anything. A board whose timer is 16 bits wide
     /// extends it here.
+    ///
+    /// It is the position at the instant at which a duty that was given at the start of the control period acts. A carrier takes
+    /// a new duty over at its next peak or valley: the board waits for that. A shaft that were read before then would seem to
+    /// answer so much later, and its time constant would be longer by as much.
     fn count(&mut self) -> i32;
 
     /// Armature current in mA, positive as it flows when a positive duty drives a motor at rest; zero without a sensor.
@@ -97,7 +101,8 @@ pub trait Board {
         0
     }
 
-    /// Waits for the end of the control period. The duty takes effect, and the count is read, right after it.
+    /// Waits for the end of the control period. The next duty is given, and current and count are read, right after it, in that
+    /// order.
     ///
     /// # Errors
     ///

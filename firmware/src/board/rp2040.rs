@@ -40,6 +40,9 @@ const FAULT: usize = 19;
 const ENCODER: [usize; 2] = [20, 21];
 /// Part of the PWM that has the bridge's pins.
 const SLICE: usize = 0;
+/// Mark of the PWM that its counter has come to zero again, where it takes new compare values over (RP2040 data sheet, 4.5.2.3
+/// and 4.5.2.7).
+const TAKEN_OVER: u32 = 1 << SLICE;
 
 /// What a pin is for (RP2040 data sheet, 2.19.2).
 #[derive(Clone, Copy)]
@@ -157,11 +160,14 @@ impl Board for Rp2040 {
     }
 
     fn count(&mut self) -> i32 {
+        // The carrier always runs, whether the bridge is open or not.
+        while PWM.intr().read().0 & TAKEN_OVER == 0 {}
         self.encoder.count()
     }
 
     fn tick(&mut self) -> Result<(), Fault> {
         self.period.end()?;
+        PWM.intr().write(|w| w.0 = TAKEN_OVER);
         let enabled = SIO.gpio_out(0).value().read() & 1 << ENABLE != 0;
         if enabled && SIO.gpio_in(0).read() & 1 << FAULT == 0 {
             return Err(Fault::Bridge);

@@ -187,6 +187,12 @@ impl Bridge {
         pac::TIM1.cnt().write(|w| w.set_cnt(self.legs.full / 5));
     }
 
+    /// Whether the carrier has come to a peak or a valley, where it takes a new duty over, in this control period. It always
+    /// runs, whether the bridge is open or not.
+    fn updated(&self) -> bool {
+        pac::TIM1.sr().read().uif()
+    }
+
     /// Whether it should drive, and the break input has switched the outputs off.
     fn tripped(&self) -> bool {
         self.driven && !self.timer.get_moe()
@@ -289,6 +295,7 @@ impl<W: Wiring> Board for Stm32<W> {
     }
 
     fn count(&mut self) -> i32 {
+        while !self.bridge.updated() {}
         self.position.read(self.encoder.count())
     }
 
@@ -298,6 +305,7 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn tick(&mut self) -> Result<(), Fault> {
         self.period.end()?;
+        self.bridge.timer.clear_update_interrupt();
         if self.bridge.tripped() || (self.bridge.driven && self.wiring.reports_fault()) {
             return Err(Fault::Bridge);
         }
