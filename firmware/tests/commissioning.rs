@@ -174,6 +174,31 @@ fn a_motor_commissions_itself_in_both_formats() {
     whole::<Fixed>();
 }
 
+/// A carrier takes a new duty over when it next turns round. A shaft that is read before then seems to answer so much later:
+/// at 200 µs that would be a percent and more of this motor's time constant.
+#[test]
+fn it_does_not_matter_how_long_after_a_periods_end_the_carrier_takes_the_duty_over() {
+    let found = [0.0, 20e-6, 50e-6, 200e-6].map(|turn_s| {
+        let mut host = Host::<f32>::new(SMALL);
+        host.bench.borrow_mut().turn_s = turn_s;
+        let report = host
+            .run(job(), |_, _, _| {})
+            .unwrap_or_else(|failure| panic!("{failure:?}"));
+        let outcome = report.outcome.expect("fitted");
+        let verified = report.verified.expect("verified").mean_square.sqrt();
+        println!("{turn_s} s: {:?}, {verified} held out", outcome.estimates);
+        assert!(verified < 0.5, "{verified} counts held out at {turn_s} s");
+        [0, 1, 2].map(|k| outcome.estimates[k].value)
+    });
+    for late in &found[1..] {
+        // The motor is integrated in other steps.
+        for (k, within) in [1e-4, 1e-3, 2e-2].into_iter().enumerate() {
+            let off = late[k] / found[0][k] - 1.0;
+            assert!(off.abs() < within, "{late:?}, {:?}", found[0]);
+        }
+    }
+}
+
 /// Also run on emulated microcontrollers, see `scripts/proof`.
 #[test]
 fn whatever_goes_wrong_in_whichever_phase_the_bridge_opens_and_the_cause_is_reported() {

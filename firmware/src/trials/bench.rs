@@ -31,6 +31,11 @@ pub struct Bench {
     pub current_ma: Option<i32>,
     /// What the end of a period fails with.
     pub fails: Option<Fault>,
+    /// Time from the end of a period to the carrier's turn, s: the next duty acts then, and the count is the count then.
+    pub turn_s: f32,
+    /// A duty that waits for the turn.
+    waits: Option<i16>,
+    turned: bool,
     motor: Motor,
     count: i32,
 }
@@ -47,8 +52,30 @@ impl Bench {
             locked: false,
             current_ma: None,
             fails: None,
+            turn_s: 0.0,
+            waits: None,
+            turned: true,
             motor,
             count: -5,
+        }
+    }
+
+    /// Lets the motor run on.
+    fn advance(&mut self, seconds: f32) {
+        let before = self.motor.state.count;
+        if !self.locked && seconds > 0.0 {
+            self.motor.advance(self.driven, seconds);
+        }
+        let travelled = self.motor.state.count.wrapping_sub(before);
+        self.count = self.count.wrapping_add(self.encoder * travelled);
+    }
+
+    /// The carrier turns, if it has not in this period.
+    fn turn(&mut self) {
+        if !self.turned {
+            self.turned = true;
+            self.advance(self.turn_s);
+            self.driven = self.waits.take().or(self.driven);
         }
     }
 }
@@ -64,15 +91,23 @@ impl Board for OnBench<'_> {
     const SENSES_CURRENT: bool = true;
 
     fn drive(&mut self, duty: i16) {
-        self.0.borrow_mut().driven = Some(duty);
+        let bench = &mut *self.0.borrow_mut();
+        if bench.turn_s == 0.0 {
+            bench.driven = Some(duty);
+        } else {
+            bench.waits = Some(duty);
+        }
     }
 
     fn coast(&mut self) {
-        self.0.borrow_mut().driven = None;
+        let bench = &mut *self.0.borrow_mut();
+        (bench.driven, bench.waits) = (None, None);
     }
 
     fn count(&mut self) -> i32 {
-        self.0.borrow().count
+        let bench = &mut *self.0.borrow_mut();
+        bench.turn();
+        bench.count
     }
 
     fn current_ma(&mut self) -> i32 {
@@ -82,12 +117,9 @@ impl Board for OnBench<'_> {
 
     fn tick(&mut self) -> Result<(), Fault> {
         let bench = &mut *self.0.borrow_mut();
-        let before = bench.motor.state.count;
-        if !bench.locked {
-            bench.motor.advance(bench.driven, PERIOD_S);
-        }
-        let travelled = bench.motor.state.count.wrapping_sub(before);
-        bench.count = bench.count.wrapping_add(bench.encoder * travelled);
+        bench.turn();
+        bench.advance(PERIOD_S - bench.turn_s);
+        bench.turned = bench.turn_s == 0.0;
         bench.period += 1;
         bench.fails.map_or(Ok(()), Err)
     }

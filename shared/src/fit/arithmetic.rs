@@ -6,8 +6,23 @@ use crate::scalar::{Fixed, FixedCoefficient, Readable, Scalar, product};
 use crate::wire::Format;
 use core::ops::Add;
 
-/// By current, by speed and by the winding's voltage.
+/// By current (or [pull](Arithmetic::pull)), by speed and by the winding's voltage.
 pub type Row<C> = [C; 3];
+
+/// What load and friction add in each period while the shaft turns one way.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Turning<S: Arithmetic> {
+    /// To the pull, once.
+    pub push: S,
+    /// To the pull.
+    pub pull: S,
+    /// To the speed.
+    pub speed: S,
+    /// To the lead.
+    pub lead: S::Lead,
+    /// Sense of the motion.
+    pub sense: S,
+}
 
 /// A number format that a device can fit in.
 ///
@@ -32,7 +47,15 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
         increments: [&[Self::Coefficient; 4]; 3],
         counts_per_unit: Self::Coefficient,
     ) -> Option<Self::Rows>;
-    /// A period without torque on the shaft: current, speed and lead at its end. With `APART` shorter, where that is slower.
+    /// What the short way keeps beside the speed for a current: itself, or something else that says as much.
+    fn pull(rows: &Self::Rows, current: Self, speed: Self) -> Self;
+    /// The current again, while the pull has a push in it.
+    fn current(rows: &Self::Rows, pull: Self, speed: Self, push: Self) -> Self;
+    /// What a torque that adds so much to current, speed and lead in each period adds on the short way.
+    fn turning(rows: &Self::Rows, sense: Self, by: (Self, Self, Self::Lead)) -> Turning<Self>;
+    /// Adds that to pull and speed, if anything is to be added.
+    fn turned(to: (Self, Self), by: &Turning<Self>) -> (Self, Self);
+    /// A period without torque on the shaft: pull, speed and lead at its end. With `APART` shorter, where that is slower.
     fn follow<const APART: bool>(
         rows: &Self::Rows,
         from: (Self, Self, Self::Lead),
@@ -99,34 +122,65 @@ impl Arithmetic for f32 {
 
     compiled_here!(6);
 
+    /// The pull is what current and speed add to the speed in a period: by it the speed needs a product less, and is rounded
+    /// once, where a row of three products would round it three times. In a recording of 2,000 periods the speed's rounding is
+    /// what f32 costs: the shaft has turned by the sum of it.
     fn rows(increments: [&[f32; 4]; 3], counts_per_unit: f32) -> Option<Self::Rows> {
-        let [mut current, mut speed, mut angle] = increments.map(|&[a, b, c, _]| [a, b, c]);
-        angle = angle.map(|k| k * counts_per_unit);
-        // The current forgets fast: as a whole it needs one addition less, and loses nothing.
-        current[0] += 1.0;
-        for row in [&mut current, &mut speed, &mut angle] {
+        let [[forgotten, b, c, _], [p, q, r, _], angle] = increments;
+        let [u, v, w, _] = angle.map(|k| k * counts_per_unit);
+        // q·speed + p·current a period later; of the current, what is not forgotten.
+        let pull = [1.0 + forgotten + q, p * b - q * forgotten, p * c + q * r];
+        // current = (pull - q·speed) / p
+        let by_pull = u / p;
+        let mut rows = [pull, [*p, *q, *r], [by_pull, v - by_pull * q, w]];
+        for row in &mut rows {
             row[2] *= 1.0 / 32_768.0;
         }
-        Some([current, speed, angle])
+        by_pull.is_finite().then_some(rows)
+    }
+
+    fn pull(&[_, [p, q, _], _]: &Self::Rows, current: f32, speed: f32) -> f32 {
+        q * speed + p * current
+    }
+
+    fn current(&[_, [p, q, _], _]: &Self::Rows, pull: f32, speed: f32, push: f32) -> f32 {
+        (pull - push - q * speed) / p
+    }
+
+    /// What it adds to the speed is part of the pull.
+    fn turning(
+        &[[a, _, _], [p, q, _], [u, _, _]]: &Self::Rows,
+        sense: f32,
+        (current, speed, lead): (f32, f32, f32),
+    ) -> Turning<f32> {
+        Turning {
+            push: speed,
+            // The current keeps a - q of itself.
+            pull: speed * (1.0 - (a - q)) + p * current,
+            speed: 0.0,
+            lead: lead - u * speed,
+            sense,
+        }
+    }
+
+    #[inline(always)]
+    fn turned((pull, speed): (f32, f32), by: &Turning<f32>) -> (f32, f32) {
+        (pull + by.pull, speed)
     }
 
     #[inline(always)]
     fn follow<const APART: bool>(
-        [by_current, by_speed, by_angle]: &Self::Rows,
-        (current, speed, lead): (f32, f32, f32),
+        &[[a, b, c], [_, _, r], [u, v, w]]: &Self::Rows,
+        (pull, speed, lead): (f32, f32, f32),
         duty: i16,
         step: i16,
     ) -> (f32, f32, f32) {
         let (duty, step) = (f32::from(duty), f32::from(step));
-        let [a, b, c] = *by_current;
-        let [p, q, r] = *by_speed;
-        let [u, v, w] = *by_angle;
         (
-            a * current + b * speed + c * duty,
-            // In a row, which needs an addition less, and what is added where it stays.
-            speed + q * speed + p * current + r * duty,
+            a * pull + b * speed + c * duty,
+            speed + (pull + r * duty),
             // Here two hundred counts and more cancel, whatever the order.
-            lead - step + u * current + v * speed + w * duty,
+            lead - step + u * pull + v * speed + w * duty,
         )
     }
 
@@ -303,6 +357,30 @@ impl Arithmetic for Fixed {
             speed: mantissas(speed, 32 - SPEED_SHIFT)?,
             travel: mantissas(&travel, TRAVEL_POINT)?,
         })
+    }
+
+    fn pull(_: &FixedRows, current: Fixed, _: Fixed) -> Fixed {
+        current
+    }
+
+    fn current(_: &FixedRows, pull: Fixed, _: Fixed, _: Fixed) -> Fixed {
+        pull
+    }
+
+    fn turning(_: &FixedRows, sense: Fixed, by: (Fixed, Fixed, i64)) -> Turning<Fixed> {
+        let (pull, speed, lead) = by;
+        Turning {
+            push: Fixed::default(),
+            pull,
+            speed,
+            lead,
+            sense,
+        }
+    }
+
+    #[inline(always)]
+    fn turned((pull, speed): (Fixed, Fixed), by: &Turning<Fixed>) -> (Fixed, Fixed) {
+        (pull + by.pull, speed + by.speed)
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! One candidate along the trace, so many samples at a time.
 
+use super::arithmetic::Turning;
 use super::{Arithmetic, Point, Space};
 use crate::model::{Motion, Rigid};
 use crate::scalar::Angle;
@@ -10,6 +11,16 @@ const BLOCK: usize = 72;
 
 /// Largest mean error that where the shaft stood within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
+
+/// As much of a mean error as that can explain, counts.
+#[inline(never)]
+pub(super) fn explained(mean: f32) -> f32 {
+    if mean.abs() > UNKNOWN_START {
+        UNKNOWN_START.copysign(mean)
+    } else {
+        mean
+    }
+}
 
 /// Room for a model. Not an `Option`, whose nothing may be marked by any number in any place: an empty room is all zeros, so
 /// that a static of it is memory that starts as zeros, and no image is copied there.
@@ -54,16 +65,6 @@ pub(super) fn build<S: Arithmetic>(
     room.taken
 }
 
-/// What load and friction add in each period while the shaft turns one way.
-#[derive(Clone, Copy, Debug, Default)]
-struct Turning<S: Arithmetic> {
-    current: S,
-    speed: S,
-    lead: S::Lead,
-    /// Sense of the motion.
-    sense: S,
-}
-
 /// A rigid motor that follows a trace from standstill, and how far it strays.
 ///
 /// Its cost is the variance of the error: where within a count the shaft stood at the start is not known, so a constant
@@ -77,7 +78,8 @@ pub struct Evaluation<S: Arithmetic> {
     rows: S::Rows,
     /// None if the sense of the motion is not known, or friction holds the shaft.
     turning: Option<Turning<S>>,
-    current: S,
+    /// See [`Arithmetic::pull`].
+    pull: S,
     speed: S,
     lead: S::Lead,
     at: usize,
@@ -100,7 +102,7 @@ impl<S: Arithmetic> Evaluation<S> {
             model: Rigid::of(zero, none),
             rows,
             turning: None,
-            current: zero,
+            pull: zero,
             speed: zero,
             lead,
             at: 0,
@@ -124,7 +126,7 @@ impl<S: Arithmetic> Evaluation<S> {
         };
         self.rows = rows;
         self.turning = None;
-        (self.current, self.speed, self.lead) = (S::zero(), S::zero(), Default::default());
+        (self.pull, self.speed, self.lead) = (S::zero(), S::zero(), Default::default());
         (self.at, self.sums) = (0, Default::default());
         (self.bound, self.result) = (bound, None);
         true
@@ -203,7 +205,7 @@ impl<S: Arithmetic> Evaluation<S> {
                 S::glide_free(self, on.0, on.1, f32::INFINITY)
             } else {
                 if self.turning.is_none() {
-                    self.turning = self.turn();
+                    self.turn();
                 }
                 S::glide(self, on.0, on.1)
             };
@@ -215,16 +217,17 @@ impl<S: Arithmetic> Evaluation<S> {
         }
     }
 
+    /// Takes up load and friction in the sense in which the shaft turns, if it does.
     #[inline(never)]
-    fn turn(&self) -> Option<Turning<S>> {
-        let (sense, [current, speed, angle]) = self.model.turning(self.speed)?;
+    fn turn(&mut self) {
+        let Some((sense, [current, speed, angle])) = self.model.turning(self.speed) else {
+            return;
+        };
         let angle = S::Angle::default().advance(angle, self.model.counts_per_unit());
-        Some(Turning {
-            current,
-            speed,
-            lead: S::ahead(Default::default(), angle, 0),
-            sense,
-        })
+        let lead = S::ahead(Default::default(), angle, 0);
+        let turning = S::turning(&self.rows, sense, (current, speed, lead));
+        self.pull = self.pull + turning.push;
+        self.turning = Some(turning);
     }
 
     /// Periods with the bridge closed of a motor that nothing brakes, `N` at a time, until after a block the sum of squares may
@@ -237,7 +240,7 @@ impl<S: Arithmetic> Evaluation<S> {
         most: f32,
     ) -> usize {
         let rows = self.rows;
-        let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
+        let (mut at, mut sums) = ((self.pull, self.speed, self.lead), self.sums);
         let len = duties.len().min(steps.len());
         let (duties, rest) = duties[..len].as_chunks::<N>();
         let (steps, rest_steps) = steps[..len].as_chunks::<N>();
@@ -271,7 +274,7 @@ impl<S: Arithmetic> Evaluation<S> {
             }
             periods += rest.len();
         }
-        ((self.current, self.speed, self.lead), self.sums) = (at, sums);
+        ((self.pull, self.speed, self.lead), self.sums) = (at, sums);
         periods
     }
 
@@ -282,12 +285,11 @@ impl<S: Arithmetic> Evaluation<S> {
             return 0;
         };
         let rows = self.rows;
-        let (mut at, mut sums) = ((self.current, self.speed, self.lead), self.sums);
+        let (mut at, mut sums) = ((self.pull, self.speed, self.lead), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
             let mut to = S::follow::<true>(&rows, at, duty, step);
-            to.0 = to.0 + turning.current;
-            to.1 = to.1 + turning.speed;
+            (to.0, to.1) = S::turned((to.0, to.1), &turning);
             if !S::along(to.1, turning.sense) {
                 break;
             }
@@ -296,7 +298,7 @@ impl<S: Arithmetic> Evaluation<S> {
             S::collect(&mut sums, at.2);
             periods += 1;
         }
-        ((self.current, self.speed, self.lead), self.sums) = (at, sums);
+        ((self.pull, self.speed, self.lead), self.sums) = (at, sums);
         periods
     }
 
@@ -305,13 +307,15 @@ impl<S: Arithmetic> Evaluation<S> {
     fn rough(&mut self, duty: i16, step: i16) {
         let open = duty == OPEN;
         let command = S::from_q15(if open { 0 } else { duty });
+        let push = self.turning.map_or(S::zero(), |turning| turning.push);
         let mut motion = Motion {
-            current: self.current,
+            current: S::current(&self.rows, self.pull, self.speed, push),
             speed: self.speed,
             ..Motion::default()
         };
         S::step(&self.model, &mut motion, command, open);
-        (self.current, self.speed) = (motion.current, motion.speed);
+        self.pull = S::pull(&self.rows, motion.current, motion.speed);
+        self.speed = motion.speed;
         self.lead = S::ahead(self.lead, motion.angle, step);
         S::collect(&mut self.sums, self.lead);
         self.turning = None;
@@ -320,7 +324,7 @@ impl<S: Arithmetic> Evaluation<S> {
     /// Sum of the squared errors about their mean, as far as that can be a matter of where the shaft stood.
     fn spread(&self, periods: f32) -> f32 {
         let (sum, squares) = S::sums(&self.sums);
-        let mean = (sum / periods).clamp(-UNKNOWN_START, UNKNOWN_START);
+        let mean = explained(sum / periods);
         squares - mean * (sum + sum - mean * periods)
     }
 }

@@ -272,11 +272,14 @@ impl<S: Arithmetic> Fit<S> {
         let best = search.best();
         (self.best, self.least) = (best.x, best.cost);
         if self.evaluations >= u32::from(self.settings.evaluations) {
-            self.stage = if self.least.is_finite() {
-                Stage::Polish(Polish::new(self.best, self.least))
-            } else {
-                Stage::Done(Stop::NoModel)
-            };
+            if !self.least.is_finite() {
+                self.stage = Stage::Done(Stop::NoModel);
+                return;
+            }
+            self.stage = Stage::Polish(Polish::EMPTY);
+            if let Stage::Polish(polish) = &mut self.stage {
+                polish.begin(&mut self.space, &self.best, self.least);
+            }
         }
     }
 

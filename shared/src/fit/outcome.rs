@@ -27,8 +27,7 @@ coded!(
 pub struct Estimate {
     /// In the device's own measure, see [`Unknown`](super::Unknown).
     pub value: f32,
-    /// From the curvature of the cost; infinite where the trace does not determine the value. Rounding is not in it: in f32
-    /// that adds up to some 2e-5 of a slow motor's value.
+    /// From the curvature of the cost; infinite where the trace does not determine the value.
     pub std: f32,
 }
 

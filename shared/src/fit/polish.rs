@@ -4,7 +4,7 @@
 //! two others, each displaced along one axis, for each pair of axes in turn. So the normal equations are summed up in the
 //! room of three models, however many unknowns there are, and d·(d − 1)/2 passes give all of them.
 
-use super::evaluation::{Room, Runs, build};
+use super::evaluation::{Room, Runs, build, explained};
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
 use crate::trace::Trace;
@@ -70,11 +70,11 @@ impl Curvature {
 #[derive(Clone, Copy, Debug, Default)]
 struct Differences {
     at: usize,
-    /// Of the error and of both differences, then of their products: with themselves and with each other, row by row of the
-    /// upper triangle.
-    sums: [f32; 9],
+    /// Of the error and of both differences; of the error by both; of the differences by themselves and by each other, row by
+    /// row of the upper triangle.
+    sums: [f32; 8],
     /// The same since the last whole block.
-    block: [f32; 9],
+    block: [f32; 8],
 }
 
 /// Periods that are summed up by themselves first: a sum of sums rounds less than one long sum.
@@ -93,7 +93,7 @@ impl Differences {
             }
             let [e, a, b] = errors;
             let (a, b) = (a - e, b - e);
-            let terms = [e, a, b, e * e, e * a, e * b, a * a, a * b, b * b];
+            let terms = [e, a, b, e * a, e * b, a * a, a * b, b * b];
             for (sum, term) in self.block.iter_mut().zip(terms) {
                 *sum += term;
             }
@@ -108,12 +108,23 @@ impl Differences {
         3 * (to - from) as u32
     }
 
-    /// Products about the means: where within a count the shaft stood is not known.
-    fn products(&self) -> [f32; 6] {
-        let n = self.at.max(1) as f32;
-        let [e, a, b, products @ ..] = self.sums;
-        let means = [e * e, e * a, e * b, a * a, a * b, b * b];
-        core::array::from_fn(|k| products[k] - means[k] / n)
+    /// Products about the means: where within a count the shaft stood is not known. But if the mean error is more than that can
+    /// explain, where it stood is at the end of its range and stays there: the cost has no other mean to take off.
+    fn products(&self) -> [f32; 5] {
+        let [e, a, b, ea, eb, aa, ab, bb] = self.sums;
+        let mut part = 1.0 / self.at.max(1) as f32;
+        let mean = e * part;
+        let start = explained(mean);
+        if start != mean {
+            part = 0.0;
+        }
+        [
+            ea - start * a,
+            eb - start * b,
+            aa - a * a * part,
+            ab - a * b * part,
+            bb - b * b * part,
+        ]
     }
 }
 
@@ -134,6 +145,8 @@ enum Work {
 #[derive(Clone, Copy, Debug)]
 pub struct Polish {
     centre: Point,
+    /// Where the coordinates' zero is in the unit cube.
+    from: Point,
     cost: f32,
     reach: Point,
     /// Displacements of the present pair that were no good.
@@ -150,23 +163,40 @@ pub struct Polish {
 }
 
 impl Polish {
-    /// From `centre`, where the mean squared error is `cost`.
-    pub fn new(centre: Point, cost: f32) -> Self {
-        Polish {
-            centre,
-            cost,
-            reach: [REACH; MOST],
-            tries: 0,
-            periods: 1.0,
-            normal: Normal::default(),
-            damping: DAMPING,
-            trial: centre,
-            promised: 0.0,
-            rounds: 0,
-            evaluations: 0,
-            work: Work::Displace(0, 1),
-            differences: Differences::default(),
-        }
+    /// Not begun: all zeros, so that no image is copied for it.
+    pub(super) const EMPTY: Self = Polish {
+        centre: [0.0; MOST],
+        from: [0.0; MOST],
+        cost: 0.0,
+        reach: [0.0; MOST],
+        tries: 0,
+        periods: 0.0,
+        normal: Normal {
+            matrix: [[0.0; MOST]; MOST],
+            slope: [0.0; MOST],
+        },
+        damping: 0.0,
+        trial: [0.0; MOST],
+        promised: 0.0,
+        rounds: 0,
+        evaluations: 0,
+        work: Work::Displace(0, 0),
+        differences: Differences {
+            at: 0,
+            sums: [0.0; 8],
+            block: [0.0; 8],
+        },
+    };
+
+    /// Begins an empty one from `centre`, where the mean squared error is `cost`. Puts the origin of `space` there, see
+    /// [`Space::about`].
+    pub(super) fn begin(&mut self, space: &mut Space, centre: &Point, cost: f32) {
+        self.centre = *centre;
+        self.from = space.about(&mut self.centre);
+        self.cost = cost;
+        self.reach = [REACH; MOST];
+        self.damping = DAMPING;
+        self.work = Work::Displace(0, 1);
     }
 
     /// The best point so far, and its cost.
@@ -244,7 +274,8 @@ impl Polish {
         }
     }
 
-    /// The centre moved along `axis`, away from a wall if there is one.
+    /// The centre moved along `axis`, away from a wall of friction, load or winding if there is one; the logarithms' walls are
+    /// where nothing happens.
     // Called from four places.
     #[inline(never)]
     fn displaced(&self, axis: usize) -> (Point, f32) {
@@ -257,8 +288,8 @@ impl Polish {
     }
 
     /// Enters a pair into the normal equations, or tries better displacements.
-    fn take(&mut self, space: &Space, a: usize, b: usize, products: [f32; 6], periods: usize) {
-        let [_, ea, eb, aa, ab, bb] = products;
+    fn take(&mut self, space: &Space, a: usize, b: usize, products: [f32; 5], periods: usize) {
+        let [ea, eb, aa, ab, bb] = products;
         self.periods = periods.max(1) as f32;
         if self.tries < 4 {
             let mut unfit = false;
@@ -351,7 +382,8 @@ impl Polish {
                     .filter(|&j| solved[j])
                     .map(|j| inverse[k][j] * slopes[j]);
                 step[k] = terms.fold(0.0, |sum, term| sum - term);
-                let (to, room) = (self.centre[k] + step[k], self.centre[k]);
+                let room = self.from[k] + self.centre[k];
+                let to = room + step[k];
                 if !(0.0..=1.0).contains(&to) {
                     step[k] = if to < 0.0 { -room } else { 1.0 - room };
                     free[k] = false;
@@ -366,7 +398,7 @@ impl Polish {
             for k in 0..n {
                 let bent = (0..n).fold(0.0, |sum, j| sum + matrix[k][j] * step[j]);
                 self.promised -= step[k] * (2.0 * self.normal.slope[k] + bent);
-                self.trial[k] = (self.centre[k] + step[k]).clamp(0.0, 1.0);
+                self.trial[k] = self.centre[k] + step[k];
             }
             return if self.trial == self.centre {
                 Work::Done

@@ -37,10 +37,10 @@ pub enum Unknown {
 pub struct Space {
     unknowns: [Unknown; MOST],
     dim: usize,
-    /// Lower end: a logarithm, or a value.
-    low: Point,
-    /// Upper end.
-    high: Point,
+    /// Values where all coordinates are zero.
+    origin: Point,
+    /// What a coordinate of one adds: to a logarithm, or to a value.
+    span: Point,
 }
 
 /// Accelerations are searched from a third of the gain that the trace shows, regressed without lag, over the longest time
@@ -53,7 +53,8 @@ const SHORTEST: f32 = 0.5;
 const ELECTRICAL: [f32; 2] = [0.02, 50.0];
 /// A winding slower than this many mechanical time constants is no motor's.
 const SLOWEST_WINDING: f32 = 4.0;
-/// Place of the mechanical time constant among the coordinates.
+/// Places among the coordinates: the logarithms, before all others.
+const GAIN: usize = 0;
 const MECHANICAL: usize = 1;
 /// Friction and load, parts of the supply.
 const MOST_FRICTION: f32 = 0.5;
@@ -63,8 +64,8 @@ impl Space {
     pub(super) const NONE: Space = Space {
         unknowns: [Unknown::Gain; MOST],
         dim: 0,
-        low: [0.0; MOST],
-        high: [0.0; MOST],
+        origin: [0.0; MOST],
+        span: [0.0; MOST],
     };
 
     /// Around what the trace shows at a glance; `None` if the shaft did not move with the drive.
@@ -81,27 +82,40 @@ impl Space {
         let gain = cross as f32 / power as f32 * 32_768.0;
         let longest = 2.0 * trace.len() as f32;
         let mut space = Space::NONE;
-        let range = |low: f32, high: f32| (Real::ln(low), Real::ln(high));
         space.push(
             Unknown::Gain,
-            range(gain / GAIN_BELOW / longest, gain * ABRUPT),
+            gain * (SHORTEST / GAIN_BELOW) / longest,
+            Real::ln(ABRUPT * GAIN_BELOW * longest),
         );
-        space.push(Unknown::Mechanical, range(SHORTEST, longest));
-        space.push(Unknown::Electrical, (ELECTRICAL[0], ELECTRICAL[1]));
+        space.push(Unknown::Mechanical, SHORTEST, Real::ln(longest / SHORTEST));
+        let [low, high] = ELECTRICAL;
+        space.push(Unknown::Electrical, low, high - low);
         if settings.coulomb {
-            space.push(Unknown::Coulomb, (0.0, MOST_FRICTION));
+            space.push(Unknown::Coulomb, 0.0, MOST_FRICTION);
         }
         if settings.load {
-            space.push(Unknown::Load, (-MOST_FRICTION, MOST_FRICTION));
+            space.push(Unknown::Load, -MOST_FRICTION, 2.0 * MOST_FRICTION);
         }
         Some(space)
     }
 
-    fn push(&mut self, unknown: Unknown, (low, high): (f32, f32)) {
+    fn push(&mut self, unknown: Unknown, origin: f32, span: f32) {
         self.unknowns[self.dim] = unknown;
-        self.low[self.dim] = low;
-        self.high[self.dim] = high;
+        self.origin[self.dim] = origin;
+        self.span[self.dim] = span;
         self.dim += 1;
+    }
+
+    /// Puts the origin of the logarithms at `x`, whose coordinates along them become zero; returns what they were. An f32 along
+    /// the whole range of a logarithm has steps of a millionth of the value, and a gain that is off by that much is a tenth of a
+    /// count off after a hundred thousand; near zero its steps are as fine as those of the value.
+    pub(super) fn about(&mut self, x: &mut Point) -> Point {
+        let (gain, mechanical) = (self.value(GAIN, x), self.value(MECHANICAL, x));
+        (self.origin[GAIN], self.origin[MECHANICAL]) = (gain, mechanical);
+        let mut from = [0.0; MOST];
+        (from[GAIN], from[MECHANICAL]) = (x[GAIN], x[MECHANICAL]);
+        (x[GAIN], x[MECHANICAL]) = (0.0, 0.0);
+        from
     }
 
     /// Number of unknowns.
@@ -114,32 +128,30 @@ impl Space {
         &self.unknowns[..self.dim]
     }
 
-    /// Coordinate `k` in its own measure: a logarithm, or the value.
-    fn coordinate(&self, k: usize, x: &Point) -> f32 {
-        self.low[k] + (self.high[k] - self.low[k]) * x[k]
-    }
-
     /// The value of unknown `k` at `x`.
     pub fn value(&self, k: usize, x: &Point) -> f32 {
-        match self.unknowns[k] {
-            Unknown::Gain => Real::exp(self.coordinate(k, x) + self.coordinate(MECHANICAL, x)),
-            Unknown::Mechanical => Real::exp(self.coordinate(k, x)),
-            Unknown::Electrical | Unknown::Coulomb | Unknown::Load => self.coordinate(k, x),
+        let mut added = self.span[k] * x[k];
+        if k == GAIN {
+            added += self.span[MECHANICAL] * x[MECHANICAL];
+        }
+        if k > MECHANICAL {
+            self.origin[k] + added
+        } else {
+            self.origin[k] * Real::exp(added)
         }
     }
 
     /// By how much the value of unknown `k` changes with each coordinate of `x`.
     pub fn gradient(&self, k: usize, x: &Point) -> Point {
-        let span = |k: usize| self.high[k] - self.low[k];
+        let scale = if k > MECHANICAL {
+            1.0
+        } else {
+            self.value(k, x)
+        };
         let mut gradient = [0.0; MOST];
-        match self.unknowns[k] {
-            Unknown::Gain => {
-                let gain = self.value(k, x);
-                gradient[k] = span(k) * gain;
-                gradient[MECHANICAL] = span(MECHANICAL) * gain;
-            }
-            Unknown::Mechanical => gradient[k] = span(k) * self.value(k, x),
-            Unknown::Electrical | Unknown::Coulomb | Unknown::Load => gradient[k] = span(k),
+        gradient[k] = self.span[k] * scale;
+        if k == GAIN {
+            gradient[MECHANICAL] = self.span[MECHANICAL] * scale;
         }
         gradient
     }
