@@ -96,18 +96,25 @@ fn electrical(state: &State, motor: &Motor, terminal: Terminal, h: f64) -> f64 {
 }
 
 /// The speed after a step of `h` under `torque`. Dry friction opposes motion and may stop it within the step; it then
-/// holds until the torque exceeds what it can hold.
+/// holds, or if the torque exceeds what it can hold the rotor turns back in what is left of the step. (If it waited for the
+/// next one, each reversal of a strong motor would cost its fast encoder a count.)
 fn mechanical(speed: f64, torque: f64, motor: &Motor, h: f64) -> f64 {
-    if speed == 0.0 {
-        if torque.abs() <= motor.holding {
-            return 0.0;
+    let acceleration = |speed: f64, sense: f64| {
+        (torque - motor.coulomb.copysign(sense) - motor.viscous * speed) / motor.inertia
+    };
+    let mut left = h;
+    if speed != 0.0 {
+        let braking = acceleration(speed, speed);
+        let after = speed + braking * h;
+        if after * speed > 0.0 {
+            return after;
         }
-        return (torque - motor.coulomb.copysign(torque)) / motor.inertia * h;
+        left += speed / braking;
     }
-    let acceleration =
-        (torque - motor.coulomb.copysign(speed) - motor.viscous * speed) / motor.inertia;
-    let after = speed + acceleration * h;
-    if after * speed > 0.0 { after } else { 0.0 }
+    if torque.abs() <= motor.holding {
+        return 0.0;
+    }
+    acceleration(0.0, torque) * left
 }
 
 #[cfg(test)]
@@ -154,6 +161,29 @@ mod tests {
         assert_eq!((held.speed, held.angle), (0.0, 0.0));
         let free = after(&m, State::default(), Terminal::Driven(1.01 * limit), 1.0);
         assert!(free.speed > 0.3, "{free:?}");
+    }
+
+    #[test]
+    fn a_reversal_under_torque_takes_no_longer_however_long_the_steps() {
+        let torque = -3.0 * MAXON.holding;
+        let slowing = (torque - MAXON.coulomb) / MAXON.inertia;
+        let turning = (torque + MAXON.coulomb) / MAXON.inertia;
+        let m = Motor {
+            viscous: 0.0,
+            ..MAXON
+        };
+        for steps in 1..40 {
+            let h = 2e-3 / f64::from(steps);
+            let mut speed = 0.1;
+            for _ in 0..steps {
+                speed = mechanical(speed, torque, &m, h);
+            }
+            let exact = turning * (2e-3 + 0.1 / slowing);
+            assert!(
+                (speed / exact - 1.0).abs() < 1e-9,
+                "{speed} of {exact} in {steps}"
+            );
+        }
     }
 
     #[test]

@@ -73,7 +73,11 @@ impl Rig {
         }
         let top = registers.get(tim1::Register::Arr);
         let count = timer.peek(tim1::Register::Cnt, registers, at).unwrap_or(0);
-        let left = if falls { count } else { top.saturating_sub(count) };
+        let left = if falls {
+            count
+        } else {
+            top.saturating_sub(count)
+        };
         // At least one, or a stop at the turn itself would be followed by another.
         VirtualNanos(((left + 1) * 1_000_000_000).div_ceil(clock))
     }
