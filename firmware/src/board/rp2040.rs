@@ -95,9 +95,10 @@ impl Rp2040 {
             period: Period::new(core.SYST, CORE_HZ / 1_000_000 * PERIOD_US),
             entropy,
         };
-        // The carrier begins with the control period: a new duty, of both legs at once, takes effect when it has come down
-        // again, 50 µs after the period's start, every time.
+        // The carrier begins at its peak, with the control period. A new duty, of both legs at once, takes effect when it has
+        // come down, 25 µs and the little that passes here after the period's end, every time: so the program has time to give it.
         board.coast();
+        carrier.ctr().write(|w| w.set_ctr(FULL - 1));
         carrier.csr().write(|w| {
             w.set_ph_correct(true);
             w.set_en(true);

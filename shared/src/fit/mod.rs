@@ -20,7 +20,7 @@ pub use arithmetic::Arithmetic;
 pub use evaluation::Evaluation;
 use evaluation::{Room, Runs, build};
 pub use outcome::{Estimate, Outcome, Stop};
-pub use polish::Polish;
+use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};

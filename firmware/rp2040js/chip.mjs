@@ -1,0 +1,149 @@
+// The RP2040 of rp2040js with an image in its flash, and what that emulator leaves out: requests of the serial port to the DMA, the
+// end of a sleep by an interrupt that is masked, state machines in step with the core, and the true periods of timer and carrier.
+import { readFileSync } from "node:fs";
+import { RP2040 } from "./node_modules/rp2040js/dist/esm/index.js";
+import { SimulationClock } from "./node_modules/rp2040js/dist/esm/clock/simulation-clock.js";
+
+const FLASH = 0x10000000;
+// Behind the second stage of the boot loader.
+const VECTORS = 0x100;
+const CYCLE_NS = 8;
+// Cycles in which the program of the encoder's state machine comes round, and pushes its count.
+const ROUND = 16;
+// A byte on the line at 921,600 baud, ns.
+const BYTE_NS = 10_850;
+
+// Puts what an ELF file loads into the flash.
+function load(flash, path) {
+  const file = readFileSync(path);
+  if (file.readUInt32BE(0) !== 0x7f454c46) throw new Error(`${path} is no ELF file`);
+  const [table, size, count] = [file.readUInt32LE(28), file.readUInt16LE(42), file.readUInt16LE(44)];
+  for (let at = table; at < table + size * count; at += size) {
+    const [kind, offset, , address, length] = [0, 4, 8, 12, 16].map((k) => file.readUInt32LE(at + k));
+    if (kind === 1 && length > 0) flash.set(file.subarray(offset, offset + length), address - FLASH);
+  }
+}
+
+export class Chip {
+  constructor(image) {
+    this.clock = new SimulationClock();
+    this.mcu = new RP2040(this.clock);
+    // Of registers that the emulator has not: the program reads noise and power there.
+    this.mcu.logger = { debug() {}, warn() {}, error: console.error, info() {} };
+    load(this.mcu.flash, image);
+    const start = new DataView(this.mcu.flash.buffer, this.mcu.flash.byteOffset + VECTORS);
+    const core = this.mcu.core;
+    core.SP = start.getUint32(0, true);
+    core.PC = start.getUint32(4, true) & ~1;
+    core.VTOR = FLASH + VECTORS;
+    this.periods();
+    this.line();
+    this.machines();
+    this.carrier = this.mcu.pwm.channels[0];
+  }
+
+  // A period of the core's timer is a cycle longer than its reload value; the emulator's is not, and slides along the carrier.
+  periods() {
+    const { systickAlarm, systickTimer } = this.mcu.ppb;
+    const ended = systickAlarm.callback;
+    systickAlarm.callback = () => {
+      ended();
+      systickTimer.set(this.mcu.ppb.systickReload + 1);
+    };
+  }
+
+  // The serial port: bytes go to `sent`, and come from `receive`.
+  line() {
+    const uart = this.mcu.uart[0];
+    const dma = this.mcu.dma;
+    const read = uart.readUint32.bind(uart);
+    uart.readUint32 = (offset) => {
+      const value = read(offset);
+      if (offset === 0 && uart.rxFIFO.empty) dma.clearDREQ(uart.dreq.rx);
+      return value;
+    };
+    this.sent = () => {};
+    uart.onByte = (byte) => this.sent(byte);
+    this.waiting = [];
+    this.free = 0;
+    this.hear = () => {
+      if (this.waiting.length === 0 || this.clock.nanos < this.free) return;
+      this.free = this.clock.nanos + BYTE_NS;
+      uart.feedByte(this.waiting.shift());
+      dma.setDREQ(uart.dreq.rx);
+    };
+  }
+
+  receive(bytes) {
+    this.waiting.push(...bytes);
+  }
+
+  // The state machines stand still but where that shows: when a line has changed, and when the program reads what they tell.
+  machines() {
+    const pio = this.mcu.pio[0];
+    pio.run = () => {};
+    const read = pio.readUint32.bind(pio);
+    this.settle = (cycles) => {
+      for (let k = 0; k < cycles; k += 1) pio.step();
+    };
+    pio.readUint32 = (offset) => {
+      this.settle(ROUND / 2);
+      return read(offset);
+    };
+  }
+
+  // The lines of the encoder.
+  encoder([a, b]) {
+    this.mcu.gpio[20].setInputValue(a);
+    this.mcu.gpio[21].setInputValue(b);
+    this.settle(4 * ROUND);
+  }
+
+  // The fault line of the bridge, active low.
+  fault(is) {
+    this.mcu.gpio[19].setInputValue(!is);
+  }
+
+  // The part of the supply across the winding, as the carrier has it now; null while the bridge is open.
+  duty() {
+    const enabled = this.mcu.gpio[18].value === 1;
+    const { alarmA, alarmB, top } = this.carrier;
+    return enabled ? (alarmA.target - alarmB.target) / (top + 1) : null;
+  }
+
+  // Calls `seen` whenever the carrier has come down to zero, just before it takes new duties over: every 2 (TOP + 1) cycles
+  // (data sheet, 4.5.2.6). The emulator's own carrier is two cycles short, and turns at its peak as well.
+  atTurns(seen) {
+    const { carrier } = this;
+    for (const alarm of [carrier.alarmA, carrier.alarmB, carrier.alarmBottom]) alarm.enable = false;
+    const turn = this.clock.createAlarm(() => {
+      next(0);
+      seen();
+      carrier.wrap();
+    });
+    const next = (from) => turn.schedule((2 * (carrier.top + 1) - from) * CYCLE_NS);
+    const enable = carrier.updateEnable.bind(carrier);
+    carrier.updateEnable = () => {
+      enable();
+      turn.cancel();
+      if (carrier.timer.enable) next(carrier.timer.counter);
+    };
+  }
+
+  // Runs for so many ns.
+  run(ns) {
+    const { clock, mcu } = this;
+    const core = mcu.core;
+    const end = clock.nanos + ns;
+    while (clock.nanos < end) {
+      if (core.waiting) {
+        clock.tick(Math.max(CYCLE_NS, Math.min(clock.nanosToNextAlarm || ns, BYTE_NS)));
+        const pending = core.pendingInterrupts & core.enabledInterrupts;
+        if (core.pendingSystick || pending) core.waiting = false;
+      } else {
+        clock.tick(core.executeInstruction() * CYCLE_NS);
+      }
+      this.hear();
+    }
+  }
+}

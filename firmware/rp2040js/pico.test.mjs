@@ -1,0 +1,66 @@
+// The Pico's application, as it is flashed, commissions a motor; and whatever breaks, the bridge opens. `scripts/pico test` builds
+// the image and names it in PICO, and the host's program in SERVOID.
+import assert from "node:assert/strict";
+import { execFile, spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { after, test } from "node:test";
+import { promisify } from "node:util";
+import { Motor, TEN_WATTS } from "./motor.mjs";
+
+const { PICO, SERVOID } = process.env;
+assert.ok(PICO && SERVOID, "PICO and SERVOID name the image and the program: run scripts/pico test");
+
+const folder = mkdtempSync(join(tmpdir(), "servoid-pico-"));
+after(() => rmSync(folder, { recursive: true }));
+const COUNTS = "2000";
+
+// A bench, and what the host says to the device on it: its exit code, and the run that it kept.
+async function commission(name, benchFlags, flags) {
+  const bench = spawn("node", [join(import.meta.dirname, "bench.mjs"), PICO, "--counts-per-rev", COUNTS, ...benchFlags], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
+  try {
+    const [first] = await new Promise((told) => createInterface(bench.stdout).once("line", (...line) => told(line)));
+    const out = join(folder, name);
+    const given = ["--port", `tcp:${first.replace("link: ", "")}`, "--supply-v", "12", "--counts-per-rev", COUNTS, "--out", out];
+    const run = await servoid(["device", "commission", ...given, ...flags]);
+    return { run, out, saved: JSON.parse(readFileSync(join(out, "device.json"), "utf8")) };
+  } finally {
+    bench.kill();
+  }
+}
+
+const servoid = (flags) =>
+  promisify(execFile)(SERVOID, ["-q", ...flags]).then(
+    ({ stdout }) => ({ code: 0, text: stdout }),
+    ({ code, stdout, stderr }) => ({ code, text: stdout + stderr }),
+  );
+
+test("it finds the motor in fixed point, and the host finds the same bits", async () => {
+  // Fewer models than usual: while the chip computes, the emulator takes six seconds for one of its own.
+  const flags = ["--excite", "0", "--record", "1", "--verify", "1", "--budget", "400"];
+  const { run, out, saved } = await commission("whole", [], flags);
+  assert.equal(run.code, 0, run.text);
+  const value = (name) => saved.outcome.parameters.find((p) => p.name === name).value;
+  const [gain, lag] = new Motor(TEN_WATTS).truth();
+  const off = [value("gain") / gain - 1, value("a1") / lag - 1];
+  console.log(`gain ${off[0]}, a1 ${off[1]} off, ${saved.outcome.rms_counts} counts, ${saved.verified_rms_counts} held out`);
+  assert.ok(Math.abs(off[0]) < 1e-4 && Math.abs(off[1]) < 1e-3, `${off}`);
+  assert.ok(saved.verified_rms_counts < 0.35);
+  const verdict = await servoid(["device", "verify", out]);
+  assert.match(verdict.text, /the host finds the same bits/);
+});
+
+for (const [name, benchFlags, told] of [
+  ["a reversed encoder", ["--encoder-reversed"], "Runaway"],
+  ["a fault of the bridge", ["--bridge-fault-at", "4"], "Bridge"],
+]) {
+  test(`${name} opens the bridge and is named`, async () => {
+    const { run, saved } = await commission(name.replaceAll(" ", "-"), benchFlags, ["--excite", "20"]);
+    assert.equal(run.code, 1, run.text);
+    assert.equal(saved.failure.fault, told, run.text);
+  });
+}
