@@ -202,6 +202,32 @@ fn the_image_identifies_motors_of_half_a_watt_to_half_a_kilowatt() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// The long excitation coasts again and again: the bridge must open and close where a duty would act, or each would cost counts
+/// that no physics explains.
+#[test]
+fn what_the_image_records_for_the_host_is_explained_to_the_encoders_floor() {
+    let motor = &MOTORS[5];
+    let out = folder("long").join("run");
+    let bench = Bench::start(&motor.flags());
+    let output = commission(&bench, motor, &out, &["--excite", "20"]);
+    assert!(output.status.success(), "{output:?}");
+    let told = servoid(&[
+        "-q",
+        "device",
+        "verify",
+        "--json",
+        "-",
+        out.to_str().unwrap(),
+    ]);
+    let told: Value = serde_json::from_slice(&told.stdout).unwrap();
+    println!("{}", told["diagnosis"]["summary"]);
+    assert_eq!(told["stands"], true, "{}", told["verdict"]);
+    for recording in ["rms_counts", "validate_rms_counts"] {
+        let error = told["diagnosis"]["final"][recording].as_f64().unwrap();
+        assert!(error < HELD_OUT, "{recording}: {error}");
+    }
+}
+
 /// Virtual time at which something breaks, s: while the long excitation runs.
 const AT: f64 = 5.0;
 /// The bridge must be open this long after that, s. A shaft that does not follow can only be told while it is driven.

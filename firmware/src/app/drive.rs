@@ -70,6 +70,10 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
         let current = self.board.current_ma();
         let step = self.travelled();
+        // A bridge opens at once: so where a duty would act, and no sooner.
+        if self.duty == OPEN {
+            self.open();
+        }
         let driven = (held != OPEN).then_some(held);
         let sensed = B::SENSES_CURRENT.then_some(current);
         let looked = match &mut self.guard {
@@ -142,9 +146,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
 
     #[inline(never)]
     pub(super) fn apply(&mut self, duty: i16) {
-        if duty == OPEN {
-            self.open();
-        } else {
+        self.duty = duty;
+        if duty != OPEN {
             self.duty = self.board.nearest(duty);
             self.board.drive(self.duty);
         }

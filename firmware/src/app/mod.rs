@@ -127,8 +127,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     // Out of line: made and moved in one place, it would stand on the stack twice for good.
     #[inline(never)]
     pub fn new(mut board: B, memory: &'m mut Memory<S>, log: &'m mut Log<N>) -> Self {
-        board.coast();
-        let count = board.count();
         let mut nonces = rng::seeded(u64::from(board.entropy()));
         let boot = nonces.next_u32();
         let mut app = Self {
@@ -143,8 +141,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             job: None,
             guard: None,
             duty: OPEN,
-            count,
-            begun_at: count,
+            count: 0,
+            begun_at: 0,
             at: 0,
             silence: 0,
             repeat: 0,
@@ -152,6 +150,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             failure: None,
             failed_in: (Phase::Idle, 0),
         };
+        app.open();
+        app.travelled();
         app.introduce();
         app
     }
@@ -189,6 +189,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     }
 
     /// Opens the bridge.
+    #[inline(never)]
     fn open(&mut self) {
         self.duty = OPEN;
         self.board.coast();

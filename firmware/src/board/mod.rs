@@ -74,7 +74,8 @@ pub trait Board {
     }
 
     /// Applies `duty` to the winding until the next call: `duty / full` of the supply voltage, at most all of it. Zero puts
-    /// zero volts across the winding, which brakes the motor; for no drive at all see [`coast`](Self::coast).
+    /// zero volts across the winding, which brakes the motor; for no drive at all see [`coast`](Self::coast). It acts when
+    /// [`count`](Self::count) reads, and an open bridge closes then.
     fn drive(&mut self, duty: i16);
 
     /// What `duty` becomes in the bridge's own steps: what is recorded is what the winding sees, not what was wished for. A

@@ -65,6 +65,8 @@ pub struct Rp2040 {
     link: Link,
     period: Period,
     entropy: Entropy,
+    /// Whether the bridge is to be closed from the carrier's next turn on.
+    drives: bool,
 }
 
 impl Rp2040 {
@@ -94,6 +96,7 @@ impl Rp2040 {
             link: Link::start(CORE_HZ),
             period: Period::new(core.SYST, CORE_HZ / 1_000_000 * PERIOD_US),
             entropy,
+            drives: false,
         };
         // The carrier begins at its peak, with the control period. A new duty, of both legs at once, takes effect when it has
         // come down, 25 µs and the little that passes here after the period's end, every time: so the program has time to give it.
@@ -144,7 +147,7 @@ impl Board for Rp2040 {
 
     fn drive(&mut self, duty: i16) {
         self.set(duty);
-        SIO.gpio_out(0).value_set().write_value(1 << ENABLE);
+        self.drives = true;
     }
 
     fn full(&self) -> u16 {
@@ -157,12 +160,17 @@ impl Board for Rp2040 {
 
     fn coast(&mut self) {
         open_bridge();
-        self.set(0);
+        self.drives = false;
+        // Both low: no voltage.
+        PWM.ch(SLICE).cc().write(|w| w.0 = 0);
     }
 
     fn count(&mut self) -> i32 {
         // The carrier always runs, whether the bridge is open or not.
         while PWM.intr().read().0 & TAKEN_OVER == 0 {}
+        if self.drives {
+            SIO.gpio_out(0).value_set().write_value(1 << ENABLE);
+        }
         self.encoder.count()
     }
 

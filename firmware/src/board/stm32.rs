@@ -37,7 +37,7 @@ pub trait Wiring {
     /// The timer that decodes the encoder.
     type EncoderTimer: GeneralInstance4Channel;
 
-    /// Lets the bridge's driver chip follow its inputs, or not. Called in every control period.
+    /// Lets the bridge's driver chip follow its inputs, or not.
     fn enable(&mut self, on: bool);
 
     /// A reading of the ADC whose last bits are noise.
@@ -91,6 +91,8 @@ pub struct Bridge {
     timer: Timer<'static, TIM1>,
     legs: HalfBridges,
     driven: bool,
+    /// It is to drive from the carrier's next turn on.
+    begins: bool,
     _pins: BridgePins,
     _break_pin: Option<Flex<'static>>,
 }
@@ -139,6 +141,7 @@ impl Bridge {
                 refresh: (refresh_ns * clock_mhz).div_ceil(2000) as u16,
             },
             driven: false,
+            begins: false,
             _pins: pins,
             _break_pin: None,
         };
@@ -161,16 +164,18 @@ impl Bridge {
 
     fn drive(&mut self, duty: i16) {
         self.set(duty);
-        if !self.driven {
-            self.timer.set_moe(true);
-            self.driven = true;
-        }
+        self.begins = !self.driven;
+    }
+
+    /// Closes an open bridge that is to drive. After the carrier's turn: before, it would brake until then.
+    fn begin(&mut self) {
+        self.timer.set_moe(true);
+        (self.driven, self.begins) = (true, false);
     }
 
     fn coast(&mut self) {
         self.timer.set_moe(false);
-        self.driven = false;
-        // A new duty takes effect at the next peak or valley of the carrier: until then, the next drive brakes.
+        (self.driven, self.begins) = (false, false);
         self.set(0);
     }
 
@@ -278,7 +283,6 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn drive(&mut self, duty: i16) {
         self.bridge.drive(duty);
-        self.wiring.enable(true);
     }
 
     fn full(&self) -> u16 {
@@ -296,7 +300,12 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn count(&mut self) -> i32 {
         while !self.bridge.updated() {}
-        self.position.read(self.encoder.count())
+        let count = self.encoder.count();
+        if self.bridge.begins {
+            self.bridge.begin();
+            self.wiring.enable(true);
+        }
+        self.position.read(count)
     }
 
     fn current_ma(&mut self) -> i32 {
