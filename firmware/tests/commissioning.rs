@@ -172,6 +172,19 @@ fn a_motor_commissions_itself_in_both_formats() {
         ] {
             assert_eq!(host.rows(stage).len(), length, "{stage:?}");
         }
+        // A row has the current at its start: none before the first duty has acted.
+        for stage in [Stage::Excite, Stage::Record, Stage::Verify] {
+            let rows = host.rows(stage);
+            let first = rows.iter().position(|row| row.duty != 0).unwrap();
+            assert!(
+                rows[..=first].iter().all(|row| row.current_ma == 0),
+                "{stage:?}"
+            );
+            assert!(
+                rows[first + 1].current_ma.signum() == rows[first].duty.signum(),
+                "{stage:?}"
+            );
+        }
         // The host fits what it was sent, and gets the same bits.
         assert_eq!(host.fitted_again().1, outcome);
     }

@@ -226,6 +226,13 @@ fn what_the_image_records_for_the_host_is_explained_to_the_encoders_floor() {
         let error = told["diagnosis"]["final"][recording].as_f64().unwrap();
         assert!(error < HELD_OUT, "{recording}: {error}");
     }
+    // The reversals are beyond what the sensor shows, which must not matter.
+    let parameters = told["diagnosis"]["final"]["parameters"].as_array().unwrap();
+    let resistance = parameters.iter().find(|p| p["name"] == "resistance");
+    let found = resistance.expect("the current was measured")["value"]
+        .as_f64()
+        .unwrap();
+    assert!((found / motor.resistance - 1.0).abs() < 5e-3, "{found} ohm");
 }
 
 /// Virtual time at which something breaks, s: while the long excitation runs.

@@ -6,6 +6,7 @@ use super::{App, Work};
 use crate::board::Board;
 use crate::guard::Tripped;
 use crate::phase::{Fault, Phase};
+use core::mem::replace;
 use shared::fit::Arithmetic;
 use shared::scalar::Real;
 use shared::trace::OPEN;
@@ -69,6 +70,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             self.apply(duty);
         }
         let current = self.board.current_ma();
+        let held_from = replace(&mut self.current, current);
         let step = self.travelled();
         // A bridge opens at once: so where a duty would act, and no sooner.
         if self.duty == OPEN {
@@ -113,7 +115,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             }
             Work::Play { next, .. } => {
                 let ends = next.is_none();
-                self.keep(held, step, current);
+                self.keep(held, step, held_from);
                 if self.phase == Phase::Probe && self.probed(&job) {
                     return;
                 }

@@ -100,8 +100,9 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
     armed: Option<(u32, u32)>,
     job: Option<Job>,
     guard: Option<Guard>,
-    /// Duty held during the period that ends next.
+    /// Duty held during the period that ends next, and the current at its start, mA.
     duty: i16,
+    current: i32,
     count: i32,
     begun_at: i32,
     /// Periods since the run began, since the host last spoke, and since a repeated message was sent.
@@ -141,6 +142,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             job: None,
             guard: None,
             duty: OPEN,
+            current: 0,
             count: 0,
             begun_at: 0,
             at: 0,

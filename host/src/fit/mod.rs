@@ -8,6 +8,7 @@ pub mod physical;
 pub mod regression;
 mod remarks;
 pub mod report;
+mod resistance;
 pub mod scores;
 mod sensitivity;
 pub mod uncertainty;

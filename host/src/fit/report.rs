@@ -4,7 +4,7 @@ use super::margins::{Loop, Margins};
 use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile, seen_of};
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
-use super::{Options, remarks, validate};
+use super::{Options, remarks, resistance::resistance, validate};
 use crate::error::Error;
 use crate::input::Known;
 use crate::problem::cost::rms_counts;
@@ -210,7 +210,7 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     Evidence {
         machine: candidate.machine,
         covariance: &slope * own * slope.transpose(),
-        resistance: scores::resistance(problem.data, candidate, problem.method),
+        resistance: resistance(problem.data, candidate, problem.method),
     }
 }
 

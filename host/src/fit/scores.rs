@@ -1,14 +1,11 @@
 //! Errors of a fitted model, in the several ways that people measure them.
 
 use super::filter::{Passing, filtered};
-use super::physical::Estimate;
-use super::uncertainty::SEGMENTS;
 use super::{Options, SPEED_HALF_WIDTH};
 use crate::error::Error;
 use crate::problem::cost::{Horizon, errors};
-use crate::problem::simulate::{Method, Simulation};
+use crate::problem::simulate::Method;
 use crate::problem::{Candidate, Data, StartAngle};
-use crate::recording::Drive;
 use shared::cost::Cost;
 use shared::effects::{Lowered, Place, Shaft};
 
@@ -214,44 +211,4 @@ fn each_equation_residual(
             });
         }
     }
-}
-
-/// Resistance from a measured current, Ω. The model's `R·i` has no noise, the sensor's `i` has: so
-/// `i` is regressed on `R·i`, with a free zero, and the slope is `1/R`. `None` without a current, or
-/// where it says little.
-pub fn resistance(data: &Data, candidate: &Candidate, method: Method) -> Option<Estimate> {
-    let measured = data
-        .current_a
-        .as_ref()
-        .filter(|_| data.drive == Drive::Voltage)?;
-    let simulation = Simulation::new(data, candidate, method).ok()?;
-    let volts = simulation.currents(data.centre(0));
-    let n = volts.len() as f64;
-    let (mean_v, mean_i) = (
-        volts.iter().sum::<f64>() / n,
-        measured.iter().sum::<f64>() / n,
-    );
-    let pairs = || {
-        volts
-            .iter()
-            .zip(measured)
-            .map(|(v, i)| (v - mean_v, i - mean_i))
-    };
-    let squares: f64 = pairs().map(|(v, _)| v * v).sum();
-    let slope = pairs().map(|(v, i)| v * i).sum::<f64>() / squares;
-    let left: Vec<f64> = pairs().map(|(v, i)| i - slope * v).collect();
-    // Errors that hang together over time count once a segment, as for the other parameters.
-    let per_segment = volts.len().div_ceil(SEGMENTS).max(1);
-    let middle: f64 = pairs()
-        .zip(&left)
-        .map(|((v, _), e)| v * e)
-        .collect::<Vec<_>>()
-        .chunks(per_segment)
-        .map(|chunk| chunk.iter().sum::<f64>().powi(2))
-        .sum();
-    let std = middle.sqrt() / squares;
-    (slope > 0.0 && slope.is_finite() && std < 0.3 * slope).then(|| Estimate {
-        value: 1.0 / slope,
-        std: std / (slope * slope),
-    })
 }
