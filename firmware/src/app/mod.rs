@@ -38,8 +38,11 @@ use shared::rng::{self, Rng};
 use shared::trace::OPEN;
 use shared::wire::{Deframer, Job, Kind, Report, ToHost};
 
-/// What a phase does with its periods. There is no heap to put the larger one on.
-#[allow(clippy::large_enum_variant)]
+/// What a phase does with its periods.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is no heap to put the larger one on"
+)]
 #[derive(Debug)]
 enum Work {
     /// Nothing.

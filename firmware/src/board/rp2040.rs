@@ -108,14 +108,6 @@ impl Rp2040 {
         });
         board
     }
-
-    fn set(&mut self, duty: i16) {
-        let (a, b) = LEGS.compares(duty);
-        PWM.ch(SLICE).cc().write(|w| {
-            w.set_a(a);
-            w.set_b(b);
-        });
-    }
 }
 
 /// Gives pins a function; those that are pulled up are inputs.
@@ -146,7 +138,11 @@ impl Board for Rp2040 {
     const SLICE: u32 = 20;
 
     fn drive(&mut self, duty: i16) {
-        self.set(duty);
+        let (a, b) = LEGS.compares(duty);
+        PWM.ch(SLICE).cc().write(|w| {
+            w.set_a(a);
+            w.set_b(b);
+        });
         self.drives = true;
     }
 

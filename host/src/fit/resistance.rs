@@ -42,7 +42,7 @@ fn regressed(volts: &[f64], measured: &[f64]) -> Option<Estimate> {
             }
         }
         if !found {
-            return line.resistance(volts, measured, &used);
+            return Some(line.resistance(volts, measured, &used));
         }
     }
     None
@@ -81,7 +81,7 @@ impl Line {
     }
 
     /// Errors that hang together over time count once a segment, as for the other parameters.
-    fn resistance(&self, volts: &[f64], measured: &[f64], used: &[bool]) -> Option<Estimate> {
+    fn resistance(&self, volts: &[f64], measured: &[f64], used: &[bool]) -> Estimate {
         let rows: Vec<_> = volts.iter().zip(measured).zip(used).collect();
         let segments = rows.chunks(rows.len().div_ceil(SEGMENTS).max(1));
         let middle: f64 = segments
@@ -93,10 +93,10 @@ impl Line {
                 errors.sum::<f64>().powi(2)
             })
             .sum();
-        Some(Estimate {
+        Estimate {
             value: 1.0 / self.slope,
             std: middle.sqrt() / self.squares / self.slope.powi(2),
-        })
+        }
     }
 }
 

@@ -94,7 +94,10 @@ const SWARM: PsoSettings = PsoSettings {
 
 /// Where the fit is; one stage after another in the same room.
 // The first is a zero at the front, see `Room`.
-#[allow(clippy::large_enum_variant)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is no heap to put the larger ones on"
+)]
 #[derive(Clone, Debug)]
 #[repr(u8)]
 enum Stage {
