@@ -1,13 +1,14 @@
-//! Everything that can go wrong, and the exit code that says so.
+//! Everything that can go wrong with the program, and the exit code that says so.
 
-use crate::bench::BenchError;
 use crate::device::DeviceError;
-use crate::diagnose::steady::SteadyError;
-use crate::export::ExportError;
-use crate::input::{MotorFileError, ReadError};
-use crate::kept::{KeptError, ResultError};
-use crate::output::WriteError;
 use crate::prove::StoreError;
+use servoid_identify::diagnose::steady::SteadyError;
+use servoid_io::input::{CurveError, MotorFileError, ReadError};
+use servoid_io::output::{CommandsError, WriteError};
+use servoid_plant::BenchError;
+use servoid_results::device_run::FolderError;
+use servoid_results::export::ExportError;
+use servoid_results::kept::{KeptError, ResultError};
 use shared::error::ModelError;
 use thiserror::Error;
 
@@ -23,6 +24,9 @@ pub enum Error {
     /// A motor file that cannot be read.
     #[error(transparent)]
     Motor(#[from] MotorFileError),
+    /// A file of commands that cannot be read.
+    #[error(transparent)]
+    Commands(#[from] CommandsError),
     /// The virtual bench refuses.
     #[error(transparent)]
     Bench(#[from] BenchError),
@@ -35,7 +39,10 @@ pub enum Error {
     /// A file of finished cases cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// A curve of steady speeds that cannot be read or used.
+    /// A curve of steady speeds that cannot be read.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// A curve of steady speeds that cannot be used.
     #[error(transparent)]
     Steady(#[from] SteadyError),
     /// A result of another verb that cannot be read.
@@ -44,12 +51,21 @@ pub enum Error {
     /// A device, or the link to it.
     #[error(transparent)]
     Device(#[from] DeviceError),
+    /// The folder of a device's run.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// A result that cannot be read again.
     #[error(transparent)]
     Result(#[from] ResultError),
     /// A format that cannot take what was found.
     #[error(transparent)]
     Export(#[from] ExportError),
+    /// An identification that gives no result.
+    #[error(transparent)]
+    Identify(#[from] servoid_identify::Error),
+    /// A result that cannot be shown.
+    #[error(transparent)]
+    Show(#[from] servoid_results::Error),
     /// The work was done as far as it goes, and it does not go far enough.
     #[error("{0}")]
     Failed(String),
@@ -59,7 +75,9 @@ impl Error {
     /// Exit code: 2 for wrong use, 1 for work that failed.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Usage(_) | Error::Device(DeviceError::Address(_) | DeviceError::Order(_)) => 2,
+            Error::Usage(_)
+            | Error::Device(DeviceError::Address(_) | DeviceError::Order(_))
+            | Error::Identify(servoid_identify::Error::Usage(_)) => 2,
             _ => 1,
         }
     }

@@ -1,33 +1,19 @@
-//! The host side of servoid: recordings in, models and verdicts out.
+//! The program `servoid`: a command line, a workbench in the browser, and the host's side of a device.
 //!
-//! The flow, which is also the order to read the modules in:
-//! `recording → units → model (motor + effects + encoder) → cost → optimiser → fit → residual →
-//! diagnosis → report`.
+//! Layers, each a crate that knows only those before it: `servoid-plant` (the virtual bench), `servoid-io`, `servoid-engine`,
+//! `servoid-identify`, `servoid-results`, and this one.
 #![forbid(unsafe_code)]
 
-pub mod bench;
 pub mod cli;
 pub mod cmd;
-pub mod compare;
 pub mod device;
-pub mod diagnose;
 pub mod error;
-pub mod export;
-pub mod fit;
-pub mod input;
-pub mod kept;
-pub mod lanes;
-pub mod output;
-pub mod page;
-pub mod paper;
-pub mod picture;
-pub mod plan;
-pub mod plot;
-pub mod problem;
 pub mod prove;
-pub mod recording;
-pub mod report;
 pub mod session;
-pub mod showcase;
-pub mod solve;
 pub mod workbench;
+
+pub use servoid_engine::{compare, lanes, problem, solve};
+pub use servoid_identify::{diagnose, fit, paper, plan, truth};
+pub use servoid_io::{input, output, recording, showcase};
+pub use servoid_plant as bench;
+pub use servoid_results::{export, kept, page, picture, plot, report};

@@ -2,9 +2,9 @@
 
 use crate::cli::Common;
 use crate::error::Error;
-use crate::output::{WriteError, WriteFault, check_writable, is_same_file, write_whole};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
+use servoid_io::output::{WriteError, WriteFault, check_writable, is_same_file, write_whole};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

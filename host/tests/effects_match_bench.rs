@@ -7,7 +7,7 @@
 //! volts-referred terms of the model.
 
 use host::bench::{Bench, DriveSample, Hidden, Machine, PRESETS, Run};
-use host::prove::truth;
+use servoid_identify::truth;
 use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
 use shared::encoder::FLOOR_OFFSET_COUNTS;

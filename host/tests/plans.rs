@@ -7,6 +7,7 @@ use host::problem::cost::{errors, rms_counts};
 use host::problem::{Data, Horizon, StartAngle};
 use host::recording::Recording;
 use host::solve::levenberg_marquardt::LevenbergMarquardt;
+use servoid_io::record::Record;
 use shared::cost::Cost;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;

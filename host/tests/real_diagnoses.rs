@@ -6,9 +6,10 @@
 mod folder;
 
 use folder::folder;
-use host::diagnose::steady::SteadyCurve;
+use host::diagnose::steady;
 use host::diagnose::{Diagnosis, Effort, Refit, Verdict, diagnose};
 use host::fit::{Options, scores};
+use host::input::SteadyCurve;
 use host::input::{MotorFile, read_recording};
 use host::problem::Data;
 use host::recording::Recording;
@@ -243,7 +244,7 @@ fn bam_mx_static_has_a_constant_drop_that_nothing_can_be_named_for() {
     {
         let path = folder.join(format!("bam_mx_static/{file}_noload_speed.csv"));
         let curve = SteadyCurve::read(&path).unwrap_or_else(|error| panic!("{error}"));
-        let diagnosis = curve.diagnose().unwrap_or_else(|error| panic!("{error}"));
+        let diagnosis = steady::diagnose(&curve).unwrap_or_else(|error| panic!("{error}"));
         println!("{file}: {diagnosis:?}");
         let near = |value: f64| 0.8 * value..1.2 * value;
         within("drop", diagnosis.with_drop.drop_v, near(drop_v));

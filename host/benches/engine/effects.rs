@@ -1,11 +1,11 @@
 //! Nanoseconds a step of one candidate, with every effect: alone, and side by side with others.
 
 use super::{clock, euler};
-use host::problem::abreast::Run;
-use host::problem::course::{Leg, Manner, legs};
-use host::problem::simulate::{Method, Simulation};
-use host::problem::{Candidate, Data, Horizon, StartAngle};
-use host::recording::{Drive, Recording};
+use servoid_engine::problem::abreast::Run;
+use servoid_engine::problem::course::{Leg, Manner, legs};
+use servoid_engine::problem::simulate::{Method, Simulation};
+use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, commands};
 use shared::motor::Machine;

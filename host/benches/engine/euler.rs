@@ -1,6 +1,6 @@
 //! What everything is measured against.
 
-use host::problem::Data;
+use servoid_engine::problem::Data;
 use shared::motor::Machine;
 
 /// The paper's step, and the error that it is judged by: a scalar loop in f64.

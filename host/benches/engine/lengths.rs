@@ -2,10 +2,10 @@
 
 use super::clock;
 use super::effects::{INTERVAL_S, candidate, data};
-use host::fit::{self, Options};
-use host::problem::simulate::Method;
-use host::problem::{Data, Horizon, Quick, StartAngle, cost};
-use host::solve::{self, Objective};
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{Data, Horizon, Quick, StartAngle, cost};
+use servoid_engine::solve::{self, Objective};
+use servoid_identify::fit::{self, Options};
 use shared::cost::Cost;
 use shared::effects::Kind;
 use std::hint::black_box;

@@ -1,11 +1,11 @@
 //! The linear motor on the paper's step of 10,000 samples: one cost, searches, and the paper's comparison.
 
 use super::{clock, euler};
-use host::compare::{self, Contest};
-use host::fit::{self, Options};
-use host::paper::{self, BOX, Experiment, Variant};
-use host::problem::{FitProblem, Quick};
-use host::solve::{self, Evaluator, Found, Objective, Solver, swarm::ParticleSwarm};
+use servoid_engine::compare::{self, Contest};
+use servoid_engine::problem::{FitProblem, Quick};
+use servoid_engine::solve::{self, Evaluator, Found, Objective, Solver, swarm::ParticleSwarm};
+use servoid_identify::fit::{self, Options};
+use servoid_identify::paper::{self, BOX, Experiment, Variant};
 use shared::rng;
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
@@ -141,7 +141,7 @@ fn swarm(problem: &FitProblem<'_>, reference: f64) {
     println!("  decisions identical: {same}; best cost {:.6}", found.cost);
 }
 
-fn least_squares(data: &host::problem::Data, reference: f64) {
+fn least_squares(data: &servoid_engine::problem::Data, reference: f64) {
     let options = Options::default();
     let solver = solve::by_name("lm").expect("a method");
     let fitted = || {

@@ -2,9 +2,9 @@
 
 use super::clock;
 use super::linear::STEP;
-use host::paper::{BOX, PRINTED, Variant, paper_problem};
-use host::problem::Quick;
-use host::solve::{Evaluator, Objective, Solver, cma_es, swarm::ParticleSwarm};
+use servoid_engine::problem::Quick;
+use servoid_engine::solve::{Evaluator, Objective, Solver, cma_es, swarm::ParticleSwarm};
+use servoid_identify::paper::{BOX, PRINTED, Variant, paper_problem};
 use std::sync::atomic::AtomicBool;
 
 /// Seeds, unless the command line has a number.

@@ -1,10 +1,10 @@
 //! A whole fit and whole diagnoses, CPU seconds on one core.
 
 use super::clock;
-use host::diagnose::{Effort, diagnose};
-use host::fit::{self, Fit, Options};
 use host::prove::{Case, Excite, HowMany, SetUp};
-use host::solve;
+use servoid_engine::solve;
+use servoid_identify::diagnose::{Effort, diagnose};
+use servoid_identify::fit::{self, Fit, Options};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
 

@@ -1,10 +1,10 @@
 //! `servoid export`.
 
-use crate::export::FORMATS;
-use crate::export::gains::Loops;
-use crate::export::gains::design::Method;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
+use servoid_results::export::FORMATS;
+use servoid_results::export::gains::Loops;
+use servoid_results::export::gains::design::Method;
 use std::path::PathBuf;
 
 /// `servoid export`.

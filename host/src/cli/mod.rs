@@ -13,11 +13,11 @@ pub use device::{
 pub use export::{ExportArgs, GainsArgs, SideName};
 pub use report::{ReportArgs, SheetArgs};
 
-use crate::diagnose::USUAL_STEPS;
 use crate::prove::{Excite, HowMany, Shard};
-use crate::solve;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgGroup, Args, Parser, Subcommand, ValueEnum};
+use servoid_engine::solve;
+use servoid_identify::diagnose::USUAL_STEPS;
 use shared::effects::Kind;
 use std::path::PathBuf;
 

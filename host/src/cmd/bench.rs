@@ -3,10 +3,10 @@
 use super::motor;
 use crate::cli::BenchArgs;
 use crate::error::Error;
-use crate::output::is_same_file;
 use crate::session::Session;
 use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, Source};
 use serde::Serialize;
+use servoid_io::output::is_same_file;
 use std::fs;
 use std::path::Path;
 

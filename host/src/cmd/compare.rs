@@ -2,16 +2,16 @@
 
 use super::{model, motor, report as sheet};
 use crate::cli::CompareArgs;
-use crate::compare::{self, Contest};
 use crate::error::Error;
-use crate::fit;
-use crate::output::write_whole;
-use crate::plot;
-use crate::problem::Data;
-use crate::report;
-use crate::report::sheet::Recordings;
 use crate::session::Session;
-use crate::solve;
+use servoid_engine::compare::{self, Contest};
+use servoid_engine::problem::Data;
+use servoid_engine::solve;
+use servoid_identify::fit;
+use servoid_io::output::write_whole;
+use servoid_results::plot;
+use servoid_results::report;
+use servoid_results::report::sheet::Recordings;
 
 pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));

@@ -8,16 +8,16 @@ use super::diagnosing::diagnosed;
 use super::report;
 use super::simulate::{hidden, wrong_flag};
 use crate::cli::DemoArgs;
-use crate::diagnose::{Effort, HeldOut};
 use crate::error::Error;
-use crate::fit::Options;
-use crate::output::write_whole;
-use crate::problem::Data;
 use crate::prove::surprise;
-use crate::report::demo::{DemoJson, DemoReport};
-use crate::report::sheet::{self, Recordings};
 use crate::session::Session;
-use crate::showcase;
+use servoid_engine::problem::Data;
+use servoid_identify::diagnose::{Effort, HeldOut};
+use servoid_identify::fit::Options;
+use servoid_io::output::write_whole;
+use servoid_io::showcase;
+use servoid_results::report::demo::{DemoJson, DemoReport};
+use servoid_results::report::sheet::{self, Recordings};
 
 pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
     session.check_outputs(&[("--out", &args.out)], &[])?;

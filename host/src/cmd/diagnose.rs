@@ -3,15 +3,16 @@
 use super::diagnosing::diagnosed;
 use super::{motor, report};
 use crate::cli::DiagnoseArgs;
-use crate::diagnose::steady::SteadyCurve;
-use crate::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable};
 use crate::error::Error;
-use crate::fit::{self, Options};
-use crate::output::is_same_file;
-use crate::problem::Data;
-use crate::report::diagnosis::{DiagnosisJson, SteadyJson, SteadyReport};
-use crate::report::sheet;
 use crate::session::Session;
+use servoid_engine::problem::Data;
+use servoid_identify::diagnose::steady;
+use servoid_identify::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable};
+use servoid_identify::fit::{self, Options};
+use servoid_io::input::SteadyCurve;
+use servoid_io::output::is_same_file;
+use servoid_results::report::diagnosis::{DiagnosisJson, SteadyJson, SteadyReport};
+use servoid_results::report::sheet;
 use std::sync::Arc;
 
 /// The unit of --budget, steps of a model.
@@ -70,7 +71,7 @@ fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         )));
     }
     let curve = SteadyCurve::read(&args.recording)?;
-    let diagnosis = curve.diagnose()?;
+    let diagnosis = steady::diagnose(&curve)?;
     let told = SteadyReport {
         curve: &curve,
         diagnosis: &diagnosis,

@@ -1,11 +1,11 @@
 //! A diagnosis with its progress, as every verb that diagnoses needs it.
 
-use crate::diagnose::{self, Diagnosis, Effort, Findings, HeldOut, Remark};
 use crate::error::Error;
-use crate::fit::{Fit, Options};
-use crate::problem::Data;
-use crate::report::diagnosis::DiagnosisReport;
 use crate::session::Session;
+use servoid_engine::problem::Data;
+use servoid_identify::diagnose::{self, Diagnosis, Effort, Findings, HeldOut, Remark};
+use servoid_identify::fit::{Fit, Options};
+use servoid_results::report::diagnosis::DiagnosisReport;
 use std::sync::atomic::Ordering;
 
 /// A diagnosis, its last model fitted to the end, and where the models fail.

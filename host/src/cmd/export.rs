@@ -2,12 +2,14 @@
 
 use crate::cli::{ExportArgs, SideName};
 use crate::error::Error;
-use crate::export::gains::Asked;
-use crate::export::{Format, Lack, Mapped, Options, Side, Subject, SubjectError, Written};
-use crate::kept::{KeptResult, ResultError, ResultFault};
-use crate::output::write_whole;
 use crate::session::Session;
 use serde::Serialize;
+use servoid_io::output::write_whole;
+use servoid_results::export::gains::Asked;
+use servoid_results::export::{
+    Format, Lack, Mapped, Options, Side, Subject, SubjectError, Written,
+};
+use servoid_results::kept::{KeptResult, ResultError, ResultFault};
 
 /// Ratios of gears, generously.
 const RATIOS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;

@@ -3,16 +3,16 @@
 use super::search::search;
 use super::{model, motor, report};
 use crate::cli::FitArgs;
-use crate::diagnose::{self, Effort};
 use crate::error::Error;
-use crate::fit::{self, Fit, Options};
-use crate::output::write_whole;
-use crate::plot;
-use crate::problem::{Data, FitProblem};
-use crate::report::json::FitJson;
-use crate::report::{sheet, text};
 use crate::session::Session;
-use crate::solve::Found;
+use servoid_engine::problem::{Data, FitProblem};
+use servoid_engine::solve::Found;
+use servoid_identify::diagnose::{self, Effort};
+use servoid_identify::fit::{self, Fit, Options};
+use servoid_io::output::write_whole;
+use servoid_results::plot;
+use servoid_results::report::json::FitJson;
+use servoid_results::report::{sheet, text};
 use shared::cost::Cost;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {

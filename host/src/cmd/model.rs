@@ -2,12 +2,12 @@
 
 use crate::cli::{CostName, Integrator, ModelArgs};
 use crate::error::Error;
-use crate::fit::Options;
-use crate::input::Known;
-use crate::input::suggest::did_you_mean;
-use crate::problem::simulate::Method;
-use crate::problem::unknowns::Scale;
-use crate::problem::{FitProblem, Structure};
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::unknowns::Scale;
+use servoid_engine::problem::{FitProblem, Structure};
+use servoid_identify::fit::Options;
+use servoid_io::input::Known;
+use servoid_io::input::suggest::did_you_mean;
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
 use shared::effects::{Kind, MAX_EFFECTS};

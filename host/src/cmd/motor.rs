@@ -2,9 +2,9 @@
 
 use crate::cli::MotorArgs;
 use crate::error::Error;
-use crate::input::{MotorFile, read_recording};
-use crate::recording::{Drive, Recording};
 use crate::session::Session;
+use servoid_io::input::{MotorFile, read_recording};
+use servoid_io::recording::{Drive, Recording};
 use std::path::{Path, PathBuf};
 
 /// Checks that the `outputs` of a verb, and its JSON, replace nothing that it reads.

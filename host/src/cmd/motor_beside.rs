@@ -1,9 +1,9 @@
 //! The motor file that `servoid simulate` leaves beside a recording.
 
 use crate::error::Error;
-use crate::input::MotorFile;
-use crate::output::write_whole;
 use crate::session::Session;
+use servoid_io::input::MotorFile;
+use servoid_io::output::write_whole;
 use std::path::Path;
 
 /// Writes what is known of the motor, unless a file is there already: it may hold what its owner knows, and

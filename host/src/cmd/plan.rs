@@ -1,12 +1,13 @@
 //! `servoid simulate --plan`: what to record next, as commands.
 
-use crate::bench::Machine;
 use crate::cli::{PlanArgs, SimulateArgs};
 use crate::error::Error;
-use crate::output::{CommandSequence, write_commands};
-use crate::plan::{Hypothesis, Limits, Setup, Work, diagnosis, rank, screened};
-use crate::report::plan::Plan;
 use crate::session::Session;
+use servoid_identify::plan::{Hypothesis, Limits, Setup, Work, rank, screened};
+use servoid_io::output::{CommandSequence, write_commands};
+use servoid_plant::Machine;
+use servoid_results::kept::hypotheses;
+use servoid_results::report::plan::Plan;
 use shared::effects::Kind;
 use std::path::Path;
 
@@ -78,7 +79,7 @@ fn commands(plan: &Plan<'_>) -> CommandSequence {
 }
 
 fn diagnosed(path: &Path) -> Result<(Vec<Hypothesis>, Setup), Error> {
-    diagnosis::read(path).map_err(|error| Error::Failed(error.to_string()))
+    hypotheses::read(path).map_err(|error| Error::Failed(error.to_string()))
 }
 
 /// The effects of `--between` with typical values on the preset.

@@ -2,8 +2,8 @@
 
 use crate::cli::ProveArgs;
 use crate::error::Error;
+use crate::prove::report::{ProveJson, text};
 use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError, Tally};
-use crate::report::prove::{ProveJson, text};
 use crate::session::Session;
 use std::collections::BTreeSet;
 use std::path::Path;

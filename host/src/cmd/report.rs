@@ -3,14 +3,14 @@
 use super::motor;
 use crate::cli::{ReportArgs, SheetArgs};
 use crate::error::Error;
-use crate::kept::{Kept, KeptDiagnosis};
-use crate::output::write_whole;
-use crate::problem::Data;
-use crate::recording::Recording;
-use crate::report::fold::folded;
-use crate::report::sheet::{self, Recordings};
 use crate::session::Session;
 use serde::Serialize;
+use servoid_engine::problem::Data;
+use servoid_io::output::write_whole;
+use servoid_io::recording::Recording;
+use servoid_results::kept::{Kept, KeptDiagnosis};
+use servoid_results::report::fold::folded;
+use servoid_results::report::sheet::{self, Recordings};
 use shared::wire::Stage;
 use std::path::{Path, PathBuf};
 

@@ -1,10 +1,10 @@
 //! A search with a progress bar.
 
 use crate::error::Error;
-use crate::fit::{self, Options};
-use crate::problem::FitProblem;
 use crate::session::Session;
-use crate::solve::{self, Found};
+use servoid_engine::problem::FitProblem;
+use servoid_engine::solve::{self, Found};
+use servoid_identify::fit::{self, Options};
 
 /// Searches with the method called `algorithm`; the bar shows evaluations and the best cost.
 pub(super) fn search(

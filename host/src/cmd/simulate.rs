@@ -2,15 +2,16 @@
 
 use super::motor_beside::write_motor;
 use super::simulate_list::Offer;
-use crate::bench::{Bench, BenchError, DriveSample, Hidden, Machine};
 use crate::cli::SimulateArgs;
 use crate::error::Error;
-use crate::input::MotorFile;
-use crate::input::suggest::did_you_mean;
-use crate::output::write_recording;
-use crate::recording::Recording;
 use crate::session::Session;
 use serde::Serialize;
+use servoid_io::input::MotorFile;
+use servoid_io::input::suggest::did_you_mean;
+use servoid_io::output::write_recording;
+use servoid_io::record::Record;
+use servoid_io::recording::Recording;
+use servoid_plant::{Bench, BenchError, DriveSample, Hidden, Machine};
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
 
 /// Usual length of a single shape, s.

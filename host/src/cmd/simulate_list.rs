@@ -1,7 +1,7 @@
 //! `servoid simulate --list`: what the bench has to choose from.
 
-use crate::bench::{Machine, PRESETS};
 use serde::Serialize;
+use servoid_plant::{Machine, PRESETS};
 use shared::excite::Shape;
 
 /// Everything that can be ordered: `--list`.
@@ -50,7 +50,7 @@ impl Offer {
         Offer {
             schema: "servoid.simulate-list/1",
             machines: machines.collect(),
-            effects: crate::bench::effects::CATALOGUE
+            effects: servoid_plant::effects::CATALOGUE
                 .iter()
                 .map(|kind| kind.name)
                 .collect(),

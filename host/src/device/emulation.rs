@@ -2,7 +2,7 @@
 
 use super::lockstep::plant;
 use super::{DeviceError, Port};
-use crate::bench::Bench;
+use servoid_plant::Bench;
 use std::fs::File;
 use std::io::Read;
 use std::net::{Ipv4Addr, TcpListener};

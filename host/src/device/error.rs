@@ -1,8 +1,8 @@
 //! What can go wrong with a device, and what to do about it.
 
+use servoid_results::device_run::FolderError;
 use shared::wire::Refusal;
 use std::io;
-use std::path::PathBuf;
 
 /// What went wrong with a device.
 #[derive(Debug, thiserror::Error)]
@@ -62,13 +62,8 @@ pub enum DeviceError {
     #[error("{0}")]
     Emulation(String),
     /// A folder of a run cannot be used.
-    #[error("{}: {why}", .path.display())]
-    Folder {
-        /// Which file.
-        path: PathBuf,
-        /// What is wrong with it, and what to do.
-        why: String,
-    },
+    #[error(transparent)]
+    Folder(#[from] FolderError),
 }
 
 fn reason(refusal: &Refusal) -> &'static str {

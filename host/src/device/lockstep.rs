@@ -5,7 +5,7 @@
 //! plant → board   5a  count (i32)  current (i16)    check
 //! ```
 
-use crate::bench::{Bench, BenchError, DriveSample, Reading};
+use servoid_plant::{Bench, BenchError, DriveSample, Reading};
 use shared::trace::{DUTY, OPEN};
 use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};

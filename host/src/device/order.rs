@@ -1,7 +1,8 @@
 //! What a user orders, in SI, and the same in the device's own measure.
 
-use super::{DeviceError, DutyScale};
-use crate::output::CommandSequence;
+use super::DeviceError;
+use servoid_io::output::CommandSequence;
+use servoid_results::device_run::DutyScale;
 use shared::fit::Settings;
 use shared::trace::OPEN;
 use shared::wire::{About, Job, Kind, Limits, Segment};

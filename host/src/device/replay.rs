@@ -1,6 +1,6 @@
 //! The device's fit once more on the host: same recording, seed and number format, and so the same bits.
 
-use super::Saved;
+use servoid_results::device_run::Saved;
 use shared::fit::{Arithmetic, Fit, Outcome};
 use shared::scalar::Fixed;
 use shared::trace::Trace;

@@ -1,7 +1,8 @@
 //! One run: what the device sends, put together.
 
 use super::{Conversation, DeviceError};
-use shared::wire::{About, Failure, Report, Row, Rows, Stage, ToDevice, ToHost};
+use servoid_results::device_run::Recorded;
+use shared::wire::{About, Failure, Report, Rows, Stage, ToDevice, ToHost};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -11,43 +12,6 @@ const ALIVE: Duration = Duration::from_millis(20);
 const GONE: Duration = Duration::from_secs(5);
 /// After a stop, the report may take this long.
 const FAREWELL: Duration = Duration::from_secs(2);
-
-/// The periods of one stage, as far as they arrived.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Recorded {
-    /// Which stage.
-    pub stage: Stage,
-    /// Encoder reading at the start.
-    pub count: i32,
-    /// In order; what was lost is left out.
-    pub rows: Vec<Option<Row>>,
-}
-
-impl Recorded {
-    /// Periods that never arrived.
-    pub fn missing(&self) -> usize {
-        self.rows.iter().filter(|row| row.is_none()).count()
-    }
-
-    /// The rows before the first gap.
-    pub fn whole(&self) -> impl Iterator<Item = Row> {
-        self.rows.iter().map_while(|row| *row)
-    }
-
-    fn take(&mut self, rows: &Rows) {
-        let first = rows.first as usize;
-        if first == 0 {
-            self.count = rows.count;
-        }
-        let end = first + rows.rows.len();
-        if self.rows.len() < end {
-            self.rows.resize(end, None);
-        }
-        for (slot, row) in self.rows[first..end].iter_mut().zip(&rows.rows) {
-            *slot = Some(*row);
-        }
-    }
-}
 
 /// A run as it ended.
 #[derive(Clone, Debug)]

@@ -3,10 +3,11 @@
 use super::draws::{Draws, rounded};
 use super::motor::Motor;
 use super::{Excite, SetUp, hide};
-use crate::bench::{Bench, BenchError, DriveSample, Hidden};
 use crate::error::Error;
-use crate::problem::Data;
 use serde::{Deserialize, Serialize};
+use servoid_engine::problem::Data;
+use servoid_io::record::Record;
+use servoid_plant::{Bench, BenchError, DriveSample, Hidden};
 use shared::excite::{COMMISSIONING, Experiment, Shape, commands};
 
 /// Sample interval, s.

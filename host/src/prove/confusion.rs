@@ -2,8 +2,8 @@
 
 use super::Outcome;
 use super::interval::Count;
-use crate::bench::effects::CATALOGUE;
 use serde::Serialize;
+use servoid_plant::effects::CATALOGUE;
 use std::collections::BTreeMap;
 
 /// What is said of a case in which no effect is named.

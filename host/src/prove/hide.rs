@@ -2,8 +2,8 @@
 
 use super::draws::{Draws, rounded};
 use super::{HowMany, SetUp};
-use crate::bench::effects::CATALOGUE;
-use crate::bench::{BenchError, Hidden, Machine};
+use servoid_plant::effects::CATALOGUE;
+use servoid_plant::{BenchError, Hidden, Machine};
 use shared::effects::Kind;
 use std::f64::consts::PI;
 

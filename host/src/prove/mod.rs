@@ -9,7 +9,7 @@
 //! | `draws` | random draws from a stream that belongs to seed, case and purpose |
 //! | `motor`, `hide` | a random motor; random effects with random strength and shape |
 //! | `case` | all that is drawn for a case, and its recordings |
-//! | `truth` | the bench's parameters in the model's terms |
+//! | `report` | the table, as text and as JSON |
 //! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
 //! | `store`, `header`, `content` | finished cases in a file: written, what they are, read and joined |
 //! | `shard` | a part of the cases, for one machine of several |
@@ -26,14 +26,16 @@ mod hide;
 mod interval;
 mod judge;
 mod motor;
+#[cfg(test)]
+mod orders_law;
 mod outcome;
+pub mod report;
 mod shard;
 mod store;
 mod store_error;
 mod tally;
 #[cfg(test)]
 mod tests;
-pub mod truth;
 
 pub use case::{Case, Drawn};
 pub use confusion::Confusion;

@@ -1,8 +1,8 @@
 //! The motor of a case.
 
 use super::draws::{Draws, rounded};
-use crate::bench::{BenchError, Machine, PRESETS};
 use serde::{Deserialize, Serialize};
+use servoid_plant::{BenchError, Machine, PRESETS};
 
 /// Share of the cases whose motor is one of the presets.
 const PRESET_SHARE: f64 = 0.2;

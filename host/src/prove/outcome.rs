@@ -3,13 +3,13 @@
 use super::SetUp;
 use super::case::{Case, Drawn};
 use super::draws::rounded;
-use super::truth::{self, ParameterError};
-use crate::diagnose::{self, Diagnosis, Effort, Refit};
 use crate::error::Error;
-use crate::fit::{self, Options};
-use crate::problem::Data;
-use crate::solve::levenberg_marquardt::LevenbergMarquardt;
 use serde::{Deserialize, Serialize};
+use servoid_engine::problem::Data;
+use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
+use servoid_identify::diagnose::{self, Diagnosis, Effort, Refit};
+use servoid_identify::fit::{self, Options};
+use servoid_identify::truth::{self, ParameterError};
 use shared::effects::Kind;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -207,7 +207,7 @@ fn leaves(drawn: &Drawn, which: usize, stop: &AtomicBool) -> Option<f64> {
         let found = fit::search(&problem, &solver, &options, stop, &mut |_, _| {});
         let values = problem.structure.values(&found.x);
         let candidate = problem.structure.candidate(&values);
-        fit::validate(data, &candidate, options.method)
+        Ok(fit::validate(data, &candidate, options.method)?)
     };
     finite(linear(&alone.data(0).ok()?).ok()?)
 }

@@ -2,10 +2,10 @@
 
 use super::confusion::{Confusion, confusions};
 use super::interval::Count;
-use super::truth::ParameterError;
 use super::{Header, Outcome, SetUp};
-use crate::compare::quantile;
 use serde::Serialize;
+use servoid_engine::compare::quantile;
+use servoid_identify::truth::ParameterError;
 
 /// The whole table.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,9 @@
 use super::draws::Draws;
 use super::hide::{self, acts_otherwise};
 use super::*;
-use crate::bench::Hidden;
-use crate::bench::effects::CATALOGUE;
+use servoid_identify::truth;
+use servoid_plant::Hidden;
+use servoid_plant::effects::CATALOGUE;
 use shared::effects::Kind;
 use std::path::PathBuf;
 
@@ -331,7 +332,7 @@ fn the_table_counts_each_case_once() {
         .map(|row| row.alone + row.paired)
         .sum();
     assert_eq!(counted, hidden as u64);
-    let text = crate::report::prove::text(&tally);
+    let text = super::report::text(&tally);
     assert!(
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"

@@ -3,10 +3,10 @@
 use super::loaded::{Loaded, Source};
 use super::model::Recordings;
 use super::state::Secret;
-use crate::bench::Hidden;
 use crate::error::Error;
 use crate::prove::surprise;
-use crate::showcase;
+use servoid_io::showcase;
+use servoid_plant::Hidden;
 use std::sync::Arc;
 
 /// The two recordings of a seed's motor, and what is hidden in it.

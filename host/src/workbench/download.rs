@@ -4,9 +4,9 @@ use super::session_file::SessionFile;
 use super::shown;
 use super::state::Bench;
 use crate::error::Error;
-use crate::export::{Format, Options, Side, Subject};
-use crate::kept::KeptResult;
 use serde_json::Value;
+use servoid_results::export::{Format, Options, Side, Subject};
+use servoid_results::kept::KeptResult;
 
 /// The file's name, and its text.
 pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Error> {

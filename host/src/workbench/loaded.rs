@@ -1,11 +1,11 @@
 //! A recording as it came, and as it is fitted.
 
-use crate::diagnose::{HeldOut, holdout};
 use crate::error::Error;
-use crate::input::{Known, MotorFile, read_recording_from};
-use crate::problem::Data;
-use crate::recording::Recording;
 use serde::{Deserialize, Serialize};
+use servoid_engine::problem::Data;
+use servoid_identify::diagnose::{HeldOut, holdout};
+use servoid_io::input::{Known, MotorFile, read_recording_from};
+use servoid_io::recording::Recording;
 use std::sync::{Arc, OnceLock};
 
 /// A file and what is known of it: all that is needed to read it again.

@@ -1,16 +1,16 @@
 //! A fitted model on the bench.
 
 use super::loaded::Loaded;
-use crate::diagnose::HeldOut;
 use crate::error::Error;
-use crate::fit::scores::whole;
-use crate::fit::{self, Fit, Options, validation_errors};
-use crate::kept::KeptModel;
-use crate::problem::Data;
-use crate::problem::cost::rms_counts;
-use crate::report::json::FitJson;
-use crate::solve::Found;
 use serde_json::Value;
+use servoid_engine::problem::Data;
+use servoid_engine::problem::cost::rms_counts;
+use servoid_engine::solve::Found;
+use servoid_identify::diagnose::HeldOut;
+use servoid_identify::fit::scores::whole;
+use servoid_identify::fit::{self, Fit, Options, validation_errors};
+use servoid_results::kept::KeptModel;
+use servoid_results::report::json::FitJson;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
@@ -90,7 +90,7 @@ impl Model {
         };
         let (data, held_out) = recordings.parts();
         let mut problem = fit::problem(data, &options)?;
-        problem.structure = crate::problem::Structure::around(
+        problem.structure = servoid_engine::problem::Structure::around(
             data,
             fit::base_for(data, &effects),
             &effects,
@@ -99,7 +99,7 @@ impl Model {
         );
         let x = problem.structure.point(&candidate);
         let found = Found {
-            cost: crate::solve::Objective::cost(&problem, &x),
+            cost: servoid_engine::solve::Objective::cost(&problem, &x),
             x,
             evaluations: 0,
             curve: Vec::new(),

@@ -184,7 +184,7 @@ impl Mapping {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::MotorFile;
+    use servoid_io::input::MotorFile;
 
     #[test]
     fn columns_are_guessed_from_names_that_people_use() {

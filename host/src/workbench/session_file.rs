@@ -3,14 +3,14 @@
 use super::loaded::{Loaded, Source};
 use super::model::{Model, Recordings};
 use super::state::{Secret, State};
-use crate::bench::Hidden;
 use crate::error::Error;
-use crate::kept::{Kept, KeptModel};
-use crate::output::write_whole;
 use crate::prove::surprise;
-use crate::showcase;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use servoid_io::output::write_whole;
+use servoid_io::showcase;
+use servoid_plant::Hidden;
+use servoid_results::kept::{Kept, KeptModel};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -182,7 +182,7 @@ impl SessionFile {
 impl SavedModel {
     /// The model as number `id` of the bench; `place` is where it stands in the file.
     fn again(&self, place: usize, id: usize, recordings: &Recordings) -> Result<Model, Error> {
-        if crate::solve::by_name(&self.algorithm).is_none() {
+        if servoid_engine::solve::by_name(&self.algorithm).is_none() {
             return Err(Error::Failed(format!(
                 "models[{place}]: there is no search method `{}`",
                 self.algorithm

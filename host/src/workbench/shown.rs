@@ -4,14 +4,14 @@ use super::model::{Model, Recordings};
 use super::state::{Bench, State};
 use super::words::on_the_page;
 use crate::error::Error;
-use crate::export::FORMATS;
-use crate::fit::margins::Loop;
-use crate::kept::{Kept, KeptEstimate};
-use crate::page::{Block, Section, drawing, drawings, section};
-use crate::picture::{self, Estimates, Rung};
-use crate::problem::Candidate;
-use crate::report::sheet::{self, Model as Drawn, failing};
 use serde_json::{Map, Value, json};
+use servoid_engine::problem::Candidate;
+use servoid_identify::fit::margins::Loop;
+use servoid_results::export::FORMATS;
+use servoid_results::kept::{Kept, KeptEstimate};
+use servoid_results::page::{Block, Section, drawing, drawings, section};
+use servoid_results::picture::{self, Estimates, Rung};
+use servoid_results::report::sheet::{self, Model as Drawn, failing};
 use shared::effects::{EffectSet, Kind};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -44,7 +44,7 @@ pub(super) fn view(bench: &Bench) -> Value {
         "effects": Kind::ALL.iter().map(|kind| json!({
             "name": kind.name(), "title": kind.description().title,
         })).collect::<Vec<_>>(),
-        "algorithms": crate::solve::names(),
+        "algorithms": servoid_engine::solve::names(),
         "formats": FORMATS.iter().map(|format| format.name).collect::<Vec<_>>(),
         "version": env!("CARGO_PKG_VERSION"),
     })
@@ -87,7 +87,7 @@ fn suggestions(state: &State) -> Value {
     let Some((of, list)) = &state.suggested else {
         return Value::Null;
     };
-    let rank = |s: &crate::diagnose::Suggestion| {
+    let rank = |s: &servoid_identify::diagnose::Suggestion| {
         let description = s.effect.description();
         json!({
             "effect": s.effect.name(),

@@ -2,10 +2,10 @@
 
 use super::job::Job;
 use super::model::{Model, Recordings};
-use crate::bench::Hidden;
-use crate::diagnose::Suggestion;
 use crate::error::Error;
 use serde_json::Value;
+use servoid_identify::diagnose::Suggestion;
+use servoid_plant::Hidden;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::broadcast;

@@ -100,7 +100,7 @@ pub(super) fn on_the_page(text: &str) -> String {
 mod tests {
     use super::super::loaded::MOTOR;
     use super::on_the_page;
-    use crate::input::{MotorFile, read_recording_from};
+    use servoid_io::input::{MotorFile, read_recording_from};
 
     #[test]
     fn a_page_sends_nobody_to_flags_for_what_its_fields_ask() {

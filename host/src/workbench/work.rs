@@ -3,17 +3,17 @@
 use super::job::Teller;
 use super::model::{Model, Recordings, USUAL, options};
 use super::state::Bench;
-use crate::compare::{self, Contest};
-use crate::diagnose::{self, Diagnosis, Effort, Suggestion};
 use crate::error::Error;
-use crate::fit::{self, Fit, Options};
-use crate::kept::KeptModel;
-use crate::problem::FitProblem;
-use crate::report::diagnosis::{DiagnosisJson, DiagnosisReport};
-use crate::report::json::CompareJson;
-use crate::solve::{self, Found, Objective};
 use rayon::prelude::*;
 use serde_json::{Value, json};
+use servoid_engine::compare::{self, Contest};
+use servoid_engine::problem::FitProblem;
+use servoid_engine::solve::{self, Found, Objective};
+use servoid_identify::diagnose::{self, Diagnosis, Effort, Suggestion};
+use servoid_identify::fit::{self, Fit, Options};
+use servoid_results::kept::KeptModel;
+use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use servoid_results::report::json::CompareJson;
 use shared::effects::Kind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -97,14 +97,14 @@ fn fitted(
             found = again;
         }
     }
-    Fit::conclude(
+    Ok(Fit::conclude(
         &problem,
         algorithm,
         "squared",
         &found,
         &options,
         Some(held_out),
-    )
+    )?)
 }
 
 /// Tells how many models were tried, each time it is called.
@@ -272,7 +272,7 @@ pub(super) fn race(
     let samples = data.len() as f64;
     solvers.par_iter().for_each(|solver| {
         let teller = Teller::new(bench);
-        let quick = crate::problem::Quick::new(&problem);
+        let quick = servoid_engine::problem::Quick::new(&problem);
         let mut observer = |count: usize, cost: f64| {
             let rms = finite((cost / samples).sqrt());
             let name = solver.name();

@@ -1,11 +1,11 @@
 //! Reaching a device: a real one, or one that is emulated for the occasion.
 
 use super::super::simulate::hidden;
-use crate::bench::{Bench, Machine};
 use crate::cli::{EmulateArgs, EmulationArgs, LimitArgs, PortArgs};
 use crate::device::{DeviceError, Emulation, Image, Port};
 use crate::error::Error;
 use crate::session::Session;
+use servoid_plant::{Bench, Machine};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;

@@ -4,13 +4,12 @@ use super::emulate::{self, Reached};
 use crate::cli::{
     CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
 };
-use crate::device::{
-    Conversation, DutyScale, Folder, Order, Progress, Recorded, Run, Saved, follow, segments,
-};
+use crate::device::{Conversation, Order, Progress, Run, broken, follow, report, segments};
 use crate::error::Error;
-use crate::output::CommandSequence;
 use crate::session::{Session, print};
 use indicatif::ProgressBar;
+use servoid_io::output::CommandSequence;
+use servoid_results::device_run::{DutyScale, Folder, Recorded, Saved};
 use shared::fit::{Method, Settings};
 use shared::wire::{About, Kind, Segment, Stage};
 use std::path::Path;
@@ -151,7 +150,7 @@ fn into_folder(
             let kept = if recorded.is_empty() {
                 String::new()
             } else {
-                let saved = Saved::broken(&bench.about, order, &recorded);
+                let saved = broken(&bench.about, order, &recorded);
                 folder.write(&saved, &recorded, current)?;
                 format!(
                     "\nwhat had arrived is in {}, and says that it is partial",
@@ -161,7 +160,7 @@ fn into_folder(
             return Err(Error::Failed(format!("{error}{kept}")));
         }
     };
-    let saved = Saved::new(&run, order);
+    let saved = report(&run, order);
     let written = folder.write(&saved, &run.recorded, current)?;
     let text = summary(&saved, &run, path, &written);
     match &saved.failure {

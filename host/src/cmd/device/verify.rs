@@ -6,15 +6,16 @@
 
 use super::super::diagnosing::diagnosed;
 use crate::cli::VerifyArgs;
-use crate::device::{DeviceError, Folder, Replayed, Saved, SavedOutcome, replay};
-use crate::diagnose::{self, Effort, HeldOut, usable};
+use crate::device::{Replayed, replay};
 use crate::error::Error;
-use crate::fit::{self, Fit, Options};
-use crate::input::{MotorFile, read_recording};
-use crate::problem::Data;
-use crate::report::diagnosis::DiagnosisJson;
 use crate::session::Session;
 use serde::Serialize;
+use servoid_engine::problem::Data;
+use servoid_identify::diagnose::{self, Effort, HeldOut, usable};
+use servoid_identify::fit::{self, Fit, Options};
+use servoid_io::input::{MotorFile, read_recording};
+use servoid_results::device_run::{Folder, FolderError, Saved, SavedOutcome};
+use servoid_results::report::diagnosis::DiagnosisJson;
 use shared::effects::Kind;
 use shared::wire::Stage;
 use std::path::Path;
@@ -61,7 +62,7 @@ pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
             ),
             None => "the device did not fit; commission the motor first".to_owned(),
         };
-        return Err(DeviceError::Folder {
+        return Err(FolderError::Unusable {
             path: args.folder.clone(),
             why,
         }

@@ -1,0 +1,263 @@
+//! A recording lowered to what the model takes: per-unit commands, counts, and the lengths of the
+//! sample intervals.
+
+use servoid_io::recording::{Drive, Recording};
+use shared::error::ModelError;
+use shared::units::PerUnit;
+use std::sync::Arc;
+
+/// Sample times are rounded so that the fastest motion moves less than this many counts by it.
+const TIME_ERROR_COUNTS: f64 = 0.01;
+/// Finest grid of sample times, parts of the nominal interval.
+const FINEST_GRID: f64 = 65_536.0;
+
+/// A recording ready for simulation. Indices run over the samples.
+#[derive(Clone, Debug)]
+pub struct Data {
+    /// Where it came from.
+    pub source: String,
+    /// Bases; the interval is the median sample interval.
+    pub units: PerUnit<f64>,
+    /// Time since the first sample, s.
+    pub time_s: Vec<f64>,
+    /// Command, per unit.
+    pub command: Vec<f64>,
+    /// Reading in counts.
+    pub counts: Vec<f64>,
+    /// Where the bridge is open.
+    pub open: Option<Vec<bool>>,
+    /// Measured current, A.
+    pub current_a: Option<Vec<f64>>,
+    /// Whether readings are floored to whole counts.
+    pub quantised: bool,
+    /// What the command drives.
+    pub drive: Drive,
+    /// Supply voltage (or largest command), V (or A).
+    pub supply: f64,
+    /// Distinct interval lengths, in nominal intervals.
+    pub lengths: Vec<f64>,
+    /// Index into `lengths` of the interval that begins at each sample.
+    pub length_of: Vec<u32>,
+    /// The whole recording, where this is its end: a model that runs along it from its begin comes here in a state
+    /// that a few readings could not tell.
+    pub end_of: Option<Arc<Data>>,
+}
+
+impl Data {
+    /// Lowers a recording.
+    ///
+    /// # Errors
+    /// Bases that are not positive: no command, no motion, no samples.
+    pub fn new(recording: &Recording) -> Result<Self, ModelError> {
+        Data::taken(recording.clone())
+    }
+
+    /// Lowers a recording where it is: one of an hour is as large as what it is lowered to.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn taken(recording: Recording) -> Result<Self, ModelError> {
+        let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let supply = recording
+            .supply_v
+            .filter(|_| recording.drive == Drive::Voltage)
+            .unwrap_or(largest);
+        let first = recording.time_s.first().copied().unwrap_or(0.0);
+        let mut time_s = recording.time_s;
+        for time in &mut time_s {
+            *time -= first;
+        }
+        let interval = median_interval(&time_s);
+        let fastest = recording
+            .counts
+            .windows(2)
+            .fold(0.0f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
+        let turns_per_s = fastest / recording.counts_per_rev / interval;
+        let units = PerUnit::new(
+            supply.max(largest),
+            turns_per_s * core::f64::consts::TAU,
+            interval,
+            recording.counts_per_rev,
+        )?;
+        let (lengths, length_of) = interval_lengths(&time_s, interval, fastest);
+        let mut command = recording.command;
+        for command in &mut command {
+            *command /= units.volts;
+        }
+        let mut open = recording.enabled;
+        for open in open.iter_mut().flatten() {
+            *open = !*open;
+        }
+        Ok(Data {
+            source: recording.source,
+            command,
+            counts: recording.counts,
+            open,
+            current_a: recording.current_a,
+            quantised: recording.quantised,
+            drive: recording.drive,
+            supply,
+            time_s,
+            units,
+            lengths,
+            length_of,
+            end_of: None,
+        })
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.counts.len()
+    }
+
+    /// Its first samples only.
+    pub fn first(&self, samples: usize) -> Data {
+        let some = |values: &[f64]| values[..samples.min(values.len())].to_vec();
+        Data {
+            source: self.source.clone(),
+            time_s: some(&self.time_s),
+            command: some(&self.command),
+            counts: some(&self.counts),
+            open: self
+                .open
+                .as_ref()
+                .map(|open| open[..samples.min(open.len())].to_vec()),
+            current_a: self.current_a.as_deref().map(some),
+            lengths: self.lengths.clone(),
+            length_of: self.length_of[..samples.min(self.len())].to_vec(),
+            end_of: None,
+            ..*self
+        }
+    }
+
+    /// As the end of a whole recording.
+    pub fn at_end_of(mut self, whole: Arc<Data>) -> Self {
+        self.end_of = Some(whole);
+        self
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.counts.is_empty()
+    }
+
+    /// Best estimate of the angle in counts from the reading of sample `k`: the centre of its cell.
+    pub fn centre(&self, k: usize) -> f64 {
+        self.counts[k]
+            + if self.quantised {
+                shared::encoder::FLOOR_OFFSET_COUNTS
+            } else {
+                0.0
+            }
+    }
+
+    /// Whether the bridge is open after sample `k`.
+    pub fn is_open(&self, k: usize) -> bool {
+        self.open.as_ref().is_some_and(|open| open[k])
+    }
+
+    /// Whether it is ever open.
+    pub fn coasts(&self) -> bool {
+        self.open
+            .as_ref()
+            .is_some_and(|open| open.iter().any(|&open| open))
+    }
+
+    /// Least and greatest reading, as a distance in counts.
+    pub fn travel_counts(&self) -> f64 {
+        let (low, high) = self
+            .counts
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &c| {
+                (l.min(c), h.max(c))
+            });
+        high - low
+    }
+
+    /// How many times the reading changes: the number of independent facts about the angle that a
+    /// quantised recording holds, far fewer than samples when the motor is slow.
+    pub fn transitions(&self) -> usize {
+        self.counts
+            .windows(2)
+            .filter(|pair| pair[0] != pair[1])
+            .count()
+    }
+
+    /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
+    /// `2·half + 1` samples, fewer at the ends.
+    pub fn speed_counts_s(&self, k: usize, half: usize) -> f64 {
+        let from = k.saturating_sub(half);
+        let to = (k + half + 1).min(self.len());
+        let origin = self.time_s[k];
+        local_parabola(
+            (from..to).map(|j| (self.time_s[j] - origin, self.centre(j) - self.centre(k))),
+        )
+        .1
+    }
+}
+
+/// Value and slope at zero of the parabola through the points in the least-squares sense; a straight
+/// line where there are too few of them.
+pub fn local_parabola(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
+    let count = points.clone().count();
+    let terms = count.clamp(1, 3);
+    let scale = points
+        .clone()
+        .fold(0.0f64, |m, (t, _)| m.max(t.abs()))
+        .max(f64::MIN_POSITIVE);
+    let rows: Vec<(f64, f64)> = points.map(|(t, y)| (t / scale, y)).collect();
+    let matrix = nalgebra::DMatrix::from_fn(count, terms, |i, j| rows[i].0.powi(j as i32));
+    let right = nalgebra::DVector::from_iterator(count, rows.iter().map(|r| r.1));
+    match matrix.svd(true, true).solve(&right, 1e-12) {
+        Ok(solution) => (
+            solution[0],
+            if terms > 1 { solution[1] / scale } else { 0.0 },
+        ),
+        Err(_) => (0.0, 0.0),
+    }
+}
+
+fn median_interval(time_s: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if steps.is_empty() {
+        return 0.0;
+    }
+    let middle = steps.len() / 2;
+    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Rounds the sample *times* (so that no error adds up) to a grid just fine enough for the fastest
+/// motion, and lists the interval lengths that occur. An even recording has a single one.
+fn interval_lengths(time_s: &[f64], nominal: f64, fastest_counts: f64) -> (Vec<f64>, Vec<u32>) {
+    let mut grid = 1.0;
+    while grid < FINEST_GRID && fastest_counts / grid > TIME_ERROR_COUNTS {
+        grid *= 2.0;
+    }
+    let even = time_s
+        .iter()
+        .enumerate()
+        .all(|(k, t)| (t / nominal - k as f64).abs() * grid <= 0.5);
+    let tick = |k: usize| {
+        if even {
+            k as i64 * grid as i64
+        } else {
+            (time_s[k] / nominal * grid).round() as i64
+        }
+    };
+    let mut known = std::collections::BTreeMap::new();
+    let mut lengths = Vec::new();
+    let length_of = (0..time_s.len())
+        .map(|k| {
+            // The last sample begins no interval: that of the one before, so that an even recording has one
+            // length.
+            let k = k.min(time_s.len().saturating_sub(2));
+            let next = (k + 1).min(time_s.len().saturating_sub(1));
+            let ticks = (tick(next) - tick(k)).max(1);
+            *known.entry(ticks).or_insert_with(|| {
+                lengths.push(ticks as f64 / grid);
+                lengths.len() as u32 - 1
+            })
+        })
+        .collect();
+    (lengths, length_of)
+}

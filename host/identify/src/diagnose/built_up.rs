@@ -1,0 +1,50 @@
+//! A start for a fit with given effects: they are added one by one, as a diagnosis adds them. Regression knows nothing of
+//! most effects, and where runs are chaotic a search that begins there ends in the wrong valley.
+
+use super::effort::Effort;
+use super::refit::Refit;
+use super::sketch::Sketch;
+use super::workshop::Workshop;
+use crate::fit::Options;
+use servoid_engine::problem::{Candidate, Data};
+use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// A sum of squares beyond this, in parts of what the encoder leaves, is worth another start.
+const LOST: f64 = 1.2;
+
+/// Whether a fit may have ended in the wrong valley: it leaves more than the encoder does in so many samples.
+pub fn is_lost(squares: f64, samples: usize) -> bool {
+    squares > LOST * FLOOR_RMS_COUNTS.powi(2) * samples as f64
+}
+
+/// The model that is reached by adding `effects` in their order. `None` where there are none, or one of them cannot be
+/// added.
+pub fn built_up(
+    data: &Data,
+    effects: &[Kind],
+    options: &Options,
+    effort: &Effort<'_>,
+) -> Option<Candidate> {
+    if effects.is_empty() {
+        return None;
+    }
+    let mut workshop = Workshop::new(data, data, options, effort);
+    let mut model = workshop.base(options).ok()?;
+    for &kind in effects {
+        model = added(&workshop, &model, kind)?;
+    }
+    Some(model.candidate)
+}
+
+fn added(workshop: &Workshop<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
+    // Bristles start from dry friction.
+    let dry = (kind == Kind::Lugre).then(|| workshop.sketch(model, Kind::Coulomb, &[]));
+    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
+    let sketch = workshop.sketch(model, kind, &dry)?;
+    let refit = workshop.refit(&sketch).ok()?;
+    if refit.judged().at_floor() {
+        return Some(refit);
+    }
+    workshop.polish(&refit).ok()
+}

@@ -1,0 +1,113 @@
+//! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
+
+use super::descent::{PROBE, Settings};
+use super::refit::Refit;
+use super::workshop::Workshop;
+use crate::error::Error;
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{FitProblem, Horizon};
+
+/// Of one that must converge.
+const LAST: Settings = Settings {
+    evaluations: 120,
+    tolerance: 1e-4,
+    stride: 1,
+    enough: 0.0,
+    damping: 1e-9,
+    secant: false,
+    probe: PROBE,
+    probed: None,
+    again: false,
+};
+/// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
+/// polished.
+const POLISHED: f64 = 5.0;
+/// Factor between step sizes that are compared.
+const FINER: u16 = 4;
+/// Most parts to a sample.
+pub(super) const FINEST: u16 = 16;
+/// A finer step that changes the RMS error by less is not worth its time: counts.
+const STEP_ERROR: f64 = 0.02;
+/// The same as a part of what an error is above a count: such a model lacks something else.
+const STEP_PART: f64 = 0.1;
+
+impl Workshop<'_> {
+    /// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
+    /// converged: what is left then is not the arithmetic's.
+    ///
+    /// # Errors
+    /// Where the model cannot run, which it could before.
+    pub fn polish(&self, refit: &Refit) -> Result<Refit, Error> {
+        if refit.followed > 0.0 {
+            return Ok(refit.clone());
+        }
+        let polished = self.converged(refit)?;
+        if polished.tracked.is_none() || polished.ran().at_floor() {
+            return Ok(polished);
+        }
+        // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.
+        if polished.candidate.needs_angle()
+            && let Some(mut followed) = self.followed(&polished)
+        {
+            self.track_like(&mut followed, &polished)?;
+            self.follow_held_out(&mut followed);
+            return Ok(followed);
+        }
+        let free = self.converged(&Refit {
+            tracked: None,
+            ..polished.clone()
+        })?;
+        Ok(if free.ran().at_floor() {
+            Refit {
+                tracked: polished.tracked,
+                ..free
+            }
+        } else {
+            polished
+        })
+    }
+
+    fn converged(&self, refit: &Refit) -> Result<Refit, Error> {
+        let mut best = refit.clone();
+        loop {
+            let method = best.method;
+            let problem = FitProblem {
+                horizon: match best.tracked {
+                    Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
+                    None => self.fitted_horizon.clone(),
+                },
+                ..self.problem(&best.structure, method)
+            };
+            let Some(found) = self.descended(&problem, &best.x, LAST, method) else {
+                return Ok(best);
+            };
+            let polished = self.conclude(
+                best.structure.clone(),
+                &found,
+                best.foreseen_rms_counts,
+                method,
+            )?;
+            let mut polished = Refit {
+                evaluations: best.evaluations + polished.evaluations,
+                ..polished
+            };
+            self.track_like(&mut polished, &best)?;
+            best = polished;
+            let finer = Method {
+                substeps: method.substeps * FINER,
+                ..method
+            };
+            let (again, ran) = (self.runs(&best.candidate, finer)?, best.ran());
+            let change = (again.fitted - ran.fitted)
+                .abs()
+                .max((again.held_out - ran.held_out).abs());
+            if best.judged().at_floor()
+                || change < STEP_ERROR.max(STEP_PART * (ran.fitted - 1.0))
+                || finer.substeps > FINEST
+            {
+                return Ok(best);
+            }
+            best.method = finer;
+        }
+    }
+}

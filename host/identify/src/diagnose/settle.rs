@@ -1,0 +1,94 @@
+//! The model that a diagnosis ends with, fitted to its end: parameters with intervals.
+
+use super::{Diagnosis, NOISE_COUNTS, Refit};
+use crate::error::Error;
+use crate::fit::{self, Fit, Options, Parameter};
+use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle};
+use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
+use servoid_engine::solve::{Found, Objective};
+use shared::cost::Cost;
+use shared::effects::Kind;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Evaluations for the end of a fit that stands near its minimum.
+const BUDGET: usize = 400;
+
+/// Fits the last model to its end and says what is known of its parameters. A model that is not judged by its
+/// free run over the readings as they are (in windows, with lost counts put back) stays where it is. So does one
+/// whose free run is chaotic, unless it is near enough to get down to the encoder's own error: elsewhere the free
+/// run's cost has no smooth floor.
+///
+/// # Errors
+/// Where the model cannot run, which it could before.
+pub fn settle(
+    diagnosis: &Diagnosis,
+    data: &Data,
+    held_out: &Data,
+    options: &Options,
+    stop: &AtomicBool,
+) -> Result<Fit, Error> {
+    let last = &diagnosis.last;
+    let options = Options {
+        effects: last.effects.clone(),
+        method: last.method,
+        budget: BUDGET,
+        ..options.clone()
+    };
+    let start = last.x.clone();
+    let problem = FitProblem {
+        data,
+        structure: last.structure.clone(),
+        cost: Cost::Squared,
+        weight: 1.0,
+        horizon: Horizon::Whole,
+        start_angle: StartAngle::Free,
+        method: last.method,
+        start: Some(start.clone()),
+    };
+    let judged_otherwise = last.windowed.is_some() || last.losses.is_some();
+    let chaotic = last.tracked.is_some() && !last.ran().at_floor();
+    // As far as it was followed it was fitted to its end.
+    let followed = last.followed > 0.0;
+    let stays = judged_otherwise || followed || diagnosis.ran_out || stop.load(Ordering::Relaxed);
+    let found = (!stays)
+        .then(|| {
+            let solver = LevenbergMarquardt::default();
+            fit::search(&problem, &solver, &options, stop, &mut |_, _| {})
+        })
+        .filter(|found| found.cost.is_finite())
+        .filter(|found| !chaotic || (found.cost / data.len() as f64).sqrt() < NOISE_COUNTS);
+    let found = found.unwrap_or_else(|| Found {
+        cost: problem.cost(&start),
+        x: start,
+        evaluations: 0,
+        curve: Vec::new(),
+        interrupted: false,
+    });
+    let mut fit = Fit::conclude(&problem, "lm", "squared", &found, &options, Some(held_out))?;
+    if last.losses.is_some() {
+        with_losses(&mut fit, last);
+    }
+    Ok(fit)
+}
+
+/// Errors with the lost counts put back, and the parameters of the loss, whose errors are not known.
+fn with_losses(fit: &mut Fit, last: &Refit) {
+    fit.rms_counts = last.rms_counts;
+    fit.validate_rms_counts = Some(last.validate_rms_counts);
+    fit.effects = last.effects.iter().map(|kind| kind.name()).collect();
+    let mut values = last.parameters.iter();
+    for kind in &last.effects {
+        for parameter in kind.description().parameters {
+            let Some(&value) = values.next() else { return };
+            if *kind == Kind::MissedCounts {
+                fit.parameters.push(Parameter {
+                    name: format!("{}.{}", kind.name(), parameter.name),
+                    value,
+                    unit: parameter.quantity.unit(),
+                    std: None,
+                    identifiable: false,
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! One step of a diagnosis on its own: which effects would explain more than a given model does.
+
+use super::descent::Descent;
+use super::evidence;
+use super::extend::extend;
+use super::judge;
+use super::refit::Refit;
+use super::whereabouts::whereabouts;
+use super::workshop::Workshop;
+use super::{Effort, Verdict};
+use crate::error::Error;
+use crate::fit::{Options, base_for};
+use servoid_engine::problem::{Candidate, Data, Structure};
+use servoid_engine::solve::Objective;
+use shared::effects::Kind;
+
+/// An effect that would explain more.
+#[derive(Clone, Debug)]
+pub struct Suggestion {
+    /// The effect.
+    pub effect: Kind,
+    /// The model with it, fitted.
+    pub refit: Refit,
+    /// What was measured that speaks for it, if the recording shows it.
+    pub evidence: Option<String>,
+    /// Chance of so large a gain if it were absent.
+    pub p_value: f64,
+    /// Whether it removes enough of the held-out error to be believed.
+    pub believed: bool,
+}
+
+/// What a look at one model gave.
+#[derive(Clone, Debug)]
+pub struct Suggestions {
+    /// The model's own errors, as they were judged.
+    pub verdict: Verdict,
+    /// Best first; empty where the model leaves nothing but the encoder's error.
+    pub list: Vec<Suggestion>,
+}
+
+/// Looks for effects beside those of `candidate`, judged by `held_out`, which is never fitted.
+///
+/// # Errors
+/// Where the model cannot run.
+pub fn suggest(
+    data: &Data,
+    held_out: &Data,
+    candidate: &Candidate,
+    options: &Options,
+    effort: &Effort<'_>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Suggestions, Error> {
+    let workshop = Workshop::new(data, held_out, options, effort);
+    let parent = standing(&workshop, candidate)?;
+    if parent.judged().at_floor() {
+        let verdict = if parent.effects.is_empty() {
+            Verdict::Complete
+        } else {
+            Verdict::MissingEffects
+        };
+        return Ok(Suggestions {
+            verdict,
+            list: Vec::new(),
+        });
+    }
+    let mut list = Vec::new();
+    for refit in extend(&workshop, &[&parent], done) {
+        let Some(&effect) = refit.effects.last() else {
+            continue;
+        };
+        let without = evidence::without(&refit.candidate, effect);
+        let missing = whereabouts(data, &without, &refit.candidate, refit.method)?;
+        let values = evidence::values(&refit, effect);
+        list.push(Suggestion {
+            effect,
+            evidence: evidence::sentence(effect, &values, &missing),
+            p_value: judge::p_value(data, &parent, &refit),
+            believed: judge::removes(&parent, &refit),
+            refit,
+        });
+    }
+    Ok(Suggestions {
+        verdict: Verdict::Unexplained,
+        list,
+    })
+}
+
+/// A model as it stands, in the terms of a diagnosis.
+fn standing(workshop: &Workshop<'_>, candidate: &Candidate) -> Result<Refit, Error> {
+    let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
+    let values: Vec<f64> = (candidate.effects.iter())
+        .flat_map(|(_, values)| values.to_vec())
+        .collect();
+    let data = workshop.data;
+    let structure = Structure::around(
+        data,
+        base_for(data, &effects),
+        &effects,
+        &candidate.machine,
+        candidate.start_speed != 0.0,
+    );
+    let x = structure.values_of(&candidate.machine, &values, candidate.start_speed);
+    let x = structure.coordinates(&x);
+    let squares = workshop.problem(&structure, workshop.method).cost(&x);
+    let found = Descent {
+        x,
+        squares,
+        evaluations: 1,
+    };
+    let foreseen = (squares / data.len() as f64).sqrt();
+    workshop.conclude(structure, &found, foreseen, workshop.method)
+}

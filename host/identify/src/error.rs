@@ -1,0 +1,22 @@
+//! Why an identification gives no result, with the remedy.
+
+use servoid_plant::BenchError;
+use shared::error::ModelError;
+use thiserror::Error;
+
+/// An identification that gives no result.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// An option that cannot be used: the caller's mistake.
+    #[error("{0}")]
+    Usage(String),
+    /// The work was done as far as it goes, and it does not go far enough.
+    #[error("{0}")]
+    Failed(String),
+    /// No model can be built.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The virtual bench refuses.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
+}

@@ -1,0 +1,49 @@
+//! The error as effects are added one by one.
+
+use super::{Fit, Options, Rung, problem, search};
+use servoid_engine::problem::Data;
+use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Most evaluations of a model on the way.
+const BUDGET: usize = 2000;
+
+/// Errors from the linear motor up to `fit`, in the order in which `options` name the effects. Models on the way
+/// are fitted by least squares, whatever method found `fit`; one that cannot be fitted is left out.
+pub fn ladder(
+    data: &Data,
+    validation: Option<&Data>,
+    fit: &Fit,
+    options: &Options,
+    stop: &AtomicBool,
+) -> Vec<Rung> {
+    let mut rungs = Vec::new();
+    for many in 0..options.effects.len() {
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+        let options = Options {
+            effects: options.effects[..many].to_vec(),
+            budget: options.budget.min(BUDGET),
+            ..options.clone()
+        };
+        let Ok(problem) = problem(data, &options) else {
+            continue;
+        };
+        let solver = LevenbergMarquardt::default();
+        let found = search(&problem, &solver, &options, stop, &mut |_, _| {});
+        if let Ok(fit) = Fit::conclude(&problem, "lm", "squared", &found, &options, validation) {
+            rungs.push(rung(&fit));
+        }
+    }
+    rungs.push(rung(fit));
+    rungs
+}
+
+fn rung(fit: &Fit) -> Rung {
+    Rung {
+        added: fit.effects.last().copied(),
+        rms_counts: fit.rms_counts,
+        validate_rms_counts: fit.validate_rms_counts,
+    }
+}

@@ -1,0 +1,73 @@
+//! What a user should be told about a fit before believing it.
+
+use super::Options;
+use super::uncertainty::Uncertainty;
+use servoid_engine::problem::{Base, FitProblem};
+use servoid_engine::solve::Found;
+
+/// Open-loop error up to which the model explains the recording down to the encoder, counts RMS.
+const EXPLAINED_COUNTS: f64 = 0.35;
+/// Nearer than this to a wall of the search range is on it.
+const WALL: f64 = 1e-9;
+/// A sample interval this many times the usual one is a gap.
+const GAP: f64 = 3.0;
+
+/// Appends the remarks.
+pub(super) fn remarks(
+    problem: &FitProblem<'_>,
+    found: &Found,
+    options: &Options,
+    spread: Option<&Uncertainty>,
+    rms_counts: f64,
+    notes: &mut Vec<String>,
+) {
+    let data = problem.data;
+    if rms_counts > EXPLAINED_COUNTS && data.quantised {
+        let times = rms_counts / shared::encoder::FLOOR_RMS_COUNTS;
+        let mut text = format!(
+            "the model does not explain this recording: its error is {times:.0} times the encoder's own. \
+             Something is missing (try --with), or the columns, units or times are not what they seem"
+        );
+        if options.window_s.is_none() {
+            text += "; a recording made in closed loop drifts in open loop (try --window)";
+        }
+        notes.insert(0, text);
+    }
+    let gaps = data.lengths.iter().filter(|length| **length > GAP).count();
+    if gaps > 0 {
+        let longest = data.lengths.iter().fold(0.0f64, |m, l| m.max(*l)) * data.units.interval;
+        notes.push(format!(
+            "there are gaps in time, up to {longest:.4} s: the command is taken as held throughout them"
+        ));
+    }
+    if found.evaluations >= options.budget {
+        notes.push(format!(
+            "the budget of {} evaluations ran out before the search had converged",
+            options.budget
+        ));
+    }
+    if spread.is_some_and(|s| !s.converged) {
+        notes.push(
+            "the search ended away from a minimum, so that no standard errors can be given: raise --budget, \
+             or use --algorithm lm"
+                .to_owned(),
+        );
+    }
+    for (unknown, x) in problem.structure.unknowns.iter().zip(&found.x) {
+        // Zero is where many quantities rightly end; it is not a bound that somebody chose.
+        let at_zero = *x < WALL && unknown.range.0 == 0.0;
+        if !(WALL..=1.0 - WALL).contains(x) && !at_zero {
+            notes.push(format!(
+                "{} ended on a bound of its search range ({} to {} {}): widen it with --bounds",
+                unknown.name, unknown.range.0, unknown.range.1, unknown.unit
+            ));
+        }
+    }
+    if problem.structure.base == (Base::Response { damping: false }) {
+        notes.push(
+            "the electrical time constant is stated for a motor without viscous friction; gain, a1 and a2 \
+             hold in any case"
+                .to_owned(),
+        );
+    }
+}

@@ -1,0 +1,343 @@
+//! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
+
+use super::margins::{Loop, Margins};
+use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile, seen_of};
+use super::scores::{self, Windowed};
+use super::uncertainty::{Uncertainty, uncertainty};
+use super::{Options, remarks, resistance::resistance, validate};
+use crate::error::Error;
+use nalgebra::DMatrix;
+use servoid_engine::problem::cost::rms_counts;
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{Base, Candidate, Data, FitProblem};
+use servoid_engine::solve::Found;
+use servoid_io::input::Known;
+use servoid_io::recording::Drive;
+use shared::motor::Response;
+use shared::units::Quantity;
+
+/// One parameter of a fitted model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name; an effect's parameters carry its name before a point.
+    pub name: String,
+    /// Value.
+    pub value: f64,
+    /// Unit symbol.
+    pub unit: &'static str,
+    /// Standard error; `None` where the data do not determine it.
+    pub std: Option<f64>,
+    /// Whether the data (with the known facts) determine it.
+    pub identifiable: bool,
+}
+
+/// The error of a model with some of the effects.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// The effect that was added last; `None` for the linear motor.
+    pub added: Option<&'static str>,
+    /// RMS error on the fitted recording, counts.
+    pub rms_counts: f64,
+    /// RMS error on the other recording, counts.
+    pub validate_rms_counts: Option<f64>,
+}
+
+/// A fitted model and what is known of it.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Search method.
+    pub algorithm: String,
+    /// Its seed.
+    pub seed: u64,
+    /// Model evaluations.
+    pub evaluations: usize,
+    /// Least cost found.
+    pub cost: f64,
+    /// Name of the cost.
+    pub cost_kind: &'static str,
+    /// The model.
+    pub candidate: Candidate,
+    /// How it was run.
+    pub method: Method,
+    /// RMS of model minus measurement over the whole recording, open loop, counts.
+    pub rms_counts: f64,
+    /// The same on another recording.
+    pub validate_rms_counts: Option<f64>,
+    /// Scores of short free runs, for recordings on which the open loop drifts.
+    pub windowed: Option<Windowed>,
+    /// Whether the user asked for windows.
+    pub window_asked: bool,
+    /// Unexplained part of the drive along the measured motion, relative; see
+    /// [`scores::equation_error`].
+    pub equation_error: Option<f64>,
+    /// Names of the effects.
+    pub effects: Vec<&'static str>,
+    /// Everything that was searched for, and the physical parameters that follow from it.
+    pub parameters: Vec<Parameter>,
+    /// What voltage and angle determine.
+    pub response: Response<f64>,
+    /// Margins of the position loop in radians, closed with unity feedback.
+    pub margins: Option<Margins>,
+    /// Whether the search ended near enough to a minimum for standard errors to mean anything.
+    pub converged: bool,
+    /// Samples that the recording is worth.
+    pub effective_samples: f64,
+    /// What a user should know about the result, in words.
+    pub notes: Vec<String>,
+    /// Best cost against evaluations.
+    pub curve: Vec<(usize, f64)>,
+    /// Whether the search was stopped by the user.
+    pub interrupted: bool,
+    /// Errors of the models that lead to this one, effect by effect; empty where nobody asked.
+    pub ladder: Vec<Rung>,
+}
+
+impl Fit {
+    /// Draws conclusions from a finished search.
+    pub fn conclude(
+        problem: &FitProblem<'_>,
+        algorithm: &str,
+        cost_kind: &'static str,
+        found: &Found,
+        options: &Options,
+        validation: Option<&Data>,
+    ) -> Result<Self, Error> {
+        if !found.cost.is_finite() {
+            return Err(Error::Failed(format!(
+                "{algorithm} found no model with a finite cost in {} evaluations",
+                found.evaluations
+            )));
+        }
+        let data = problem.data;
+        let values = problem.structure.values(&found.x);
+        let candidate = problem.structure.candidate(&values);
+        let rms_counts = rms_counts(data, &scores::whole(data, &candidate, options.method)?);
+        let centre = data.centre(0) - data.counts[0];
+        let mut residuals = problem.errors(&candidate)?;
+        for residual in &mut residuals {
+            *residual -= centre;
+        }
+        let spread = uncertainty(problem, &values, &residuals);
+        drop(residuals);
+        let mut notes = Vec::new();
+        let reconciled = spread
+            .as_ref()
+            .filter(|spread| data.drive == Drive::Voltage && spread.converged)
+            .map(|spread| reconcile(&evidence(problem, &candidate, spread), &options.known));
+        let parameters = parameters(
+            problem,
+            &values,
+            spread.as_ref(),
+            reconciled.as_ref(),
+            &mut notes,
+        );
+        if let Some(reconciled) = &reconciled {
+            describe(problem, reconciled, &options.known, &mut notes);
+        }
+        let windowed = scores::windowed(data, &candidate, options);
+        remarks::remarks(
+            problem,
+            found,
+            options,
+            spread.as_ref(),
+            rms_counts,
+            &mut notes,
+        );
+        let response = candidate.machine.response();
+        Ok(Fit {
+            algorithm: algorithm.to_owned(),
+            seed: options.seed,
+            evaluations: found.evaluations,
+            cost: found.cost,
+            cost_kind,
+            candidate,
+            method: options.method,
+            rms_counts,
+            validate_rms_counts: validation
+                .map(|data| validate(data, &candidate, options.method))
+                .transpose()?,
+            windowed,
+            window_asked: options.window_s.is_some(),
+            equation_error: scores::equation_error(data, &candidate),
+            effects: problem
+                .structure
+                .effects
+                .iter()
+                .map(|kind| kind.name())
+                .collect(),
+            parameters,
+            response,
+            margins: Loop::from(&candidate.machine).margins(),
+            converged: spread.as_ref().is_some_and(|s| s.converged),
+            effective_samples: spread.map_or(data.len() as f64, |s| s.effective_samples),
+            notes,
+            curve: found.curve.clone(),
+            interrupted: found.interrupted,
+            ladder: Vec::new(),
+        })
+    }
+}
+
+/// What the data say about the machine, by the delta method from the unknowns.
+fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertainty) -> Evidence {
+    let values = problem.structure.values_of(&candidate.machine, &[], 0.0);
+    let count = values.len().min(spread.covariance.nrows());
+    let with_part = matches!(problem.structure.base, Base::Response { damping: true })
+        && !spread.flat[..count].iter().any(|&flat| flat);
+    let wanted = |candidate: &Candidate| seen_of(&candidate.machine);
+    let rows = if with_part { 4 } else { 3 };
+    let mut full = values.clone();
+    full.resize(problem.structure.dim(), 0.0);
+    let mut slope = DMatrix::zeros(rows, count);
+    for k in 0..count {
+        let (low, high) = problem.structure.unknowns[k].range;
+        let step = 1e-6 * values[k].abs().max(1e-3 * (high - low));
+        let at = |sign: f64| {
+            let mut moved = full.clone();
+            moved[k] += sign * step;
+            wanted(&problem.structure.candidate(&moved))
+        };
+        let (up, down) = (at(1.0), at(-1.0));
+        for row in 0..rows {
+            slope[(row, k)] = (up[row] - down[row]) / (2.0 * step);
+        }
+    }
+    let mut own = spread.covariance.view((0, 0), (count, count)).into_owned();
+    for entry in own.iter_mut() {
+        // A column without influence has infinite variance: say "very large".
+        *entry = entry.clamp(-1e30, 1e30);
+    }
+    Evidence {
+        machine: candidate.machine,
+        covariance: &slope * own * slope.transpose(),
+        resistance: resistance(problem.data, candidate, problem.method),
+    }
+}
+
+/// The unknowns and the physical parameters, with units that a user can use.
+fn parameters(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    spread: Option<&Uncertainty>,
+    reconciled: Option<&Reconciled>,
+    notes: &mut Vec<String>,
+) -> Vec<Parameter> {
+    let mut parameters = Vec::new();
+    let torque_scale = reconciled.and_then(|r| r.volts_per_torque);
+    let mut in_volts = false;
+    for (k, unknown) in problem.structure.unknowns.iter().enumerate() {
+        let std = spread
+            .and_then(|s| s.std(k))
+            .filter(|std| *std < values[k].abs().max(1e-300) * 1e3);
+        let mut parameter = Parameter {
+            name: unknown.name.clone(),
+            value: values[k],
+            unit: unknown.unit,
+            std,
+            identifiable: std.is_some_and(|std| std < 0.5 * values[k].abs()),
+        };
+        if is_torque(problem, &unknown.name) {
+            match torque_scale {
+                Some(scale) => to_newton_metres(&mut parameter, scale),
+                None => in_volts = true,
+            }
+        }
+        if parameter.std.is_none() && spread.is_some_and(|s| s.converged) {
+            notes.push(format!(
+                "{}: this recording does not determine it",
+                parameter.name
+            ));
+        }
+        parameters.push(parameter);
+    }
+    if problem.data.drive == Drive::Current {
+        notes.push(
+            "behind a current loop inertia, friction and torques are in units of the command: \
+             multiply by its torque (or force) per unit"
+                .to_owned(),
+        );
+    } else if in_volts {
+        notes.push(
+            "torques are given as the voltage T*R/Kt that they use up: state the resistance and \
+             kt_equals_kb (or kt) under [known] to get N*m"
+                .to_owned(),
+        );
+    }
+    for ((name, unit), estimate) in NAMES.iter().zip(reconciled.iter().flat_map(|r| r.physical)) {
+        if let Some(Estimate { value, std }) = estimate {
+            parameters.push(Parameter {
+                name: (*name).to_owned(),
+                value,
+                unit,
+                std: Some(std),
+                identifiable: std == 0.0 || std < 0.5 * value.abs(),
+            });
+        }
+    }
+    parameters
+}
+
+/// Whether the unknown called `name` is a torque in volts.
+fn is_torque(problem: &FitProblem<'_>, name: &str) -> bool {
+    problem.structure.effects.iter().any(|kind| {
+        kind.description().parameters.iter().any(|p| {
+            p.quantity == Quantity::Torque && name == format!("{}.{}", kind.name(), p.name)
+        })
+    })
+}
+
+fn to_newton_metres(parameter: &mut Parameter, volts_per_torque: Estimate) {
+    let torque = parameter.value / volts_per_torque.value;
+    let relative = volts_per_torque.std / volts_per_torque.value;
+    parameter.std = parameter
+        .std
+        .map(|std| (std / volts_per_torque.value).hypot(torque * relative));
+    parameter.value = torque;
+    parameter.unit = "N*m";
+}
+
+/// Says in words what stays open and what would settle it.
+fn describe(
+    problem: &FitProblem<'_>,
+    reconciled: &Reconciled,
+    known: &Known,
+    notes: &mut Vec<String>,
+) {
+    let missing: Vec<&str> = NAMES
+        .iter()
+        .zip(&reconciled.physical)
+        .filter(|(_, estimate)| estimate.is_none())
+        .map(|((name, _), _)| *name)
+        .collect();
+    if reconciled.strain > CONTRADICTION {
+        notes.push(
+            "the facts under [known] contradict the recording (by more than five standard errors), so \
+             no physical parameter is given: check them, counts_per_rev and the voltage scale"
+                .to_owned(),
+        );
+        return;
+    }
+    if missing.is_empty() {
+        return;
+    }
+    let mut remedy = Vec::new();
+    if known.resistance_ohm.is_none() && problem.data.current_a.is_none() {
+        remedy.push("the resistance from an ohmmeter (resistance_ohm) or a current column");
+    }
+    if !known.kt_equals_kb && known.kt_n_m_a.is_none() {
+        remedy.push("kt_equals_kb = true (in SI units, without iron losses)");
+    }
+    if !matches!(problem.structure.base, Base::Response { damping: true })
+        && known.viscous_n_m_s.is_none()
+    {
+        remedy.push("a stretch of coasting with the bridge open (or viscous_n_m_s), since viscous friction and back-EMF act alike");
+    }
+    if remedy.is_empty() {
+        remedy.push("a known inertia or torque constant");
+    }
+    notes.push(format!(
+        "not separable from voltage and angle: {}. What would settle it: {}",
+        missing.join(", "),
+        remedy.join("; ")
+    ));
+}

@@ -1,0 +1,265 @@
+//! Sums over the Jacobian of the residuals, which is never there as a whole: of an hour's recording it would be larger than the
+//! recording.
+
+use super::uncertainty::SEGMENTS;
+use nalgebra::{DMatrix, DVector};
+use servoid_engine::problem::{About, Candidate, FitProblem, Spread};
+
+/// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
+const PROBE_COUNTS: f64 = 0.02;
+/// Part of a column's squares that rounding may leave of them about their mean.
+const ROUNDING: f64 = 1e-12;
+
+/// What standard errors take of the Jacobian J (a row a sample, a column an unknown) and of the residuals r.
+pub(super) struct Sensitivity {
+    /// Jᵀ·J.
+    pub squares: DMatrix<f64>,
+    /// Jᵀ·r of each time segment.
+    pub gradients: Vec<DVector<f64>>,
+}
+
+/// An unknown's neighbours, and how far apart they are.
+struct Pair {
+    ahead: Candidate,
+    behind: Candidate,
+    width: f64,
+}
+
+/// By central differences at `values`. `None` where a model cannot run.
+pub(super) fn sensitivity(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    residuals: &[f64],
+) -> Option<Sensitivity> {
+    let pairs = pairs(problem, values)?;
+    let models: Vec<Candidate> = pairs
+        .iter()
+        .flat_map(|pair| [pair.ahead, pair.behind])
+        .collect();
+    let mut sums = Sums::new(pairs.len(), residuals);
+    let mut columns = vec![Vec::new(); pairs.len()];
+    let here = problem.structure.candidate(values);
+    let about = problem.stream_changes(&here, &models, |changes| {
+        for ((column, pair), change) in columns.iter_mut().zip(&pairs).zip(changes.chunks(2)) {
+            let quotient = |(up, down): (&f64, &f64)| match pair.width {
+                0.0 => 0.0,
+                width => (up - down) / width,
+            };
+            column.clear();
+            column.extend(change[0].iter().zip(change[1]).map(quotient));
+        }
+        sums.add(&columns);
+    })?;
+    let sensitivity = sums.about(about);
+    let finite = |x: &f64| x.is_finite();
+    let gradients = || sensitivity.gradients.iter().flat_map(DVector::iter);
+    (sensitivity.squares.iter().all(finite) && gradients().all(finite)).then_some(sensitivity)
+}
+
+/// The neighbours to both sides, so far away that the residuals change by about the wanted number of counts.
+fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
+    let unknowns = &problem.structure.unknowns;
+    let here = problem.structure.candidate(values);
+    let model = |values: &[f64]| problem.structure.candidate(values);
+    let widest = |k: usize| unknowns[k].range.1 - unknowns[k].range.0;
+    let first = |k: usize| 1e-4 * values[k].abs().max(1e-4 * widest(k));
+    let probes: Vec<Candidate> = (0..values.len())
+        .map(|k| model(&moved(values, k, first(k), unknowns[k].range.1)))
+        .collect();
+    let mut changes = vec![Spread::default(); probes.len()];
+    let about = problem.stream_changes(&here, &probes, |some| {
+        for (spread, change) in changes.iter_mut().zip(some) {
+            spread.add(change);
+        }
+    })?;
+    let pair = |(k, spread): (usize, &Spread)| {
+        let squares = match about {
+            About::Mean => spread.about_mean(),
+            About::Zero => spread.about(0.0),
+        };
+        let change = (squares / problem.data.len() as f64).sqrt();
+        let mut step = first(k);
+        // One correction of the step brings the change near the wanted size.
+        if change > 0.0 {
+            step = (step * (PROBE_COUNTS / change).clamp(1e-4, 1e3)).min(0.02 * widest(k));
+        }
+        let (low, high) = unknowns[k].range;
+        let ahead = moved(values, k, step, high);
+        let behind = moved(values, k, -step, low);
+        Pair {
+            width: ahead[k] - behind[k],
+            ahead: model(&ahead),
+            behind: model(&behind),
+        }
+    };
+    Some(changes.iter().enumerate().map(pair).collect())
+}
+
+/// `values` with unknown `k` moved by `step`, not beyond `limit`.
+fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Vec<f64> {
+    let mut values = values.to_vec();
+    let target = values[k] + step;
+    values[k] = if step > 0.0 {
+        target.min(limit.max(values[k]))
+    } else {
+        target.max(limit.min(values[k]))
+    };
+    values
+}
+
+/// The sums so far.
+struct Sums<'r> {
+    residuals: &'r [f64],
+    /// Samples that have come.
+    samples: usize,
+    /// Σ J.
+    sum: DVector<f64>,
+    /// Lower triangle of Jᵀ·J.
+    squares: DMatrix<f64>,
+    /// Jᵀ·r and Σ r of each segment.
+    segments: Vec<(DVector<f64>, f64)>,
+}
+
+impl<'r> Sums<'r> {
+    fn new(columns: usize, residuals: &'r [f64]) -> Self {
+        Sums {
+            residuals,
+            samples: 0,
+            sum: DVector::zeros(columns),
+            squares: DMatrix::zeros(columns, columns),
+            segments: Vec::new(),
+        }
+    }
+
+    /// Samples of a segment.
+    fn segment(&self) -> usize {
+        self.residuals.len().div_ceil(SEGMENTS).max(1)
+    }
+
+    /// Takes the next samples of each column.
+    fn add(&mut self, columns: &[Vec<f64>]) {
+        let count = columns.first().map_or(0, Vec::len);
+        let mut from = 0;
+        while from < count {
+            // Up to the end of the segment.
+            let at = self.samples;
+            let to = count.min(from + self.segment() - at % self.segment());
+            let residuals = &self.residuals[at..at + to - from];
+            let new = || (DVector::zeros(columns.len()), 0.0);
+            let segment = at / self.segment();
+            self.segments
+                .resize_with(self.segments.len().max(segment + 1), new);
+            let (gradient, residual) = &mut self.segments[segment];
+            *residual += residuals.iter().sum::<f64>();
+            for (i, column) in columns.iter().enumerate() {
+                let column = &column[from..to];
+                self.sum[i] += column.iter().sum::<f64>();
+                gradient[i] += dot(column, residuals);
+                for (k, other) in columns[..=i].iter().enumerate() {
+                    self.squares[(i, k)] += dot(column, &other[from..to]);
+                }
+            }
+            self.samples += to - from;
+            from = to;
+        }
+    }
+
+    /// The sums, of columns about their mean if that is still to be taken.
+    fn about(mut self, about: About) -> Sensitivity {
+        self.squares.fill_upper_triangle_with_lower_triangle();
+        if about == About::Mean {
+            let mean = &self.sum / self.samples.max(1) as f64;
+            let raw = self.squares.diagonal();
+            self.squares -= &self.sum * mean.transpose();
+            for k in 0..raw.len() {
+                // A change that is the same at every sample is none.
+                if self.squares[(k, k)] <= ROUNDING * raw[k] {
+                    self.squares.row_mut(k).fill(0.0);
+                    self.squares.column_mut(k).fill(0.0);
+                }
+            }
+            for (gradient, residual) in &mut self.segments {
+                *gradient -= &mean * *residual;
+            }
+        }
+        Sensitivity {
+            squares: self.squares,
+            gradients: self.segments.into_iter().map(|(g, _)| g).collect(),
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shared::rng;
+
+    /// However many samples come at a time, and wherever segments end.
+    #[test]
+    fn the_sums_are_those_over_the_whole_matrix() {
+        for seed in 0..20 {
+            let mut generator = rng::seeded(seed);
+            let mut draw = || 3.0 * rng::uniform::<f64>(&mut generator) - 1.0;
+            let (rows, columns) = (211 + 17 * seed as usize, 1 + seed as usize % 4);
+            let mut matrix = DMatrix::from_fn(rows, columns, |_, _| draw());
+            let residuals: Vec<f64> = (0..rows).map(|_| draw()).collect();
+            let parts: Vec<usize> = (0..rows)
+                .map(|_| 1 + (draw().abs() * 40.0) as usize)
+                .collect();
+            for about in [About::Zero, About::Mean] {
+                let mut sums = Sums::new(columns, &residuals);
+                let mut from = 0;
+                for part in &parts {
+                    let to = (from + part).min(rows);
+                    let some = |column: usize| {
+                        matrix
+                            .column(column)
+                            .rows_range(from..to)
+                            .iter()
+                            .copied()
+                            .collect()
+                    };
+                    sums.add(&(0..columns).map(some).collect::<Vec<Vec<f64>>>());
+                    from = to;
+                }
+                let found = sums.about(about);
+                if about == About::Mean {
+                    for mut column in matrix.column_iter_mut() {
+                        let mean = column.mean();
+                        column.add_scalar_mut(-mean);
+                    }
+                }
+                let apart = (&found.squares - matrix.tr_mul(&matrix)).norm();
+                assert!(
+                    apart < 1e-9 * matrix.norm_squared(),
+                    "seed {seed}: {apart:e}"
+                );
+                let segment = rows.div_ceil(SEGMENTS);
+                assert_eq!(found.gradients.len(), rows.div_ceil(segment), "seed {seed}");
+                for (k, gradient) in found.gradients.iter().enumerate() {
+                    let range = k * segment..((k + 1) * segment).min(rows);
+                    let residuals = DVector::from_column_slice(&residuals[range.clone()]);
+                    let apart = (gradient - matrix.rows_range(range).tr_mul(&residuals)).norm();
+                    assert!(
+                        apart < 1e-9 * rows as f64,
+                        "seed {seed}, segment {k}: {apart:e}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_change_that_is_the_same_everywhere_is_none() {
+        let residuals = [0.3; 1000];
+        let mut sums = Sums::new(2, &residuals);
+        sums.add(&[vec![0.1; 1000], (0..1000).map(f64::from).collect()]);
+        let found = sums.about(About::Mean);
+        assert_eq!(found.squares[(0, 0)], 0.0);
+        assert!(found.squares[(1, 1)] > 0.0);
+    }
+}

@@ -1,0 +1,143 @@
+//! How well the data determine the unknowns: from the Jacobian of the residuals, with the *effective*
+//! number of independent samples.
+//!
+//! Quantisation errors of neighbouring samples are anything but independent (a motor at rest
+//! repeats the same one a thousand times), so the textbook `σ²·(JᵀJ)⁻¹` is far too hopeful. The
+//! covariance is the cluster-robust sandwich `H⁻¹·(Σ gₛ·gₛᵀ)·H⁻¹` over time segments s (White, 1980;
+//! Liang, Zeger, 1986), where `gₛ` is a segment's part of the gradient: whatever the correlation
+//! within a segment, it is counted once.
+
+use super::memory::memory;
+use super::sensitivity::sensitivity;
+use nalgebra::{DMatrix, DVector};
+use servoid_engine::problem::{Data, FitProblem};
+
+/// Time segments that count as independent.
+pub(super) const SEGMENTS: usize = 24;
+/// Singular values of the column-scaled Jacobian below this are directions that the data do not hold.
+const FLAT: f64 = 1e-6;
+
+/// Coordinates nearer than this to a wall of the cube lie on it.
+const WALL: f64 = 1e-9;
+/// Part of the squared error that one more step would remove, above which the search has not converged.
+const UNCONVERGED: f64 = 0.2;
+
+/// Covariance of the unknowns, and how many samples are worth counting.
+#[derive(Clone, Debug)]
+pub struct Uncertainty {
+    /// Covariance in natural units; a row and a column for each unknown.
+    pub covariance: DMatrix<f64>,
+    /// Unknowns that the data do not determine at all (part of a flat direction).
+    pub flat: Vec<bool>,
+    /// Whether the search ended near enough to a minimum for errors to mean anything.
+    pub converged: bool,
+    /// Samples that the recording is worth, given how its residuals hang together.
+    pub effective_samples: f64,
+}
+
+impl Uncertainty {
+    /// Standard error of unknown `k`; `None` where the data do not determine it.
+    pub fn std(&self, k: usize) -> Option<f64> {
+        let variance = self.covariance[(k, k)];
+        (self.converged && !self.flat[k] && variance.is_finite() && variance >= 0.0)
+            .then(|| variance.sqrt())
+    }
+}
+
+/// The sandwich covariance at `values`, where the residuals are `residuals`.
+pub fn uncertainty(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    residuals: &[f64],
+) -> Option<Uncertainty> {
+    let found = sensitivity(problem, values, residuals)?;
+    let columns = values.len();
+    // Of columns of length one.
+    let scales = found
+        .squares
+        .diagonal()
+        .map(|square| square.max(0.0).sqrt());
+    let per_scale = scales.map(|scale| if scale > 0.0 { 1.0 / scale } else { 0.0 });
+    let scaled = |gradient: &DVector<f64>| gradient.component_mul(&per_scale);
+    let hessian = DMatrix::from_fn(columns, columns, |i, k| {
+        found.squares[(i, k)] * per_scale[i] * per_scale[k]
+    });
+    let eigen = hessian.symmetric_eigen();
+    let mut inverse = DMatrix::zeros(columns, columns);
+    let mut flat: Vec<bool> = scales.iter().map(|&s| s == 0.0).collect();
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
+        if *value > FLAT * FLAT * columns as f64 {
+            inverse += vector * vector.transpose() / *value;
+        } else {
+            for (k, share) in vector.iter().enumerate() {
+                flat[k] |= share * share > 1e-3;
+            }
+        }
+    }
+    // How far the minimum still is, by one Gauss-Newton step. Away from it a standard error would
+    // describe a place where nobody is: the distance counts as error too, and where most of the
+    // error could still be removed there is nothing to state. Unknowns on a wall stay there.
+    let mut gradient = scaled(&found.gradients.iter().sum());
+    for (k, x) in problem.structure.coordinates(values).iter().enumerate() {
+        if !(WALL..=1.0 - WALL).contains(x) {
+            gradient[k] = 0.0;
+        }
+    }
+    let away = -(&inverse * &gradient);
+    let removable = gradient.dot(&(&inverse * &gradient))
+        / residuals
+            .iter()
+            .map(|r| r * r)
+            .sum::<f64>()
+            .max(f64::MIN_POSITIVE);
+
+    let mut middle = DMatrix::zeros(columns, columns);
+    for gradient in found.gradients.iter().map(scaled) {
+        middle += &gradient * gradient.transpose();
+    }
+    let segments = found.gradients.len() as f64;
+    let correction = segments / (segments - (columns as f64).min(segments - 1.0));
+    let scaled_covariance = &inverse * middle * &inverse * correction + &away * away.transpose();
+    let covariance = DMatrix::from_fn(columns, columns, |i, k| {
+        let scale = scales[i] * scales[k];
+        if scale > 0.0 {
+            scaled_covariance[(i, k)] / scale
+        } else {
+            f64::INFINITY
+        }
+    });
+    Some(Uncertainty {
+        covariance,
+        flat,
+        converged: removable < UNCONVERGED,
+        effective_samples: effective_samples(problem.data, residuals),
+    })
+}
+
+/// Samples divided by the sum of the residuals' autocorrelation ([`memory`]), and never more than the changes of the reading.
+pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
+    let n = residuals.len();
+    let mean = residuals.iter().sum::<f64>() / n.max(1) as f64;
+    let product = |lag: usize| -> f64 {
+        residuals[..n - lag]
+            .iter()
+            .zip(&residuals[lag..])
+            .map(|(a, b)| (a - mean) * (b - mean))
+            .sum()
+    };
+    let variance = product(0);
+    if n < 2 || variance <= 0.0 {
+        return n as f64;
+    }
+    let sum = memory(n / 2, |lag| product(lag) / variance);
+    let independent = n as f64 / (1.0 + 2.0 * sum);
+    if data.quantised {
+        independent.min(data.transitions().max(1) as f64)
+    } else {
+        independent
+    }
+}

@@ -1,0 +1,214 @@
+//! A fitted model on another recording, whose start is its own.
+
+use super::{SPEED_HALF_WIDTH, may_start_moving, scores};
+use crate::error::Error;
+use servoid_engine::problem::cost::{Horizon, errors, rms_counts};
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{Candidate, Data, StartAngle};
+use shared::cost::Cost;
+
+/// Step of the start speed by which its effect is measured, as a part of the fastest.
+const SPEED_STEP: f64 = 0.01;
+/// Errors below this many counts need no better start.
+const START_UNNOTICED: f64 = 0.3;
+/// Places within the first cell that are tried, counts from its middle.
+pub const START_OFFSETS: [f64; 8] = [-0.4, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.4];
+
+/// Error at which a run has departed from the readings, counts: no slope tells what follows.
+const DEPARTED_COUNTS: f64 = 4.0;
+/// Where the readings are followed over such a part of the recording, where a run departs may be a matter of where in the cell it
+/// began.
+const FOLLOWED: f64 = 0.05;
+/// First step of the start offset by which its effect is measured, counts, and the wanted RMS of that effect, counts: far along
+/// a chaotic run a larger one slips a detent.
+const OFFSET_STEP: f64 = 1e-5;
+const NOTICED: f64 = 0.01;
+/// Steps that carry a run no further before that is the end of it.
+const STALLED: usize = 3;
+
+/// The first sample at which a run has departed from the readings; their number if it has not.
+pub fn departure(data: &Data, errors: &[f64]) -> usize {
+    let centre = data.centre(0) - data.counts[0];
+    errors
+        .iter()
+        .position(|error| (error - centre).abs() > DEPARTED_COUNTS)
+        .unwrap_or(errors.len())
+}
+
+/// Error of a fitted model on another recording, whose start angle and speed are its own: RMS in
+/// counts over the whole of it.
+///
+/// # Errors
+/// Where the model cannot run.
+pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
+    let errors = validation_errors(data, candidate, method)?;
+    Ok(rms_counts(data, &errors))
+}
+
+/// The same for one of many models: quicker, and more where the run is chaotic.
+///
+/// # Errors
+/// Where the model cannot run.
+pub fn validate_roughly(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
+    let errors = errors_from(data, candidate, method, Start::Tried)?;
+    Ok(rms_counts(data, &errors))
+}
+
+/// Model minus reading on another recording, as in [`validate`]: from the start that the recording agrees with
+/// best.
+///
+/// # Errors
+/// Where the model cannot run.
+pub fn validation_errors(
+    data: &Data,
+    candidate: &Candidate,
+    method: Method,
+) -> Result<Vec<f64>, Error> {
+    errors_from(data, candidate, method, Start::Followed)
+}
+
+/// How the place within the first cell is found at which another recording began.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    /// Some are tried.
+    Tried,
+    /// The one of them that is followed furthest leads on to a better one.
+    Followed,
+}
+
+fn errors_from(
+    data: &Data,
+    candidate: &Candidate,
+    method: Method,
+    start: Start,
+) -> Result<Vec<f64>, Error> {
+    let run = |start_speed: f64, start_offset: f64| -> Result<Vec<f64>, Error> {
+        let candidate = Candidate {
+            start_speed,
+            start_offset,
+            ..*candidate
+        };
+        let (whole, free) = (Horizon::Whole, StartAngle::Free);
+        Ok(errors(
+            data,
+            &candidate,
+            method,
+            &whole,
+            free,
+            Cost::Squared,
+        )?)
+    };
+    let rms = |errors: &[f64]| rms_counts(data, errors);
+    // At rest or in motion, whichever the recording agrees with better.
+    let (mut best, mut start_speed) = (run(0.0, 0.0)?, 0.0);
+    if may_start_moving(data) {
+        for speed in moving_starts(data, &|speed| run(speed, 0.0))? {
+            let moving = run(speed, 0.0)?;
+            if rms(&moving) < rms(&best) {
+                (best, start_speed) = (moving, speed);
+            }
+        }
+    }
+    if candidate.needs_angle() && data.quantised && rms(&best) >= START_UNNOTICED {
+        let mut longest = (departure(data, &best), 0.0);
+        for offset in START_OFFSETS {
+            if let Ok(errors) = run(start_speed, offset) {
+                let to = departure(data, &errors);
+                if to > longest.0 {
+                    longest = (to, offset);
+                }
+                if rms(&errors) < rms(&best) {
+                    best = errors;
+                }
+            }
+        }
+        if start == Start::Followed
+            && rms(&best) >= START_UNNOTICED
+            && let Some(followed) = follow(data, longest.1, &|offset| run(start_speed, offset))?
+            && rms(&followed) < rms(&best)
+        {
+            best = followed;
+        }
+    }
+    if let Some(led) = led(data, candidate, method)
+        && rms(&led) < rms(&best)
+    {
+        best = led;
+    }
+    Ok(best)
+}
+
+/// The run from the place within the first cell from which the readings are followed furthest: by least squares over the stretch
+/// that is followed already, which carries it further. `None` where none is followed for long.
+fn follow(
+    data: &Data,
+    mut offset: f64,
+    run: &dyn Fn(f64) -> Result<Vec<f64>, Error>,
+) -> Result<Option<Vec<f64>>, Error> {
+    let centre = data.centre(0) - data.counts[0];
+    let length = |errors: &[f64]| errors.iter().map(|e| (e - centre).powi(2)).sum::<f64>();
+    let (mut reached, mut stalled) = (0, 0);
+    let mut step = OFFSET_STEP;
+    let mut best: Option<Vec<f64>> = None;
+    while stalled < STALLED {
+        let errors = run(offset)?;
+        let to = departure(data, &errors);
+        if to < reached || (to as f64) < FOLLOWED * data.len() as f64 {
+            break;
+        }
+        stalled = if to > reached { 0 } else { stalled + 1 };
+        reached = to;
+        let ahead = run(offset + step)?;
+        let change: f64 = errors[..to]
+            .iter()
+            .zip(&ahead[..to])
+            .map(|(e, a)| (a - e).powi(2))
+            .sum();
+        offset += slope_step(&errors[..to], &ahead[..to], step, centre);
+        // The next stretch is more sensitive.
+        step = (step * NOTICED / (change / to as f64).sqrt()).clamp(1e-10, OFFSET_STEP);
+        if best
+            .as_ref()
+            .is_none_or(|best| length(&errors) < length(best))
+        {
+            best = Some(errors);
+        }
+    }
+    Ok(best)
+}
+
+/// Step to the least sum of squares of errors about `centre`, which are nearly linear in what was moved by `step`; zero where
+/// there is none.
+fn slope_step(here: &[f64], ahead: &[f64], step: f64, centre: f64) -> f64 {
+    let (mut pull, mut square) = (0.0, 0.0);
+    for (here, ahead) in here.iter().zip(ahead) {
+        let slope = ahead - here;
+        pull -= slope * (here - centre);
+        square += slope * slope;
+    }
+    let better = step * pull / square;
+    if better.is_finite() { better } else { 0.0 }
+}
+
+/// Model minus reading at the end of a whole recording, for a model that ran along it from its begin.
+fn led(data: &Data, candidate: &Candidate, method: Method) -> Option<Vec<f64>> {
+    let whole = data.end_of.as_ref()?;
+    let mut errors = scores::whole(whole, candidate, method).ok()?;
+    let before = errors.len().checked_sub(data.len())?;
+    Some(errors.split_off(before))
+}
+
+/// Speeds at the first sample, rad/s: a few readings tell it roughly; the whole recording tells it by least
+/// squares, since errors are nearly linear in it.
+fn moving_starts(
+    data: &Data,
+    run: &dyn Fn(f64) -> Result<Vec<f64>, Error>,
+) -> Result<Vec<f64>, Error> {
+    let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
+        * core::f64::consts::TAU;
+    let step = SPEED_STEP * data.units.speed;
+    let (here, ahead) = (run(now)?, run(now + step)?);
+    let centre = data.centre(0) - data.counts[0];
+    let better = now + slope_step(&here, &ahead, step, centre);
+    Ok(vec![now, better])
+}

@@ -1,0 +1,34 @@
+//! What to record next: the excitation that parts effects which explain a recording alike.
+//!
+//! Read in this order:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `hypothesis` | a model that may be the truth, and the setup that it runs on |
+//! | `excitation` | experiments in turn, with a name |
+//! | `candidates` | the excitations to choose from |
+//! | `playback` | an excitation played to a hypothesis |
+//! | `limits` | what an excitation may ask of the motor; scaled down until it keeps to it |
+//! | `separation` | what is left when one hypothesis is fitted to another's recording |
+//! | `ranking` | the candidates with the largest separation |
+//! | `reasons` | why the best one separates, and what would if none does |
+//!
+//! Separation is measured by refitting, not by the angle between two residuals: a load and an unequal
+//! friction leave residuals that look different, yet each imitates the other perfectly once it may
+//! choose its parameters.
+
+mod candidates;
+mod excitation;
+mod hypothesis;
+mod limits;
+mod playback;
+mod ranking;
+mod reasons;
+mod separation;
+
+pub use excitation::Excitation;
+pub use hypothesis::{Hypothesis, Setup};
+pub use limits::{Limits, Usage};
+pub use ranking::{Ranked, Work, rank, screened};
+pub use reasons::{remedy, why};
+pub use separation::{Effort, SEPARABLE_COUNTS, Separation, Trial};

@@ -1,0 +1,40 @@
+//! Readers of foreign data. Nothing here trusts its input: what is wrong is refused with its place and
+//! the remedy, and what is accepted keeps the promises of [`Recording`](crate::recording::Recording).
+//!
+//! `recording.csv → lines → row → layout (which column is what) → cells → counts → Recording`, with the
+//! facts of `motor.toml` beside it.
+
+mod cell;
+mod counts;
+mod csv_file;
+mod excitation;
+mod finder;
+mod layout;
+mod lines;
+mod missing;
+mod motor_error;
+mod motor_file;
+mod motor_parse;
+mod motor_units;
+mod motor_write;
+mod place;
+mod read_error;
+mod row;
+mod sample;
+mod scale;
+mod section;
+mod shown;
+mod spike;
+mod steady_curve;
+pub mod suggest;
+
+pub use csv_file::{MAX_ROWS, read_recording, read_recording_from};
+pub use excitation::MIN_TRAVEL_COUNTS;
+pub use lines::MAX_LINE_BYTES;
+pub use missing::MissingColumn;
+pub use motor_error::{MotorFault, MotorFileError};
+pub use motor_file::{Columns, Fact, Known, MAX_FILE_BYTES, MotorFile};
+pub use motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
+pub use place::{Cell, Place};
+pub use read_error::{ReadError, ReadFault};
+pub use steady_curve::{CurveError, SteadyCurve};

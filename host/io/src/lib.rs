@@ -1,0 +1,16 @@
+//! Recordings of servoid: in memory, from foreign files, from the virtual bench, and back into files.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `recording` | one recording in SI units and encoder counts |
+//! | `input` | readers of foreign CSV files and of `motor.toml` |
+//! | `output` | files written whole or not at all |
+//! | `record` | the virtual bench as a recorder |
+//! | `showcase` | the recordings of a demonstration |
+#![forbid(unsafe_code)]
+
+pub mod input;
+pub mod output;
+pub mod record;
+pub mod recording;
+pub mod showcase;

@@ -1,0 +1,343 @@
+//! Output files, written whole or not at all.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::recording::Recording;
+
+/// A file that could not be written; what stood there before still does.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {fault}", .path.display())]
+pub struct WriteError {
+    /// The file asked for.
+    pub path: PathBuf,
+    /// What went wrong and what to do.
+    pub fault: WriteFault,
+}
+
+/// Why a file could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteFault {
+    /// The path is a folder.
+    #[error("is a folder; name a file inside it")]
+    Folder,
+    /// The folder is not there.
+    #[error("cannot be written: the folder {} does not exist; make it first", .0.display())]
+    NoFolder(PathBuf),
+    /// The path is also something else of this run.
+    #[error("is also {0} of this run; name another file")]
+    Also(&'static str),
+    /// The system refused.
+    #[error("cannot be written: {0}; nothing was changed: check permissions and free space")]
+    Io(io::Error),
+}
+
+/// Checks before long work that `path` can be written afterwards; nothing there is changed.
+///
+/// # Errors
+/// As [`write_whole`] would fail: a folder, a missing folder, or one in which no file can be made.
+pub fn check_writable(path: &Path) -> Result<(), WriteError> {
+    try_check(path).map_err(|fault| WriteError {
+        path: path.into(),
+        fault,
+    })
+}
+
+fn try_check(path: &Path) -> Result<(), WriteFault> {
+    match destination(path)? {
+        // Not opened: that would wait for a pipe's reader.
+        Destination::Device => Ok(()),
+        Destination::File { folder, .. } => tempfile::Builder::new()
+            .prefix(".servoid-")
+            .tempfile_in(folder)
+            .map(drop)
+            .map_err(WriteFault::Io),
+    }
+}
+
+/// Whether writing to `a` would change `b`, neither of which need exist. A device can be both.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (destination(a), destination(b)) {
+        (Ok(Destination::File { target: a, .. }), Ok(Destination::File { target: b, .. })) => {
+            a == b
+        }
+        _ => false,
+    }
+}
+
+/// What stands at a path, or will.
+enum Destination {
+    /// A file that is replaced whole.
+    File {
+        /// Its true path, without links.
+        target: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+    },
+    /// A device or pipe, which cannot be replaced.
+    Device,
+}
+
+/// Where a path leads when every link is followed.
+fn destination(path: &Path) -> Result<Destination, WriteFault> {
+    let asked = match fs::metadata(path) {
+        Ok(there) if there.is_dir() => return Err(WriteFault::Folder),
+        Ok(there) if !there.is_file() => return Ok(Destination::Device),
+        Ok(_) => fs::canonicalize(path).map_err(WriteFault::Io)?,
+        Err(_) => path.to_path_buf(),
+    };
+    let folder = match asked.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(WriteFault::NoFolder(folder.into()));
+    }
+    let Some(name) = asked.file_name() else {
+        return Err(WriteFault::Folder);
+    };
+    let folder = fs::canonicalize(folder).map_err(WriteFault::Io)?;
+    Ok(Destination::File {
+        target: folder.join(name),
+        folder,
+    })
+}
+
+/// Writes a file through `write`: first to a temporary file in the same folder, then renamed over `path`, so
+/// that no reader ever sees half of it and a failure leaves the old file alone. A link is followed to its
+/// file; a device or pipe such as `/dev/null` is written directly, since it cannot be replaced.
+///
+/// # Errors
+/// Whatever `write` or the system fails with, with the path.
+pub fn write_whole(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    try_write(path, write).map_err(|fault| WriteError {
+        path: path.into(),
+        fault,
+    })
+}
+
+fn try_write(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteFault> {
+    match destination(path)? {
+        Destination::Device => write_direct(path, write),
+        Destination::File { target, folder } => replace(&target, &folder, write),
+    }
+    .map_err(WriteFault::Io)
+}
+
+fn replace(
+    target: &Path,
+    folder: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".servoid-").suffix(".part");
+    // Like any new file, not private as temporary files are; the umask still applies.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut temporary = builder.tempfile_in(folder)?;
+    let mut buffer = BufWriter::new(temporary.as_file_mut());
+    write(&mut buffer)?;
+    buffer.flush()?;
+    drop(buffer);
+    if let Ok(old) = fs::metadata(target) {
+        temporary.as_file().set_permissions(old.permissions())?;
+    }
+    temporary.as_file().sync_all()?;
+    temporary.persist(target)?;
+    Ok(())
+}
+
+fn write_direct(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffer = BufWriter::new(fs::OpenOptions::new().write(true).open(path)?);
+    write(&mut buffer)?;
+    buffer.flush()
+}
+
+/// Writes a recording as the contract's CSV, which [`read_recording`](crate::input::read_recording) reads back to
+/// the same numbers. Each line of `provenance` becomes a comment before the header.
+///
+/// An angle that is not in whole counts goes into the column `angle_rev` (revolutions), which needs
+/// `angle = "rev"` under `[units]` of the motor file; it comes back to the last digit but one.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_recording(
+    path: &Path,
+    recording: &Recording,
+    provenance: &[String],
+) -> Result<(), WriteError> {
+    write_whole(path, |out| write_csv(out, recording, provenance))
+}
+
+/// As [`write_recording`], to any writer.
+///
+/// # Errors
+/// Whatever the writer fails with.
+pub fn write_csv(
+    out: &mut dyn Write,
+    recording: &Recording,
+    provenance: &[String],
+) -> io::Result<()> {
+    write_comments(out, provenance)?;
+    let angle = if recording.quantised {
+        "angle_counts"
+    } else {
+        "angle_rev"
+    };
+    write!(out, "t_s,voltage_v,{angle}")?;
+    if recording.current_a.is_some() {
+        write!(out, ",current_a")?;
+    }
+    if recording.enabled.is_some() {
+        write!(out, ",enabled")?;
+    }
+    writeln!(out)?;
+    for k in 0..recording.len() {
+        write_row(out, recording, k)?;
+    }
+    Ok(())
+}
+
+/// A file of commands that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{}: {why}", .path.display(), .line.map_or_else(String::new, |line| format!(", line {line}")))]
+pub struct CommandsError {
+    /// The file.
+    pub path: PathBuf,
+    /// Its line, from 1, where one is at fault.
+    pub line: Option<u64>,
+    /// What is wrong with it.
+    pub why: String,
+}
+
+/// A command sequence, which is what a recording has before it is recorded: columns of equal length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CommandSequence {
+    /// Time of each command, s.
+    pub time_s: Vec<f64>,
+    /// Voltage from then until the next, V.
+    pub voltage_v: Vec<f64>,
+    /// False while the bridge is to be open.
+    pub enabled: Option<Vec<bool>>,
+}
+
+impl CommandSequence {
+    /// Reads what [`write_commands`] wrote, or another file with its columns.
+    ///
+    /// # Errors
+    /// A file that cannot be read, a column that is missing, a cell that is no number, times that do not increase; with
+    /// file and line.
+    pub fn read(path: &Path) -> Result<Self, CommandsError> {
+        let wrong = |line: Option<u64>, why: String| CommandsError {
+            path: path.to_path_buf(),
+            line,
+            why,
+        };
+        let reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_path(path);
+        let mut reader = reader.map_err(|error| wrong(None, error.to_string()))?;
+        let header = reader
+            .headers()
+            .map_err(|error| wrong(None, error.to_string()))?
+            .clone();
+        let column = |name: &str| {
+            header
+                .iter()
+                .position(|found| found.eq_ignore_ascii_case(name))
+        };
+        let needed = |name: &str| {
+            column(name).ok_or_else(|| {
+                wrong(None, format!("no column `{name}`; a plan has t_s,voltage_v and may have enabled, see servoid simulate --plan"))
+            })
+        };
+        let (time, voltage, enabled) = (needed("t_s")?, needed("voltage_v")?, column("enabled"));
+        let mut read = CommandSequence {
+            time_s: Vec::new(),
+            voltage_v: Vec::new(),
+            enabled: enabled.map(|_| Vec::new()),
+        };
+        for record in reader.records() {
+            let record = record.map_err(|error| {
+                wrong(error.position().map(csv::Position::line), error.to_string())
+            })?;
+            let line = record.position().map(csv::Position::line);
+            let number = |column: usize| {
+                let cell = record.get(column).unwrap_or("");
+                let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+                number.ok_or_else(|| wrong(line, format!("`{cell}` is no number")))
+            };
+            let at = number(time)?;
+            if read.time_s.last().is_some_and(|last| *last >= at) {
+                return Err(wrong(line, format!("t_s {at} does not increase")));
+            }
+            read.time_s.push(at);
+            read.voltage_v.push(number(voltage)?);
+            if let (Some(column), Some(read)) = (enabled, &mut read.enabled) {
+                read.push(number(column)? != 0.0);
+            }
+        }
+        Ok(read)
+    }
+}
+
+/// Writes a command sequence with the columns of a recording, less what only a recording knows.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_commands(
+    path: &Path,
+    commands: &CommandSequence,
+    provenance: &[String],
+) -> Result<(), WriteError> {
+    write_whole(path, |out| {
+        write_comments(out, provenance)?;
+        let enabled = commands.enabled.as_deref();
+        let header = if enabled.is_some() { ",enabled" } else { "" };
+        writeln!(out, "t_s,voltage_v{header}")?;
+        for (k, (time, volts)) in commands.time_s.iter().zip(&commands.voltage_v).enumerate() {
+            write!(out, "{time:?},{volts:?}")?;
+            if let Some(enabled) = enabled {
+                write!(out, ",{}", u8::from(enabled[k]))?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    })
+}
+
+fn write_comments(out: &mut dyn Write, provenance: &[String]) -> io::Result<()> {
+    for line in provenance.iter().flat_map(|text| text.split(['\n', '\r'])) {
+        writeln!(out, "# {line}")?;
+    }
+    Ok(())
+}
+
+/// Debug formatting prints the shortest digits that read back to the same double, with an exponent where
+/// plain digits would be long.
+fn write_row(out: &mut dyn Write, recording: &Recording, k: usize) -> io::Result<()> {
+    write!(out, "{:?},{:?},", recording.time_s[k], recording.command[k])?;
+    if recording.quantised {
+        write!(out, "{}", recording.counts[k])?;
+    } else {
+        write!(out, "{:?}", recording.counts[k] / recording.counts_per_rev)?;
+    }
+    if let Some(current) = &recording.current_a {
+        write!(out, ",{:?}", current[k])?;
+    }
+    if let Some(enabled) = &recording.enabled {
+        write!(out, ",{}", u8::from(enabled[k]))?;
+    }
+    writeln!(out)
+}

@@ -1,0 +1,210 @@
+//! A run as files: recordings that every verb reads, and what the device reported.
+
+use super::{FolderError, Recorded, Saved};
+use servoid_io::input::{MotorFile, read_recording};
+use servoid_io::output::{write_recording, write_whole};
+use servoid_io::recording::{Drive, Recording};
+use shared::trace::OPEN;
+use shared::wire::{Row, Stage};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A folder with the files of one run.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+}
+
+/// Files of a run, with the stage that each comes from.
+const RECORDINGS: [(&str, Stage); 3] = [
+    ("recording.csv", Stage::Excite),
+    ("fitted.csv", Stage::Record),
+    ("verify.csv", Stage::Verify),
+];
+const DEVICE: &str = "device.json";
+const MOTOR: &str = "motor.toml";
+
+impl Folder {
+    /// A folder that a run may be written to: new, or empty of runs.
+    ///
+    /// # Errors
+    /// A folder that holds a run already, or that cannot be made.
+    pub fn new(path: &Path) -> Result<Self, FolderError> {
+        let folder = Folder {
+            path: path.to_owned(),
+        };
+        let file = folder.path.join(DEVICE);
+        if file.exists() {
+            return Err(FolderError::Unusable {
+                path: file,
+                why: "holds a run already, which is not replaced; name another folder".to_owned(),
+            });
+        }
+        fs::create_dir_all(path).map_err(|error| FolderError::Unusable {
+            path: path.to_owned(),
+            why: format!("{error}; name a folder that can be made"),
+        })?;
+        Ok(folder)
+    }
+
+    /// A folder that holds a run.
+    pub fn at(path: &Path) -> Self {
+        Folder {
+            path: path.to_owned(),
+        }
+    }
+
+    /// Path of the recording of a stage.
+    pub fn recording_of(&self, stage: Stage) -> Option<PathBuf> {
+        let named = RECORDINGS.iter().find(|(_, of)| *of == stage);
+        named
+            .map(|(name, _)| self.path.join(name))
+            .filter(|path| path.exists())
+    }
+
+    /// Writes a run; returns the names of the recordings.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(
+        &self,
+        saved: &Saved,
+        recorded: &[Recorded],
+        current: bool,
+    ) -> Result<Vec<&'static str>, FolderError> {
+        let mut written = Vec::new();
+        for (name, stage) in RECORDINGS {
+            let Some(part) = recorded.iter().find(|part| part.stage == stage) else {
+                continue;
+            };
+            let whole: Vec<_> = part.whole().collect();
+            if whole.len() < 2 {
+                continue;
+            }
+            let mut provenance = vec![format!(
+                "recorded by servoid device: board {}, firmware {}, {} s a period",
+                saved.board,
+                saved.firmware,
+                f64::from(saved.period_us) * 1e-6
+            )];
+            if whole.len() < part.rows.len() || saved.partial {
+                provenance.push(format!("partial: {} periods without a gap", whole.len()));
+            }
+            let recording = recording(part.count, &whole, saved, current);
+            write_recording(&self.path.join(name), &recording, &provenance)?;
+            written.push(name);
+        }
+        let motor = MotorFile {
+            counts_per_rev: Some(saved.counts_per_rev),
+            supply_v: Some(saved.supply_v),
+            ..MotorFile::default()
+        };
+        write_whole(&self.path.join(MOTOR), |out| {
+            out.write_all(motor.to_toml().as_bytes())
+        })?;
+        let json = serde_json::to_string_pretty(saved).map_err(|error| FolderError::Unusable {
+            path: self.path.join(DEVICE),
+            why: format!("the report cannot be written as JSON: {error}"),
+        })?;
+        write_whole(&self.path.join(DEVICE), |out| writeln!(out, "{json}"))?;
+        Ok(written)
+    }
+
+    /// What the device reported.
+    ///
+    /// # Errors
+    /// A file that is missing or is no report.
+    pub fn saved(&self) -> Result<Saved, FolderError> {
+        let path = self.path.join(DEVICE);
+        let wrong = |why: String| FolderError::Unusable {
+            path: path.clone(),
+            why,
+        };
+        let text = fs::read_to_string(&path).map_err(|error| {
+            wrong(format!(
+                "{error}; name a folder that `servoid device commission --out` wrote"
+            ))
+        })?;
+        let saved: Saved = serde_json::from_str(&text)
+            .map_err(|error| wrong(format!("is no report of a device: {error}")))?;
+        if saved.schema != "servoid.device/1" {
+            return Err(wrong(format!(
+                "is of the schema `{}`; this program reads servoid.device/1",
+                saved.schema
+            )));
+        }
+        Ok(saved)
+    }
+
+    /// What the device fitted, read back: duties and steps of whole periods.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn fitted(&self, saved: &Saved) -> Result<(Vec<i16>, Vec<i16>), FolderError> {
+        let path = self.path.join("fitted.csv");
+        let motor = MotorFile::read(&self.path.join(MOTOR))?;
+        let recording = read_recording(&path, &motor)?;
+        let steps = recording
+            .counts
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]) as i16)
+            .collect();
+        let open = |k: usize| {
+            recording
+                .enabled
+                .as_ref()
+                .is_some_and(|enabled| !enabled[k])
+        };
+        let duty = |(k, volts): (usize, &f64)| {
+            if open(k) {
+                OPEN
+            } else {
+                saved.scale().duty(*volts) as i16
+            }
+        };
+        let duties = recording.command.iter().enumerate().map(duty);
+        Ok((duties.take(recording.len() - 1).collect(), steps))
+    }
+}
+
+/// Rows as a recording; the reading after the last period is a row of its own, with no drive.
+fn recording(count: i32, rows: &[Row], saved: &Saved, current: bool) -> Recording {
+    let period_s = f64::from(saved.period_us) * 1e-6;
+    let coasts = rows.iter().any(|row| row.duty == OPEN);
+    let volts = |duty: i16| {
+        if duty == OPEN {
+            0.0
+        } else {
+            saved.scale().volts(duty)
+        }
+    };
+    let mut counts = vec![f64::from(count)];
+    let mut at = f64::from(count);
+    for row in rows {
+        at += f64::from(row.step);
+        counts.push(at);
+    }
+    let last = rows.last().map_or(0, |row| row.current_ma);
+    let milliamps = rows.iter().map(|row| row.current_ma).chain([last]);
+    Recording {
+        source: String::new(),
+        time_s: (0..counts.len()).map(|k| k as f64 * period_s).collect(),
+        command: rows
+            .iter()
+            .map(|row| volts(row.duty))
+            .chain([0.0])
+            .collect(),
+        counts,
+        current_a: current.then(|| milliamps.map(|ma| f64::from(ma) * 1e-3).collect()),
+        enabled: coasts.then(|| {
+            rows.iter()
+                .map(|row| row.duty != OPEN)
+                .chain([true])
+                .collect()
+        }),
+        counts_per_rev: saved.counts_per_rev,
+        quantised: true,
+        supply_v: Some(saved.supply_v),
+        drive: Drive::Voltage,
+    }
+}

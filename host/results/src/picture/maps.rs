@@ -1,0 +1,134 @@
+//! The volts that a model's equation misses along the measured motion, against everything that could tell why.
+
+use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
+use crate::report::text::short;
+use plotly::common::{ErrorData, ErrorType, Line, Marker, Mode};
+use plotly::{Plot, Scatter, Trace};
+use servoid_identify::diagnose::whereabouts::{Against, Bin, Map, Whereabouts};
+
+/// Half the width of a drawn interval, standard errors.
+const WIDE: f64 = 2.0;
+
+/// One drawing for each quantity: each of `models` with its name.
+pub fn maps(id: &str, models: &[(&str, &Whereabouts)]) -> Vec<Picture> {
+    let all = Against::ALL.iter();
+    all.filter_map(|&against| map(id, against, models))
+        .collect()
+}
+
+fn map(id: &str, against: Against, models: &[(&str, &Whereabouts)]) -> Option<Picture> {
+    let (name, unit) = against.name();
+    let name = name.replace('_', " ");
+    let split = if against == Against::Speed {
+        " Triangles point the way the shaft turned."
+    } else {
+        ""
+    };
+    let mut plot = Plot::new();
+    let mut table = Table::new(&["model", "from", "to", "missing, V", "± V", "samples"]);
+    let mut said = Vec::new();
+    for (k, (model, found)) in models.iter().enumerate() {
+        let Some(map) = found.map(against) else {
+            continue;
+        };
+        let colour = [colour::BASE, colour::MODEL][k.min(1)];
+        for line in lines(against, map, model, colour) {
+            plot.add_trace(line);
+        }
+        if map.beyond_chance {
+            said.push(format!(
+                "with the {model}, {:.0} % of what is missing goes with it",
+                100.0 * map.share
+            ));
+        }
+        for bin in &map.bins {
+            table.row([
+                (*model).to_owned(),
+                short(bin.low),
+                short(bin.high),
+                format!("{:+.4}", bin.mean_v),
+                format!("{:.4}", WIDE * bin.error_v),
+                bin.samples.to_string(),
+            ]);
+        }
+    }
+    if table.rows.is_empty() {
+        return None;
+    }
+    plot.set_layout(
+        layout(320)
+            .x_axis(axis(&format!("{name}, {unit}")))
+            .y_axis(axis("missing, V").zero_line(true)),
+    );
+    let turned = matches!(against, Against::Time | Against::Reversal);
+    let sign = if turned {
+        "against the motion"
+    } else {
+        "against forward motion"
+    };
+    let said = if said.is_empty() {
+        "nothing goes with it beyond chance".to_owned()
+    } else {
+        said.join("; ")
+    };
+    Some(Picture {
+        id: format!("{id}-{}", against.name().0.replace('_', "-")),
+        title: format!("What is missing, against {name}"),
+        caption: format!(
+            "Volts at the winding that the model's equation misses along the measured motion, mean and two standard \
+             errors in each bin; a torque {sign} counts positive: {said}.{split}"
+        ),
+        drawing: Drawing::Chart(Box::new(plot)),
+        table: Some(table),
+    })
+}
+
+/// The bins of a map as a line; against speed one for each direction, since friction changes its sign there.
+fn lines(against: Against, map: &Map, model: &str, colour: &'static str) -> Vec<Box<dyn Trace>> {
+    let middle = |bin: &Bin| 0.5 * (bin.low + bin.high);
+    let parts: Vec<(String, Vec<&Bin>)> = if against == Against::Speed {
+        let side = |forward: bool| -> Vec<&Bin> {
+            let bins = map.bins.iter();
+            bins.filter(|bin| (middle(bin) > 0.0) == forward).collect()
+        };
+        vec![
+            (model.to_owned(), side(false)),
+            (model.to_owned(), side(true)),
+        ]
+    } else {
+        vec![(model.to_owned(), map.bins.iter().collect())]
+    };
+    parts
+        .into_iter()
+        .filter(|(_, bins)| !bins.is_empty())
+        .enumerate()
+        .map(|(part, (name, bins))| {
+            let x: Vec<f64> = bins.iter().map(|bin| rounded(middle(bin))).collect();
+            let y: Vec<f64> = bins.iter().map(|bin| rounded(bin.mean_v)).collect();
+            // A bin whose error is not known is drawn without.
+            let known = |x: f64| if x.is_finite() { rounded(x) } else { 0.0 };
+            let wide: Vec<f64> = bins.iter().map(|bin| known(WIDE * bin.error_v)).collect();
+            let symbol = if part == 0 && against == Against::Speed {
+                plotly::common::MarkerSymbol::TriangleLeft
+            } else if against == Against::Speed {
+                plotly::common::MarkerSymbol::TriangleRight
+            } else {
+                plotly::common::MarkerSymbol::Circle
+            };
+            let line: Box<dyn Trace> = Scatter::new(x, y)
+                .name(name)
+                .legend_group(model)
+                .show_legend(part == 0)
+                .mode(Mode::LinesMarkers)
+                .line(Line::new().color(colour).width(1.5))
+                .marker(Marker::new().color(colour).size(8).symbol(symbol))
+                .error_y(
+                    ErrorData::new(ErrorType::Data)
+                        .array(wide)
+                        .color(colour)
+                        .thickness(1.0),
+                );
+            line
+        })
+        .collect()
+}

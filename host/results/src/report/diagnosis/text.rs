@@ -1,0 +1,237 @@
+//! A diagnosis as text for a terminal of 80 columns.
+
+use super::bars::{counts, sparkline};
+use super::whereabouts::{table, whiteness_text};
+use super::{DiagnosisReport, names};
+use crate::report::fold::folded;
+use crate::report::paint::{BAD, GOOD, HEADING, painted};
+use crate::report::text::{parameter, wrapped};
+use anstyle::Style;
+use servoid_identify::diagnose::{HeldOut, Step, Verdict};
+use shared::encoder::FLOOR_RMS_COUNTS;
+use std::fmt::Write;
+
+/// Characters of the residual over time.
+const LINE: usize = 60;
+
+impl DiagnosisReport<'_> {
+    /// As text for a terminal.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        // Writing to a String cannot fail.
+        let _ = self.write(&mut out);
+        out
+    }
+
+    fn write(&self, out: &mut String) -> std::fmt::Result {
+        let end = self.data.time_s.last().copied().unwrap_or(0.0);
+        let samples = self.data.len();
+        writeln!(out, "{}: {samples} samples, {end:.3} s", self.data.source)?;
+        writeln!(out, "{}\n", folded(&self.held_out_text(), ""))?;
+        writeln!(out, "{}\n", verdict(self.verdict(), &self.verdict_text()))?;
+        self.ladder(out)?;
+        self.over_time(out)?;
+        for index in 0..self.diagnosis.steps.len() {
+            self.step(out, index)?;
+        }
+        if self.verdict() == Verdict::Unexplained {
+            let (what, found) = if self.diagnosis.fits_only_its_own() {
+                ("on what was held out", &self.findings.held_out)
+            } else {
+                ("on the fitted recording", &self.findings.last)
+            };
+            let heading = painted(HEADING, "where the last model fails,");
+            writeln!(out, "\n{heading} {what}")?;
+            out.push_str(&table(found));
+        }
+        let white = whiteness_text(self.findings.last_whiteness.as_ref());
+        writeln!(out, "\n{}", folded(&white, ""))?;
+        self.parameters(out)?;
+        for remark in &self.remarks {
+            out.push_str(&wrapped(&remark.to_string()));
+        }
+        let heading = painted(HEADING, "what these recordings cannot tell:");
+        writeln!(out, "\n{heading}")?;
+        for text in self.cannot_tell() {
+            out.push_str(&wrapped(&text));
+        }
+        let advice = self.advice();
+        if !advice.is_empty() {
+            writeln!(out, "\n{}", painted(HEADING, "next:"))?;
+            for advice in advice {
+                out.push_str(&wrapped(&advice));
+            }
+        }
+        Ok(())
+    }
+
+    fn held_out_text(&self) -> String {
+        match self.held_out {
+            HeldOut::Recording(source) => format!("held out, never fitted: {source}"),
+            HeldOut::End {
+                from_s,
+                seconds,
+                at_rest,
+                ..
+            } => {
+                let at = if *at_rest {
+                    "where the motor stood still"
+                } else {
+                    "while the motor was driven or turning"
+                };
+                format!(
+                    "held out, never fitted: its last {seconds:.3} s, cut off at {from_s:.3} s {at}; another recording \
+                     given with --validate would be a harder test"
+                )
+            }
+            HeldOut::Nothing => {
+                "nothing is held out: --validate is the recording itself, so that the second error is no test"
+                    .to_owned()
+            }
+        }
+    }
+
+    /// Errors from the linear motor to the last model, and the encoder's own.
+    fn ladder(&self, out: &mut String) -> std::fmt::Result {
+        let diagnosis = self.diagnosis;
+        let mut rungs = vec![(
+            "linear motor".to_owned(),
+            diagnosis.base.rms_counts,
+            diagnosis.base.validate_rms_counts,
+        )];
+        for step in &diagnosis.steps {
+            if let Some(after) = step.candidates.first() {
+                let name = format!("+ {}", step.added.name());
+                rungs.push((name, after.rms_counts, after.validate_rms_counts));
+            }
+        }
+        if let Some(last) = rungs.last_mut().filter(|_| !diagnosis.steps.is_empty()) {
+            (last.1, last.2) = self.last_errors();
+        }
+        rungs.push((
+            "encoder's own".to_owned(),
+            FLOOR_RMS_COUNTS,
+            FLOOR_RMS_COUNTS,
+        ));
+        out.push_str(&super::bars::ladder(&rungs));
+        Ok(())
+    }
+
+    /// The residual over time, of the linear motor and of the last model.
+    fn over_time(&self, out: &mut String) -> std::fmt::Result {
+        let (base, last) = (&self.findings.base_errors, &self.findings.last_errors);
+        let size = |errors: &[f64]| errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        let most = size(base);
+        writeln!(
+            out,
+            "{}, logarithmic up to {}",
+            painted(HEADING, "residual over time"),
+            counts(most)
+        )?;
+        let mut line = |name: &str, errors: &[f64], style: Style| {
+            let line = painted(style, sparkline(errors, most, LINE));
+            writeln!(out, "  {name:14}{line}")
+        };
+        line("linear motor", base, BAD)?;
+        if self.diagnosis.steps.is_empty() {
+            return Ok(());
+        }
+        line("last model", last, GOOD)
+    }
+
+    fn step(&self, out: &mut String, index: usize) -> std::fmt::Result {
+        let step = &self.diagnosis.steps[index];
+        let description = step.added.description();
+        let name = painted(HEADING, step.added.name());
+        writeln!(out, "\n{}. {name}: {}", index + 1, description.title)?;
+        let mut say = |name: &str, text: &str| {
+            writeln!(
+                out,
+                "{}",
+                folded(&format!("   {name:12}{text}"), "               ")
+            )
+        };
+        say("equation", description.equation)?;
+        say("why", &self.evidence(index))?;
+        say("look-alikes", &self.company_text(step))?;
+        if let Some(after) = step.candidates.first() {
+            say(
+                "foreseen",
+                &format!(
+                    "{} counts RMS before the refit; {} reached",
+                    counts(after.foreseen_rms_counts),
+                    counts(after.rms_counts)
+                ),
+            )?;
+            if let Some(windowed) = after.windowed {
+                say(
+                    "judged by",
+                    &format!(
+                        "errors in windows run from the measured state: {} fitted, {} held out",
+                        counts(windowed.fitted),
+                        counts(windowed.held_out)
+                    ),
+                )?;
+            }
+            if let Some(tracked) = after.tracked {
+                say(
+                    "judged by",
+                    &format!(
+                        "errors that are forgotten within {} s, since the free run is chaotic: {} fitted, {} held out",
+                        tracked.memory_s,
+                        counts(tracked.errors.fitted),
+                        counts(tracked.errors.held_out)
+                    ),
+                )?;
+            }
+        }
+        say("confidence", &format!("{:.2}", step.confidence))?;
+        if let Some(found) = self.findings.steps.get(index).and_then(Option::as_ref) {
+            out.push_str(&table(found));
+        }
+        Ok(())
+    }
+
+    /// Other effects that explain the data as well.
+    fn company_text(&self, step: &Step) -> String {
+        let (alike, refine) = (self.look_alikes(step), self.refinements(step));
+        let mut text = if alike.is_empty() {
+            "nothing else of the catalogue explains these data as well".to_owned()
+        } else {
+            format!(
+                "{} would explain these data as well",
+                names(&alike).join(", ")
+            )
+        };
+        if !refine.is_empty() {
+            text += &format!(
+                "; {} would refine it, and these data do not ask for that",
+                names(&refine).join(" or ")
+            );
+        }
+        text
+    }
+
+    fn parameters(&self, out: &mut String) -> std::fmt::Result {
+        let heading = painted(HEADING, "parameters of the last model");
+        writeln!(
+            out,
+            "\n{heading}, standard error of the last digits in brackets:"
+        )?;
+        for p in &self.last.parameters {
+            out.push_str(&parameter(p, self.last.converged));
+        }
+        Ok(())
+    }
+}
+
+/// The verdict's name, and what it says, folded.
+pub(super) fn verdict(verdict: Verdict, text: &str) -> String {
+    let name = verdict.name();
+    let style = match verdict {
+        Verdict::Unexplained => BAD,
+        _ => GOOD,
+    };
+    let folded = folded(&format!("{name}: {text}"), "");
+    folded.replacen(name, &painted(style.bold(), name), 1)
+}

@@ -1,0 +1,174 @@
+//! The verdict in the words of a motor engineer.
+
+use super::bars::counts;
+use super::{DiagnosisReport, names};
+use servoid_identify::diagnose::evidence::largest;
+use servoid_identify::diagnose::{HeldOut, Verdict, moves_both_ways};
+use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+impl DiagnosisReport<'_> {
+    /// Two sentences.
+    pub(super) fn verdict_text(&self) -> String {
+        let diagnosis = self.diagnosis;
+        let base = counts(diagnosis.base.rms_counts);
+        let (fitted, held_out) = self.last_errors();
+        match self.verdict() {
+            Verdict::Complete => {
+                format!(
+                    "The linear motor explains this recording down to the encoder: {} counts RMS are left where it was \
+                 fitted and {} {}, and the encoder alone leaves {FLOOR_RMS_COUNTS:.3}. Nothing is missing that these \
+                 data could show.",
+                    counts(fitted),
+                    counts(held_out),
+                    self.where_held_out()
+                ) + if moves_both_ways(self.data) {
+                    ""
+                } else {
+                    " But the motor never reverses in it: friction, an offset or a load would pass for another gain."
+                }
+            }
+            Verdict::MissingEffects => format!(
+                "The linear motor misses this recording by {base} counts RMS; with {} the error falls to {}, and to {} \
+                 {}, where the encoder alone leaves {FLOOR_RMS_COUNTS:.3}.{}",
+                self.titles(),
+                counts(fitted),
+                counts(held_out),
+                self.where_held_out(),
+                self.chaos_text() + &self.look_alikes_text()
+            ),
+            Verdict::Unexplained if diagnosis.fits_only_its_own() => {
+                format!(
+                    "{} explains the recording that it was fitted to down to the encoder ({} counts RMS), but errs by {} \
+                 counts {}. The two are not of one motor in one state, or the second shows what the first does not{}.",
+                    match self.names() {
+                        Some(names) => format!("The linear motor with {names}"),
+                        None => "The linear motor".to_owned(),
+                    },
+                    counts(fitted),
+                    counts(held_out),
+                    self.where_held_out(),
+                    largest(&self.findings.held_out)
+                        .map_or(String::new(), |text| format!(": {text}"))
+                ) + &self
+                    .cause()
+                    .map_or(String::new(), |cause| format!(" {cause}."))
+            }
+            Verdict::Unexplained => {
+                let begins = match diagnosis.steps.len() {
+                    0 => format!("The linear motor misses this recording by {base} counts RMS"),
+                    _ => format!(
+                        "With {} the error falls from {base} to {} counts RMS",
+                        self.titles(),
+                        counts(fitted)
+                    ),
+                };
+                if let Some(cause) = self.cause() {
+                    return format!(
+                        "{begins} ({} {}). Before physics is blamed for the rest, see to the recording: {cause}.",
+                        counts(held_out),
+                        self.where_held_out()
+                    );
+                }
+                format!(
+                    "{begins} ({} {}), and no effect of the catalogue explains the rest, which is {:.0} times what the \
+                     encoder alone leaves.{}",
+                    counts(held_out),
+                    self.where_held_out(),
+                    fitted.max(held_out) / FLOOR_RMS_COUNTS,
+                    largest(&self.findings.last)
+                        .map_or(String::new(), |text| format!(" Of what is left, {text}."))
+                )
+            }
+            Verdict::Inconclusive if self.interrupted => format!(
+                "The work was stopped before all effects were tried: the linear motor misses this recording by {base} \
+                 counts RMS, the best model so far by {}. Run it again to its end for a verdict.",
+                counts(fitted)
+            ),
+            Verdict::Inconclusive if diagnosis.ran_out => format!(
+                "The work ran out before all effects were tried: the linear motor misses this recording by {base} counts \
+                 RMS, the best model so far by {}. Run it again with a larger --budget for a verdict.",
+                counts(fitted)
+            ),
+            Verdict::Inconclusive => format!(
+                "The linear motor misses this recording by {base} counts RMS, so that something is missing, but this \
+                 recording cannot tell what. See the advice for what to record."
+            ),
+        }
+    }
+
+    /// RMS errors of the last model, counts.
+    pub(super) fn last_errors(&self) -> (f64, f64) {
+        let held_out = self.last.validate_rms_counts.unwrap_or(f64::NAN);
+        (self.last.rms_counts, held_out)
+    }
+
+    fn where_held_out(&self) -> &'static str {
+        match self.held_out {
+            HeldOut::Recording(_) => "on the held-out recording",
+            HeldOut::End { .. } => "on the end that was held out",
+            HeldOut::Nothing => "on the same recording again",
+        }
+    }
+
+    /// Titles of the effects that were added.
+    pub(super) fn titles(&self) -> String {
+        let title = |kind: Kind| format!("{} ({})", kind.description().title, kind.name());
+        let titles: Vec<String> = self
+            .diagnosis
+            .steps
+            .iter()
+            .map(|s| title(s.added))
+            .collect();
+        titles.join(" and ")
+    }
+
+    /// By what the model was judged where free runs over the whole recording say little.
+    fn chaos_text(&self) -> String {
+        let last = &self.diagnosis.last;
+        let (why, errors) = match (&self.diagnosis.span.window_s, last.windowed, last.tracked) {
+            (Some(seconds), Some(windowed), _) => (
+                format!(
+                    "The model was judged in windows of {seconds:.3} s, since {}",
+                    self.diagnosis.span.reason
+                ),
+                windowed,
+            ),
+            (_, _, Some(tracked)) if !last.free().at_floor() => (
+                format!(
+                    "A free run is chaotic here, so the model was judged with errors that are forgotten within {} s",
+                    tracked.memory_s
+                ),
+                tracked.errors,
+            ),
+            _ => return String::new(),
+        };
+        let kept = match last.followed {
+            part if part > 0.0 && part < 1.0 => format!(
+                " On its own it keeps to the readings over the first {:.0} % of the recording.",
+                100.0 * part
+            ),
+            _ => String::new(),
+        };
+        format!(
+            " {why}: {} counts fitted, {} held out.{kept}",
+            counts(errors.fitted),
+            counts(errors.held_out)
+        )
+    }
+
+    fn look_alikes_text(&self) -> String {
+        let mut text = String::new();
+        for step in &self.diagnosis.steps {
+            let alike = self.look_alikes(step);
+            if !alike.is_empty() {
+                text += &format!(
+                    " In the place of {}, {} would explain these data as well.",
+                    step.added.name(),
+                    names(&alike).join(" or ")
+                );
+            }
+        }
+        text
+    }
+}

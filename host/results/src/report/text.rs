@@ -1,0 +1,280 @@
+//! Results as text for a terminal of 80 columns.
+
+use super::diagnosis::bars;
+use super::json::least_cost;
+use super::paint::{GOOD, HEADING, painted};
+use servoid_engine::compare::{Row, quantile};
+use servoid_engine::problem::Data;
+use servoid_identify::fit::{Fit, Parameter, Rung};
+use servoid_io::recording::Drive;
+use shared::encoder::FLOOR_RMS_COUNTS;
+use std::fmt::Write;
+
+/// A value with as many digits as its standard error deserves: `58.35908(3)`.
+pub fn with_error(value: f64, std: Option<f64>) -> String {
+    let Some(std) = std.filter(|std| *std > 0.0 && std.is_finite()) else {
+        return if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+            format!("{value}")
+        } else {
+            format!("{value:e}")
+        };
+    };
+    let size = value.abs().max(std).max(f64::MIN_POSITIVE);
+    let exponent = size.log10().floor() as i32;
+    // Plain notation for what reads well plainly, else a power of ten.
+    let shift = if (-3..6).contains(&exponent) {
+        0
+    } else {
+        exponent
+    };
+    let (value, std) = (value / 10f64.powi(shift), std / 10f64.powi(shift));
+    let digits = (1 - std.log10().floor() as i32).clamp(0, 12) as usize;
+    let uncertain = (std * 10f64.powi(digits as i32)).round();
+    let tail = if shift == 0 {
+        String::new()
+    } else {
+        format!("e{shift}")
+    };
+    if digits == 0 {
+        format!("{value:.0}({std:.0}){tail}")
+    } else {
+        format!("{value:.digits$}({uncertain:.0}){tail}")
+    }
+}
+
+pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
+    let value = match (p.std, p.identifiable) {
+        (None, _) if !converged => {
+            return format!(
+                "  {:26} {} {}, error unknown\n",
+                p.name,
+                short(p.value),
+                p.unit
+            );
+        }
+        (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
+        (Some(_), true) => format!("{} {}", with_error(p.value, p.std), p.unit),
+        (Some(std), false) => {
+            format!(
+                "below {} {} (twice its standard error)",
+                short(p.value.abs() + 2.0 * std),
+                p.unit
+            )
+        }
+    };
+    format!("  {:26} {value}\n", p.name)
+}
+
+/// Open-loop error above which windows are shown unasked, counts.
+const WINDOWS_ABOVE_COUNTS: f64 = 5.0;
+
+/// A fit.
+pub fn fit(fit: &Fit, data: &Data) -> String {
+    let mut out = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_fit(&mut out, fit, data);
+    out
+}
+
+fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
+    let effects = if fit.effects.is_empty() {
+        "linear motor".to_owned()
+    } else {
+        format!("linear motor + {}", fit.effects.join(" + "))
+    };
+    let end = data.time_s.last().copied().unwrap_or(0.0);
+    writeln!(
+        out,
+        "{}: {} samples, {end:.3} s, worth {:.0} independent ones",
+        data.source,
+        data.len(),
+        fit.effective_samples
+    )?;
+    writeln!(
+        out,
+        "{effects}, by {} in {} model evaluations (seed {})",
+        fit.algorithm, fit.evaluations, fit.seed
+    )?;
+    writeln!(out)?;
+    writeln!(
+        out,
+        "{}   {:.4} counts RMS (encoder floor {FLOOR_RMS_COUNTS:.4})",
+        painted(HEADING, "open-loop error"),
+        fit.rms_counts
+    )?;
+    if let Some(rms) = fit.validate_rms_counts {
+        writeln!(
+            out,
+            "{}    {rms:.4} counts RMS on the other recording, never fitted",
+            painted(HEADING, "held-out error")
+        )?;
+    }
+    if !fit.ladder.is_empty() {
+        write!(out, "\n{}\n", ladder(&fit.ladder))?;
+    }
+    // Beside a good open-loop error, windows would only show how roughly their starts are known.
+    let worth_showing = fit.window_asked || fit.rms_counts > WINDOWS_ABOVE_COUNTS;
+    if let Some(w) = fit.windowed.as_ref().filter(|_| worth_showing) {
+        writeln!(
+            out,
+            "free runs of {} s  {:.4} counts RMS, {:.2} % of the motion",
+            w.window_s,
+            w.rms_counts,
+            100.0 * w.relative
+        )?;
+    }
+    if let Some(part) = fit.equation_error {
+        writeln!(
+            out,
+            "equation error    {:.2} % of the drive is unexplained along the measured motion",
+            100.0 * part
+        )?;
+    }
+    writeln!(out, "cost ({})    {:.6}", fit.cost_kind, fit.cost)?;
+    writeln!(out)?;
+    if data.drive == Drive::Voltage {
+        let r = &fit.response;
+        writeln!(out, "theta/V = gain / (s (a2 s^2 + a1 s + 1)):")?;
+        writeln!(
+            out,
+            "  gain {:.6} rad/(s V), a1 {:.6e} s, a2 {:.6e} s^2",
+            r.gain, r.a1, r.a2
+        )?;
+        if let Some(m) = &fit.margins {
+            writeln!(
+                out,
+                "  position loop in radians: gain margin {:.2} dB, phase margin {:.2} deg",
+                m.gain_db, m.phase_deg
+            )?;
+        }
+        writeln!(out)?;
+    }
+    writeln!(
+        out,
+        "{}, with the standard error of the last digits in brackets:",
+        painted(HEADING, "parameters")
+    )?;
+    for p in &fit.parameters {
+        out.push_str(&parameter(p, fit.converged));
+    }
+    for note in &fit.notes {
+        write!(out, "{}", wrapped(note))?;
+    }
+    Ok(())
+}
+
+/// Errors as effects were added, and the encoder's own.
+fn ladder(rungs: &[Rung]) -> String {
+    let name = |rung: &Rung| match rung.added {
+        Some(effect) => format!("+ {effect}"),
+        None => "linear motor".to_owned(),
+    };
+    let held_out = |rung: &Rung| rung.validate_rms_counts.unwrap_or(f64::NAN);
+    let mut lines: Vec<_> = (rungs.iter())
+        .map(|rung| (name(rung), rung.rms_counts, held_out(rung)))
+        .collect();
+    let floor = rungs.iter().all(|rung| rung.validate_rms_counts.is_some());
+    lines.push((
+        "encoder's own".to_owned(),
+        FLOOR_RMS_COUNTS,
+        if floor { FLOOR_RMS_COUNTS } else { f64::NAN },
+    ));
+    bars::ladder(&lines)
+}
+
+/// A remark, folded to 80 columns behind a dash.
+pub(super) fn wrapped(note: &str) -> String {
+    const WIDTH: usize = 78;
+    let mut out = String::from("-");
+    let mut column = 1;
+    for word in note.split_whitespace() {
+        if column + 1 + word.chars().count() > WIDTH {
+            out.push_str("\n ");
+            column = 1;
+        }
+        out.push(' ');
+        out.push_str(word);
+        column += 1 + word.chars().count();
+    }
+    out.push('\n');
+    out
+}
+
+/// A comparison of search methods.
+pub fn compare(rows: &[Row], budget: usize, seeds: usize) -> String {
+    let least = least_cost(rows);
+    let most = rows.iter().map(|row| row.runs.len()).max().unwrap_or(0);
+    let head = format!(
+        "{:12}{:>10}{:>11}{:>11}{:>10}{:>10}{:>8}{:>8}",
+        "method", "median", "quartile 1", "quartile 3", "best", "worst", "evals", "CPU s",
+    );
+    let mut out = format!(
+        "{most} of {seeds} runs each, at most {budget} model evaluations a run; least cost {}\n\n\
+         {}\n{:12}{:>10}{:>42}{:>8}\n",
+        short(least),
+        painted(HEADING, head),
+        "",
+        "cost",
+        "",
+        "to 1 %",
+    );
+    for row in rows {
+        let costs = row.costs();
+        let [median, q1, q3, best, worst] =
+            [0.5, 0.25, 0.75, 0.0, 1.0].map(|q| short(quantile(&costs, q)));
+        let evaluations = row
+            .median_evaluations_to(1.01 * least)
+            .map_or("-".to_owned(), |n| format!("{n:.0}"));
+        out += &format!(
+            "{:12}{median:>10}{q1:>11}{q3:>11}{best:>10}{worst:>10}{evaluations:>8}{:>8.2}\n",
+            row.algorithm, row.wall_s,
+        );
+    }
+    out + &curves(rows, budget)
+}
+
+/// The median cost of each method over the evaluations.
+fn curves(rows: &[Row], budget: usize) -> String {
+    let curves: Vec<(&str, Vec<f64>)> = rows
+        .iter()
+        .map(|row| {
+            let curve = row.curve(budget, 0.5).into_iter();
+            (&*row.algorithm, curve.map(|(_, cost)| cost).collect())
+        })
+        .collect();
+    let costs = || curves.iter().flat_map(|(_, costs)| costs);
+    let finite = || costs().copied().filter(|cost| cost.is_finite());
+    let (least, most) = (
+        finite().fold(f64::INFINITY, f64::min),
+        finite().fold(0.0, f64::max),
+    );
+    if !(0.0 < least && least < most) {
+        return String::new();
+    }
+    let mut out = format!(
+        "\n{} over evaluations, both logarithmic, 1 to {budget}\n",
+        painted(HEADING, "median cost")
+    );
+    for (name, costs) in &curves {
+        let line: String = costs
+            .iter()
+            .map(|cost| bars::height((cost / least).ln() / (most / least).ln()))
+            .collect();
+        out += &format!("  {name:14}{}\n", painted(GOOD, line));
+    }
+    out
+}
+
+/// Four significant digits or more in at most ten columns.
+pub fn short(x: f64) -> String {
+    if !x.is_finite() {
+        "-".to_owned()
+    } else if x == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&x.abs()) {
+        let digits = (4 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 7) as usize;
+        format!("{x:.digits$}")
+    } else {
+        format!("{x:.3e}")
+    }
+}

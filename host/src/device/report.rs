@@ -1,0 +1,108 @@
+//! What a device sent, as the report that is written.
+
+use super::{Order, Run};
+use servoid_results::device_run::{Recorded, Saved, SavedFailure, SavedOutcome, SavedParameter};
+use shared::fit::{Outcome, Stop};
+use shared::wire::{About, Fault, Format};
+
+/// Of a run that came to its end.
+pub fn report(run: &Run, order: &Order) -> Saved {
+    let failure = run.outcome.as_ref().err();
+    let report = run
+        .outcome
+        .as_ref()
+        .ok()
+        .or(failure.and_then(|failure| failure.report.as_ref()));
+    let mut saved = broken(&run.about, order, &run.recorded);
+    saved.partial =
+        saved.missing > 0 || failure.is_some_and(|failure| failure.fault != Fault::NotVerified);
+    saved.failure = failure.map(|failure| SavedFailure {
+        fault: format!("{:?}", failure.fault),
+        message: failure.fault.to_string(),
+        stage: format!("{:?}", failure.stage).to_lowercase(),
+        at_s: f64::from(failure.at) * f64::from(run.about.period_us) * 1e-6,
+        seen: failure.seen,
+        limit: failure.limit,
+    });
+    if let Some(report) = report {
+        let period_s = f64::from(run.about.period_us) * 1e-6;
+        let scale = saved.scale();
+        saved.breakaway_v = scale.volts(report.breakaway);
+        saved.amplitude_v = scale.volts(report.amplitude);
+        saved.outcome = report
+            .outcome
+            .as_ref()
+            .map(|outcome| self::outcome(outcome, period_s, order, scale.unit_v()));
+        saved.verified_rms_counts = report
+            .verified
+            .map(|verified| f64::from(verified.mean_square).sqrt());
+    }
+    saved
+}
+
+/// Of a run whose end is not known.
+pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> Saved {
+    Saved {
+        schema: "servoid.device/1".to_owned(),
+        board: about.board.to_string(),
+        firmware: about.firmware.to_string(),
+        period_us: about.period_us,
+        format: match about.format {
+            Format::F32 => "f32".to_owned(),
+            Format::Fixed => "fixed".to_owned(),
+        },
+        supply_v: order.supply_v,
+        full_duty: about.full,
+        counts_per_rev: order.counts_per_rev,
+        fit: order.fit,
+        breakaway_v: 0.0,
+        amplitude_v: 0.0,
+        outcome: None,
+        verified_rms_counts: None,
+        failure: None,
+        missing: recorded.iter().map(Recorded::missing).sum(),
+        partial: true,
+    }
+}
+
+fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> SavedOutcome {
+    let per_count = std::f64::consts::TAU / order.counts_per_rev;
+    let gain = per_count / period_s / unit_v;
+    let mut measures = vec![
+        ("gain", gain, "rad/s/V"),
+        ("a1", period_s, "s"),
+        ("electrical", period_s, "s"),
+    ];
+    if order.fit.coulomb {
+        measures.push(("coulomb", unit_v, "V"));
+    }
+    if order.fit.load {
+        measures.push(("load", unit_v, "V"));
+    }
+    let parameters =
+        outcome
+            .estimates
+            .iter()
+            .zip(measures)
+            .map(|(estimate, (name, scale, unit))| {
+                let std = f64::from(estimate.std) * scale;
+                SavedParameter {
+                    name: name.to_owned(),
+                    value: f64::from(estimate.value) * scale,
+                    unit: unit.to_owned(),
+                    std: std.is_finite().then_some(std),
+                }
+            });
+    SavedOutcome {
+        parameters: parameters.collect(),
+        bits: outcome
+            .estimates
+            .iter()
+            .map(|e| [e.value.to_bits(), e.std.to_bits()])
+            .collect(),
+        rms_counts: f64::from(outcome.mean_square).sqrt(),
+        mean_square_bits: outcome.mean_square.to_bits(),
+        evaluations: outcome.evaluations,
+        converged: outcome.stop == Stop::Converged,
+    }
+}
