@@ -1,5 +1,6 @@
 //! Why an identification gives no result, with the remedy.
 
+use servoid_io::input::ReadError;
 use servoid_plant::BenchError;
 use shared::error::ModelError;
 use thiserror::Error;
@@ -16,6 +17,9 @@ pub enum Error {
     /// No model can be built.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// A recording that cannot be used.
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// The virtual bench refuses.
     #[error(transparent)]
     Bench(#[from] BenchError),

@@ -1,5 +1,7 @@
 //! Identification: a model fitted to recordings, a diagnosis of what it lacks, and a plan of what to record next.
 //!
+//! The front door is [`identify()`] and [`diagnose()`]: recordings in, a fit or a diagnosis out.
+//!
 //! | module | holds |
 //! |---|---|
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
@@ -9,11 +11,19 @@
 //! | `truth` | what the virtual bench hides, in the model's terms |
 #![forbid(unsafe_code)]
 
+mod datasets;
 pub mod diagnose;
+mod diagnosed;
 pub mod error;
 pub mod fit;
+mod identify;
 pub mod paper;
 pub mod plan;
+mod progress;
 pub mod truth;
 
+pub use datasets::Datasets;
+pub use diagnosed::{Diagnosed, diagnose, diagnose_data, diagnose_datasets};
 pub use error::Error;
+pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data};
+pub use progress::{Progress, Silent};

@@ -7,7 +7,7 @@ use crate::session::Session;
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::problem::Data;
 use servoid_engine::solve;
-use servoid_identify::fit;
+use servoid_identify::bounded_problem;
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
@@ -20,8 +20,7 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
     let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;
-    let mut problem = fit::problem(&data, &options)?;
-    model::apply_bounds(&mut problem, &args.model.bounds)?;
+    let problem = bounded_problem(&data, &options)?;
     let names: Vec<&str> = if args.algorithm.is_empty() {
         solve::names()
     } else {
@@ -40,7 +39,7 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let rows = compare::run(&contest, &solvers, session.stop(), &|| bar.inc(1));
     bar.finish_and_clear();
     if let Some(path) = &args.plot {
-        let drawing = plot::cost_curves(&rows, contest.budget, args.model.cost.name())?;
+        let drawing = plot::cost_curves(&rows, contest.budget, options.cost_name())?;
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
         session.remark(&format!("plot: {}", path.display()));
     }

@@ -4,7 +4,7 @@
 //! recording and fails; the diagnosis sees where, names what is missing and adds it, and the error falls to the
 //! encoder's own, on both. Then the bench tells the truth.
 
-use super::diagnosing::diagnosed;
+use super::progress::Watched;
 use super::report;
 use super::simulate::{hidden, wrong_flag};
 use crate::cli::DemoArgs;
@@ -13,10 +13,12 @@ use crate::prove::surprise;
 use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::{Effort, HeldOut};
+use servoid_identify::diagnose_data;
 use servoid_identify::fit::Options;
 use servoid_io::output::write_whole;
 use servoid_io::showcase;
 use servoid_results::report::demo::{DemoJson, DemoReport};
+use servoid_results::report::diagnosis::DiagnosisReport;
 use servoid_results::report::sheet::{self, Recordings};
 
 pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
@@ -38,16 +40,13 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         seed: session.seed,
         ..Options::default()
     };
-    let diagnosed = diagnosed(
-        session,
-        &data,
-        &held_out,
-        &options,
-        &Effort::usual(session.stop()),
-    )?;
     let kind = HeldOut::Recording(other.to_owned());
+    let watched = Watched::diagnosis(session);
+    let effort = Effort::usual(session.stop());
+    let found = diagnose_data(&data, &held_out, &kind, &options, &effort, &watched)?;
+    drop(watched);
     let story = DemoReport {
-        diagnosis: diagnosed.report(session, &data, &kind, Vec::new()),
+        diagnosis: DiagnosisReport::new(&found, &data, &kind, session.seed, session.json_file()),
         machine,
         hidden: &secret,
         described: secret.described(),

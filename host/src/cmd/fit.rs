@@ -1,19 +1,17 @@
 //! `servoid fit`: a model of one recording.
 
-use super::search::search;
+use super::progress::Watched;
 use super::{model, motor, report};
 use crate::cli::FitArgs;
 use crate::error::Error;
 use crate::session::Session;
-use servoid_engine::problem::{Data, FitProblem};
-use servoid_engine::solve::Found;
-use servoid_identify::diagnose::{self, Effort};
-use servoid_identify::fit::{self, Fit, Options};
+use servoid_engine::problem::Data;
+use servoid_identify::fit::Options;
+use servoid_identify::identify_data;
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report::json::FitJson;
 use servoid_results::report::{sheet, text};
-use shared::cost::Cost;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
@@ -34,30 +32,14 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         Some(path) => Some(Data::taken(motor::recording(&args.motor, path)?.0)?),
         None => None,
     };
-    let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;
-    let mut problem = fit::problem(&data, &options)?;
-    model::apply_bounds(&mut problem, &args.model.bounds)?;
-
-    let mut found = search(session, &problem, &args.algorithm, &options)?;
-    if args.algorithm == "lm"
-        && let Some((again, better)) = again(session, &problem, &found, &options)
-    {
-        problem = again;
-        found = better;
-    }
-    let cost_kind = args.model.cost.name();
-    let mut fit = Fit::conclude(
-        &problem,
-        &args.algorithm,
-        cost_kind,
-        &found,
-        &options,
-        validation.as_ref(),
-    )?;
-    if !options.effects.is_empty() {
-        let stop = session.stop();
-        fit.ladder = fit::ladder(&data, validation.as_ref(), &fit, &options, stop);
-    }
+    let options = Options {
+        algorithm: args.algorithm.clone(),
+        error_ladder: true,
+        ..model::options(&args.model, motor_file.known, session.seed, args.budget)?
+    };
+    let watched = Watched::search(session, options.budget);
+    let fit = identify_data(&data, validation.as_ref(), &options, &watched)?;
+    drop(watched);
     if let Some(path) = &args.plot {
         let drawing = plot::overlay(&data, &fit.candidate, options.method)?;
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
@@ -71,23 +53,4 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     };
     report::write(session, &args.sheet, &json, drawn)?;
     session.deliver(&text::fit(&fit, &data), &json)
-}
-
-/// Least squares begun once more, from where the effects lead that are added one by one: from regression it may have ended
-/// in the wrong valley. `None` where that was not needed, or led nowhere better.
-fn again<'a>(
-    session: &Session,
-    problem: &FitProblem<'a>,
-    found: &Found,
-    options: &Options,
-) -> Option<(FitProblem<'a>, Found)> {
-    let squares = problem.cost == Cost::Squared;
-    if !squares || found.interrupted || !diagnose::is_lost(found.cost, problem.data.len()) {
-        return None;
-    }
-    let effort = Effort::usual(session.stop());
-    let candidate = diagnose::built_up(problem.data, &options.effects, options, &effort)?;
-    let again = problem.begun_at(&candidate);
-    let better = search(session, &again, "lm", options).ok()?;
-    (better.cost < found.cost).then_some((again, better))
 }

@@ -6,7 +6,6 @@ mod completions;
 mod demo;
 mod device;
 mod diagnose;
-mod diagnosing;
 mod export;
 mod fit;
 mod model;
@@ -14,9 +13,9 @@ mod motor;
 mod motor_beside;
 mod paper;
 mod plan;
+mod progress;
 mod prove;
 mod report;
-mod search;
 mod simulate;
 mod simulate_list;
 

@@ -3,11 +3,8 @@
 use crate::cli::{CostName, Integrator, ModelArgs};
 use crate::error::Error;
 use servoid_engine::problem::simulate::Method;
-use servoid_engine::problem::unknowns::Scale;
-use servoid_engine::problem::{FitProblem, Structure};
-use servoid_identify::fit::Options;
+use servoid_identify::fit::{Bound, Options};
 use servoid_io::input::Known;
-use servoid_io::input::suggest::did_you_mean;
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
 use shared::effects::{Kind, MAX_EFFECTS};
@@ -30,16 +27,6 @@ impl CostName {
             CostName::Interval => Cost::Interval {
                 noise_counts: NOISE_COUNTS,
             },
-        }
-    }
-
-    /// Its name in JSON.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            CostName::Squared => "squared",
-            CostName::Iae => "iae",
-            CostName::IaeFloored => "iae_floored",
-            CostName::Interval => "interval",
         }
     }
 }
@@ -87,6 +74,12 @@ pub(super) fn options(
             substeps: args.substeps,
         },
         known,
+        bounds: args
+            .bounds
+            .iter()
+            .map(|text| bound(text))
+            .collect::<Result<_, _>>()?,
+        ..Options::default()
     })
 }
 
@@ -110,48 +103,13 @@ pub(super) fn range(flag: &str, text: &str) -> Result<(f64, f64), Error> {
     Ok((low, high))
 }
 
-/// Applies `--bounds NAME=LOW:HIGH` to the unknowns; a start outside moves to the nearest bound.
-pub(super) fn apply_bounds(problem: &mut FitProblem<'_>, bounds: &[String]) -> Result<(), Error> {
-    if bounds.is_empty() {
-        return Ok(());
-    }
-    let start = problem.start.as_ref().map(|x| problem.structure.values(x));
-    for bound in bounds {
-        let (name, text) = bound
-            .split_once('=')
-            .ok_or_else(|| Error::Usage(format!("--bounds {bound}: write it like gain=10:100")))?;
-        let range = range(&format!("--bounds {name} ="), text)?;
-        set_range(&mut problem.structure, name, range)?;
-    }
-    problem.start = start.map(|values| problem.structure.coordinates(&values));
-    Ok(())
-}
-
-fn set_range(structure: &mut Structure, name: &str, range: (f64, f64)) -> Result<(), Error> {
-    let names: Vec<String> = structure.unknowns.iter().map(|u| u.name.clone()).collect();
-    let Some(unknown) = structure
-        .unknowns
-        .iter_mut()
-        .find(|unknown| unknown.name == name)
-    else {
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        return Err(Error::Usage(format!(
-            "--bounds {name}: not an unknown of this model; {}",
-            did_you_mean(name, &names)
-        )));
-    };
-    let least = unknown.range.0;
-    if range.0 < 0.0 && least >= 0.0 {
-        return Err(Error::Usage(format!(
-            "--bounds {name}: the lower bound {} is negative, and {name} cannot be",
-            range.0
-        )));
-    }
-    if range.0 == 0.0 && unknown.scale == Scale::Log {
-        return Err(Error::Usage(format!(
-            "--bounds {name}: the lower bound must be above zero"
-        )));
-    }
-    unknown.range = range;
-    Ok(())
+/// A bound `NAME=LOW:HIGH` of `--bounds`.
+fn bound(text: &str) -> Result<Bound, Error> {
+    let (name, limits) = text
+        .split_once('=')
+        .ok_or_else(|| Error::Usage(format!("--bounds {text}: write it like gain=10:100")))?;
+    Ok(Bound {
+        name: name.to_owned(),
+        range: range(&format!("--bounds {name} ="), limits)?,
+    })
 }

@@ -29,7 +29,7 @@ pub(super) fn demonstration(seed: u64) -> Result<(Recordings, Secret), Error> {
 }
 
 /// As it would come from a user, so that it is kept and opened again as a user's.
-fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loaded>, Error> {
+pub(super) fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loaded>, Error> {
     let recording = showcase::record(hidden, seed, name)?;
     let mut csv = "t_s,voltage_v,angle_counts\n".to_owned();
     for k in 0..recording.len() {

@@ -7,23 +7,16 @@ use crate::error::Error;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use servoid_engine::compare::{self, Contest};
-use servoid_engine::problem::FitProblem;
-use servoid_engine::solve::{self, Found, Objective};
+use servoid_engine::solve::{self, Objective};
 use servoid_identify::diagnose::{self, Diagnosis, Effort, Suggestion};
-use servoid_identify::fit::{self, Fit, Options};
+use servoid_identify::fit::{Fit, Options};
+use servoid_identify::{Diagnosed, Progress, bounded_problem, diagnose_data, identify_data};
 use servoid_results::kept::KeptModel;
 use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
 use servoid_results::report::json::CompareJson;
 use shared::effects::Kind;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Evaluations of a fit at most; least squares needs a tenth of it where it gets anywhere at all.
-const BUDGET: usize = 5000;
-/// Evaluations from regression, where a look for effects has found a better start.
-const FIRST: usize = 60;
-/// Evaluations from there.
-const SECOND: usize = 400;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Fits a model with these effects, and puts it on the bench.
 pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<(), Error> {
@@ -56,63 +49,50 @@ fn fitted(
     algorithm: &str,
     suggestion: Option<&Suggestion>,
 ) -> Result<Fit, Error> {
-    let mut options = options(&recordings.fitted, effects, 1);
-    let (data, held_out) = recordings.parts();
-    let solver = solve::by_name(algorithm)
-        .ok_or_else(|| Error::Usage(format!("there is no search method `{algorithm}`")))?;
-    // Only least squares begins anywhere in particular.
-    let suggestion = suggestion.filter(|_| algorithm == USUAL);
-    options.budget = if suggestion.is_some() { FIRST } else { BUDGET };
-    let teller = Teller::new(bench);
-    let samples = data.len() as f64;
-    let mut spent = 0;
-    let mut search = |problem: &FitProblem<'_>, options: &Options| -> Found {
-        let before = spent;
-        let mut observer = |count: usize, cost: f64| {
-            let rms = finite((cost / samples).sqrt());
-            teller.tell(|| json!({ "evaluations": before + count, "rms_counts": rms }));
-        };
-        let stop = bench.job.flag();
-        let found = fit::search(problem, solver.as_ref(), options, stop, &mut observer);
-        spent += found.evaluations;
-        found
+    let options = Options {
+        algorithm: algorithm.to_owned(),
+        start: suggestion.map(|suggestion| suggestion.refit.candidate),
+        ..options(&recordings.fitted, effects, 1)
     };
-    let mut problem = fit::problem(data, &options)?;
-    let mut found = search(&problem, &options);
-    // Regression may start in another valley than the one that was found.
-    if algorithm == USUAL
-        && diagnose::is_lost(found.cost, data.len())
-        && let Some(candidate) = suggestion
-            .map(|suggestion| suggestion.refit.candidate)
-            .or_else(|| {
-                let effort = Effort::usual(bench.job.flag());
-                diagnose::built_up(data, effects, &options, &effort)
-            })
-    {
-        let start = problem.begun_at(&candidate);
-        options.budget = SECOND;
-        let again = search(&start, &options);
-        if again.cost < found.cost {
-            problem = start;
-            found = again;
-        }
-    }
-    Ok(Fit::conclude(
-        &problem,
-        algorithm,
-        "squared",
-        &found,
-        &options,
-        Some(held_out),
-    )?)
+    let (data, held_out) = recordings.parts();
+    let watched = Watched::new(bench, data.len());
+    Ok(identify_data(data, Some(held_out), &options, &watched)?)
 }
 
-/// Tells how many models were tried, each time it is called.
-fn counting<'a>(teller: &'a Teller<'a>) -> impl Fn() + Sync + 'a {
-    let tried = AtomicUsize::new(0);
-    move || {
-        let tried = tried.fetch_add(1, Ordering::Relaxed) + 1;
-        teller.tell(|| json!({ "tried": tried }));
+/// Tells the page how the work goes on; stopped by the page.
+struct Watched<'a> {
+    bench: &'a Bench,
+    teller: Teller<'a>,
+    samples: f64,
+    tried: AtomicUsize,
+}
+
+impl<'a> Watched<'a> {
+    /// Work on a recording of so many samples.
+    fn new(bench: &'a Bench, samples: usize) -> Self {
+        Watched {
+            bench,
+            teller: Teller::new(bench),
+            samples: samples as f64,
+            tried: AtomicUsize::new(0),
+        }
+    }
+}
+
+impl Progress for Watched<'_> {
+    fn evaluated(&self, evaluations: usize, cost: f64) {
+        let rms = finite((cost / self.samples).sqrt());
+        self.teller
+            .tell(|| json!({ "evaluations": evaluations, "rms_counts": rms }));
+    }
+
+    fn tried(&self) {
+        let tried = self.tried.fetch_add(1, Ordering::Relaxed) + 1;
+        self.teller.tell(|| json!({ "tried": tried }));
+    }
+
+    fn stop(&self) -> &AtomicBool {
+        self.bench.job.flag()
     }
 }
 
@@ -124,8 +104,8 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
     };
     let (data, held_out) = recordings.parts();
     let options = options(&recordings.fitted, &[], 1);
-    let teller = Teller::new(bench);
-    let done = counting(&teller);
+    let watched = Watched::new(bench, data.len());
+    let done = || watched.tried();
     let found = diagnose::suggest(
         data,
         held_out,
@@ -143,31 +123,23 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let recordings = bench.state().recordings()?;
     let (data, held_out) = recordings.parts();
     let options = options(&recordings.fitted, &[], 1);
-    let teller = Teller::new(bench);
-    let done = counting(&teller);
-    let stop = bench.job.flag();
-    let found = diagnose::diagnose(data, held_out, &options, &Effort::usual(stop), &done)?;
-    let interrupted = stop.load(Ordering::Relaxed);
-    let last = diagnose::settle(&found, data, held_out, &options, stop)?;
-    let findings = diagnose::findings(&found, data, held_out)?;
     let kind = recordings.kind();
-    let report = DiagnosisReport {
-        data,
-        held_out: &kind,
-        diagnosis: &found,
-        last: &last,
-        findings: &findings,
-        remarks: Vec::new(),
-        seed: options.seed,
-        interrupted,
-        json: None,
-    };
+    let watched = Watched::new(bench, data.len());
+    let effort = Effort::usual(bench.job.flag());
+    let found = diagnose_data(data, held_out, &kind, &options, &effort, &watched)?;
+    let report = DiagnosisReport::new(&found, data, &kind, options.seed, None);
     let json = serde_json::to_value(DiagnosisJson::from(&report))
         .map_err(|error| Error::Failed(error.to_string()))?;
+    let Diagnosed {
+        diagnosis,
+        last,
+        interrupted,
+        ..
+    } = found;
     let models = if interrupted {
-        as_found(&recordings, &found, last)?
+        as_found(&recordings, &diagnosis, last)?
     } else {
-        on_the_way(bench, &recordings, &found, last)?
+        on_the_way(bench, &recordings, &diagnosis, last)?
     };
     bench.change(|state| {
         for model in models {
@@ -259,7 +231,7 @@ pub(super) fn race(
     let mut options = options(&recordings.fitted, effects, 1);
     options.budget = budget;
     let (data, _) = recordings.parts();
-    let problem = fit::problem(data, &options)?;
+    let problem = bounded_problem(data, &options)?;
     let mut solvers = Vec::new();
     for name in algorithms {
         solvers.push(
@@ -300,4 +272,39 @@ pub(super) fn race(
 
 fn finite(x: f64) -> Value {
     if x.is_finite() { json!(x) } else { Value::Null }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::blind::recorded;
+    use super::*;
+    use servoid_io::showcase;
+    use servoid_plant::Hidden;
+
+    /// One front door: what the page fits is what a call of the library, and so the command line, fits.
+    #[test]
+    fn the_bench_fits_to_the_bits_of_the_front_door() {
+        for (name, effects) in [
+            ("coulomb", vec![]),
+            ("coulomb", vec![Kind::Coulomb]),
+            ("cogging", vec![Kind::Cogging]),
+        ] {
+            let hidden = Hidden::typical(name, &showcase::machine()).expect("an effect");
+            let recordings = Recordings {
+                fitted: recorded(&hidden, 1, "a.csv").expect("a recording"),
+                held_out: Some(recorded(&hidden, 2, "b.csv").expect("a recording")),
+            };
+            let bench = Bench::new(None);
+            let shown = fitted(&bench, &recordings, &effects, USUAL, None).expect("a fit");
+            let asked = Options {
+                effects: effects.clone(),
+                ..Options::default()
+            };
+            let (data, held_out) = recordings.parts();
+            let silent = servoid_identify::Silent::default();
+            let called = identify_data(data, Some(held_out), &asked, &silent).expect("a fit");
+            assert_eq!(shown.parameters, called.parameters, "{name}: {effects:?}");
+            assert_eq!(shown.validate_rms_counts, called.validate_rms_counts);
+        }
+    }
 }

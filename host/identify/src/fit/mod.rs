@@ -1,5 +1,6 @@
 //! Fitting a model to a recording: start from regression, search, and say what was learnt.
 
+mod bound;
 pub(crate) mod filter;
 mod ladder;
 pub mod margins;
@@ -15,10 +16,11 @@ pub mod uncertainty;
 mod validate;
 
 use crate::error::Error;
+use crate::identify::LEAST_SQUARES;
 use regression::Guess;
 use servoid_engine::problem::cost::Horizon;
 use servoid_engine::problem::simulate::Method;
-use servoid_engine::problem::{Base, Data, FitProblem, Quick, StartAngle, Structure};
+use servoid_engine::problem::{Base, Candidate, Data, FitProblem, Quick, StartAngle, Structure};
 use servoid_engine::solve::nelder_mead::NelderMead;
 use servoid_engine::solve::{Evaluator, Found, Solver};
 use servoid_io::input::Known;
@@ -29,6 +31,7 @@ use shared::effects::{Kind, Place};
 use shared::motor::Machine;
 use std::sync::atomic::AtomicBool;
 
+pub use bound::Bound;
 pub use ladder::ladder;
 pub use report::{Fit, Parameter, Rung};
 pub use validate::{START_OFFSETS, departure, validate, validate_roughly, validation_errors};
@@ -50,6 +53,30 @@ pub struct Options {
     pub method: Method,
     /// Facts about the motor.
     pub known: Known,
+    /// Name of the search method, see [`servoid_engine::solve::all`].
+    pub algorithm: String,
+    /// Ranges of unknowns that the user set.
+    pub bounds: Vec<Bound>,
+    /// A model near the solution, if the caller knows one: where least squares starts once more if it ends elsewhere.
+    pub start: Option<Candidate>,
+    /// Whether the result has the errors of the models that lead to it, effect by effect.
+    pub error_ladder: bool,
+}
+
+impl Options {
+    /// Name of the cost in results.
+    pub fn cost_name(&self) -> &'static str {
+        match self.cost {
+            Cost::Squared => "squared",
+            Cost::Absolute {
+                model_floored: false,
+            } => "iae",
+            Cost::Absolute {
+                model_floored: true,
+            } => "iae_floored",
+            Cost::Interval { .. } => "interval",
+        }
+    }
 }
 
 impl Default for Options {
@@ -65,6 +92,10 @@ impl Default for Options {
                 ..Method::default()
             },
             known: Known::default(),
+            algorithm: LEAST_SQUARES.to_owned(),
+            bounds: Vec::new(),
+            start: None,
+            error_ladder: false,
         }
     }
 }

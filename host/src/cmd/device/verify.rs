@@ -4,18 +4,19 @@
 //! least squares in double precision on the same recording. Then its physics: the diagnosis of the long recording, judged by
 //! the verification, neither of which the device fitted.
 
-use super::super::diagnosing::diagnosed;
+use super::super::progress::Watched;
 use crate::cli::VerifyArgs;
 use crate::device::{Replayed, replay};
 use crate::error::Error;
 use crate::session::Session;
 use serde::Serialize;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{self, Effort, HeldOut, usable};
-use servoid_identify::fit::{self, Fit, Options};
+use servoid_identify::diagnose::{self, Effort};
+use servoid_identify::fit::Options;
+use servoid_identify::{Datasets, diagnose_datasets, identify_data};
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_results::device_run::{Folder, FolderError, Saved, SavedOutcome};
-use servoid_results::report::diagnosis::DiagnosisJson;
+use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
 use shared::effects::Kind;
 use shared::wire::Stage;
 use std::path::Path;
@@ -159,9 +160,9 @@ fn stronger(
         known: motor.known.clone(),
         ..Options::default()
     };
-    let problem = fit::problem(&data, &options)?;
-    let found = super::super::search::search(session, &problem, "lm", &options)?;
-    let fit = Fit::conclude(&problem, "lm", "squared", &found, &options, None)?;
+    let watched = Watched::search(session, options.budget);
+    let fit = identify_data(&data, None, &options, &watched)?;
+    drop(watched);
     let response = fit.candidate.machine.response();
     let off = |name: &str, truth: f64| {
         outcome
@@ -206,25 +207,20 @@ fn diagnose(
     motor: &MotorFile,
 ) -> Result<Account, Error> {
     let first = read_recording(recording, motor)?;
-    let mut remarks = usable::check(&first)?;
     let other = read_recording(held_out, motor)?;
-    remarks.extend(usable::check(&other)?);
-    let (data, rest) = (Data::new(&first)?, Data::new(&other)?);
     let options = Options {
         known: motor.known.clone(),
         seed: session.seed,
         ..Options::default()
     };
-    let diagnosed = diagnosed(
-        session,
-        &data,
-        &rest,
-        &options,
-        &Effort::usual(session.stop()),
-    )?;
-    let kind = HeldOut::Recording(other.source.clone());
-    let report = diagnosed.report(session, &data, &kind, remarks);
-    let diagnosis = &diagnosed.diagnosis;
+    let datasets = Datasets::new(first, Some(other), &options)?;
+    let watched = Watched::diagnosis(session);
+    let effort = Effort::usual(session.stop());
+    let found = diagnose_datasets(&datasets, &options, &effort, &watched)?;
+    drop(watched);
+    let Datasets { fitted, kind, .. } = &datasets;
+    let report = DiagnosisReport::new(&found, fitted, kind, session.seed, session.json_file());
+    let diagnosis = &found.diagnosis;
     Ok(Account {
         text: report.text(),
         json: DiagnosisJson::from(&report),

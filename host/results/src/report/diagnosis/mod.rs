@@ -12,6 +12,7 @@ pub use json::DiagnosisJson;
 pub use steady::{SteadyJson, SteadyReport};
 
 use servoid_engine::problem::Data;
+use servoid_identify::Diagnosed;
 use servoid_identify::diagnose::advice::cannot_tell;
 use servoid_identify::diagnose::{Diagnosis, Findings, HeldOut, Refit, Remark, Step, Verdict};
 use servoid_identify::fit::Fit;
@@ -47,6 +48,29 @@ pub struct DiagnosisReport<'a> {
 struct Role<'a> {
     name: &'static str,
     model: &'a Refit,
+}
+
+impl<'a> DiagnosisReport<'a> {
+    /// What was found in the `data` that were fitted. `json` is the file that the result goes to, if any.
+    pub fn new(
+        found: &'a Diagnosed,
+        data: &'a Data,
+        held_out: &'a HeldOut,
+        seed: u64,
+        json: Option<&'a Path>,
+    ) -> Self {
+        DiagnosisReport {
+            data,
+            held_out,
+            diagnosis: &found.diagnosis,
+            last: &found.last,
+            findings: &found.findings,
+            remarks: found.remarks.clone(),
+            seed,
+            interrupted: found.interrupted,
+            json,
+        }
+    }
 }
 
 impl DiagnosisReport<'_> {

@@ -1,0 +1,136 @@
+//! The front door of a fit: every face (command line, workbench, check of a device, library user) comes through here.
+
+use crate::diagnose::{Effort, built_up, is_lost};
+use crate::error::Error;
+use crate::fit::{self, Fit, Options};
+use crate::progress::Progress;
+use servoid_engine::problem::{Candidate, Data, FitProblem};
+use servoid_engine::solve::{self, Found, Solver};
+use servoid_io::recording::Recording;
+use shared::cost::Cost;
+
+/// The search method that starts from regression: only it depends on where it starts.
+pub const LEAST_SQUARES: &str = "lm";
+
+/// Fits a model to a recording.
+///
+/// The model is the linear motor with the effects that `options` name. The result has parameters in SI with standard
+/// errors, and says in words what the recording does not determine.
+///
+/// # Errors
+/// [`Error::Model`] where the recording has no command, no motion or no samples; [`Error::Failed`] where no motor fits it
+/// even roughly; [`Error::Usage`] where an option cannot be used.
+///
+/// # Example
+/// ```
+/// use servoid_identify::{Silent, fit::Options, identify};
+/// use servoid_io::showcase;
+/// use servoid_plant::Hidden;
+/// use shared::effects::Kind;
+///
+/// // Twenty seconds of a gearmotor with Coulomb friction, from the virtual bench.
+/// let friction = Hidden::typical("coulomb", &showcase::machine())?;
+/// let recording = showcase::record(&friction, 1, "bench")?;
+///
+/// let linear = identify(&recording, &Options::default(), &Silent::default())?;
+/// let with_friction = Options { effects: vec![Kind::Coulomb], ..Options::default() };
+/// let fit = identify(&recording, &with_friction, &Silent::default())?;
+///
+/// assert!(linear.rms_counts > 10.0);
+/// assert!(fit.rms_counts < 0.3, "at the encoder's floor");
+/// for parameter in &fit.parameters {
+///     println!("{} = {} {}", parameter.name, parameter.value, parameter.unit);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn identify(
+    recording: &Recording,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Fit, Error> {
+    identify_data(&Data::new(recording)?, None, options, progress)
+}
+
+/// As [`identify`], for a recording that is ready for simulation; `validation` is scored and never fitted.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_data(
+    data: &Data,
+    validation: Option<&Data>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Fit, Error> {
+    let solver = solve::by_name(&options.algorithm)
+        .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
+    let mut problem = bounded_problem(data, options)?;
+    let mut found = search(&problem, solver.as_ref(), options, 0, progress);
+    if let Some(start) = second_start(&problem, &found, options, progress) {
+        let again = problem.begun_at(&start);
+        let spent = found.evaluations;
+        let better = search(&again, solver.as_ref(), options, spent, progress);
+        if better.cost < found.cost {
+            problem = again;
+            found = better;
+        }
+    }
+    let mut fit = Fit::conclude(
+        &problem,
+        &options.algorithm,
+        options.cost_name(),
+        &found,
+        options,
+        validation,
+    )?;
+    if options.error_ladder && !options.effects.is_empty() {
+        fit.ladder = fit::ladder(data, validation, &fit, options, progress.stop());
+    }
+    Ok(fit)
+}
+
+/// The problem that `options` state, with the bounds that they set; a start outside moves to the nearest bound.
+///
+/// # Errors
+/// As [`identify`].
+pub fn bounded_problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
+    let mut problem = fit::problem(data, options)?;
+    if options.bounds.is_empty() {
+        return Ok(problem);
+    }
+    let start = problem.start.as_ref().map(|x| problem.structure.values(x));
+    for bound in &options.bounds {
+        bound.apply(&mut problem.structure)?;
+    }
+    problem.start = start.map(|values| problem.structure.coordinates(&values));
+    Ok(problem)
+}
+
+fn search(
+    problem: &FitProblem<'_>,
+    solver: &dyn Solver,
+    options: &Options,
+    spent: usize,
+    progress: &dyn Progress,
+) -> Found {
+    let mut observer = |count: usize, cost: f64| progress.evaluated(spent + count, cost);
+    fit::search(problem, solver, options, progress.stop(), &mut observer)
+}
+
+/// Where least squares starts once more: it may have ended in another valley than the effects' own, since regression
+/// knows nothing of most of them. The start that the caller knows, else the model that is reached by adding the effects
+/// one by one. `None` where the first fit is at the encoder's floor.
+fn second_start(
+    problem: &FitProblem<'_>,
+    found: &Found,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Option<Candidate> {
+    let least_squares = options.algorithm == LEAST_SQUARES && problem.cost == Cost::Squared;
+    if !least_squares || found.interrupted || !is_lost(found.cost, problem.data.len()) {
+        return None;
+    }
+    options.start.or_else(|| {
+        let effort = Effort::usual(progress.stop());
+        built_up(problem.data, &options.effects, options, &effort)
+    })
+}
