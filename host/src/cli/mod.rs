@@ -3,6 +3,8 @@
 mod bench;
 mod device;
 mod export;
+#[cfg(test)]
+mod reference;
 mod report;
 
 pub use bench::BenchArgs;
