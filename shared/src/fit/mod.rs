@@ -25,7 +25,6 @@ pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
 use crate::trace::Trace;
-use crate::wire::coded;
 use serde::{Deserialize, Serialize};
 
 /// Largest population.
@@ -39,13 +38,6 @@ pub enum Method {
     /// Fireflies.
     Firefly,
 }
-
-coded!(
-    enum Method {
-        Pso,
-        Firefly,
-    }
-);
 
 /// What to search for, and how. Hosts keep it in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,8 +55,6 @@ pub struct Settings {
     /// Search for a constant load.
     pub load: bool,
 }
-
-coded!(struct Settings { method, population, evaluations, seed, coulomb, load });
 
 impl Settings {
     /// What suits most motors.
