@@ -3,8 +3,8 @@
 //! f64 keeps the angle as one number. f32 keeps whole counts in an integer and the rest as a
 //! fraction: as one number it would lose a count after a few revolutions.
 
+use super::curves;
 use super::{Angle, ErrorValue, Readable, Real, Scalar};
-use super::{curves, exponential, root};
 
 /// Remainder for counts that the 32-bit counter has wrapped.
 const WRAP: f64 = 4_294_967_296.0;
@@ -150,9 +150,9 @@ float_scalar!(
 float_scalar!(
     f32,
     SplitAngle,
-    exponential::exp,
-    exponential::ln,
-    root::square_root,
+    libm::expf,
+    libm::logf,
+    libm::sqrtf,
     short_sin_cos,
     libm::expf,
     24,

@@ -10,20 +10,15 @@
 
 mod abreast;
 pub mod curves;
-mod exponential;
 mod fixed;
 mod float;
 mod mask;
-mod quotient;
-mod root;
-pub mod soft;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
 pub(crate) use fixed::product;
 pub use fixed::{Fixed, FixedCoefficient};
 pub use mask::Mask;
-pub use quotient::quotient;
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
