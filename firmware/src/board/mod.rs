@@ -5,9 +5,9 @@
 
 pub mod current;
 pub mod entropy;
+pub mod generic;
 pub mod half_bridges;
-#[cfg(all(target_os = "none", feature = "stm32"))]
-mod link;
+pub mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]
 pub mod lockstep;
 #[cfg(not(target_os = "none"))]

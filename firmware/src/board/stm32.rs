@@ -17,6 +17,7 @@ use shared::encoder::Extended;
 use super::BAUD;
 use super::Board;
 use super::entropy::Entropy;
+use super::generic::Tick;
 use super::half_bridges::HalfBridges;
 use super::link::Link;
 use super::period::Period;
