@@ -32,6 +32,11 @@ use super::generic::{Generic, HBridge, Parts, Turn};
 use super::link::{self, Link};
 use super::period::Period;
 
+/// Fixed point: the core has no floating-point unit.
+pub type Number = shared::scalar::Fixed;
+/// Periods that it can fit.
+pub const LOG: usize = 1000;
+
 /// Core clock, which `embassy-rp` sets off the Pico's crystal.
 const CORE_HZ: u32 = 125_000_000;
 /// Compare value of an output that is always high: the carrier counts up to the step before it and down again, at 20 kHz.
