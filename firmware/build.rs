@@ -5,13 +5,8 @@ use std::env;
 fn main() {
     println!("cargo:rerun-if-changed=memory");
     println!("cargo:rerun-if-changed=../memory.x");
-    println!("cargo:rustc-check-cfg=cfg(no_float)");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
-    }
-    // Whose compiler's routines for f32 take a kilobyte that such a core does not have.
-    if env::var("TARGET").is_ok_and(|target| target.starts_with("thumbv6m")) {
-        println!("cargo:rustc-cfg=no_float");
     }
     let has = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
     let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");

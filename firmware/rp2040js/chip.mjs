@@ -1,4 +1,4 @@
-// The RP2040 of rp2040js with an image in its flash, and what that emulator leaves out: requests of the serial port to the DMA, the
+// The RP2040 of rp2040js with an image in its flash, and what that emulator leaves out: the serial port's queue, the
 // end of a sleep by an interrupt that is masked, state machines in step with the core, and the true periods of timer and carrier.
 import { readFileSync } from "node:fs";
 import { RP2040 } from "./node_modules/rp2040js/dist/esm/index.js";
@@ -12,6 +12,11 @@ const CYCLE_NS = 8;
 const ROUND = 16;
 // A byte on the line at 921,600 baud, ns.
 const BYTE_NS = 10_850;
+// Registers of the serial port, bits of its flags, its interrupt for bytes sent, and its queue (data sheet, 4.2.8).
+const [FLAGS, DMA_CONTROL] = [0x18, 0x48];
+const [SEND_FULL, SEND_EMPTY] = [1 << 5, 1 << 7];
+const SENT = 1 << 5;
+const QUEUE = 32;
 
 // Puts what an ELF file loads into the flash.
 function load(flash, path) {
@@ -52,25 +57,43 @@ export class Chip {
     };
   }
 
-  // The serial port: bytes go to `sent`, and come from `receive`.
+  // The serial port: bytes go to `sent`, and come from `receive`. The emulator sends at once and asks for more without end: here
+  // a queue of 32 bytes goes out at the line's speed, and its interrupt comes when it has sunk to an eighth (data sheet, 4.2.6).
   line() {
     const uart = this.mcu.uart[0];
-    const dma = this.mcu.dma;
-    const read = uart.readUint32.bind(uart);
+    uart.checkInterrupts = () => {
+      this.mcu.setInterrupt(uart.irq, (uart.interruptStatus & uart.interruptMask) !== 0);
+    };
+    const queue = [];
+    let dmaControl = 0;
+    const [read, write] = [uart.readUint32.bind(uart), uart.writeUint32.bind(uart)];
     uart.readUint32 = (offset) => {
-      const value = read(offset);
-      if (offset === 0 && uart.rxFIFO.empty) dma.clearDREQ(uart.dreq.rx);
-      return value;
+      if (offset === DMA_CONTROL) return dmaControl;
+      if (offset !== FLAGS) return read(offset);
+      return (read(offset) & ~SEND_EMPTY) | (queue.length === 0 ? SEND_EMPTY : 0) | (queue.length < QUEUE ? 0 : SEND_FULL);
+    };
+    uart.writeUint32 = (offset, value) => {
+      if (offset === DMA_CONTROL) dmaControl = value;
+      else if (offset !== 0) write(offset, value);
+      else if (queue.length < QUEUE) queue.push(value & 0xff);
     };
     this.sent = () => {};
-    uart.onByte = (byte) => this.sent(byte);
     this.waiting = [];
-    this.free = 0;
-    this.hear = () => {
-      if (this.waiting.length === 0 || this.clock.nanos < this.free) return;
-      this.free = this.clock.nanos + BYTE_NS;
-      uart.feedByte(this.waiting.shift());
-      dma.setDREQ(uart.dreq.rx);
+    this.free = { send: 0, receive: 0 };
+    this.carry = () => {
+      const now = this.clock.nanos;
+      if (this.waiting.length > 0 && now >= this.free.receive) {
+        this.free.receive = now + BYTE_NS;
+        uart.feedByte(this.waiting.shift());
+      }
+      if (queue.length > 0 && now >= this.free.send) {
+        this.free.send = now + BYTE_NS;
+        this.sent(queue.shift());
+        if (queue.length === QUEUE / 8) {
+          uart.interruptStatus |= SENT;
+          uart.checkInterrupts();
+        }
+      }
     };
   }
 
@@ -143,7 +166,7 @@ export class Chip {
       } else {
         clock.tick(core.executeInstruction() * CYCLE_NS);
       }
-      this.hear();
+      this.carry();
     }
   }
 }

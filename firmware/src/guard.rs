@@ -3,7 +3,7 @@
 //! It is pure: it drives nothing and reads nothing. What it recognises, it recognises within [`REACTION_US`].
 
 use crate::phase::Fault;
-use shared::scalar::{Real, quotient};
+use shared::scalar::Real;
 use shared::wire::Limits;
 
 /// Longest time for which a stall or a runaway may last.
@@ -104,7 +104,7 @@ impl Guard {
         let current = current_ma.map_or_else(
             || {
                 let product = u64::from(limits.stall_ma) * u64::from(drive.unsigned_abs());
-                quotient(product, self.full.into()).cast_signed()
+                (product / u64::from(self.full)).cast_signed()
             },
             |current| i64::from(current).abs(),
         );
@@ -172,8 +172,7 @@ impl Guard {
     fn warm(&mut self, current_ma: i64) {
         let square = current_ma * current_ma;
         let towards = square - self.heat;
-        let by = quotient(towards.unsigned_abs(), self.limits.thermal.max(1).into());
-        self.heat += by.cast_signed() * towards.signum();
+        self.heat += towards / i64::from(self.limits.thermal.max(1));
     }
 }
 

@@ -27,7 +27,5 @@ mod halt;
 pub mod phase;
 pub mod plant;
 pub mod proof;
-#[cfg(no_float)]
-mod soft_float;
 pub mod trail;
 pub mod trials;

@@ -354,7 +354,8 @@ impl<R: Real, const EVERY: bool> Commands<'_, R, EVERY> {
                 let ratio = (to_hz / from_hz).ln();
                 let span = from_hz * experiment.seconds / ratio;
                 let turns = span * ((ratio * whole).exp() - one);
-                (turns.sin_cos_turns().0, true)
+                // The duty that is played is what is recorded: its shape need not be a sine to the last bit.
+                (turns.sin_turns_approx(), true)
             }
             Shape::Telegraph { levels, hold_s } => {
                 if self.hold == 0 {
@@ -373,7 +374,7 @@ impl<R: Real, const EVERY: bool> Commands<'_, R, EVERY> {
                 for line in 0..lines {
                     let hz = base_hz * R::from_whole(2 * line + 1);
                     let lag = R::from_whole(line * (line + 1)) / R::from_whole(2 * lines);
-                    sum = sum + (hz * seconds - lag).sin_cos_turns().0;
+                    sum = sum + (hz * seconds - lag).sin_turns_approx();
                 }
                 // The crest of such a sum stays below 1.7 times its RMS, √(lines/2).
                 let crest = real(1.7) * (R::from_whole(lines.max(1)) * real(0.5)).sqrt();

@@ -132,7 +132,7 @@ fn to_host() -> Vec<ToHost> {
     ]
 }
 
-fn frame<T: Coded>(message: &T) -> Vec<u8> {
+fn frame<T: serde::Serialize>(message: &T) -> Vec<u8> {
     let mut buffer = [0; LONGEST_FRAME];
     encode(message, &mut buffer).expect("it fits").to_vec()
 }

@@ -1,4 +1,5 @@
-//! The link of the boards whose serial port has a driver of the async kind, used without an executor.
+//! The link over a serial port with the asynchronous traits of `embedded-io`, used without an executor: polled once, they never wait.
+//! (The blocking ones wait, unless a HAL has `ReadReady` and `WriteReady` too; those for the STM32s and the Pico lack the latter.)
 
 use core::slice;
 use core::task::Poll;

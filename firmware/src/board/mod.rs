@@ -1,13 +1,13 @@
 //! The few things that a board must do. Everything above this trait runs on any board, and on none.
 //!
 //! A board keeps its own electrical limits (shoot-through, dead time, over-current); it does not know the motor, and
-//! nothing above it names a pin. To add one, write a file here and a `main` of a few lines in `src/bin`.
+//! nothing above it names a pin. To add one, write a file here and name it below.
 
 pub mod current;
 pub mod entropy;
+pub mod generic;
 pub mod half_bridges;
-#[cfg(all(target_os = "none", feature = "stm32"))]
-mod link;
+pub mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]
 pub mod lockstep;
 #[cfg(not(target_os = "none"))]
@@ -34,13 +34,11 @@ pub mod stm32f446;
 #[cfg(all(target_os = "none", feature = "stm32g431"))]
 pub mod stm32g431;
 
+// The board that this build is for, the number that its application fits in, and the periods that it can.
 #[cfg(all(target_os = "none", feature = "rp2040"))]
-pub use rp2040::open_bridge;
+pub use rp2040::{LOG, Number, Rp2040 as Fitted, open_bridge};
 #[cfg(all(target_os = "none", feature = "stm32"))]
-pub use stm32::open_bridge;
-// The board that this build is for.
-#[cfg(all(target_os = "none", feature = "rp2040"))]
-pub use rp2040::Rp2040 as Fitted;
+pub use stm32::{LOG, Number, open_bridge};
 #[cfg(all(target_os = "none", feature = "stm32f405"))]
 pub use stm32f405::Stm32f405 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]

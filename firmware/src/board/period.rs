@@ -5,6 +5,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use cortex_m_rt::exception;
 
+use super::generic::Tick;
 use crate::phase::Fault;
 
 /// Periods that have ended since the start; wraps around.
@@ -38,9 +39,11 @@ impl Period {
             seen: ENDED.load(Ordering::Relaxed),
         }
     }
+}
 
+impl Tick for Period {
     /// Time since the start, scrambled but for a core cycle: differs between two events that nobody synchronised.
-    pub fn time(&self) -> u32 {
+    fn time(&self) -> u32 {
         ENDED.load(Ordering::Relaxed).rotate_left(16) ^ SYST::get_current()
     }
 
@@ -49,7 +52,7 @@ impl Period {
     /// # Errors
     ///
     /// [`Fault::Overrun`], at once, if it had ended before.
-    pub fn end(&mut self) -> Result<(), Fault> {
+    fn end(&mut self) -> Result<(), Fault> {
         let ended = ENDED.load(Ordering::Relaxed);
         if ended != self.seen {
             self.seen = ended;

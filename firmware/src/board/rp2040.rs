@@ -10,186 +10,150 @@
 //! | GP20, GP21 | encoder A and B |
 //! | GP0, GP1 | link, transmit and receive |
 //!
-//! The dead time is the module's business: this chip's PWM has none.
+//! The dead time is the module's business: this chip's PWM has none. So all but the encoder is a [`Generic`] board of
+//! `embassy-rp`'s parts.
 
-mod clocks;
-mod divider;
 mod encoder;
-mod link;
 
-use rp_pac::{IO_BANK0, PADS_BANK0, PWM, ROSC, SIO};
+use embassy_rp::bind_interrupts;
+use embassy_rp::clocks::RoscRng;
+use embassy_rp::gpio::{Input, Level, Output, Pull};
+use embassy_rp::pac::{PWM, SIO};
+use embassy_rp::peripherals::{PIO0, UART0};
+use embassy_rp::pio::{self, Pio};
+use embassy_rp::pwm::{self, Pwm, PwmOutput};
+use embassy_rp::uart::{self, BufferedUart};
+use static_cell::ConstStaticCell;
 
-use self::clocks::CORE_HZ;
 use self::encoder::Encoder;
-use self::link::Link;
-use super::Board;
+use super::BAUD;
 use super::entropy::Entropy;
-use super::half_bridges::HalfBridges;
+use super::generic::{Generic, HBridge, Parts, Turn};
+use super::link::{self, Link};
 use super::period::Period;
-use crate::phase::Fault;
 
-const PERIOD_US: u32 = 1000;
+/// Fixed point: the core has no floating-point unit.
+pub type Number = shared::scalar::Fixed;
+/// Periods that it can fit.
+pub const LOG: usize = 1000;
+
+/// Core clock, which `embassy-rp` sets off the Pico's crystal.
+const CORE_HZ: u32 = 125_000_000;
 /// Compare value of an output that is always high: the carrier counts up to the step before it and down again, at 20 kHz.
 const FULL: u16 = 3125;
-
-/// Pins.
-const LINK: [usize; 2] = [0, 1];
-const BRIDGE: [usize; 2] = [16, 17];
+/// Number of the pin that enables the bridge.
 const ENABLE: usize = 18;
-const FAULT: usize = 19;
-const ENCODER: [usize; 2] = [20, 21];
 /// Part of the PWM that has the bridge's pins.
 const SLICE: usize = 0;
-/// Mark of the PWM that its counter has come to zero again, where it takes new compare values over (RP2040 data sheet, 4.5.2.3
-/// and 4.5.2.7).
-const TAKEN_OVER: u32 = 1 << SLICE;
 
-/// What a pin is for (RP2040 data sheet, 2.19.2).
-#[derive(Clone, Copy)]
-enum Function {
-    Uart = 2,
-    Pwm = 4,
-    Program = 5,
-    Pio = 6,
-}
+bind_interrupts!(struct Interrupts {
+    UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
+    PIO0_IRQ_0 => pio::InterruptHandler<PIO0>;
+});
 
-/// The second stage of the boot loader, for the Pico's flash. Unsafe, because the chip runs what stands in this section.
-#[unsafe(link_section = ".boot2")]
-#[used]
-static BOOT2: [u8; 256] = rp2040_boot2::BOOT_LOADER_W25Q080;
+static SEND: ConstStaticCell<[u8; link::SEND_BUFFER]> = ConstStaticCell::new([0; _]);
+static RECEIVE: ConstStaticCell<[u8; link::RECEIVE_BUFFER]> = ConstStaticCell::new([0; _]);
 
-/// Raspberry Pi Pico and its bridge. By the chip's registers: what a library for all of its uses asks and holds would be a
-/// tenth of the image.
-pub struct Rp2040 {
-    encoder: Encoder,
-    link: Link,
-    period: Period,
-    entropy: Entropy,
-    /// Whether the bridge is to be closed from the carrier's next turn on.
-    drives: bool,
+/// Raspberry Pi Pico and its bridge.
+pub type Rp2040 = Generic<Pico>;
+
+/// What they are made of.
+pub struct Pico;
+
+impl Parts for Pico {
+    const NAME: &'static str = "Raspberry Pi Pico";
+    const PERIOD_US: u32 = 1000;
+    // A core without a floating-point unit: some 1,500 instructions a sample.
+    const SLICE: u32 = 20;
+    type LegA = PwmOutput<'static>;
+    type LegB = PwmOutput<'static>;
+    type Enable = Output<'static>;
+    type Fault = Input<'static>;
+    type Serial = BufferedUart;
+    type Position = Encoder;
+    type Turn = Carrier;
+    type Tick = Period;
 }
 
 impl Rp2040 {
     /// Takes the microcontroller over. Once: a second call would find its peripherals taken, and panics.
     pub fn start() -> Self {
-        let core = cortex_m::Peripherals::take().expect("a board is put together once");
-        // Before anything else, and before the pin leaves its reset.
+        // Before anything else.
         open_bridge();
-        clocks::start();
-        SIO.gpio_oe(0).value_set().write_value(1 << ENABLE);
-        connect(&[ENABLE], Function::Program, false);
-        let carrier = PWM.ch(SLICE);
-        carrier.top().write(|w| w.set_top(FULL - 1));
-        connect(&BRIDGE, Function::Pwm, false);
-        connect(&[FAULT], Function::Program, true);
-        connect(&ENCODER, Function::Pio, true);
-        connect(&LINK, Function::Uart, true);
+        let p = embassy_rp::init(Default::default());
+        let enable = Output::new(p.PIN_18, Level::Low);
+        let mut carrier = pwm::Config::default();
+        carrier.enable = false;
+        carrier.phase_correct = true;
+        carrier.top = FULL - 1;
+        let pwm = Pwm::new_output_ab(p.PWM_SLICE0, p.PIN_16, p.PIN_17, carrier);
+        let (Some(a), Some(b)) = pwm.split() else {
+            unreachable!("both outputs were asked for")
+        };
+        let fault = Input::new(p.PIN_19, Pull::Up);
+        let mut pio = Pio::new(p.PIO0, Interrupts);
+        let lines = [
+            pio.common.make_pio_pin(p.PIN_20),
+            pio.common.make_pio_pin(p.PIN_21),
+        ];
+        let encoder = Encoder::new(&mut pio.common, pio.sm0, lines);
+        // They stay for good: without this, the image would hold what frees them.
+        core::mem::forget((pio.common, pio.sm1, pio.sm2, pio.sm3));
+        let mut config = uart::Config::default();
+        config.baudrate = BAUD;
+        let uart = BufferedUart::new(
+            p.UART0,
+            p.PIN_0,
+            p.PIN_1,
+            Interrupts,
+            SEND.take(),
+            RECEIVE.take(),
+            config,
+        );
         let mut entropy = Entropy::default();
         for _ in 0..4 {
-            let noise = (0..32).fold(0, |noise, _| {
-                (noise << 1) | u32::from(ROSC.randombit().read().randombit())
-            });
-            entropy.stir(noise);
+            entropy.stir(RoscRng.next_u32());
         }
-        let mut board = Self {
-            encoder: Encoder::start(ENCODER[0] as u8),
-            link: Link::start(CORE_HZ),
-            period: Period::new(core.SYST, CORE_HZ / 1_000_000 * PERIOD_US),
+        let core = cortex_m::Peripherals::take().expect("a board is put together once");
+        let bridge = HBridge::new(a, b, enable, fault, FULL);
+        let tick = Period::new(core.SYST, CORE_HZ / 1_000_000 * Pico::PERIOD_US);
+        Generic {
+            bridge,
+            link: Link::new(uart),
+            position: encoder,
+            turn: Carrier::start(),
+            tick,
             entropy,
-            drives: false,
-        };
-        // The carrier begins at its peak, with the control period. A new duty, of both legs at once, takes effect when it has
-        // come down, 25 µs and the little that passes here after the period's end, every time: so the program has time to give it.
-        board.coast();
+        }
+    }
+}
+
+/// The carrier. `embassy-rp` gives its counter and its mark to whoever holds both legs, so they are asked for by register.
+pub struct Carrier;
+
+/// Mark of the PWM that its counter has come to zero again, where it takes new compare values over (RP2040 data sheet, 4.5.2.3
+/// and 4.5.2.7).
+const TAKEN_OVER: u32 = 1 << SLICE;
+
+impl Carrier {
+    /// The carrier begins at its peak, with the control period. A new duty, of both legs at once, takes effect when it has
+    /// come down, 25 µs and the little that passes here after the period's end, every time: so the program has time to give it.
+    fn start() -> Self {
+        let carrier = PWM.ch(SLICE);
         carrier.ctr().write(|w| w.set_ctr(FULL - 1));
-        carrier.csr().write(|w| {
-            w.set_ph_correct(true);
-            w.set_en(true);
-        });
-        board
+        carrier.csr().modify(|w| w.set_en(true));
+        Carrier
     }
 }
 
-/// Gives pins a function; those that are pulled up are inputs.
-fn connect(pins: &[usize], function: Function, pulled_up: bool) {
-    for &pin in pins {
-        PADS_BANK0.gpio(pin).modify(|w| {
-            w.set_pde(!pulled_up);
-            w.set_pue(pulled_up);
-            w.set_ie(true);
-        });
-        IO_BANK0
-            .gpio(pin)
-            .ctrl()
-            .write(|w| w.set_funcsel(function as u8));
-    }
-}
-
-/// Its two half bridges.
-const LEGS: HalfBridges = HalfBridges {
-    full: FULL,
-    refresh: 0,
-};
-
-impl Board for Rp2040 {
-    const NAME: &'static str = "Raspberry Pi Pico";
-    const PERIOD_US: u32 = PERIOD_US;
-    // A core without a floating-point unit: some 1,500 instructions a sample.
-    const SLICE: u32 = 20;
-
-    fn drive(&mut self, duty: i16) {
-        let (a, b) = LEGS.compares(duty);
-        PWM.ch(SLICE).cc().write(|w| {
-            w.set_a(a);
-            w.set_b(b);
-        });
-        self.drives = true;
-    }
-
-    fn full(&self) -> u16 {
-        LEGS.full_duty()
-    }
-
-    fn nearest(&self, duty: i16) -> i16 {
-        LEGS.nearest(duty)
-    }
-
-    fn coast(&mut self) {
-        open_bridge();
-        self.drives = false;
-        // Both low: no voltage.
-        PWM.ch(SLICE).cc().write(|w| w.0 = 0);
-    }
-
-    fn count(&mut self) -> i32 {
-        // The carrier always runs, whether the bridge is open or not.
-        while PWM.intr().read().0 & TAKEN_OVER == 0 {}
-        if self.drives {
-            SIO.gpio_out(0).value_set().write_value(1 << ENABLE);
-        }
-        self.encoder.count()
-    }
-
-    fn tick(&mut self) -> Result<(), Fault> {
-        self.period.end()?;
+impl Turn for Carrier {
+    fn begin(&mut self) {
         PWM.intr().write(|w| w.0 = TAKEN_OVER);
-        let enabled = SIO.gpio_out(0).value().read() & 1 << ENABLE != 0;
-        if enabled && SIO.gpio_in(0).read() & 1 << FAULT == 0 {
-            return Err(Fault::Bridge);
-        }
-        Ok(())
     }
 
-    fn receive(&mut self) -> Option<u8> {
-        self.link.receive()
-    }
-
-    fn send(&mut self, bytes: &[u8]) -> usize {
-        self.link.send(bytes)
-    }
-
-    fn entropy(&mut self) -> u32 {
-        self.entropy.draw(self.period.time())
+    fn wait(&mut self) {
+        // It always runs, whether the bridge is open or not.
+        while PWM.intr().read().0 & TAKEN_OVER == 0 {}
     }
 }
 

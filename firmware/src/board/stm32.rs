@@ -17,10 +17,16 @@ use shared::encoder::Extended;
 use super::BAUD;
 use super::Board;
 use super::entropy::Entropy;
+use super::generic::Tick;
 use super::half_bridges::HalfBridges;
 use super::link::Link;
 use super::period::Period;
 use crate::phase::Fault;
+
+/// The cores have a floating-point unit.
+pub type Number = f32;
+/// Periods that they can fit.
+pub const LOG: usize = 2000;
 
 const PERIOD_US: u32 = 1000;
 /// Carrier periods in a control period: 20 kHz, above hearing and below the limit of most gate drivers.

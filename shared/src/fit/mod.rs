@@ -24,8 +24,8 @@ use polish::Polish;
 pub use space::{MOST, Point, Space, Unknown};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
+use crate::rng;
 use crate::trace::Trace;
-use crate::wire::coded;
 use serde::{Deserialize, Serialize};
 
 /// Largest population.
@@ -39,13 +39,6 @@ pub enum Method {
     /// Fireflies.
     Firefly,
 }
-
-coded!(
-    enum Method {
-        Pso,
-        Firefly,
-    }
-);
 
 /// What to search for, and how. Hosts keep it in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,8 +56,6 @@ pub struct Settings {
     /// Search for a constant load.
     pub load: bool,
 }
-
-coded!(struct Settings { method, population, evaluations, seed, coulomb, load });
 
 impl Settings {
     /// What suits most motors.
@@ -116,17 +107,17 @@ impl Stage {
         let population = settings.population.clamp(2, POPULATION as u8) as usize;
         let (evaluations, seed) = (settings.evaluations, settings.seed);
         match settings.method {
-            Method::Pso => *self = Stage::Pso(Pso::EMPTY),
-            Method::Firefly => *self = Stage::Firefly(Firefly::EMPTY),
+            Method::Pso => *self = Stage::Pso(Pso::idle(rng::seeded(seed))),
+            Method::Firefly => *self = Stage::Firefly(Firefly::idle(rng::seeded(seed))),
         }
         match self {
-            Stage::Pso(pso) => pso.begin(dim, population, SWARM, seed),
+            Stage::Pso(pso) => pso.begin(dim, population, SWARM),
             Stage::Firefly(firefly) => {
                 let cooled = FireflySettings {
                     evaluations: evaluations.into(),
                     ..FireflySettings::default()
                 };
-                firefly.begin(dim, population, cooled, seed);
+                firefly.begin(dim, population, cooled);
             }
             _ => {}
         }

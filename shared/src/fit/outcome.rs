@@ -3,11 +3,11 @@
 use super::polish::Curvature;
 use super::{MOST, Point, Space};
 use crate::trace::Trace;
-use crate::wire::coded;
 use heapless::Vec;
+use serde::{Deserialize, Serialize};
 
 /// Why a fit ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stop {
     /// Search and polish are done.
     Converged,
@@ -15,15 +15,8 @@ pub enum Stop {
     NoModel,
 }
 
-coded!(
-    enum Stop {
-        Converged,
-        NoModel,
-    }
-);
-
 /// A value with its standard deviation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// In the device's own measure, see [`Unknown`](super::Unknown).
     pub value: f32,
@@ -31,10 +24,8 @@ pub struct Estimate {
     pub std: f32,
 }
 
-coded!(struct Estimate { value, std });
-
 /// What a fit found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// One for each unknown: gain, mechanical and electrical time constant, then friction and load if asked for.
     pub estimates: Vec<Estimate, MOST>,
@@ -45,8 +36,6 @@ pub struct Outcome {
     /// Why it ended.
     pub stop: Stop,
 }
-
-coded!(struct Outcome { estimates, mean_square, evaluations, stop });
 
 impl Outcome {
     pub(super) fn new(

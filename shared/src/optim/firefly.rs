@@ -7,7 +7,7 @@
 //! brighter; and the brightest one tries a random step too.
 
 use super::{Candidate, Optimiser, sanitised};
-use crate::rng::{self, Generator};
+use crate::rng::{self, Generator, Rng};
 use crate::scalar::Real;
 
 /// Settings of [`Firefly`].
@@ -40,7 +40,7 @@ impl Default for FireflySettings {
 
 /// Up to `P` fireflies over up to `D` unknowns; one evaluation a move.
 #[derive(Clone, Debug)]
-pub struct Firefly<R, const P: usize, const D: usize> {
+pub struct Firefly<R, const P: usize, const D: usize, G = Generator> {
     attraction: R,
     absorption: R,
     narrowest: R,
@@ -54,38 +54,42 @@ pub struct Firefly<R, const P: usize, const D: usize> {
     placed: usize,
     step: R,
     cooling: R,
-    rng: Generator,
+    rng: G,
     best: Candidate<R, D>,
 }
 
 impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
-    /// Not begun, and all zeros. A search is begun where it stays: it is much of what a device has for a stack.
-    pub const EMPTY: Self = Firefly {
-        attraction: R::ZERO,
-        absorption: R::ZERO,
-        narrowest: R::ZERO,
-        dim: 0,
-        flies: [Candidate::EMPTY; P],
-        population: 0,
-        mover: 0,
-        trial: [R::ZERO; D],
-        placed: 0,
-        step: R::ZERO,
-        cooling: R::ZERO,
-        rng: Generator::EMPTY,
-        best: Candidate::EMPTY,
-    };
-
-    /// `population` (at most `P`) fireflies over `dim` (at most `D`) unknowns.
+    /// `population` (at most `P`) fireflies over `dim` (at most `D`) unknowns, with the usual generator.
     pub fn new(dim: usize, population: usize, settings: FireflySettings, seed: u64) -> Self {
-        let mut firefly = Self::EMPTY;
-        firefly.begin(dim, population, settings, seed);
+        let mut firefly = Self::idle(rng::seeded(seed));
+        firefly.begin(dim, population, settings);
         firefly
     }
+}
 
-    /// [`new`](Self::new) in place of an [empty](Self::EMPTY) one.
-    pub fn begin(&mut self, dim: usize, population: usize, settings: FireflySettings, seed: u64) {
-        self.rng = rng::seeded(seed);
+impl<R: Real, G: Rng, const P: usize, const D: usize> Firefly<R, P, D, G> {
+    /// Not begun. A device begins a search where it stays: moved, it would stand on the stack once more.
+    #[inline(always)]
+    pub fn idle(rng: G) -> Self {
+        Firefly {
+            attraction: R::ZERO,
+            absorption: R::ZERO,
+            narrowest: R::ZERO,
+            dim: 0,
+            flies: [Candidate::EMPTY; P],
+            population: 0,
+            mover: 0,
+            trial: [R::ZERO; D],
+            placed: 0,
+            step: R::ZERO,
+            cooling: R::ZERO,
+            rng,
+            best: Candidate::EMPTY,
+        }
+    }
+
+    /// Begins the search: `population` (at most `P`) fireflies over `dim` (at most `D`) unknowns.
+    pub fn begin(&mut self, dim: usize, population: usize, settings: FireflySettings) {
         self.dim = dim.min(D);
         for fly in &mut self.flies {
             *fly = Candidate::unknown();
@@ -129,7 +133,8 @@ impl<R: Real, const P: usize, const D: usize> Firefly<R, P, D> {
                 for d in 0..self.dim {
                     distance = distance + (to[d] - from[d]) * (to[d] - from[d]);
                 }
-                let fall = (-(self.absorption * distance)).exp();
+                // An attraction that is three thousandths off finds as well.
+                let fall = (-(self.absorption * distance)).exp_approx();
                 (self.attraction * fall, to)
             }
         };
@@ -150,7 +155,7 @@ fn reflected<R: Real>(x: R) -> R {
     x.max(zero).min(one)
 }
 
-impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Firefly<R, P, D> {
+impl<R: Real, G: Rng, const P: usize, const D: usize> Optimiser<R, D> for Firefly<R, P, D, G> {
     fn dim(&self) -> usize {
         self.dim
     }

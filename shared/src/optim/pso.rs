@@ -1,7 +1,7 @@
 //! Particle swarm (Kennedy, Eberhart, 1995) with inertia weight (Shi, Eberhart, 1998).
 
 use super::{Candidate, Optimiser, sanitised};
-use crate::rng::{self, Generator};
+use crate::rng::{self, Generator, Rng};
 use crate::scalar::Real;
 
 /// Settings of [`Pso`].
@@ -40,7 +40,7 @@ struct Particle<R, const D: usize> {
 
 /// Particle swarm of up to `P` particles over up to `D` unknowns.
 #[derive(Clone, Debug)]
-pub struct Pso<R, const P: usize, const D: usize> {
+pub struct Pso<R, const P: usize, const D: usize, G = Generator> {
     inertia: R,
     cognitive: R,
     social: R,
@@ -52,41 +52,45 @@ pub struct Pso<R, const P: usize, const D: usize> {
     told: usize,
     /// False while the first positions are visited.
     flying: bool,
-    rng: Generator,
+    rng: G,
     best: Candidate<R, D>,
 }
 
 impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
-    /// Not begun, and all zeros. A search is begun where it stays: it is half of what a device has for a stack.
-    pub const EMPTY: Self = Pso {
-        inertia: R::ZERO,
-        cognitive: R::ZERO,
-        social: R::ZERO,
-        fastest: R::ZERO,
-        dim: 0,
-        particles: [Particle {
-            x: [R::ZERO; D],
-            velocity: [R::ZERO; D],
-            best: Candidate::EMPTY,
-        }; P],
-        population: 0,
-        asked: 0,
-        told: 0,
-        flying: false,
-        rng: Generator::EMPTY,
-        best: Candidate::EMPTY,
-    };
-
-    /// `population` (at most `P`) particles over `dim` (at most `D`) unknowns.
+    /// `population` (at most `P`) particles over `dim` (at most `D`) unknowns, with the usual generator.
     pub fn new(dim: usize, population: usize, settings: PsoSettings, seed: u64) -> Self {
-        let mut pso = Self::EMPTY;
-        pso.begin(dim, population, settings, seed);
+        let mut pso = Self::idle(rng::seeded(seed));
+        pso.begin(dim, population, settings);
         pso
     }
+}
 
-    /// [`new`](Self::new) in place of an [empty](Self::EMPTY) one.
-    pub fn begin(&mut self, dim: usize, population: usize, settings: PsoSettings, seed: u64) {
-        self.rng = rng::seeded(seed);
+impl<R: Real, G: Rng, const P: usize, const D: usize> Pso<R, P, D, G> {
+    /// Not begun. A device begins a search where it stays: moved, it would stand on the stack once more.
+    #[inline(always)]
+    pub fn idle(rng: G) -> Self {
+        Pso {
+            inertia: R::ZERO,
+            cognitive: R::ZERO,
+            social: R::ZERO,
+            fastest: R::ZERO,
+            dim: 0,
+            particles: [Particle {
+                x: [R::ZERO; D],
+                velocity: [R::ZERO; D],
+                best: Candidate::EMPTY,
+            }; P],
+            population: 0,
+            asked: 0,
+            told: 0,
+            flying: false,
+            rng,
+            best: Candidate::EMPTY,
+        }
+    }
+
+    /// Begins the search: `population` (at most `P`) particles over `dim` (at most `D`) unknowns.
+    pub fn begin(&mut self, dim: usize, population: usize, settings: PsoSettings) {
         self.dim = dim.min(D);
         for particle in &mut self.particles {
             let places = particle.x.iter_mut().zip(&mut particle.velocity);
@@ -129,7 +133,7 @@ impl<R: Real, const P: usize, const D: usize> Pso<R, P, D> {
     }
 }
 
-impl<R: Real, const P: usize, const D: usize> Optimiser<R, D> for Pso<R, P, D> {
+impl<R: Real, G: Rng, const P: usize, const D: usize> Optimiser<R, D> for Pso<R, P, D, G> {
     fn dim(&self) -> usize {
         self.dim
     }

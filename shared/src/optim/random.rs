@@ -1,31 +1,38 @@
 //! Uniform random search: what every other method must beat.
 
 use super::{Candidate, Optimiser, sanitised};
-use crate::rng::{self, Generator};
+use crate::rng::{self, Generator, Rng};
 use crate::scalar::Real;
 
 /// Uniform random search.
 #[derive(Clone, Debug)]
-pub struct RandomSearch<R, const D: usize> {
+pub struct RandomSearch<R, const D: usize, G = Generator> {
     dim: usize,
-    rng: Generator,
+    rng: G,
     asked: Candidate<R, D>,
     best: Candidate<R, D>,
 }
 
 impl<R: Real, const D: usize> RandomSearch<R, D> {
-    /// Over `dim` unknowns (at most `D`).
+    /// Over `dim` unknowns (at most `D`), with the usual generator.
     pub fn new(dim: usize, seed: u64) -> Self {
+        RandomSearch::with(rng::seeded(seed), dim)
+    }
+}
+
+impl<R: Real, G: Rng, const D: usize> RandomSearch<R, D, G> {
+    /// Over `dim` unknowns (at most `D`), with a generator of one's own.
+    pub fn with(rng: G, dim: usize) -> Self {
         RandomSearch {
             dim: dim.min(D),
-            rng: rng::seeded(seed),
+            rng,
             asked: Candidate::unknown(),
             best: Candidate::unknown(),
         }
     }
 }
 
-impl<R: Real, const D: usize> Optimiser<R, D> for RandomSearch<R, D> {
+impl<R: Real, G: Rng, const D: usize> Optimiser<R, D> for RandomSearch<R, D, G> {
     fn dim(&self) -> usize {
         self.dim
     }

@@ -7,7 +7,7 @@
 //!
 //! A multiplier keeps 31 significant bits whatever its size: a mantissa and a shift.
 
-use super::{Angle, ErrorValue, Readable, Real, Scalar, quotient};
+use super::{Angle, ErrorValue, Readable, Real, Scalar};
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Bits below the point.
@@ -254,7 +254,7 @@ impl Scalar for Fixed {
             return Fixed(0);
         }
         let part = part.clamp(0, whole).cast_unsigned() << 29;
-        Fixed(quotient(part, whole.cast_unsigned()).cast_signed() << (POINT - 29))
+        Fixed((part / whole.cast_unsigned()).cast_signed() << (POINT - 29))
     }
 
     fn exp_decay(self) -> Self {

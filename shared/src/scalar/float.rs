@@ -3,14 +3,15 @@
 //! f64 keeps the angle as one number. f32 keeps whole counts in an integer and the rest as a
 //! fraction: as one number it would lose a count after a few revolutions.
 
+use super::curves;
 use super::{Angle, ErrorValue, Readable, Real, Scalar};
-use super::{curves, exponential, root};
+use micromath::F32;
 
 /// Remainder for counts that the 32-bit counter has wrapped.
 const WRAP: f64 = 4_294_967_296.0;
 
 macro_rules! float_scalar {
-    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $sincos:expr, $decay:expr, $bits:expr, $drawn:ty, $terms:expr) => {
+    ($t:ty, $angle:ty, $exp:path, $ln:path, $sqrt:path, $approx:expr, $sincos:expr, $decay:expr, $bits:expr, $drawn:ty, $terms:expr) => {
         impl Scalar for $t {
             type Mask = bool;
             type Coefficient = $t;
@@ -91,6 +92,12 @@ macro_rules! float_scalar {
             fn sqrt(self) -> Self {
                 $sqrt(self)
             }
+            fn exp_approx(self) -> Self {
+                $approx.0(self)
+            }
+            fn sin_turns_approx(self) -> Self {
+                $approx.1(self)
+            }
             #[inline(always)]
             fn is_finite(self) -> bool {
                 <$t>::is_finite(self)
@@ -141,6 +148,7 @@ float_scalar!(
     libm::exp,
     libm::log,
     libm::sqrt,
+    (libm::exp, |turns: f64| curves::sin_cos_turns(turns).0),
     curves::sin_cos_turns,
     |x| curves::exp_decay(x, curves::power_of_two),
     53,
@@ -150,9 +158,13 @@ float_scalar!(
 float_scalar!(
     f32,
     SplitAngle,
-    exponential::exp,
-    exponential::ln,
-    root::square_root,
+    libm::expf,
+    libm::logf,
+    libm::sqrtf,
+    (
+        |x: f32| F32(x).exp().0,
+        |turns: f32| F32(turns * core::f32::consts::TAU).sin().0
+    ),
     short_sin_cos,
     libm::expf,
     24,
@@ -279,7 +291,18 @@ impl Readable<f32> for SplitAngle {
 
 #[cfg(test)]
 mod tests {
-    use super::short_sin_cos;
+    use super::{Real, short_sin_cos};
+
+    #[test]
+    fn the_rough_functions_are_as_exact_as_they_promise() {
+        for k in -4000..=4000 {
+            let x = k as f32 * 1e-3;
+            let exp = Real::exp_approx(x) / Real::exp(x) - 1.0;
+            assert!(exp.abs() < 3e-3, "e^{x} is off by a part of {exp}");
+            let sine = Real::sin_turns_approx(x) - short_sin_cos(x).0;
+            assert!(sine.abs() < 2e-3, "the sine of {x} turns is off by {sine}");
+        }
+    }
 
     #[test]
     fn the_short_sine_is_as_exact_as_f32_allows() {

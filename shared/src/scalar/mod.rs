@@ -10,20 +10,15 @@
 
 mod abreast;
 pub mod curves;
-mod exponential;
 mod fixed;
 mod float;
 mod mask;
-mod quotient;
-mod root;
-pub mod soft;
 
 pub use abreast::Abreast;
 pub(crate) use abreast::abreast;
 pub(crate) use fixed::product;
 pub use fixed::{Fixed, FixedCoefficient};
 pub use mask::Mask;
-pub use quotient::quotient;
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -162,7 +157,7 @@ pub trait ErrorValue: Copy + Default + Debug + PartialOrd + Add<Output = Self> {
 }
 
 /// A floating-point [`Scalar`] with the functions that set-up code needs (never the hot loop).
-/// All of them come from `libm`, so that the PC and the MCU get the same bits.
+/// All of them come from `libm`, or from `micromath` where a rough value does, so that the PC and the MCU get the same bits.
 pub trait Real:
     Scalar<Coefficient = Self, Mask = bool, Angle: Readable<Self>> + PartialOrd + Div<Output = Self>
 {
@@ -182,6 +177,10 @@ pub trait Real:
     fn ln(self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
+    /// Natural exponential, in f32 to three parts in a thousand only: for what steers a search, never for a model or a cost.
+    fn exp_approx(self) -> Self;
+    /// Sine of a fraction of a turn, in f32 to 0.002 only: for a command that is recorded as it was played.
+    fn sin_turns_approx(self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// A whole number, rounded to the format.

@@ -1,10 +1,10 @@
 //! Why a run was given up.
 
-use super::codec::coded;
 use core::fmt;
+use serde::{Deserialize, Serialize};
 
 /// Why a run was given up: the cause code of a report. Append only.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Fault {
     /// The user or the host asked to stop.
     Stopped,
@@ -34,23 +34,24 @@ pub enum Fault {
     NothingToFit,
 }
 
-coded!(
-    enum Fault {
-        Stopped,
-        LinkLost,
-        Overrun,
-        Bridge,
-        Stall,
-        Overtravel,
-        NotVerified,
-        Runaway,
-        Overcurrent,
-        Overheated,
-        Overspeed,
-        TimeUp,
-        NothingToFit,
-    }
-);
+impl Fault {
+    /// All of them, in the order of the wire.
+    pub const ALL: [Fault; 13] = [
+        Fault::Stopped,
+        Fault::LinkLost,
+        Fault::Overrun,
+        Fault::Bridge,
+        Fault::Stall,
+        Fault::Overtravel,
+        Fault::NotVerified,
+        Fault::Runaway,
+        Fault::Overcurrent,
+        Fault::Overheated,
+        Fault::Overspeed,
+        Fault::TimeUp,
+        Fault::NothingToFit,
+    ];
+}
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,9 +1,9 @@
 //! The messages. Append only: new ones at the end of an enum, new fields nowhere but in new messages.
 
 use super::Fault;
-use super::codec::{Coded, Reader, Writer, coded};
 use crate::fit::{Outcome, Settings};
 use heapless::{String, Vec};
+use serde::{Deserialize, Serialize};
 
 /// Most rows in one message.
 pub const MOST_ROWS: usize = 24;
@@ -11,7 +11,7 @@ pub const MOST_ROWS: usize = 24;
 pub const MOST_SEGMENTS: usize = 16;
 
 /// From the host.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ToDevice {
     /// Who are you? Answered by [`ToHost::About`].
     Hello,
@@ -43,7 +43,7 @@ pub enum ToDevice {
 }
 
 /// To the host.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ToHost {
     /// Answer to a hello, and what a device says when it powers up.
     About(About),
@@ -83,7 +83,7 @@ pub enum ToHost {
 }
 
 /// What a device is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct About {
     /// [`VERSION`](super::VERSION) that it speaks.
     pub version: u16,
@@ -109,7 +109,7 @@ pub struct About {
 }
 
 /// A number format of the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Format {
     /// Single precision.
     F32,
@@ -118,7 +118,7 @@ pub enum Format {
 }
 
 /// What the device is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stage {
     /// Waits for a start; the bridge is open.
     Idle,
@@ -137,7 +137,7 @@ pub enum Stage {
 }
 
 /// Why a command was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Refusal {
     /// A run is under way.
     Busy,
@@ -150,7 +150,7 @@ pub enum Refusal {
 }
 
 /// What kind of run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
     /// Probe, excite, record, fit, verify.
     Commission,
@@ -161,7 +161,7 @@ pub enum Kind {
 }
 
 /// A run as ordered.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Job {
     /// What kind of run.
     pub kind: Kind,
@@ -186,7 +186,7 @@ pub struct Job {
 }
 
 /// Limits that the device watches. Zero means none, but for the duty and the time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Limits {
     /// Largest duty of any drive; at least 1.
     pub duty: i16,
@@ -221,7 +221,7 @@ impl Limits {
 }
 
 /// A stretch of a plan: one duty ([`OPEN`](crate::trace::OPEN) for an open bridge) for so many periods.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Segment {
     /// The duty, see [`About::full`].
     pub duty: i16,
@@ -230,7 +230,7 @@ pub struct Segment {
 }
 
 /// Consecutive periods.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rows {
     /// Stage in which they were made.
     pub stage: Stage,
@@ -243,7 +243,7 @@ pub struct Rows {
 }
 
 /// One period.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Row {
     /// Duty held during it, or [`OPEN`](crate::trace::OPEN).
     pub duty: i16,
@@ -254,7 +254,7 @@ pub struct Row {
 }
 
 /// How a run ended well.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Duty at which the shaft first moved.
     pub breakaway: i16,
@@ -269,7 +269,7 @@ pub struct Report {
 }
 
 /// How well the model predicts what it has not seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verified {
     /// Mean squared error, counts².
     pub mean_square: f32,
@@ -278,7 +278,7 @@ pub struct Verified {
 }
 
 /// How a run was given up.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     /// Why.
     pub fault: Fault,
@@ -292,162 +292,4 @@ pub struct Failure {
     pub limit: i32,
     /// What was found before, if anything.
     pub report: Option<Report>,
-}
-
-// In the order of their bytes, which is that of their definition.
-coded!(struct About { version, board, firmware, period_us, capacity, format, senses_current, boot, stage, full });
-coded!(
-    enum Format {
-        F32,
-        Fixed,
-    }
-);
-coded!(
-    enum Stage {
-        Idle,
-        Probe,
-        Excite,
-        Record,
-        Fit,
-        Verify,
-        Report,
-    }
-);
-coded!(
-    enum Refusal {
-        Busy,
-        NotArmed,
-        BadJob,
-        BadPlan,
-    }
-);
-coded!(
-    enum Kind {
-        Commission,
-        Record,
-        Play,
-    }
-);
-coded!(struct Job { kind, amplitude, excite, coast, record, verify, verify_within, seed, fit, limits });
-coded!(struct Limits { duty, travel, speed, current_ma, continuous_ma, thermal, stall_ma, time });
-coded!(struct Segment { duty, periods });
-coded!(struct Rows { stage, first, count, rows });
-coded!(struct Row { duty, step, current_ma });
-coded!(struct Report { breakaway, amplitude, periods, outcome, verified });
-coded!(struct Verified { mean_square, periods });
-coded!(struct Failure { fault, stage, at, seen, limit, report });
-
-impl Coded for ToDevice {
-    fn put(&self, to: &mut Writer<'_>) {
-        let mut index = |index: u8| index.put(to);
-        match self {
-            ToDevice::Hello => index(0),
-            ToDevice::Alive => index(1),
-            ToDevice::Arm => index(2),
-            ToDevice::Start { nonce, job } => {
-                index(3);
-                nonce.put(to);
-                job.put(to);
-            }
-            ToDevice::Stop => index(4),
-            ToDevice::Plan { first, segments } => {
-                index(5);
-                first.put(to);
-                segments.put(to);
-            }
-            ToDevice::Resend { first } => {
-                index(6);
-                first.put(to);
-            }
-        }
-    }
-
-    fn take(from: &mut Reader<'_>) -> Self {
-        match from.index(7) {
-            1 => ToDevice::Alive,
-            2 => ToDevice::Arm,
-            3 => ToDevice::Start {
-                nonce: Coded::take(from),
-                job: Coded::take(from),
-            },
-            4 => ToDevice::Stop,
-            5 => ToDevice::Plan {
-                first: Coded::take(from),
-                segments: Coded::take(from),
-            },
-            6 => ToDevice::Resend {
-                first: Coded::take(from),
-            },
-            _ => ToDevice::Hello,
-        }
-    }
-}
-
-impl Coded for ToHost {
-    fn put(&self, to: &mut Writer<'_>) {
-        let mut index = |index: u8| index.put(to);
-        match self {
-            ToHost::About(about) => {
-                index(0);
-                about.put(to);
-            }
-            ToHost::Armed { nonce, periods } => {
-                index(1);
-                nonce.put(to);
-                periods.put(to);
-            }
-            ToHost::Refused(refusal) => {
-                index(2);
-                refusal.put(to);
-            }
-            ToHost::Stage { stage, at, length } => {
-                index(3);
-                stage.put(to);
-                at.put(to);
-                length.put(to);
-            }
-            ToHost::Rows(rows) => {
-                index(4);
-                rows.put(to);
-            }
-            ToHost::Fitting { done, of, least } => {
-                index(5);
-                done.put(to);
-                of.put(to);
-                least.put(to);
-            }
-            ToHost::Report(report) => {
-                index(6);
-                report.put(to);
-            }
-            ToHost::Failed(failure) => {
-                index(7);
-                failure.put(to);
-            }
-        }
-    }
-
-    fn take(from: &mut Reader<'_>) -> Self {
-        match from.index(8) {
-            1 => ToHost::Armed {
-                nonce: Coded::take(from),
-                periods: Coded::take(from),
-            },
-            2 => ToHost::Refused(Coded::take(from)),
-            3 => ToHost::Stage {
-                stage: Coded::take(from),
-                at: Coded::take(from),
-                length: Coded::take(from),
-            },
-            4 => ToHost::Rows(Coded::take(from)),
-            5 => ToHost::Fitting {
-                done: Coded::take(from),
-                of: Coded::take(from),
-                least: Coded::take(from),
-            },
-            6 => ToHost::Report(Coded::take(from)),
-            7 => ToHost::Failed(Coded::take(from)),
-            _ => ToHost::About(Coded::take(from)),
-        }
-    }
 }

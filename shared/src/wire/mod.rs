@@ -1,20 +1,17 @@
 //! What device and host say to each other, defined once.
 //!
 //! ```text
-//! message → numbers → CRC-32 → COBS → bytes, ended by a zero
+//! message → postcard → CRC-32 → COBS → bytes, ended by a zero
 //! ```
 //!
 //! Raw counts and duties travel; what they mean in SI is the host's business. [`VERSION`] counts changes that an older
 //! peer would misread. Messages and their fields are only ever appended; a frame that does not decode (noise, a message of
 //! a newer version) is dropped and counted, and the next zero byte starts afresh.
 
-mod codec;
 mod fault;
 mod frame;
 mod message;
 
-pub(crate) use codec::coded;
-pub use codec::{Coded, Reader, Writer};
 pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
 pub use message::{

@@ -1,114 +1,90 @@
 //! Counts every edge of both lines of the encoder, in a state machine of the chip's PIO that does nothing else.
 
-use rp_pac::PIO0;
+use embassy_rp::gpio::Pull;
+use embassy_rp::peripherals::PIO0;
+use embassy_rp::pio::program::pio_asm;
+use embassy_rp::pio::{self, Direction, FifoJoin, ShiftDirection, StateMachine};
 
-/// Which state machine.
-const MACHINE: usize = 0;
-
-/// What a state machine does next, as far as it is asked here (RP2040 data sheet, 3.4).
-#[expect(
-    clippy::unusual_byte_groupings,
-    reason = "grouped by the fields of the data sheet"
-)]
-mod instruction {
-    /// To another place.
-    pub const fn jump(to: usize) -> u16 {
-        to as u16
-    }
-    /// There unless Y was zero; either way Y is one less.
-    pub const fn jump_y_less(to: usize) -> u16 {
-        0b000_00000_100_00000 | to as u16
-    }
-    pub const MOV_ISR_Y: u16 = 0b101_00000_110_00_010;
-    pub const PUSH_NOBLOCK: u16 = 0b100_00000_0_0_0_00000;
-    pub const OUT_ISR_2: u16 = 0b011_00000_110_00010;
-    pub const IN_PINS_2: u16 = 0b010_00000_000_00010;
-    pub const MOV_OSR_ISR: u16 = 0b101_00000_111_00_110;
-    pub const MOV_PC_ISR: u16 = 0b101_00000_101_00_110;
-    pub const MOV_Y_NOT_Y: u16 = 0b101_00000_010_01_010;
-}
-
-const DOWN: usize = 16;
-const TELL: usize = 17;
-const UP: usize = 23;
-const END: usize = 25;
-
-/// The state machine keeps the count in Y and pushes it again and again, ten million times a second; what finds no room is
-/// lost. The lines before and after an edge, two bits each, are the address of what to do about it.
-#[rustfmt::skip]
-const PROGRAM: [u16; END + 1] = {
-    use instruction::*;
-    [
-        jump(TELL), // 00 stays
-        jump(UP),   // 00 to 01: A rises while B is low
-        jump(DOWN), // 00 to 10
-        jump(TELL), // 00 to 11: two edges at once, which way is unknown
-        jump(DOWN), // 01 to 00
-        jump(TELL), // 01 stays
-        jump(TELL), // 01 to 10
-        jump(UP),   // 01 to 11
-        jump(UP),   // 10 to 00
-        jump(TELL), // 10 to 01
-        jump(TELL), // 10 stays
-        jump(DOWN), // 10 to 11
-        jump(TELL), // 11 to 00
-        jump(DOWN), // 11 to 01
-        jump(UP),   // 11 to 10
-        jump(TELL), // 11 stays
-        // DOWN
-        jump_y_less(TELL),
-        // TELL
-        MOV_ISR_Y,
-        PUSH_NOBLOCK,
-        OUT_ISR_2,  // the lines as they were
-        IN_PINS_2,  // and as they are
-        MOV_OSR_ISR,
-        MOV_PC_ISR,
-        // UP: y + 1 is not(not(y) - 1)
-        MOV_Y_NOT_Y,
-        jump_y_less(END),
-        // END, from where it goes on at TELL
-        MOV_Y_NOT_Y,
-    ]
-};
+use crate::board::generic::Position;
 
 /// The encoder.
 pub struct Encoder {
+    machine: StateMachine<'static, PIO0, 0>,
     last: i32,
 }
 
 impl Encoder {
-    /// Of the lines at a pin and the one after it.
-    pub fn start(pin: u8) -> Self {
-        for (at, &instruction) in PROGRAM.iter().enumerate() {
-            PIO0.instr_mem(at).write(|w| w.set_instr_mem(instruction));
+    /// The state machine keeps the count in Y and pushes it again and again, ten million times a second; what finds no
+    /// room is lost. The lines before and after an edge, two bits each, are the address of what to do about it.
+    pub fn new(
+        common: &mut pio::Common<'static, PIO0>,
+        mut machine: StateMachine<'static, PIO0, 0>,
+        mut lines: [pio::Pin<'static, PIO0>; 2],
+    ) -> Self {
+        let program = pio_asm!(
+            ".origin 0",
+            "jmp post", // 00 stays
+            "jmp up",   // 00 to 01: A rises while B is low
+            "jmp down", // 00 to 10
+            "jmp post", // 00 to 11: two edges at once, which way is unknown
+            "jmp down", // 01 to 00
+            "jmp post", // 01 stays
+            "jmp post", // 01 to 10
+            "jmp up",   // 01 to 11
+            "jmp up",   // 10 to 00
+            "jmp post", // 10 to 01
+            "jmp post", // 10 stays
+            "jmp down", // 10 to 11
+            "jmp post", // 11 to 00
+            "jmp down", // 11 to 01
+            "jmp up",   // 11 to 10
+            "jmp post", // 11 stays
+            "down:",
+            "jmp y-- post",
+            ".wrap_target",
+            "post:",
+            "mov isr, y",
+            "push noblock",
+            "out isr, 2", // the lines as they were
+            "in pins, 2", // and as they are
+            "mov osr, isr",
+            "mov pc, isr",
+            "up:", // y + 1 is not(not(y) - 1)
+            "mov y, ~y",
+            "jmp y-- end",
+            "end:",
+            "mov y, ~y",
+            ".wrap",
+        );
+        for line in &mut lines {
+            line.set_pull(Pull::Up);
         }
-        let machine = PIO0.sm(MACHINE);
-        // At the core's own speed, which is what it has after a reset.
-        machine.execctrl().write(|w| {
-            w.set_wrap_bottom(TELL as u8);
-            w.set_wrap_top(END as u8);
-        });
-        machine.shiftctrl().write(|w| {
-            w.set_fjoin_rx(true);
-            w.set_out_shiftdir(true);
-        });
-        machine.pinctrl().write(|w| w.set_in_base(pin));
-        PIO0.ctrl().write(|w| w.set_sm_enable(1 << MACHINE));
-        Self { last: 0 }
+        let [a, b] = &lines;
+        machine.set_pin_dirs(Direction::In, &[a, b]);
+        let mut config = pio::Config::default();
+        config.set_in_pins(&[a, b]);
+        config.fifo_join = FifoJoin::RxOnly;
+        config.shift_in.direction = ShiftDirection::Left;
+        config.shift_out.direction = ShiftDirection::Right;
+        config.use_program(&common.load_program(&program.program), &[]);
+        machine.set_config(&config);
+        machine.set_enable(true);
+        Self { machine, last: 0 }
     }
+}
 
-    /// The count as it is now: what waits in the queue is older, so the one after that is it. It comes within a tenth of a
-    /// microsecond.
-    pub fn count(&mut self) -> i32 {
-        let mut older = u32::from(PIO0.flevel().read().rx0());
+impl Position for Encoder {
+    /// The count as it is now: what waits in the queue is older, so that is thrown away first.
+    fn count(&mut self) -> i32 {
+        let queue = self.machine.rx();
+        for _ in 0..queue.level() {
+            queue.try_pull();
+        }
+        // The next one comes within a tenth of a microsecond.
         for _ in 0..100 {
-            if PIO0.flevel().read().rx0() > 0 {
-                self.last = PIO0.rxf(MACHINE).read().cast_signed();
-                if older == 0 {
-                    break;
-                }
-                older -= 1;
+            if let Some(count) = queue.try_pull() {
+                self.last = count.cast_signed();
+                break;
             }
         }
         self.last

@@ -1,0 +1,24 @@
+//! The application on whatever board the build was told of: see `firmware::board` for what is connected where.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+mod image {
+    use firmware::app::{App, Log, Memory};
+    use firmware::board::{Fitted, LOG, Number};
+    use static_cell::ConstStaticCell;
+
+    static MEMORY: ConstStaticCell<Memory<Number>> = ConstStaticCell::new(Memory::new());
+    static RECORDING: ConstStaticCell<Log<LOG>> = ConstStaticCell::new(Log::new());
+
+    #[cortex_m_rt::entry]
+    fn main() -> ! {
+        let mut app = App::new(Fitted::start(), MEMORY.take(), RECORDING.take());
+        loop {
+            app.period();
+        }
+    }
+}
+
+/// There is nothing to run on a PC: `scripts/boards` builds the image.
+#[cfg(not(target_os = "none"))]
+fn main() {}

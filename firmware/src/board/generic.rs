@@ -1,0 +1,419 @@
+//! A board out of any chip's HAL: the traits of `embedded-hal` and `embedded-io` where they have what it takes, and three small
+//! ones of ours where they have not.
+//!
+//! | part | trait |
+//! |---|---|
+//! | two half bridges | [`SetDutyCycle`] each |
+//! | the bridge's enable, its fault line | [`OutputPin`], [`InputPin`] |
+//! | the link | `embedded-io`'s, see [`Link`] |
+//! | position counter | [`Position`]: `embedded-hal` counts nothing |
+//! | when a new duty acts | [`Turn`], or [`DelayNs`] by [`AfterDelay`] |
+//! | control period | [`Tick`] |
+//!
+//! The bridge makes its own dead time. A timer that drives four transistors by itself, with dead time between complementary
+//! outputs and a break input, has no trait: so the STM32s' boards stay with their HAL (`board/stm32.rs`).
+
+use embedded_hal::delay::DelayNs;
+use embedded_hal::digital::{InputPin, OutputPin};
+use embedded_hal::pwm::SetDutyCycle;
+use embedded_io_async::{Read, Write};
+
+use super::Board;
+use super::entropy::Entropy;
+use super::half_bridges::HalfBridges;
+use super::link::Link;
+use crate::phase::Fault;
+
+/// An H bridge of two half bridges with one carrier, an enable input (high: on) and a fault output (low: fault).
+#[derive(Debug)]
+pub struct HBridge<A, B, E, F> {
+    legs: HalfBridges,
+    a: A,
+    b: B,
+    enable: E,
+    fault: F,
+    /// A duty was given: the bridge closes when that acts.
+    driven: bool,
+    closed: bool,
+    /// A part refused what it was told.
+    failed: bool,
+}
+
+impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, E, F> {
+    /// Opens the bridge. `full` is the carrier's compare value for a leg that is high all the time; a HAL whose largest duty
+    /// cycle is less costs as much of the largest duty, and nothing below it.
+    pub fn new(a: A, b: B, enable: E, fault: F, full: u16) -> Self {
+        let longest = a.max_duty_cycle().min(b.max_duty_cycle());
+        let mut bridge = HBridge {
+            legs: HalfBridges {
+                full,
+                refresh: full.saturating_sub(longest),
+            },
+            a,
+            b,
+            enable,
+            fault,
+            driven: false,
+            closed: false,
+            failed: false,
+        };
+        bridge.open();
+        bridge
+    }
+
+    /// The two half bridges' measure of a duty.
+    pub fn legs(&self) -> HalfBridges {
+        self.legs
+    }
+
+    /// Gives both legs a duty. They take it over at the carrier's next turn, which must not pass in between.
+    pub fn drive(&mut self, duty: i16) {
+        self.set(duty);
+        self.driven = true;
+    }
+
+    /// Closes an open bridge that is to drive. After the carrier's turn: before, it would brake until then.
+    pub fn close(&mut self) {
+        if self.driven && !self.closed {
+            self.failed |= self.enable.set_high().is_err();
+            self.closed = true;
+        }
+    }
+
+    /// Opens the bridge at once.
+    pub fn open(&mut self) {
+        self.failed |= self.enable.set_low().is_err();
+        (self.driven, self.closed) = (false, false);
+        self.set(0);
+    }
+
+    /// Whether it should drive, and reports a fault or has a part that failed.
+    pub fn tripped(&mut self) -> bool {
+        self.closed && (self.failed || self.fault.is_low().unwrap_or(true))
+    }
+
+    fn set(&mut self, duty: i16) {
+        let (a, b) = self.legs.compares(duty);
+        self.failed |= self.a.set_duty_cycle(a).is_err() | self.b.set_duty_cycle(b).is_err();
+    }
+}
+
+/// A counter of the encoder's edges.
+pub trait Position {
+    /// See [`Board::count`].
+    fn count(&mut self) -> i32;
+}
+
+/// The carrier's turn, at which the legs take a new duty over. The first one comes some 20 µs after a control period's end.
+pub trait Turn {
+    /// A control period has begun.
+    fn begin(&mut self);
+    /// Waits until the carrier has turned in this control period.
+    fn wait(&mut self);
+}
+
+/// The turn of a carrier that tells nobody: it has passed after a delay.
+#[derive(Debug)]
+pub struct AfterDelay<D> {
+    /// What waits.
+    pub delay: D,
+    /// From when the duty was given to the latest turn.
+    pub ns: u32,
+}
+
+impl<D: DelayNs> Turn for AfterDelay<D> {
+    fn begin(&mut self) {}
+
+    fn wait(&mut self) {
+        self.delay.delay_ns(self.ns);
+    }
+}
+
+/// Control periods, by a timer of the chip's.
+pub trait Tick {
+    /// See [`Board::tick`].
+    ///
+    /// # Errors
+    /// [`Fault::Overrun`] if the period had ended before.
+    fn end(&mut self) -> Result<(), Fault>;
+    /// A number that differs between two events that nobody synchronised.
+    fn time(&self) -> u32;
+}
+
+/// The parts of one board.
+pub trait Parts {
+    /// See [`Board::NAME`].
+    const NAME: &'static str;
+    /// See [`Board::PERIOD_US`].
+    const PERIOD_US: u32;
+    /// See [`Board::SLICE`].
+    const SLICE: u32;
+    /// Half bridge of motor lead +.
+    type LegA: SetDutyCycle;
+    /// Half bridge of motor lead −.
+    type LegB: SetDutyCycle;
+    /// Enables both half bridges.
+    type Enable: OutputPin;
+    /// Their fault output.
+    type Fault: InputPin;
+    /// Serial port of the link.
+    type Serial: Read + Write;
+    /// The encoder.
+    type Position: Position;
+    /// The carrier's turn.
+    type Turn: Turn;
+    /// The control period.
+    type Tick: Tick;
+}
+
+/// A board that is put together of parts.
+pub struct Generic<P: Parts> {
+    /// The bridge, open.
+    pub bridge: HBridge<P::LegA, P::LegB, P::Enable, P::Fault>,
+    /// The link.
+    pub link: Link<P::Serial>,
+    /// The encoder.
+    pub position: P::Position,
+    /// The carrier's turn.
+    pub turn: P::Turn,
+    /// The control period.
+    pub tick: P::Tick,
+    /// Noise of the board's.
+    pub entropy: Entropy,
+}
+
+impl<P: Parts> Board for Generic<P> {
+    const NAME: &'static str = P::NAME;
+    const PERIOD_US: u32 = P::PERIOD_US;
+    const SLICE: u32 = P::SLICE;
+
+    fn drive(&mut self, duty: i16) {
+        self.bridge.drive(duty);
+    }
+
+    fn full(&self) -> u16 {
+        self.bridge.legs().full_duty()
+    }
+
+    fn nearest(&self, duty: i16) -> i16 {
+        self.bridge.legs().nearest(duty)
+    }
+
+    fn coast(&mut self) {
+        self.bridge.open();
+    }
+
+    fn count(&mut self) -> i32 {
+        self.turn.wait();
+        self.bridge.close();
+        self.position.count()
+    }
+
+    fn tick(&mut self) -> Result<(), Fault> {
+        self.tick.end()?;
+        self.turn.begin();
+        if self.bridge.tripped() {
+            return Err(Fault::Bridge);
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        self.link.receive()
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> usize {
+        self.link.send(bytes)
+    }
+
+    fn entropy(&mut self) -> u32 {
+        self.entropy.draw(self.tick.time())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::convert::Infallible;
+    use core::future::{pending, ready};
+    use embedded_hal_mock::eh1::MockError;
+    use embedded_hal_mock::eh1::delay::{CheckedDelay, Transaction as Wait};
+    use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
+    use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
+    use std::collections::VecDeque;
+
+    /// Counts up to 1,000, and no HAL's duty cycle is all of it.
+    const FULL: u16 = 1000;
+    const MOST: u16 = 999;
+
+    /// A serial port that takes three bytes and then waits.
+    #[derive(Default)]
+    struct Serial {
+        received: VecDeque<u8>,
+        sent: Vec<u8>,
+    }
+
+    impl embedded_io_async::ErrorType for Serial {
+        type Error = Infallible;
+    }
+
+    impl Read for Serial {
+        async fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Infallible> {
+            let Some(byte) = self.received.pop_front() else {
+                return pending().await;
+            };
+            buffer[0] = byte;
+            ready(Ok(1)).await
+        }
+    }
+
+    impl Write for Serial {
+        async fn write(&mut self, bytes: &[u8]) -> Result<usize, Infallible> {
+            if self.sent.len() == 3 {
+                return pending().await;
+            }
+            self.sent.push(bytes[0]);
+            ready(Ok(1)).await
+        }
+
+        async fn flush(&mut self) -> Result<(), Infallible> {
+            Ok(())
+        }
+    }
+
+    struct Counter(i32);
+
+    impl Position for Counter {
+        fn count(&mut self) -> i32 {
+            self.0 += 1;
+            self.0
+        }
+    }
+
+    struct Periods;
+
+    impl Tick for Periods {
+        fn end(&mut self) -> Result<(), Fault> {
+            Ok(())
+        }
+        fn time(&self) -> u32 {
+            7
+        }
+    }
+
+    struct Bench;
+
+    impl Parts for Bench {
+        const NAME: &'static str = "bench";
+        const PERIOD_US: u32 = 1000;
+        const SLICE: u32 = 1;
+        type LegA = Pwm;
+        type LegB = Pwm;
+        type Enable = Pin;
+        type Fault = Pin;
+        type Serial = Serial;
+        type Position = Counter;
+        type Turn = AfterDelay<CheckedDelay>;
+        type Tick = Periods;
+    }
+
+    /// A board whose parts must be told just this, after the bridge was opened once.
+    fn board(a: &[Duty], b: &[Duty], enable: &[Level], fault: &[Level]) -> Generic<Bench> {
+        let leg = |duties: &[Duty]| {
+            let opened = [Duty::max_duty_cycle(MOST), Duty::set_duty_cycle(500)];
+            Pwm::new(opened.iter().chain(duties))
+        };
+        let enable = [Level::set(State::Low)]
+            .into_iter()
+            .chain(enable.iter().cloned())
+            .collect::<Vec<_>>();
+        let bridge = HBridge::new(leg(a), leg(b), Pin::new(&enable), Pin::new(fault), FULL);
+        Generic {
+            bridge,
+            link: Link::new(Serial::default()),
+            position: Counter(0),
+            turn: AfterDelay {
+                delay: CheckedDelay::new(&[]),
+                ns: 30_000,
+            },
+            tick: Periods,
+            entropy: Entropy::default(),
+        }
+    }
+
+    fn ended(mut board: Generic<Bench>) {
+        board.bridge.a.done();
+        board.bridge.b.done();
+        board.bridge.enable.done();
+        board.bridge.fault.done();
+        board.turn.delay.done();
+    }
+
+    #[test]
+    fn the_bridge_closes_where_the_duty_acts_and_opens_at_once() {
+        let duty = Duty::set_duty_cycle;
+        let mut board = board(
+            &[duty(625), duty(500)],
+            &[duty(375), duty(500)],
+            &[Level::set(State::High), Level::set(State::Low)],
+            &[Level::get(State::High)],
+        );
+        assert_eq!(board.full(), 32_000);
+        board
+            .turn
+            .delay
+            .update_expectations(&[Wait::delay_ns(30_000), Wait::delay_ns(30_000)]);
+        board.drive(8_000);
+        assert!(!board.bridge.closed);
+        assert_eq!(board.count(), 1);
+        assert!(board.bridge.closed);
+        assert_eq!(board.tick(), Ok(()));
+        assert_eq!(board.count(), 2);
+        board.coast();
+        // Open, the fault line is not asked.
+        assert_eq!(board.tick(), Ok(()));
+        ended(board);
+    }
+
+    #[test]
+    fn the_largest_duty_leaves_a_leg_what_its_hal_cannot_reach() {
+        let duty = Duty::set_duty_cycle;
+        let mut board = board(&[duty(MOST), duty(0)], &[duty(0), duty(MOST)], &[], &[]);
+        assert_eq!(board.nearest(i16::MAX), 999 * 32);
+        board.drive(i16::MAX);
+        board.drive(i16::MIN);
+        ended(board);
+    }
+
+    #[test]
+    fn a_fault_of_the_bridge_or_of_a_part_is_seen_while_it_drives() {
+        let duty = Duty::set_duty_cycle;
+        let failed = duty(500).with_error(MockError::Io(std::io::ErrorKind::Other));
+        let mut board = board(
+            &[duty(500), failed],
+            &[duty(500), duty(500)],
+            &[Level::set(State::High)],
+            &[Level::get(State::Low), Level::get(State::High)],
+        );
+        board
+            .turn
+            .delay
+            .update_expectations(&[Wait::delay_ns(30_000)]);
+        board.drive(0);
+        board.count();
+        assert_eq!(board.tick(), Err(Fault::Bridge));
+        assert_eq!(board.tick(), Ok(()));
+        board.drive(0);
+        assert_eq!(board.tick(), Err(Fault::Bridge));
+        ended(board);
+    }
+
+    #[test]
+    fn the_link_never_waits() {
+        let mut board = board(&[], &[], &[], &[]);
+        assert_eq!(board.receive(), None);
+        assert_eq!(board.send(b"hello"), 3);
+        assert_eq!(board.send(b"lo"), 0);
+        ended(board);
+    }
+}
