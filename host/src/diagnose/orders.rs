@@ -179,8 +179,8 @@ mod tests {
     use super::*;
     use crate::fit::{Options, problem};
     use crate::prove::{Case, Excite, HowMany, SetUp};
-
     use testing::length::cases;
+
     const SEED: u64 = 20_261_122;
     const MOTORS: u64 = 30;
 
