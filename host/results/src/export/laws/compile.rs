@@ -7,19 +7,7 @@ use super::{texts, write};
 use servoid_plant as bench;
 use std::fs;
 use std::process::Command;
-
-/// The tool, if it is there; said aloud if it is not.
-fn tool(name: &str) -> Option<Command> {
-    if Command::new(name)
-        .arg("--version")
-        .output()
-        .is_ok_and(|o| o.status.success())
-    {
-        return Some(Command::new(name));
-    }
-    eprintln!("skipped: no {name} here");
-    None
-}
+use testing::left_out::tool;
 
 fn passes(mut command: Command, case: &str, text: &str) {
     let done = command.output().expect("it starts");

@@ -1,5 +1,4 @@
 //! Results do not depend on the number of threads.
-#![forbid(unsafe_code)]
 
 use host::compare::{self, Contest};
 use host::diagnose::{Effort, diagnose};

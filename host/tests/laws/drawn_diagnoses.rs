@@ -5,6 +5,7 @@ use host::fit::Options;
 use host::prove::{Case, Excite, HowMany, SetUp};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
+use testing::length::{cases, long};
 
 const SEED: u64 = 20_261_121;
 const CASES: u64 = 8;
@@ -27,6 +28,11 @@ fn hiding(effect: &str) -> SetUp {
     }
 }
 
+/// Three of four; of a few, all but one.
+fn most(right: usize, all: usize) -> bool {
+    right * 4 >= all * 3 || (!long() && right + 1 >= all)
+}
+
 /// Whatever its order: a wave that turns quickly beside the filter is seen, too; and what goes with cogging is not laid to a friction
 /// that comes near both.
 #[test]
@@ -40,7 +46,7 @@ fn cogging_is_named_beside_another_effect() {
     };
     let stop = AtomicBool::new(false);
     let (mut pairs, mut both, mut foreign) = (0, 0, 0);
-    for number in 0..PAIRS {
+    for number in 0..cases(PAIRS, 2) {
         let case = Case::record(&set_up, number).unwrap();
         if !case
             .drawn
@@ -69,7 +75,7 @@ fn cogging_is_named_beside_another_effect() {
         foreign += named.len() - right;
     }
     println!("{both} of {pairs}, {foreign} foreign names");
-    assert!(both * 4 >= pairs * 3, "{both} of {pairs}");
+    assert!(most(both, pairs), "{both} of {pairs}");
     assert_eq!(foreign, 0);
 }
 
@@ -80,7 +86,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
     let set_up = hiding("cogging");
     let stop = AtomicBool::new(false);
     let (mut chaotic, mut followed) = (0, 0);
-    for number in 0..CHAOTIC_CASES {
+    for number in 0..cases(CHAOTIC_CASES, 3) {
         let case = Case::record(&set_up, number).unwrap();
         let (options, effort) = (Options::default(), Effort::usual(&stop));
         let found = diagnose(&case.fitted, &case.held_out, &options, &effort, &|| ()).unwrap();
@@ -96,8 +102,8 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
         }
     }
     println!("{followed} of {chaotic}");
-    assert!(chaotic >= 3, "{chaotic}");
-    assert!(followed * 4 >= chaotic * 3, "{followed} of {chaotic}");
+    assert!(!long() || chaotic >= 3, "{chaotic}");
+    assert!(most(followed, chaotic), "{followed} of {chaotic}");
 }
 
 /// A load that drives the motor far away bends the linear fit by orders of magnitude; beside it the motor is as
@@ -106,7 +112,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
 fn a_strong_constant_load_is_named_and_nothing_else() {
     let set_up = hiding("load_torque");
     let stop = AtomicBool::new(false);
-    for number in 0..CASES {
+    for number in 0..cases(CASES, 3) {
         let case = Case::record(&set_up, number).unwrap();
         let diagnosis = diagnose(
             &case.fitted,

@@ -1,5 +1,4 @@
 //! Candidates computed side by side are the candidates computed one by one.
-#![forbid(unsafe_code)]
 
 use host::problem::abreast::Run;
 use host::problem::course::{Leg, Manner, legs};

@@ -1,5 +1,4 @@
 //! Residuals compressed while they come say what all of them together say, and a search led by them ends at the same place.
-#![forbid(unsafe_code)]
 
 use host::fit::{self, Options};
 use host::problem::simulate::{Method, Simulation};

@@ -1,5 +1,4 @@
 //! Quicker costs are the costs, and whoever only compares them decides the same.
-#![forbid(unsafe_code)]
 
 use host::paper::{BOX, Experiment, Variant, paper_problem};
 use host::problem::{Base, Data, FitProblem, Horizon, Quick, StartAngle, Structure};

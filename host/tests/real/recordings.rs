@@ -1,20 +1,11 @@
-//! Recordings measured by others, through the motor files in `tests/maps`. They are not part of the project:
-//! where they are missing the tests say so and pass.
+//! How recordings are read through the motor files in `tests/maps`.
 
-use std::path::Path;
-
-#[path = "real/folder.rs"]
-mod folder;
-
-use folder::folder;
-use host::input::{MotorFile, read_recording};
+use crate::source::{elsewhere, kept};
 use host::recording::{Drive, Recording};
+use testing::recordings::Kept;
 
-fn read(folder: &Path, file: &str, map: &str) -> Recording {
-    let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/maps");
-    let motor = MotorFile::read(&maps.join(map)).unwrap_or_else(|error| panic!("{error}"));
-    let recording =
-        read_recording(&folder.join(file), &motor).unwrap_or_else(|error| panic!("{error}"));
+/// Prints what a recording has, and holds it to what can be fitted at all.
+fn sound(file: &str, recording: Recording) -> Recording {
     recording
         .check_excited()
         .unwrap_or_else(|error| panic!("{error}"));
@@ -39,13 +30,14 @@ fn range(values: &[f64]) -> (f64, f64) {
 
 #[test]
 fn un_dcmotor_counts_sum_to_the_logged_differences() {
-    let Some(folder) = folder() else { return };
-    let recording = read(&folder, "un_dcmotor/prbs_open.csv", "un_dcmotor.toml");
+    let file = "un_dcmotor/prbs_open";
+    let recording = sound(file, kept(file));
     assert_eq!(recording.len(), 4093);
     assert!(recording.quantised);
     assert_eq!(recording.drive, Drive::Voltage);
     // The same log also holds the count differences as the firmware read them.
-    let text = std::fs::read_to_string(folder.join("un_dcmotor/prbs_open.csv")).unwrap();
+    let recordings = Kept::new();
+    let text = std::fs::read_to_string(recordings.unpack("un_dcmotor/prbs_open.csv")).unwrap();
     let logged = text
         .lines()
         .skip(2)
@@ -57,8 +49,11 @@ fn un_dcmotor_counts_sum_to_the_logged_differences() {
 
 #[test]
 fn emps_is_a_current_driven_axis_of_whole_counts() {
-    let Some(folder) = folder() else { return };
-    let recording = read(&folder, "emps/emps_train.csv", "emps.toml");
+    let file = "emps/emps_train";
+    let Some(recording) = elsewhere(file) else {
+        return;
+    };
+    let recording = sound(file, recording);
     assert_eq!(recording.len(), 24841);
     assert!(recording.quantised);
     assert_eq!(recording.drive, Drive::Current);
@@ -68,14 +63,10 @@ fn emps_is_a_current_driven_axis_of_whole_counts() {
 
 #[test]
 fn every_bam_recording_is_in_whole_counts_and_says_when_it_was_driven() {
-    let Some(folder) = folder() else { return };
     for motion in ["sin_time_square", "up_and_down"] {
         for gain in [100, 200, 400, 800] {
-            let recording = read(
-                &folder,
-                &format!("bam_xl330/{motion}_kp{gain}.csv"),
-                "bam_xl330.toml",
-            );
+            let file = format!("bam_xl330/{motion}_kp{gain}");
+            let recording = sound(&file, kept(&file));
             assert!(recording.quantised);
             assert_eq!(
                 recording.enabled.as_ref().map(Vec::len),
@@ -87,13 +78,22 @@ fn every_bam_recording_is_in_whole_counts_and_says_when_it_was_driven() {
 
 #[test]
 fn odrive_is_current_driven_and_its_observer_is_no_counter() {
-    let Some(folder) = folder() else { return };
-    let recording = read(
-        &folder,
-        "odrive_cogging/slow2_nocomp_0.csv",
-        "odrive_cogging.toml",
-    );
+    let file = "odrive_cogging/slow2_nocomp_0";
+    let recording = sound(file, kept(file));
     assert_eq!(recording.len(), 4306);
     assert_eq!(recording.drive, Drive::Current);
     assert_eq!(recording.command[0], 0.64064);
+}
+
+#[test]
+fn qube_is_in_whole_counts_and_turns_both_ways() {
+    for episode in ["00", "02"] {
+        let file = format!("qube/qube_{episode}");
+        let recording = sound(&file, kept(&file));
+        assert!(recording.quantised);
+        assert_eq!(recording.drive, Drive::Voltage);
+        assert!((recording.median_interval_s() - 0.002).abs() < 1e-6);
+        let (least, most) = range(&recording.counts);
+        assert!(least < 0.0 && most > 0.0, "{least} to {most}");
+    }
 }

@@ -1,29 +1,13 @@
-//! Fits of recordings measured by others: each error has a limit on both sides, since one that is
-//! suspiciously small would be as wrong as one that is too large. Skipped, and said so, where the
-//! recordings are missing.
+//! Fits: each error has a limit on both sides.
 
-#[path = "real/folder.rs"]
-mod folder;
-
-use folder::folder;
-use host::fit::{self, Fit, Options};
-use host::input::{MotorFile, read_recording};
+use crate::limits::within;
+use crate::source::{data, elsewhere, kept};
+use host::fit::{self, Fit, Options, scores};
 use host::problem::Data;
 use host::solve;
 use shared::effects::Kind;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
-
-fn data(folder: &Path, file: &str, map: &str) -> Data {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../tests/maps")
-        .join(map);
-    let motor = MotorFile::read(&map).unwrap_or_else(|error| panic!("{error}"));
-    let recording =
-        read_recording(&folder.join(file), &motor).unwrap_or_else(|error| panic!("{error}"));
-    Data::new(&recording).unwrap_or_else(|error| panic!("{error}"))
-}
 
 fn fitted(data: &Data, effects: &[Kind], window_s: f64) -> Fit {
     let options = Options {
@@ -58,8 +42,7 @@ fn check(name: &str, fit: &Fit, window: Range<f64>, equation: Range<f64>) {
 /// and 2.2 % with an offset or with Coulomb friction, which it cannot tell apart.
 #[test]
 fn un_dcmotor_needs_an_offset_or_coulomb_friction_and_cannot_say_which() {
-    let Some(folder) = folder() else { return };
-    let data = data(&folder, "un_dcmotor/prbs_open.csv", "un_dcmotor.toml");
+    let data = data(&kept("un_dcmotor/prbs_open"));
     check("linear", &fitted(&data, &[], 1.0), 7.0..9.0, 10.0..17.0);
     let offset = fitted(&data, &[Kind::OffsetVoltage], 1.0);
     let coulomb = fitted(&data, &[Kind::Coulomb], 1.0);
@@ -78,8 +61,10 @@ fn un_dcmotor_needs_an_offset_or_coulomb_friction_and_cannot_say_which() {
 /// 35.15065 N/V, friction 20.394 N.
 #[test]
 fn emps_falls_as_coulomb_friction_and_an_offset_join() {
-    let Some(folder) = folder() else { return };
-    let data = data(&folder, "emps/emps_train.csv", "emps.toml");
+    let Some(recording) = elsewhere("emps/emps_train") else {
+        return;
+    };
+    let data = data(&recording);
     check("linear", &fitted(&data, &[], 0.5), 9.0..12.0, 15.0..24.0);
     check(
         "with Coulomb friction",
@@ -103,4 +88,56 @@ fn emps_falls_as_coulomb_friction_and_an_offset_join() {
     println!("mass {mass:.2} kg (published 95.11), friction {friction:.2} N (published 20.39)");
     assert!((90.0..98.0).contains(&mass), "mass {mass} kg");
     assert!((18.0..24.0).contains(&friction), "friction {friction} N");
+}
+
+/// Known of this servo: the weight on its arm explains most of its drive, and friction that grows with the load most of what is left.
+/// The motions up and down hardly turn, and no fit of them starts; what was fitted to the other motion is held to them.
+#[test]
+fn bam_xl330_lifts_its_weight_at_every_gain() {
+    for (gain, weight, friction, fall) in [
+        (100, 17.0..29.0, 1.5..4.5, 5.0..20.0),
+        (200, 20.0..35.0, 1.5..4.5, 5.0..20.0),
+        (400, 25.0..44.0, 2.0..6.0, 5.0..20.0),
+        (800, 33.0..57.0, 2.5..7.5, 5.0..20.0),
+    ] {
+        let data_of = |motion: &str| data(&kept(&format!("bam_xl330/{motion}_kp{gain}")));
+        let (turning, standing) = (data_of("sin_time_square"), data_of("up_and_down"));
+        let held_out = |fit: &Fit| {
+            let options = Options {
+                window_s: Some(0.5),
+                ..Options::default()
+            };
+            let error = scores::windowed(&standing, &fit.candidate, &options);
+            error.expect("long enough").rms_counts
+        };
+        let lifted = fitted(&turning, &[Kind::Unbalance], 0.5);
+        let rubbed = fitted(&turning, &[Kind::Unbalance, Kind::LoadFriction], 0.5);
+        let (before, after) = (held_out(&lifted), held_out(&rubbed));
+        println!("gain {gain}, held out: weight {before:.1}, friction besides {after:.1} counts");
+        let name = |what: &str| format!("gain {gain}, {what}");
+        check(&name("weight"), &lifted, weight, 20.0..70.0);
+        check(&name("friction besides"), &rubbed, friction, 4.0..13.0);
+        within(&name("fall of what is held out"), before / after, fall);
+    }
+}
+
+/// Known of this plant: a pendulum pushes the shaft about, which no model of a motor has. A tenth of a second is followed, and what is
+/// said of the motor has wide margins.
+#[test]
+fn qube_is_followed_for_a_moment_only_and_its_gain_is_uncertain() {
+    for (episode, window) in [("00", 20.0..40.0), ("02", 12.0..25.0)] {
+        let data = data(&kept(&format!("qube/qube_{episode}")));
+        let fit = fitted(&data, &[], 0.1);
+        check(&format!("episode {episode}"), &fit, window, 20.0..90.0);
+        let gain = fit
+            .parameters
+            .iter()
+            .find(|p| p.name == "gain")
+            .expect("fitted");
+        println!("gain {} +- {:?}", gain.value, gain.std);
+        assert!(
+            gain.std.is_none_or(|std| std > 0.3 * gain.value.abs()),
+            "{gain:?}"
+        );
+    }
 }

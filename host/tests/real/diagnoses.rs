@@ -1,34 +1,12 @@
-//! Diagnoses of recordings measured by others: what is named, and errors with limits on both sides, since one
-//! that is suspiciously small would be as wrong as one that is too large. Skipped, and said so, where the
-//! recordings are missing.
+//! Diagnoses: what is named, and errors with limits on both sides.
 
-#[path = "real/folder.rs"]
-mod folder;
-
-use folder::folder;
-use host::diagnose::steady;
+use crate::limits::within;
+use crate::source::{data, elsewhere, kept};
 use host::diagnose::{Diagnosis, Effort, Refit, Verdict, diagnose};
 use host::fit::{Options, scores};
-use host::input::SteadyCurve;
-use host::input::{MotorFile, read_recording};
 use host::problem::Data;
-use host::recording::Recording;
 use shared::effects::Kind;
-use std::ops::Range;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
-
-fn recording(folder: &Path, file: &str, map: &str) -> Recording {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../tests/maps")
-        .join(map);
-    let motor = MotorFile::read(&map).unwrap_or_else(|error| panic!("{error}"));
-    read_recording(&folder.join(file), &motor).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn data(recording: &Recording) -> Data {
-    Data::new(recording).unwrap_or_else(|error| panic!("{error}"))
-}
 
 /// Diagnoses with the horizon that is chosen when nobody asks for one, and prints what came out.
 fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
@@ -106,20 +84,14 @@ fn equation(data: &Data, refit: &Refit) -> f64 {
     scores::equation_error(data, &refit.candidate).map_or(f64::NAN, |e| 100.0 * e.abs())
 }
 
-fn within(what: &str, value: f64, limits: Range<f64>) {
-    assert!(
-        limits.contains(&value),
-        "{what}: {value}, expected {limits:?}"
-    );
-}
-
 /// Known of this log: free runs over 0.5 s err by 10.9 % of the motion with the linear model, 6.1 % with
 /// Coulomb friction, 2.2 % with an offset besides, and 0.84 % where viscous friction of two sizes takes the
 /// offset's place.
 #[test]
 fn emps_has_coulomb_friction_and_viscous_friction_of_two_sizes() {
-    let Some(folder) = folder() else { return };
-    let whole = recording(&folder, "emps/emps_train.csv", "emps.toml");
+    let Some(whole) = elsewhere("emps/emps_train") else {
+        return;
+    };
     let (fitted, held_out) = whole.split_at(17.0).expect("long enough");
     let (fitted, held_out) = (data(&fitted), data(&held_out));
     let diagnosis = diagnosed(&fitted, &held_out);
@@ -146,10 +118,8 @@ fn emps_has_coulomb_friction_and_viscous_friction_of_two_sizes() {
 /// 19 %, friction that grows with the load to 15 %; free runs over windows err by 90, 35, 23.5 and 11 %.
 #[test]
 fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() {
-    let Some(folder) = folder() else { return };
-    let read = |file: &str| data(&recording(&folder, file, "bam_xl330.toml"));
-    let fitted = read("bam_xl330/sin_time_square_kp400.csv");
-    let held_out = read("bam_xl330/up_and_down_kp400.csv");
+    let fitted = data(&kept("bam_xl330/sin_time_square_kp400"));
+    let held_out = data(&kept("bam_xl330/up_and_down_kp400"));
     let diagnosis = diagnosed(&fitted, &held_out);
     assert!(diagnosis.span.window_s.is_some());
     let named: Vec<Kind> = diagnosis.steps.iter().map(|step| step.added).collect();
@@ -173,8 +143,7 @@ fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() 
 /// The motor never reverses here: an offset, a load and dry friction say the same, and none may be named.
 #[test]
 fn un_dcmotor_cannot_tell_an_offset_from_a_load_or_friction() {
-    let Some(folder) = folder() else { return };
-    let whole = recording(&folder, "un_dcmotor/prbs_open.csv", "un_dcmotor.toml");
+    let whole = kept("un_dcmotor/prbs_open");
     let (fitted, held_out) = whole.split_at(55.0).expect("long enough");
     let diagnosis = diagnosed(&data(&fitted), &data(&held_out));
     assert_eq!(diagnosis.verdict, Verdict::Inconclusive);
@@ -207,12 +176,7 @@ fn un_dcmotor_cannot_tell_an_offset_from_a_load_or_friction() {
 /// Known of this motor: the current that holds each position repeats 7, 28 and 14 times a revolution.
 #[test]
 fn odrive_has_cogging_of_the_orders_that_hold_it() {
-    let Some(folder) = folder() else { return };
-    let whole = recording(
-        &folder,
-        "odrive_cogging/slow2_nocomp_0.csv",
-        "odrive_cogging.toml",
-    );
+    let whole = kept("odrive_cogging/slow2_nocomp_0");
     let (fitted, held_out) = whole.split_at(6.5).expect("long enough");
     let diagnosis = diagnosed(&data(&fitted), &data(&held_out));
     // What turns it at constant speed against friction comes first; it turns one way only.
@@ -234,25 +198,4 @@ fn odrive_has_cogging_of_the_orders_that_hold_it() {
     within("order 28", amplitude(28), 0.15..0.3);
     within("order 14", amplitude(14), 0.15..0.3);
     within("unexplained", spectrum.unexplained, 0.08..0.2);
-}
-
-/// Known of these curves: a constant drop takes the error from 0.60 to 0.15 % and from 2.05 to 0.39 %.
-#[test]
-fn bam_mx_static_has_a_constant_drop_that_nothing_can_be_named_for() {
-    let Some(folder) = folder() else { return };
-    for (file, drop_v, linear, left) in [("mx64", 0.110, 0.60, 0.15), ("mx106", 0.425, 2.05, 0.39)]
-    {
-        let path = folder.join(format!("bam_mx_static/{file}_noload_speed.csv"));
-        let curve = SteadyCurve::read(&path).unwrap_or_else(|error| panic!("{error}"));
-        let diagnosis = steady::diagnose(&curve).unwrap_or_else(|error| panic!("{error}"));
-        println!("{file}: {diagnosis:?}");
-        let near = |value: f64| 0.8 * value..1.2 * value;
-        within("drop", diagnosis.with_drop.drop_v, near(drop_v));
-        within("linear", 100.0 * diagnosis.linear.relative, near(linear));
-        within("rest", 100.0 * diagnosis.with_drop.relative, near(left));
-        assert_eq!(diagnosis.verdict, Verdict::Inconclusive);
-        for kind in [Kind::Coulomb, Kind::BrushDrop, Kind::DeadZone] {
-            assert!(diagnosis.indistinguishable.contains(&kind), "{kind:?}");
-        }
-    }
 }

@@ -1,0 +1,15 @@
+//! Laws of the library, each over a list: of recordings, effects, motors, drawn cases. One program, since each links the whole host.
+#![forbid(unsafe_code)]
+
+mod bad_motor_files;
+mod bad_recordings;
+mod compressed;
+mod drawn_diagnoses;
+mod effects_match_bench;
+mod lanes;
+mod paper_contest;
+mod plans;
+mod quick_costs;
+mod reader_laws;
+mod threads;
+mod whole_files;
