@@ -15,14 +15,18 @@
 //! | `download` | what may be taken away as a file |
 //! | `words` | what was written for a terminal, in the words of a page |
 //! | `routes`, `guard` | what the page may ask, and who may ask |
+//! | `opened`, `begun`, `answer` | what it puts on the bench, the work that it begins, and how it is answered |
 //! | `server` | listening and stopping |
 
+mod answer;
+mod begun;
 mod blind;
 mod download;
 mod guard;
 mod job;
 mod loaded;
 mod model;
+mod opened;
 mod preview;
 mod routes;
 mod server;

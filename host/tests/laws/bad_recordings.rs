@@ -1,8 +1,6 @@
 //! Recordings that must be refused, and the words that must tell the user where and what to do.
 
-use std::io::{BufReader, Cursor, Read};
-
-use host::input::{MAX_LINE_BYTES, MotorFile, read_recording, read_recording_from};
+use host::input::{MotorFile, read_recording, read_recording_from};
 
 const HEADER: &str = "t_s,voltage_v,angle_counts\n";
 
@@ -276,60 +274,6 @@ fn a_current_drive_is_told_to_map_its_current() {
 }
 
 #[test]
-fn what_is_no_text_is_refused() {
-    let utf16: Vec<u8> = "t_s,voltage_v\n"
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    for bytes in [
-        &b"\x7fELF\x02\x01\x01\x00\x00\n"[..],
-        b"\xff\xfet\x00_\x00s\x00\n",
-        b"t_s,\xb0\n",
-        &utf16,
-    ] {
-        let message = message(bytes, "counts_per_rev = 4");
-        assert!(
-            message.starts_with("rec.csv:1: this is not UTF-8 text"),
-            "{message}"
-        );
-    }
-    let message = message(
-        b"t_s,voltage_v,angle_counts\n0,\xb0,1\n",
-        "counts_per_rev = 4",
-    );
-    assert!(
-        message.starts_with("rec.csv:2:2: column `voltage_v`: this is not UTF-8 text"),
-        "{message}"
-    );
-}
-
-#[test]
-fn an_endless_line_is_refused_before_it_fills_memory() {
-    for byte in [b'1', b',', b'"', 0] {
-        let endless = std::io::repeat(byte);
-        let motor = MotorFile::default();
-        let error = read_recording_from(BufReader::new(endless), "rec.csv", &motor).unwrap_err();
-        let message = error.to_string();
-        assert!(
-            message.starts_with("rec.csv:1: the line does not end within 1048576 bytes"),
-            "{message}"
-        );
-    }
-    let open_quote = Cursor::new(format!("{HEADER}0,1,\""));
-    let endless = open_quote.chain(std::io::repeat(b'\n'));
-    let motor = MotorFile {
-        counts_per_rev: Some(4.0),
-        ..MotorFile::default()
-    };
-    let error = read_recording_from(BufReader::new(endless), "rec.csv", &motor).unwrap_err();
-    assert!(
-        error.to_string().starts_with("rec.csv:2: a quote"),
-        "{error}"
-    );
-    assert_eq!(MAX_LINE_BYTES, 1_048_576);
-}
-
-#[test]
 fn a_folder_and_a_missing_file_are_told_apart() {
     let folder = tempfile::tempdir().unwrap();
     let motor = MotorFile::default();
@@ -362,61 +306,4 @@ fn a_flag_that_has_no_meaning_is_refused() {
             "{message}"
         );
     }
-}
-
-/// Rows that are sound but hold nothing to fit.
-const UNEXCITED: &[(&str, &str)] = &[
-    (
-        "0,0,0\n1,0,50\n2,0,90\n",
-        "the command is zero in every row",
-    ),
-    (
-        "0,1,7\n1,1,7\n2,1,7\n",
-        "the encoder reads 7 counts in every row: it never moved",
-    ),
-    (
-        "0,1,0\n1,1,4\n2,1,9\n",
-        "the encoder moved only 9 counts; at least 10 are needed",
-    ),
-    (
-        "0,1,65000\n1,1,65500\n2,1,300\n",
-        "at t = 2 s, as a 16-bit counter does",
-    ),
-    (
-        "0,1,-32000\n1,1,32700\n2,1,300\n",
-        "at t = 1 s, as a 16-bit counter does",
-    ),
-    (
-        "0,1,2147483000\n1,1,-2147483000\n",
-        "at t = 1 s, as a 32-bit counter does",
-    ),
-];
-
-#[test]
-fn a_recording_without_a_response_says_what_is_missing() {
-    let motor = MotorFile {
-        counts_per_rev: Some(2048.0),
-        ..MotorFile::default()
-    };
-    for (rows, says) in UNEXCITED {
-        let text = format!("{HEADER}{rows}");
-        let recording = read_recording_from(text.as_bytes(), "rec.csv", &motor).unwrap();
-        let message = recording.check_excited().unwrap_err().to_string();
-        assert!(
-            message.starts_with("rec.csv: ") && message.contains(says),
-            "{message}"
-        );
-    }
-    let coasting = "t_s,voltage_v,angle_counts,enabled\n0,5,0,0\n1,5,50,0\n2,0,90,1\n";
-    let recording = read_recording_from(coasting.as_bytes(), "rec.csv", &motor).unwrap();
-    assert!(
-        recording
-            .check_excited()
-            .unwrap_err()
-            .to_string()
-            .contains("while the bridge is driven")
-    );
-    let fine = format!("{HEADER}0,1,0\n1,1,40000\n2,1,80000\n");
-    let recording = read_recording_from(fine.as_bytes(), "rec.csv", &motor).unwrap();
-    assert!(recording.check_excited().is_ok());
 }
