@@ -11,6 +11,7 @@ pub const REACTION_US: u32 = 20_000;
 
 /// A limit that was broken, and by what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tripped {
     /// Which one.
     pub fault: Fault,

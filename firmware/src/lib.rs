@@ -8,7 +8,7 @@
 //! - [`proof`]: what the PC and a microcontroller must compute alike
 //! - [`trials`]: everything that can go wrong, tried out on a bench in memory, on a PC and on a microcontroller
 //! - [`count`]: what a microcontroller's arithmetic costs, in instructions
-//! - [`trail`]: phases and faults for somebody at a debugger, by defmt
+//! - [`log`]: phases, refusals and faults for somebody at a debugger, by defmt
 //! - [`bringup`]: another program for the same boards, for their first power-up
 #![cfg_attr(target_os = "none", no_std)]
 // Unsafe code is only on a microcontroller: what the compiler or the chip finds by its name or section, and the macros that
@@ -24,8 +24,8 @@ pub mod emulator;
 pub mod guard;
 #[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
 mod halt;
+pub mod log;
 pub mod phase;
 pub mod plant;
 pub mod proof;
-pub mod trail;
 pub mod trials;

@@ -16,6 +16,7 @@ pub use shared::wire::Fault;
 
 /// What the device is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
     /// Waits for a start; the bridge is open.
     Idle,
@@ -25,7 +26,7 @@ pub enum Phase {
     Excite,
     /// Plays a short one from standstill, and keeps the duty and the count of every period.
     Record,
-    /// Fits the model to the log; the bridge is open and the motor coasts.
+    /// Fits the model to the recording; the bridge is open and the motor coasts.
     Fit,
     /// Drives a recording that the fit has not seen, and compares it with the model's prediction.
     Verify,

@@ -1,6 +1,6 @@
 //! Whole runs of the application on the PC: against a motor that obeys, and against everything that can go wrong.
 
-use firmware::app::{Log, Memory};
+use firmware::app::{Memory, Recording};
 use firmware::phase::{Fault, Phase};
 use firmware::plant::{Motor, SMALL};
 use firmware::trials::{self, bench::Bench};
@@ -14,7 +14,7 @@ use std::ops::{Deref, DerefMut};
 /// A host and a device that lives as long as the test, and all that it has said.
 struct Host<S: Arithmetic> {
     host: trials::host::Host<'static, S, 2000>,
-    heard: Vec<ToHost>,
+    received: Vec<ToHost>,
 }
 
 impl<S: Arithmetic> Deref for Host<S> {
@@ -34,17 +34,20 @@ impl<S: Arithmetic> DerefMut for Host<S> {
 impl<S: Arithmetic> Host<S> {
     fn new(motor: Motor) -> Self {
         let bench = Box::leak(Box::new(RefCell::new(Bench::new(motor))));
-        let (memory, log) = (Box::leak(Box::default()), Box::leak(Box::new(Log::new())));
+        let (memory, recording) = (
+            Box::leak(Box::default()),
+            Box::leak(Box::new(Recording::new())),
+        );
         Host {
-            host: trials::host::Host::new(bench, memory, log),
-            heard: Vec::new(),
+            host: trials::host::Host::new(bench, memory, recording),
+            received: Vec::new(),
         }
     }
 
     /// One period; what the device said is kept.
     fn period(&mut self) {
-        let Host { host, heard } = self;
-        host.period(|message| heard.push(message));
+        let Host { host, received } = self;
+        host.period(|message| received.push(message));
         assert_eq!(host.drove_in, None);
     }
 
@@ -69,7 +72,7 @@ impl<S: Arithmetic> Host<S> {
             };
             mischief(&mut self.bench.borrow_mut(), phase, in_phase.1);
             self.period();
-            match self.heard.last() {
+            match self.received.last() {
                 Some(ToHost::Report(report)) => return Ok(report.clone()),
                 Some(ToHost::Failed(failure)) => return Err(failure.clone()),
                 _ => {}
@@ -95,7 +98,7 @@ impl<S: Arithmetic> Host<S> {
 
     fn rows(&self, stage: Stage) -> Vec<Row> {
         let mut rows = Vec::new();
-        for message in &self.heard {
+        for message in &self.received {
             if let ToHost::Rows(batch) = message
                 && batch.stage == stage
             {
@@ -240,7 +243,7 @@ fn it_does_not_matter_how_long_after_a_periods_end_the_carrier_takes_the_duty_ov
 fn whatever_goes_wrong_in_whichever_phase_the_bridge_opens_and_the_cause_is_reported() {
     fn all<S: Arithmetic>() {
         let mut text = String::new();
-        let failed = trials::run::<S>(&mut text, &mut Memory::new(), &mut Log::new());
+        let failed = trials::run::<S>(&mut text, &mut Memory::new(), &mut Recording::new());
         println!("{text}");
         assert_eq!(failed, Ok(0), "{text}");
     }
@@ -251,40 +254,40 @@ fn whatever_goes_wrong_in_whichever_phase_the_bridge_opens_and_the_cause_is_repo
 #[test]
 fn nothing_moves_without_the_nonce_of_a_fresh_arming() {
     let mut host = Host::<f32>::new(SMALL);
-    host.say(&ToDevice::Start {
+    host.send(&ToDevice::Start {
         nonce: 0,
         job: job(),
     });
     host.period();
     assert!(matches!(
-        host.heard.last(),
+        host.received.last(),
         Some(ToHost::Refused(Refusal::NotArmed))
     ));
-    host.say(&ToDevice::Arm);
+    host.send(&ToDevice::Arm);
     host.period();
-    let Some(ToHost::Armed { nonce, periods }) = host.heard.last().cloned() else {
-        panic!("{:?}", host.heard.last());
+    let Some(ToHost::Armed { nonce, periods }) = host.received.last().cloned() else {
+        panic!("{:?}", host.received.last());
     };
-    host.say(&ToDevice::Start {
+    host.send(&ToDevice::Start {
         nonce: nonce ^ 1,
         job: job(),
     });
-    host.say(&ToDevice::Start { nonce, job: job() });
+    host.send(&ToDevice::Start { nonce, job: job() });
     host.period();
     assert_eq!(
         host.app.phase(),
         Phase::Idle,
         "a wrong nonce uses the arming up"
     );
-    host.say(&ToDevice::Arm);
+    host.send(&ToDevice::Arm);
     host.period();
-    let Some(ToHost::Armed { nonce, .. }) = host.heard.last().cloned() else {
-        panic!("{:?}", host.heard.last());
+    let Some(ToHost::Armed { nonce, .. }) = host.received.last().cloned() else {
+        panic!("{:?}", host.received.last());
     };
     for _ in 0..=periods {
         host.period();
     }
-    host.say(&ToDevice::Start { nonce, job: job() });
+    host.send(&ToDevice::Start { nonce, job: job() });
     host.period();
     assert_eq!(host.app.phase(), Phase::Idle, "an old nonce");
 }

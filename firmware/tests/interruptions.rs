@@ -1,6 +1,6 @@
 //! A thousand interruptions of the link during commissionings: silence, noise, cut frames, frames that come twice or late.
 
-use firmware::app::{Log, Memory};
+use firmware::app::{Memory, Recording};
 use firmware::phase::{Bridge, Phase};
 use firmware::plant::SMALL;
 use firmware::trials::{RECORD, bench::Bench, host::Host};
@@ -53,7 +53,7 @@ struct Known {
 }
 
 impl Known {
-    fn hear(&mut self, message: ToHost) {
+    fn receive(&mut self, message: ToHost) {
         match message {
             ToHost::Rows(rows) if rows.stage == Stage::Record => {
                 for (k, row) in rows.rows.iter().enumerate() {
@@ -112,7 +112,7 @@ struct Table<'b> {
 }
 
 impl Table<'_> {
-    fn say(&mut self, message: &ToDevice) {
+    fn send(&mut self, message: &ToDevice) {
         let mut buffer = [0; LONGEST_FRAME];
         let frame = encode(message, &mut buffer).unwrap();
         self.said.extend_from_slice(frame);
@@ -154,7 +154,7 @@ impl Table<'_> {
 
     fn period(&mut self, disturbed: Option<Kind>) {
         if self.host.bench.borrow().period.is_multiple_of(100) {
-            self.say(&ToDevice::Alive);
+            self.send(&ToDevice::Alive);
         }
         let waiting: Vec<u8> = self
             .host
@@ -199,7 +199,7 @@ impl Table<'_> {
         );
         for byte in self.passes(said, disturbed, false) {
             if let Some(message) = self.inbox.push(byte) {
-                self.known.hear(message);
+                self.known.receive(message);
             }
         }
     }
@@ -208,9 +208,9 @@ impl Table<'_> {
 /// One run with interruptions; says whether it succeeded.
 fn run(seed: u64) -> bool {
     let bench = RefCell::new(Bench::new(firmware::plant::Motor { ..SMALL }));
-    let (mut memory, mut log) = (Memory::<f32>::new(), Log::<RECORD>::new());
+    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<RECORD>::new());
     let mut table = Table {
-        host: Host::new(&bench, &mut memory, &mut log),
+        host: Host::new(&bench, &mut memory, &mut recording),
         rng: rng::seeded(seed),
         inbox: Deframer::new(),
         known: Known::default(),
@@ -226,10 +226,10 @@ fn run(seed: u64) -> bool {
             (kind, at, at + 1 + rng::below(&mut table.rng, longest))
         })
         .collect();
-    table.say(&ToDevice::Arm);
+    table.send(&ToDevice::Arm);
     table.period(None);
     let nonce = table.known.armed.expect("armed over a whole link");
-    table.say(&ToDevice::Start { nonce, job: job() });
+    table.send(&ToDevice::Start { nonce, job: job() });
     table.period(None);
     assert_eq!(table.host.app.phase(), Phase::Probe);
 
@@ -266,7 +266,7 @@ fn run(seed: u64) -> bool {
         assert_eq!(report.outcome, Some(again), "the host repeats the fit");
     }
     // Nothing that was said during the run moves the motor again.
-    table.say(&ToDevice::Hello);
+    table.send(&ToDevice::Hello);
     table.period(None);
     for now in 0..600 {
         table.period((now < 300).then_some(Kind::Late));
@@ -282,7 +282,7 @@ fn fetch(table: &mut Table<'_>) {
             return;
         }
         let first = (0..).find(|k| !table.known.rows.contains_key(k)).unwrap();
-        table.say(&ToDevice::Resend { first });
+        table.send(&ToDevice::Resend { first });
         table.period(None);
     }
     panic!("{} of {RECORD} periods", table.known.rows.len());

@@ -1,6 +1,6 @@
 //! The periods in which the bridge is closed: brake until the shaft rests, play a script, look at every period, keep it.
 
-use super::log::Batch;
+use super::recording::Batch;
 use super::script::{Script, Which};
 use super::{App, Work};
 use crate::board::Board;
@@ -161,7 +161,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         if self.phase == Phase::Record {
-            self.log.push(duty, step);
+            self.recording.push(duty, step);
         }
         if self.phase == Phase::Verify
             && let Some(verified) = &mut self.report.verified

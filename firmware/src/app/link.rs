@@ -1,9 +1,10 @@
 //! What the application says to the host and takes from it: who it is, arming and starting, the recording once more.
 
-use super::log::Batch;
+use super::recording::Batch;
 use super::{App, NO_REPORT};
 use crate::board::Board;
 use crate::guard::Guard;
+use crate::log;
 use crate::phase::{Event, Fault, Phase};
 use shared::fit::Arithmetic;
 use shared::rng::Rng;
@@ -16,14 +17,14 @@ const ARMED_US: u32 = 5_000_000;
 const SILENCE_US: u32 = 500_000;
 
 impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
-    pub(super) fn listen(&self) -> Result<(), Fault> {
+    pub(super) fn check_link(&self) -> Result<(), Fault> {
         if self.silence > Self::periods(SILENCE_US) {
             return Err(Fault::LinkLost);
         }
         Ok(())
     }
 
-    pub(super) fn hear(&mut self) {
+    pub(super) fn receive(&mut self) {
         // No more than a period brings at any baud rate we use: a babbling line cannot hold the period up.
         for _ in 0..256 {
             let Some(byte) = self.board.receive() else {
@@ -31,13 +32,13 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             };
             if let Some(message) = self.memory.inbox.push(byte) {
                 self.silence = 0;
-                self.obey(message);
+                self.handle(message);
             }
         }
     }
 
     #[inline(never)]
-    pub(super) fn obey(&mut self, message: ToDevice) {
+    pub(super) fn handle(&mut self, message: ToDevice) {
         match message {
             ToDevice::Hello => {
                 self.acknowledged();
@@ -97,6 +98,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
 
     #[inline(never)]
     pub(super) fn refuse(&mut self, refusal: Refusal) {
+        log::refused(refusal);
         self.memory.outbox.post(&ToHost::Refused(refusal));
     }
 
@@ -113,7 +115,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
 
     #[inline(never)]
     pub(super) fn resend(&mut self, first: u32) {
-        let trace = self.log.trace();
+        let trace = self.recording.trace();
         let mut batch = Batch::resumed(first);
         for (duty, step) in trace.iter().skip(first as usize) {
             let row = Row {
@@ -152,7 +154,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
         self.at = 0;
         self.begun_at = self.count;
-        self.log.clear();
+        self.recording.clear();
         self.report = NO_REPORT;
         self.failure = None;
         self.guard = Some(Guard::new(
@@ -161,6 +163,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             self.board.full(),
             self.count,
         ));
+        log::started(&job);
         self.job = Some(job);
         if let Ok(phase) = self.phase.after(Event::Start) {
             self.enter(phase);

@@ -16,22 +16,22 @@
 //! | `drive` | periods with the bridge closed: brake, play, look, keep |
 //! | `rest` | periods with it open: fit, tell how it ended |
 //! | `script` | which duty comes next |
-//! | `log`, `outbox` | what a run leaves behind; bytes on their way |
+//! | `recording`, `outbox` | what a run leaves behind; bytes on their way |
 
 mod drive;
 mod link;
-mod log;
 mod outbox;
+mod recording;
 mod rest;
 mod script;
 
 use crate::board::Board;
 use crate::guard::{Guard, Tripped};
+use crate::log;
 use crate::phase::{Bridge, Event, Fault, Phase};
-use crate::trail;
-use log::Batch;
-pub use log::Log;
 use outbox::Outbox;
+use recording::Batch;
+pub use recording::Recording;
 pub use script::{Plan, Script, Which};
 use shared::fit::{Arithmetic, Fit};
 use shared::rng::{self, Rng};
@@ -62,7 +62,7 @@ enum Work {
     Fitted,
 }
 
-/// The large part of the application's memory but for the [`Log`], apart so that a `static` can hold it: an application
+/// The large part of the application's memory but for the [`Recording`], apart so that a `static` can hold it: an application
 /// that is moved once stands on the stack once more. Empty it is all zeros, which takes no flash.
 #[derive(Debug)]
 pub struct Memory<S: Arithmetic> {
@@ -90,12 +90,12 @@ impl<S: Arithmetic> Default for Memory<S> {
     }
 }
 
-/// A board that is taken through the phases, fitting in `S` what its log of `N` periods holds.
+/// A board that is taken through the phases, fitting in `S` what its recording of `N` periods holds.
 #[derive(Debug)]
 pub struct App<'m, B, S: Arithmetic, const N: usize> {
     board: B,
     memory: &'m mut Memory<S>,
-    log: &'m mut Log<N>,
+    recording: &'m mut Recording<N>,
     phase: Phase,
     work: Work,
     nonces: rng::Generator,
@@ -130,13 +130,13 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
     /// Takes the board over, opens its bridge and waits in [`Phase::Idle`].
     // Out of line: made and moved in one place, it would stand on the stack twice for good.
     #[inline(never)]
-    pub fn new(mut board: B, memory: &'m mut Memory<S>, log: &'m mut Log<N>) -> Self {
+    pub fn new(mut board: B, memory: &'m mut Memory<S>, recording: &'m mut Recording<N>) -> Self {
         let mut nonces = rng::seeded(u64::from(board.entropy()));
         let boot = nonces.next_u32();
         let mut app = Self {
             board,
             memory,
-            log,
+            recording,
             phase: Phase::Idle,
             work: Work::Rest,
             nonces,
@@ -178,7 +178,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.repeat = self.repeat.saturating_add(1);
         self.at = self.at.saturating_add(1);
         if self.phase.bridge() == Bridge::Driven {
-            match ticked.and_then(|()| self.listen()) {
+            match ticked.and_then(|()| self.check_link()) {
                 Ok(()) => self.drive(),
                 Err(fault) => self.fail(fault),
             }
@@ -188,7 +188,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             self.rest(ticked.is_ok());
         }
         // After the drive: it must not come late because the host has much to say. A stop opens the bridge here.
-        self.hear();
+        self.receive();
         let (outbox, board) = (&mut self.memory.outbox, &mut self.board);
         outbox.flush(|bytes| board.send(bytes));
     }
@@ -225,7 +225,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         if !matches!(self.phase, Phase::Report(Err(_))) {
             self.failure = Some(tripped);
             self.failed_in = (self.phase, self.at);
-            trail::tripped(&tripped, self.phase, self.at);
+            log::tripped(&tripped, self.phase, self.at);
             self.send_rows();
         }
         self.phase.failed(tripped.fault)
@@ -260,7 +260,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
         let changed = phase != self.phase;
         if changed {
-            trail::entered(phase);
+            log::entered(phase);
         }
         self.phase = phase;
         self.work = match (phase.bridge(), phase, self.job) {
@@ -272,7 +272,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 Work::Brake { still: 0, all: 0 }
             }
             (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
-                if !self.memory.fit.begin(&self.log.trace(), job.fit) {
+                if !self.memory.fit.begin(&self.recording.trace(), job.fit) {
                     return Some(self.failed_by(Tripped::by(Fault::NothingToFit)));
                 }
                 Work::Fit

@@ -37,7 +37,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     #[inline(never)]
     pub(super) fn fit(&mut self) {
         let Memory { fit, outbox, .. } = &mut *self.memory;
-        if let Some(outcome) = fit.work(&self.log.trace(), B::SLICE) {
+        if let Some(outcome) = fit.work(&self.recording.trace(), B::SLICE) {
             return self.fitted_to(outcome);
         }
         if self.repeat >= Self::periods(PROGRESS_US) {

@@ -3,12 +3,12 @@
 
 #[cfg(target_os = "none")]
 mod image {
-    use firmware::app::{App, Log, Memory};
-    use firmware::board::{Fitted, LOG, Number};
+    use firmware::app::{App, Memory, Recording};
+    use firmware::board::{CAPACITY, Fitted, Number};
     use static_cell::ConstStaticCell;
 
     static MEMORY: ConstStaticCell<Memory<Number>> = ConstStaticCell::new(Memory::new());
-    static RECORDING: ConstStaticCell<Log<LOG>> = ConstStaticCell::new(Log::new());
+    static RECORDING: ConstStaticCell<Recording<CAPACITY>> = ConstStaticCell::new(Recording::new());
 
     #[cortex_m_rt::entry]
     fn main() -> ! {

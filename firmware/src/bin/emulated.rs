@@ -8,7 +8,7 @@
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let board = firmware::board::qemu::Qemu::start();
-    let mut app = firmware::app::App::new(board, MEMORY.take(), LOG.take());
+    let mut app = firmware::app::App::new(board, MEMORY.take(), RECORDING.take());
     loop {
         app.period();
     }
@@ -18,8 +18,8 @@ fn main() -> ! {
 static MEMORY: static_cell::ConstStaticCell<firmware::app::Memory<f32>> =
     static_cell::ConstStaticCell::new(firmware::app::Memory::new());
 #[cfg(target_os = "none")]
-static LOG: static_cell::ConstStaticCell<firmware::app::Log<2000>> =
-    static_cell::ConstStaticCell::new(firmware::app::Log::new());
+static RECORDING: static_cell::ConstStaticCell<firmware::app::Recording<2000>> =
+    static_cell::ConstStaticCell::new(firmware::app::Recording::new());
 
 #[cfg(not(target_os = "none"))]
 fn main() {
@@ -35,8 +35,8 @@ fn main() {
         std::process::exit(1);
     });
     let mut memory = firmware::app::Memory::<f32>::new();
-    let mut log = firmware::app::Log::<2000>::new();
-    let mut app = firmware::app::App::new(board, &mut memory, &mut log);
+    let mut recording = firmware::app::Recording::<2000>::new();
+    let mut app = firmware::app::App::new(board, &mut memory, &mut recording);
     while !app.board().is_gone() {
         app.period();
     }

@@ -2,7 +2,7 @@
 //! the application fits in f32 if there is a floating-point unit, in fixed point if there is none. `scripts/proof` runs it.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use firmware::app::{Log, Memory};
+use firmware::app::{Memory, Recording};
 use firmware::trials;
 
 #[cfg(target_abi = "eabihf")]
@@ -20,7 +20,7 @@ fn main() -> ! {
     } else {
         cortex_m_semihosting::hio::hstdout()
     };
-    let ran = out.map(|mut out| trials::run(&mut out, memory, LOG.take()));
+    let ran = out.map(|mut out| trials::run(&mut out, memory, RECORDING.take()));
     firmware::emulator::end(matches!(ran, Ok(Ok(0))))
 }
 
@@ -28,13 +28,17 @@ fn main() -> ! {
 static MEMORY: static_cell::ConstStaticCell<Memory<Format>> =
     static_cell::ConstStaticCell::new(Memory::new());
 #[cfg(target_os = "none")]
-static LOG: static_cell::ConstStaticCell<Log<{ trials::RECORD }>> =
-    static_cell::ConstStaticCell::new(Log::new());
+static RECORDING: static_cell::ConstStaticCell<Recording<{ trials::RECORD }>> =
+    static_cell::ConstStaticCell::new(Recording::new());
 
 #[cfg(not(target_os = "none"))]
 fn main() -> std::process::ExitCode {
     let mut text = String::new();
-    let failed = trials::run(&mut text, &mut Memory::<Format>::new(), &mut Log::new());
+    let failed = trials::run(
+        &mut text,
+        &mut Memory::<Format>::new(),
+        &mut Recording::new(),
+    );
     print!("{text}");
     if failed == Ok(0) {
         std::process::ExitCode::SUCCESS

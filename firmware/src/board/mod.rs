@@ -36,9 +36,9 @@ pub mod stm32g431;
 
 // The board that this build is for, the number that its application fits in, and the periods that it can.
 #[cfg(all(target_os = "none", feature = "rp2040"))]
-pub use rp2040::{LOG, Number, Rp2040 as Fitted, open_bridge};
+pub use rp2040::{CAPACITY, Number, Rp2040 as Fitted, open_bridge};
 #[cfg(all(target_os = "none", feature = "stm32"))]
-pub use stm32::{LOG, Number, open_bridge};
+pub use stm32::{CAPACITY, Number, open_bridge};
 #[cfg(all(target_os = "none", feature = "stm32f405"))]
 pub use stm32f405::Stm32f405 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]

@@ -35,7 +35,7 @@ use super::period::Period;
 /// Fixed point: the core has no floating-point unit.
 pub type Number = shared::scalar::Fixed;
 /// Periods that it can fit.
-pub const LOG: usize = 1000;
+pub const CAPACITY: usize = 1000;
 
 /// Core clock, which `embassy-rp` sets off the Pico's crystal.
 const CORE_HZ: u32 = 125_000_000;

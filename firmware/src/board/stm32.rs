@@ -26,7 +26,7 @@ use crate::phase::Fault;
 /// The cores have a floating-point unit.
 pub type Number = f32;
 /// Periods that they can fit.
-pub const LOG: usize = 2000;
+pub const CAPACITY: usize = 2000;
 
 const PERIOD_US: u32 = 1000;
 /// Carrier periods in a control period: 20 kHz, above hearing and below the limit of most gate drivers.

@@ -6,7 +6,7 @@ use shared::fit::Arithmetic;
 use shared::wire::{Deframer, Job, LONGEST_FRAME, ToDevice, ToHost, encode};
 
 use super::bench::{Bench, OnBench};
-use crate::app::{App, Log, Memory};
+use crate::app::{App, Memory, Recording};
 use crate::phase::{Bridge, Phase};
 
 /// Time between two signs of life, periods.
@@ -28,9 +28,13 @@ pub struct Host<'b, S: Arithmetic, const N: usize> {
 
 impl<'b, S: Arithmetic, const N: usize> Host<'b, S, N> {
     /// Beside a device that has just been switched on.
-    pub fn new(bench: &'b RefCell<Bench>, memory: &'b mut Memory<S>, log: &'b mut Log<N>) -> Self {
+    pub fn new(
+        bench: &'b RefCell<Bench>,
+        memory: &'b mut Memory<S>,
+        recording: &'b mut Recording<N>,
+    ) -> Self {
         Host {
-            app: App::new(OnBench(bench), memory, log),
+            app: App::new(OnBench(bench), memory, recording),
             bench,
             alive: true,
             drove_in: None,
@@ -39,18 +43,18 @@ impl<'b, S: Arithmetic, const N: usize> Host<'b, S, N> {
     }
 
     /// Sends a message.
-    pub fn say(&mut self, message: &ToDevice) {
+    pub fn send(&mut self, message: &ToDevice) {
         let mut buffer = [0; LONGEST_FRAME];
         for &byte in encode(message, &mut buffer).into_iter().flatten() {
             let _ = self.bench.borrow_mut().to_device.push_back(byte);
         }
     }
 
-    /// One control period; `heard` gets what the device says.
-    pub fn period(&mut self, mut heard: impl FnMut(ToHost)) {
+    /// One control period; `received` gets what the device says.
+    pub fn period(&mut self, mut received: impl FnMut(ToHost)) {
         let period = self.bench.borrow().period;
         if self.alive && period.is_multiple_of(ALIVE) {
-            self.say(&ToDevice::Alive);
+            self.send(&ToDevice::Alive);
         }
         self.app.period();
         let phase = self.app.phase();
@@ -60,14 +64,14 @@ impl<'b, S: Arithmetic, const N: usize> Host<'b, S, N> {
         }
         while let Some(byte) = bench.to_host.pop_front() {
             if let Some(message) = self.inbox.push(byte) {
-                heard(message);
+                received(message);
             }
         }
     }
 
     /// Arms the device and starts a run; says whether it was armed.
     pub fn start(&mut self, job: Job) -> bool {
-        self.say(&ToDevice::Arm);
+        self.send(&ToDevice::Arm);
         let mut armed = None;
         self.period(|message| {
             if let ToHost::Armed { nonce, .. } = message {
@@ -75,7 +79,7 @@ impl<'b, S: Arithmetic, const N: usize> Host<'b, S, N> {
             }
         });
         if let Some(nonce) = armed {
-            self.say(&ToDevice::Start { nonce, job });
+            self.send(&ToDevice::Start { nonce, job });
             self.period(|_| {});
         }
         armed.is_some()

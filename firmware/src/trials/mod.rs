@@ -10,7 +10,7 @@ use core::fmt::{self, Write};
 use shared::fit::{Arithmetic, Settings};
 use shared::wire::{Job, Kind, Limits, ToDevice, ToHost};
 
-use crate::app::{Log, Memory};
+use crate::app::{Memory, Recording};
 use crate::board::Board;
 use crate::guard::REACTION_US;
 use crate::phase::{Fault, Phase};
@@ -18,7 +18,7 @@ use crate::plant::{Motor, SMALL};
 use bench::{Bench, OnBench};
 use host::Host;
 
-/// Periods that a trial records and fits: the length of its log.
+/// Periods that a trial records and fits: the length of its recording.
 pub const RECORD: usize = 600;
 /// Periods into a phase at which something goes wrong.
 const INTO: u32 = 60;
@@ -185,14 +185,18 @@ impl Trial {
         }
     }
 
-    /// Runs it; `memory` and `log` are the device's.
+    /// Runs it; `memory` and `recording` are the device's.
     #[inline(never)]
-    pub fn run<S: Arithmetic>(&self, memory: &mut Memory<S>, log: &mut Log<RECORD>) -> Outcome {
+    pub fn run<S: Arithmetic>(
+        &self,
+        memory: &mut Memory<S>,
+        recording: &mut Recording<RECORD>,
+    ) -> Outcome {
         let bench = RefCell::new(Bench::new(Motor { ..SMALL }));
-        let mut outcome = self.until_the_end(&bench, memory, log);
+        let mut outcome = self.until_the_end(&bench, memory, recording);
         if self.mischief == Mischief::BrownOut {
             // The microcontroller starts anew; the host goes on talking, but has not armed it.
-            let mut host = Host::<S, RECORD>::new(&bench, memory, log);
+            let mut host = Host::<S, RECORD>::new(&bench, memory, recording);
             outcome.open_after = bench.borrow().driven.is_none().then_some(0);
             outcome.stayed_open = true;
             for _ in 0..1000 {
@@ -207,10 +211,10 @@ impl Trial {
         &self,
         bench: &RefCell<Bench>,
         memory: &mut Memory<S>,
-        log: &mut Log<RECORD>,
+        recording: &mut Recording<RECORD>,
     ) -> Outcome {
         let mut outcome = Outcome::default();
-        let mut host = Host::<S, RECORD>::new(bench, memory, log);
+        let mut host = Host::<S, RECORD>::new(bench, memory, recording);
         if !host.start(self.job()) {
             return outcome;
         }
@@ -268,7 +272,7 @@ impl Trial {
     fn disturb<S: Arithmetic>(&self, host: &mut Host<'_, S, RECORD>) {
         match self.mischief {
             Mischief::Silence => host.alive = false,
-            Mischief::Stop => host.say(&ToDevice::Stop),
+            Mischief::Stop => host.send(&ToDevice::Stop),
             _ => {}
         }
         let bench = &mut *host.bench.borrow_mut();
@@ -291,11 +295,11 @@ impl Trial {
 pub fn run<S: Arithmetic>(
     out: &mut impl Write,
     memory: &mut Memory<S>,
-    log: &mut Log<RECORD>,
+    recording: &mut Recording<RECORD>,
 ) -> Result<u32, fmt::Error> {
     let mut failed = 0;
     for trial in all() {
-        let outcome = trial.run(memory, log);
+        let outcome = trial.run(memory, recording);
         let passes = trial.passes(&outcome);
         failed += u32::from(!passes);
         let Trial {

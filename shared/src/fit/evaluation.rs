@@ -250,13 +250,13 @@ impl<S: Arithmetic> Evaluation<S> {
                 // No compiler that minds the size sees that the loop in the loop is none.
                 let turns = duties.as_flattened().iter().zip(steps.as_flattened());
                 for (&duty, &step) in turns {
-                    at = S::follow::<false>(&rows, at, duty, step);
+                    at = S::follow(&rows, at, duty, step);
                     S::collect(&mut sums, at.2);
                 }
             } else {
                 for (duties, steps) in duties.iter().zip(steps) {
                     for (&duty, &step) in duties.iter().zip(steps) {
-                        at = S::follow::<false>(&rows, at, duty, step);
+                        at = S::follow(&rows, at, duty, step);
                         S::collect(&mut sums, at.2);
                     }
                 }
@@ -269,7 +269,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let mut periods = (duties.len() - left) * N;
         if N > 1 && left == 0 {
             for (&duty, &step) in rest.iter().zip(rest_steps) {
-                at = S::follow::<true>(&rows, at, duty, step);
+                at = S::follow(&rows, at, duty, step);
                 S::collect(&mut sums, at.2);
             }
             periods += rest.len();
@@ -288,7 +288,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let (mut at, mut sums) = ((self.pull, self.speed, self.lead), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
-            let mut to = S::follow::<true>(&rows, at, duty, step);
+            let mut to = S::follow(&rows, at, duty, step);
             (to.0, to.1) = S::turned((to.0, to.1), &turning);
             if !S::along(to.1, turning.sense) {
                 break;

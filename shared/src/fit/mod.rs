@@ -33,6 +33,7 @@ pub const POPULATION: usize = 20;
 
 /// How to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Method {
     /// Particle swarm.
     Pso,
@@ -42,6 +43,7 @@ pub enum Method {
 
 /// What to search for, and how. Hosts keep it in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {
     /// The method.
     pub method: Method,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// Why a fit ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stop {
     /// Search and polish are done.
     Converged,
@@ -17,6 +18,7 @@ pub enum Stop {
 
 /// A value with its standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate {
     /// In the device's own measure, see [`Unknown`](super::Unknown).
     pub value: f32,
@@ -26,6 +28,7 @@ pub struct Estimate {
 
 /// What a fit found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Outcome {
     /// One for each unknown: gain, mechanical and electrical time constant, then friction and load if asked for.
     pub estimates: Vec<Estimate, MOST>,

@@ -79,25 +79,17 @@ abreast!(Timed { rung, timing });
 #[derive(Clone, Copy)]
 struct Maps<R> {
     driven: LinearMap<R, 2, 2>,
-    coast: LinearMap<R, ALONE, ALONE>,
-    held: LinearMap<R, ALONE, ALONE>,
+    coast: LinearMap<R, 1, 1>,
+    held: LinearMap<R, 1, 1>,
 }
 
-/// States and inputs of a system that has one of each. On a small core another of each, that stays zero: so its maps are made
-/// by the code for two, to the same bits.
-const ALONE: usize = if cfg!(short_multiplier) { 2 } else { 1 };
-
 /// One state, by itself and by one input.
-fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, ALONE, ALONE> {
-    let none = [[R::zero(); ALONE]; ALONE];
-    let mut system = LinearSystem {
-        states: none,
-        inputs: none,
+fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, 1, 1> {
+    LinearSystem {
+        states: [[state]],
+        inputs: [[input]],
         speed: 0,
-    };
-    system.states[0][0] = state;
-    system.inputs[0][0] = input;
-    system
+    }
 }
 
 /// A motor with the bridge closed, over `length` intervals: current and speed by voltage and a torque against it.
@@ -360,10 +352,8 @@ impl<S: Scalar> Rung<S> {
         current.times(self.held[0])
     }
 
-    /// Everything that one held voltage and one held torque (against positive rotation) do. A routine where each product is
-    /// one already: it is called from three places.
-    #[cfg_attr(short_multiplier, inline(never))]
-    #[cfg_attr(not(short_multiplier), inline(always))]
+    /// Everything that one held voltage and one held torque (against positive rotation) do.
+    #[inline(always)]
     pub fn slide(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
         let speed = self.slide_speed(from, volts, torque, open);
         let (current, angle) = self.slide_rest(from, volts, torque, open);
@@ -415,21 +405,12 @@ impl<S: Scalar> Rung<S> {
 
 /// The sum of numbers, each times its own multiplier.
 #[inline(always)]
-#[cfg(not(short_multiplier))]
 pub fn weighed<S: Scalar, const K: usize>(numbers: &[S; K], by: &[S::Coefficient; K]) -> S {
     let mut sum = numbers[0].times(by[0]);
     for k in 1..K {
         sum = sum + numbers[k].times(by[k]);
     }
     sum
-}
-
-/// The same as a loop and a routine, where each product is one already.
-#[inline(never)]
-#[cfg(short_multiplier)]
-pub fn weighed<S: Scalar>(numbers: &[S], by: &[S::Coefficient]) -> S {
-    let products = numbers.iter().zip(by).map(|(x, &k)| x.times(k));
-    products.reduce(S::add).unwrap_or(S::zero())
 }
 
 impl<S: Scalar> Body<S> for [Timed<S>; RUNGS] {

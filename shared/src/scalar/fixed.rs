@@ -37,7 +37,6 @@ impl FixedCoefficient {
     };
 
     /// As a whole number with so many bits below the point, rounded; none if that is beyond 31 bits.
-    #[cfg_attr(short_multiplier, inline(never))]
     pub fn mantissa(self, bits: i32) -> Option<i32> {
         i32::try_from(shifted(self.mantissa.into(), self.shift - bits)).ok()
     }
@@ -92,10 +91,8 @@ fn shifted(value: i64, shift: i32) -> i64 {
     }
 }
 
-/// The upper word times the mantissa, scaled by `2^(−shift)`. Where it takes a routine for each of product and shift, the
-/// three of them are one routine: a step of a model with friction has dozens of products, and they were a seventh of an image.
-#[cfg_attr(short_multiplier, inline(never))]
-#[cfg_attr(not(short_multiplier), inline(always))]
+/// The upper word times the mantissa, scaled by `2^(−shift)`.
+#[inline(always)]
 fn scaled(upper: i32, mantissa: i32, shift: i32) -> i64 {
     shifted(product(upper, mantissa), shift)
 }
@@ -108,7 +105,8 @@ pub(crate) fn product(a: i32, b: i32) -> i64 {
 }
 
 /// The product, with all its bits, where the core multiplies to 32 bits only: the compiler would call a routine for 64 by 64
-/// bits, which takes three times as long.
+/// bits, with which a sample of a linear motor takes 556 instructions on an M0 instead of 286, of one with friction 818 instead
+/// of 510.
 #[cfg(short_multiplier)]
 #[inline(always)]
 pub(crate) fn product(a: i32, b: i32) -> i64 {

@@ -106,8 +106,7 @@ macro_rules! float_scalar {
             fn from_whole(x: u32) -> Self {
                 x as $t
             }
-            #[cfg_attr(short_multiplier, inline(never))]
-            #[cfg_attr(not(short_multiplier), inline(always))]
+            #[inline(always)]
             fn whole(self) -> u32 {
                 self as u32
             }

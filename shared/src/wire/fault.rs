@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Why a run was given up: the cause code of a report. Append only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Fault {
     /// The user or the host asked to stop.
     Stopped,

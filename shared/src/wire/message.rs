@@ -119,6 +119,7 @@ pub enum Format {
 
 /// What the device is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stage {
     /// Waits for a start; the bridge is open.
     Idle,
@@ -138,6 +139,7 @@ pub enum Stage {
 
 /// Why a command was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// A run is under way.
     Busy,
@@ -151,6 +153,7 @@ pub enum Refusal {
 
 /// What kind of run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Kind {
     /// Probe, excite, record, fit, verify.
     Commission,
@@ -162,6 +165,7 @@ pub enum Kind {
 
 /// A run as ordered.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Job {
     /// What kind of run.
     pub kind: Kind,
@@ -187,6 +191,7 @@ pub struct Job {
 
 /// Limits that the device watches. Zero means none, but for the duty and the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits {
     /// Largest duty of any drive; at least 1.
     pub duty: i16,
@@ -255,6 +260,7 @@ pub struct Row {
 
 /// How a run ended well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report {
     /// Duty at which the shaft first moved.
     pub breakaway: i16,
@@ -270,6 +276,7 @@ pub struct Report {
 
 /// How well the model predicts what it has not seen.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Verified {
     /// Mean squared error, counts².
     pub mean_square: f32,
@@ -279,6 +286,7 @@ pub struct Verified {
 
 /// How a run was given up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Failure {
     /// Why.
     pub fault: Fault,

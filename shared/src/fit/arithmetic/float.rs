@@ -62,7 +62,7 @@ impl Arithmetic for f32 {
     }
 
     #[inline(always)]
-    fn follow<const APART: bool>(
+    fn follow(
         &[[a, b, c], [_, _, r], [u, v, w]]: &Self::Rows,
         (pull, speed, lead): (f32, f32, f32),
         duty: i16,

@@ -58,8 +58,8 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn turning(rows: &Self::Rows, sense: Self, by: (Self, Self, Self::Lead)) -> Turning<Self>;
     /// Adds that to pull and speed, if anything is to be added.
     fn turned(to: (Self, Self), by: &Turning<Self>) -> (Self, Self);
-    /// A period without torque on the shaft: pull, speed and lead at its end. With `APART` shorter, where that is slower.
-    fn follow<const APART: bool>(
+    /// A period without torque on the shaft: pull, speed and lead at its end.
+    fn follow(
         rows: &Self::Rows,
         from: (Self, Self, Self::Lead),
         duty: i16,

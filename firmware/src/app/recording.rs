@@ -64,7 +64,7 @@ impl Batch {
 
 /// Periods that the device keeps to fit.
 #[derive(Debug)]
-pub struct Log<const N: usize> {
+pub struct Recording<const N: usize> {
     duties: [i16; N],
     steps: [i16; N],
     len: usize,
@@ -72,16 +72,16 @@ pub struct Log<const N: usize> {
     closed: usize,
 }
 
-impl<const N: usize> Default for Log<N> {
+impl<const N: usize> Default for Recording<N> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<const N: usize> Log<N> {
+impl<const N: usize> Recording<N> {
     /// Empty.
     pub const fn new() -> Self {
-        Log {
+        Recording {
             duties: [0; N],
             steps: [0; N],
             len: 0,
