@@ -3,7 +3,7 @@
 use super::decay::{REACH, decay};
 use super::hump::Hump;
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Stiff};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// `dz/dt = ω − |ω|·z/zs(ω)`, `T = σ0·z + σ1·dz/dt`, with the deflection `zs` at which the bristles
@@ -28,7 +28,7 @@ pub struct Lugre<S: Scalar> {
     softest: S,
 }
 
-abreast!(Lugre {
+lanes!(Lugre {
     torque,
     excess,
     far,

@@ -1,6 +1,6 @@
 //! What an effect sees of the motor, and what it may give back. Per unit.
 
-use crate::scalar::{Mask, Real, Scalar, abreast};
+use crate::scalar::{Mask, Real, Scalar, lanes};
 
 /// The mean state of shaft and winding over a part of a step.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ pub struct Budget<S> {
     pub bias: S,
 }
 
-abreast!(Budget {
+lanes!(Budget {
     moving,
     holding,
     bias
@@ -182,7 +182,7 @@ pub struct Brush<S> {
     pub knee: S,
 }
 
-abreast!(Brush { drop, knee });
+lanes!(Brush { drop, knee });
 
 impl<S: Scalar> Brush<S> {
     /// Both, which bend at the later of their knees.

@@ -20,7 +20,7 @@ use crate::discretise::{Discretisation, LinearMap, LinearSystem, scaled};
 use crate::effects::Coupling;
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Mask, Real, Scalar, abreast};
+use crate::scalar::{Mask, Real, Scalar, lanes};
 
 /// Maps of one part of a step while the flanks touch.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ struct Touching<S: Scalar> {
     flight: S::Coefficient,
 }
 
-abreast!(Touching {
+lanes!(Touching {
     timing,
     driven,
     coast,
@@ -61,7 +61,7 @@ struct Joint<S: Scalar> {
     loose: bool,
 }
 
-abreast!(Joint {
+lanes!(Joint {
     damping,
     stiffness,
     most,
@@ -77,7 +77,7 @@ pub struct Coupled<S: Scalar> {
     touching: [Touching<S>; RUNGS],
 }
 
-abreast!(Coupled { joint, touching });
+lanes!(Coupled { joint, touching });
 
 /// A machine split in two, per unit.
 struct Split<R> {

@@ -6,7 +6,7 @@ use super::pieces::Pieces;
 use super::rung::RUNGS;
 use super::state::Motion;
 use crate::effects::Budget;
-use crate::scalar::{Angle, Mask, Scalar, abreast};
+use crate::scalar::{Angle, Mask, Scalar, lanes};
 
 /// What is held over a part of a step.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Forces<S> {
     pub budget: Budget<S>,
 }
 
-abreast!(Forces {
+lanes!(Forces {
     volts,
     torque,
     budget

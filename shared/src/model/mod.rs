@@ -32,7 +32,7 @@ use crate::discretise::Discretisation;
 use crate::effects::{EffectSet, Lowered};
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Abreast, Angle, Mask, Real, Scalar, abreast};
+use crate::scalar::{Angle, FromLanes, Mask, Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 use coupled::{Coupled, MotorAndLoad};
 use friction::Forces;
@@ -94,7 +94,7 @@ pub struct Model<S: Scalar> {
     constant: Forces<S>,
 }
 
-abreast!(Model {
+lanes!(Model {
     rest,
     first,
     late,
@@ -118,15 +118,15 @@ struct Stretch<S: Scalar> {
     grade: usize,
 }
 
-impl<W, const N: usize> Abreast<Stretch<f64>, N> for Stretch<W>
+impl<W, const N: usize> FromLanes<Stretch<f64>, N> for Stretch<W>
 where
     W: Scalar<Coefficient = W, Angle = W> + From<[f64; N]>,
 {
-    fn abreast(each: [&Stretch<f64>; N]) -> Option<Self> {
+    fn from_lanes(each: [&Stretch<f64>; N]) -> Option<Self> {
         Some(Stretch {
-            motor: Abreast::abreast(each.map(|one| &one.motor))?,
-            coupled: Abreast::abreast(each.map(|one| &one.coupled))?,
-            parts: Abreast::abreast(each.map(|one| &one.parts))?,
+            motor: FromLanes::from_lanes(each.map(|one| &one.motor))?,
+            coupled: FromLanes::from_lanes(each.map(|one| &one.coupled))?,
+            parts: FromLanes::from_lanes(each.map(|one| &one.parts))?,
             // More of them are only finer.
             grade: each.iter().fold(0, |most, one| most.max(one.grade)),
         })

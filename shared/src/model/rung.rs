@@ -5,7 +5,7 @@ use super::state::Motion;
 use crate::discretise::{Discretisation, LinearMap, LinearSystem, lower};
 use crate::error::ModelError;
 use crate::motor::Machine;
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 
 /// Lengths of parts: a step and seven halvings of it.
 pub const RUNGS: usize = 8;
@@ -34,7 +34,7 @@ pub struct Timing<S: Scalar> {
     pub give: S,
 }
 
-abreast!(Timing {
+lanes!(Timing {
     length,
     per_length,
     lag,
@@ -57,7 +57,7 @@ pub struct Rung<S: Scalar> {
     held: [S::Coefficient; 2],
 }
 
-abreast!(Rung {
+lanes!(Rung {
     current,
     speed,
     angle,
@@ -73,7 +73,7 @@ pub struct Timed<S: Scalar> {
     timing: Timing<S>,
 }
 
-abreast!(Timed { rung, timing });
+lanes!(Timed { rung, timing });
 
 /// The maps of a step in R, before they are lowered.
 #[derive(Clone, Copy)]

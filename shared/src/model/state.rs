@@ -1,7 +1,7 @@
 //! What runs: the state of the motor, of its load and of the effects' memories.
 
 use crate::effects::MAX_EFFECTS;
-use crate::scalar::{Scalar, abreast};
+use crate::scalar::{Scalar, lanes};
 
 /// What moves: winding, shaft and load.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,7 +18,7 @@ pub struct Motion<S: Scalar> {
     pub slip: S,
 }
 
-abreast!(Motion {
+lanes!(Motion {
     current,
     speed,
     angle,
@@ -42,7 +42,7 @@ pub struct State<S: Scalar> {
     pub past: Past<S>,
 }
 
-abreast!(State {
+lanes!(State {
     motion,
     volts,
     open,
@@ -76,7 +76,7 @@ pub struct Past<S> {
     newest: usize,
 }
 
-abreast!(Past {
+lanes!(Past {
     volts,
     open,
     newest

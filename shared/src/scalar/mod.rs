@@ -8,20 +8,20 @@
 //! * comparisons give a [`Mask`] and choices are [`Scalar::select`], so that a SIMD lane type, where
 //!   every lane is another candidate, can be a `Scalar` too.
 
-mod abreast;
 pub mod curves;
 mod exponential;
 mod fixed;
 mod float;
+mod lanes;
 mod mask;
 mod quotient;
 mod root;
 pub mod soft;
 
-pub use abreast::Abreast;
-pub(crate) use abreast::abreast;
 pub(crate) use fixed::product;
 pub use fixed::{Fixed, FixedCoefficient};
+pub use lanes::FromLanes;
+pub(crate) use lanes::lanes;
 pub use mask::Mask;
 pub use quotient::quotient;
 
