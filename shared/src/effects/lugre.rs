@@ -91,8 +91,8 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         let late = shaft.late.max(-self.far).min(self.far);
         let late = late.times(self.per_deflection);
         // What a little more travel bends at the end of the part, it bends half in the mean.
-        let give = (self.torque * shaft.give).min(self.softest);
-        let further = give.times(self.per_deflection) * bent.further;
+        let compliance = (self.torque * shaft.compliance).min(self.softest);
+        let further = compliance.times(self.per_deflection) * bent.further;
         Stiff {
             torque: self.torque * (bent.mean - late * bent.further)
                 + self.damped(self.torque * (bent.end - memory), shaft),

@@ -25,7 +25,7 @@ pub struct Shaft<S: Scalar> {
     /// [`Effect::friction`](super::Effect::friction).
     pub transmitted: S,
     /// By how much the travel falls per torque against it, turns.
-    pub give: S,
+    pub compliance: S,
     /// Length of the part in intervals.
     pub length: S::Coefficient,
     /// One over that.
@@ -46,7 +46,7 @@ impl<S: Scalar> Shaft<S> {
             current,
             current_change: zero,
             transmitted: current,
-            give: zero,
+            compliance: zero,
             length: S::coefficient(0.0),
             per_length: S::coefficient(0.0),
         }

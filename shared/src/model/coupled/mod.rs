@@ -12,44 +12,27 @@
 //! `s' = … − Ω·x − 2ζΩ·s`, numbers of one size. The state keeps a twist `σ·ε` with `σ ≤ Ω` such that
 //! a wide gap does not leave the range of a fixed-point number.
 
-use super::body::{Body, Increment};
+mod maps;
+
+use super::dyadic::{DyadicMaps, LEVELS, shortest};
 use super::friction::is_zero;
-use super::rung::{RUNGS, Timed, Timing, shortest, weighed};
+use super::mechanics::{Increment, Mechanics};
 use super::state::Motion;
-use crate::discretise::{Discretisation, LinearMap, LinearSystem, scaled};
+use super::step_map::weighted_sum;
+use super::substep_map::SubstepTiming;
+use crate::discretise::Discretisation;
 use crate::effects::Coupling;
 use crate::error::ModelError;
 use crate::motor::Machine;
 use crate::scalar::{Mask, Real, Scalar, lanes};
-
-/// Maps of one part of a step while the flanks touch.
-#[derive(Clone, Copy, Debug)]
-struct Touching<S: Scalar> {
-    timing: Timing<S>,
-    /// Current, speed, twist, slip and angle by `[c, ω, x, s, v, τ]` with the bridge closed.
-    driven: [[S::Coefficient; 6]; 5],
-    /// Speed, twist, slip and angle by `[ω, x, s, τ]` with the bridge open.
-    coast: [[S::Coefficient; 4]; 4],
-    /// Twist and slip by `[x, s]` while friction holds the motor.
-    held: [[S::Coefficient; 2]; 2],
-    /// Twist by slip while the load is free.
-    flight: S::Coefficient,
-}
-
-lanes!(Touching {
-    timing,
-    driven,
-    coast,
-    held,
-    flight
-});
+use maps::{Split, Touching};
 
 /// The coupling's constants, per unit.
 #[derive(Clone, Copy, Debug)]
 struct Joint<S: Scalar> {
-    /// `2ζ·σ/Ω`: what the slip adds to the twist in the torque.
+    /// `2ζ·σ/Ω`: twist that gives the same torque as a unit of slip.
     damping: S::Coefficient,
-    /// Torque by both.
+    /// Torque per twist.
     stiffness: S::Coefficient,
     /// Largest twist whose torque the number format holds: dry friction sees no more.
     most: S,
@@ -70,166 +53,21 @@ lanes!(Joint {
     loose
 });
 
-/// Motor and load.
+/// A motor with its load: maps for each level.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled<S: Scalar> {
     joint: Joint<S>,
-    touching: [Touching<S>; RUNGS],
+    touching: [Touching<S>; LEVELS],
 }
 
 lanes!(Coupled { joint, touching });
 
-/// A machine split in two, per unit.
-struct Split<R> {
-    /// The motor alone.
-    motor: Machine<R>,
-    /// Share of the inertia that is the load's.
-    share: R,
-    /// `Ω`, per interval.
-    frequency: R,
-    /// `2ζ`.
-    twice_damping: R,
-    /// `σ/Ω`.
-    scale: R,
-}
-
-impl<R: Real> Split<R> {
-    fn new(machine: &Machine<R>, coupling: &Coupling<R>) -> Result<Self, ModelError> {
-        let one = R::from_f64(1.0);
-        let share = coupling.load_share;
-        if !(share > R::zero() && share < one) {
-            return Err(ModelError::Parameter {
-                name: "load share",
-                value: share.to_f64(),
-            });
-        }
-        let mut motor = *machine;
-        motor.inertia = (one - share) * machine.inertia;
-        let reduced = share * motor.inertia;
-        let frequency = one / (reduced * coupling.compliance).sqrt();
-        Ok(Split {
-            motor,
-            share,
-            frequency,
-            scale: one / (coupling.half_gap * frequency).max(one),
-            twice_damping: coupling.damping_ratio + coupling.damping_ratio,
-        })
-    }
-
-    fn maps(
-        &self,
-        machine: &Machine<R>,
-        length: R,
-        how: Discretisation,
-    ) -> Result<Maps<R>, ModelError> {
-        let zero = R::zero();
-        let rate = length / machine.electrical;
-        let push = length / machine.inertia;
-        let drag = machine.damping * push;
-        let turn = self.frequency * length;
-        let (x, s) = (turn, self.twice_damping * turn);
-        let (mx, ms) = (self.share * x, self.share * s);
-        let load = R::from_f64(1.0) - self.share;
-        let driven = LinearSystem {
-            states: [
-                [-rate, -(machine.kb * rate), zero, zero],
-                [push, -drag, -mx, -ms],
-                [zero, zero, zero, turn],
-                [push, -drag, -x, -s],
-            ],
-            inputs: [[rate, zero], [zero, -push], [zero, zero], [zero, -push]],
-            speed: 1,
-        };
-        let coast = LinearSystem {
-            states: [[-drag, -mx, -ms], [zero, zero, turn], [-drag, -x, -s]],
-            inputs: [[-push], [zero], [-push]],
-            speed: 0,
-        };
-        let held = LinearSystem {
-            states: [[zero, turn], [-(load * x), -(load * s)]],
-            inputs: [[], []],
-            speed: 0,
-        };
-        Ok(Maps {
-            driven: driven.step(length, how)?,
-            coast: coast.step(length, how)?,
-            held: held.step(length, how)?,
-        })
-    }
-}
-
-/// The maps of a part in R, before they are lowered.
-#[derive(Clone, Copy)]
-struct Maps<R> {
-    driven: LinearMap<R, 4, 2>,
-    coast: LinearMap<R, 3, 1>,
-    held: LinearMap<R, 2, 0>,
-}
-
-impl<R: Real> Maps<R> {
-    fn twice(&self) -> Self {
-        Maps {
-            driven: self.driven.twice(),
-            coast: self.coast.twice(),
-            held: self.held.twice(),
-        }
-    }
-
-    fn lower<S: Scalar>(
-        &self,
-        split: &Split<R>,
-        machine: &Machine<R>,
-        length: R,
-    ) -> Result<Touching<S>, ModelError> {
-        let (own, one) = (split.scale, R::from_f64(1.0));
-        // What a row gives and what a column takes are twists in the third place.
-        let (rows, columns) = (
-            [one, one, own, one, one],
-            [one, one, one / own, one, one, one],
-        );
-        let driven = |k: usize| {
-            let map = &self.driven;
-            let (x, u) = match k {
-                4 => (map.angle_by_states, map.angle_by_inputs),
-                _ => (map.states[k], map.inputs[k]),
-            };
-            let row = [x[0], x[1], x[2], x[3], u[0], u[1]];
-            scaled::<S, R, 6>("coupled increment", row, rows[k], columns)
-        };
-        let coast = |k: usize| {
-            let map = &self.coast;
-            let (x, u) = match k {
-                3 => (map.angle_by_states, map.angle_by_inputs),
-                _ => (map.states[k], map.inputs[k]),
-            };
-            let columns = [one, one / own, one, one];
-            let row = [x[0], x[1], x[2], u[0]];
-            scaled::<S, R, 4>("coupled coasting increment", row, rows[k + 1], columns)
-        };
-        let held = |k: usize| {
-            let columns = [one / own, one];
-            let row = self.held.states[k];
-            scaled::<S, R, 2>("held load increment", row, rows[k + 2], columns)
-        };
-        let flight = split.frequency * own * length;
-        Ok(Touching {
-            timing: Timing::new(
-                machine,
-                length,
-                self.driven.inputs[0][0],
-                self.driven.angle_by_inputs,
-            ),
-            driven: [driven(0)?, driven(1)?, driven(2)?, driven(3)?, driven(4)?],
-            coast: [coast(0)?, coast(1)?, coast(2)?, coast(3)?],
-            held: [held(0)?, held(1)?],
-            flight: S::coefficient(flight.to_f64()),
-        })
-    }
-}
-
 impl<S: Scalar> Coupled<S> {
-    /// The maps of a step of `step` intervals and of all its halvings; with them the machine of the
-    /// motor alone.
+    /// The maps of a step of `step` intervals and of all its halvings, and the machine of the motor
+    /// alone.
+    ///
+    /// # Errors
+    /// A load share that is not between 0 and 1, or a multiplier beyond the range of `S`.
     pub fn new<R: Real>(
         machine: &Machine<R>,
         coupling: &Coupling<R>,
@@ -237,10 +75,10 @@ impl<S: Scalar> Coupled<S> {
         how: Discretisation,
     ) -> Result<(Self, Machine<R>), ModelError> {
         let split = Split::new(machine, coupling)?;
-        let depth = RUNGS - 1;
+        let depth = LEVELS - 1;
         let (motor, lengths) = shortest(&split.motor, step, depth, how);
         let mut maps = split.maps(&motor, lengths[depth], how)?;
-        let mut touching = [maps.lower::<S>(&split, &motor, lengths[depth])?; RUNGS];
+        let mut touching = [maps.lower::<S>(&split, &motor, lengths[depth])?; LEVELS];
         for level in (0..depth).rev() {
             maps = match how {
                 Discretisation::Exact => maps.twice(),
@@ -277,10 +115,10 @@ impl<S: Scalar> Joint<S> {
     }
 }
 
-/// A [`Coupled`] and, for the time of free flight, the maps of the motor alone.
+/// A [`Coupled`] motor and, for the time of free flight, the maps of the motor alone.
 pub struct MotorAndLoad<'a, S: Scalar> {
     /// The motor alone.
-    pub motor: &'a [Timed<S>; RUNGS],
+    pub motor: &'a DyadicMaps<S>,
     /// Both.
     pub coupled: &'a Coupled<S>,
 }
@@ -303,20 +141,20 @@ impl<S: Scalar> MotorAndLoad<'_, S> {
             let [speed, twist, slip, angle] = &maps.coast;
             return Increment {
                 current: -from.current,
-                speed: weighed(&by, speed),
-                angle: weighed(&by, angle),
-                twist: weighed(&by, twist),
-                slip: weighed(&by, slip),
+                speed: weighted_sum(&by, speed),
+                angle: weighted_sum(&by, angle),
+                twist: weighted_sum(&by, twist),
+                slip: weighted_sum(&by, slip),
             };
         }
         let by = [from.current, speed, bend, slip, volts, torque];
         let [current, speed, twist, slip, angle] = &maps.driven;
         Increment {
-            current: weighed(&by, current),
-            speed: weighed(&by, speed),
-            angle: weighed(&by, angle),
-            twist: weighed(&by, twist),
-            slip: weighed(&by, slip),
+            current: weighted_sum(&by, current),
+            speed: weighted_sum(&by, speed),
+            angle: weighted_sum(&by, angle),
+            twist: weighted_sum(&by, twist),
+            slip: weighted_sum(&by, slip),
         }
     }
 }
@@ -332,16 +170,16 @@ fn select<S: Scalar>(mask: S::Mask, a: Increment<S>, b: Increment<S>) -> Increme
     }
 }
 
-impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
+impl<S: Scalar> Mechanics<S> for MotorAndLoad<'_, S> {
     const COUPLED: bool = true;
 
     #[inline(always)]
-    fn timing(&self, level: usize) -> &Timing<S> {
+    fn timing(&self, level: usize) -> &SubstepTiming<S> {
         &self.coupled.touching[level].timing
     }
 
     #[inline(always)]
-    fn slide(
+    fn step_free(
         &self,
         level: usize,
         from: &Motion<S>,
@@ -356,16 +194,16 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         if !joint.loose {
             return touching;
         }
-        let mut free = self.motor[level].slide(from, volts, torque, open);
+        let mut free = self.motor.level(level).step_free(from, volts, torque, open);
         free.slip = free.speed;
-        // The load flies on at the speed that it had.
+        // The load flies on at its own speed.
         let ahead = (from.slip - from.speed).times(self.coupled.touching[level].flight);
         free.twist = free.angle.times(joint.twist_per_angle) + ahead;
         select(is_zero(side), free, touching)
     }
 
     #[inline(always)]
-    fn settle(
+    fn step_stuck(
         &self,
         level: usize,
         from: &Motion<S>,
@@ -377,10 +215,10 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
         let maps = &self.coupled.touching[level];
         let bend = joint.bend(from.twist, side);
         let by = [bend, from.slip];
-        let still = self.motor.settle(level, from, side, volts, open);
+        let still = self.motor.step_stuck(level, from, side, volts, open);
         let touching = Increment {
-            twist: weighed(&by, &maps.held[0]),
-            slip: weighed(&by, &maps.held[1]),
+            twist: weighted_sum(&by, &maps.held[0]),
+            slip: weighted_sum(&by, &maps.held[1]),
             ..still
         };
         if !joint.loose {
@@ -394,8 +232,8 @@ impl<S: Scalar> Body<S> for MotorAndLoad<'_, S> {
     }
 
     #[inline(always)]
-    fn yields(&self, level: usize, torque: S) -> S {
-        torque.times(self.coupled.touching[level].driven[1][5])
+    fn speed_per_torque(&self, level: usize) -> S::Coefficient {
+        self.coupled.touching[level].driven[1][5]
     }
 
     #[inline(always)]
