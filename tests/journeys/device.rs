@@ -2,7 +2,7 @@
 //! the command line that talks to it.
 
 use clap::Parser;
-use firmware::app::{App, Log, Memory};
+use firmware::app::{App, Memory, Recording};
 use firmware::board::pc::Pc;
 use host::bench::{Bench, Hidden, Machine};
 use host::cli::Cli;
@@ -44,8 +44,8 @@ impl Device {
         let board = Pc::start(&free.to_string(), &plant.to_string()).unwrap();
         let thread = thread::spawn(move || {
             let mut memory = Box::new(Memory::<f32>::new());
-            let mut log = Box::new(Log::<2000>::new());
-            let mut app = App::new(board, &mut memory, &mut log);
+            let mut recording = Box::new(Recording::<2000>::new());
+            let mut app = App::new(board, &mut memory, &mut recording);
             while !app.board().is_gone() && !flag.load(Ordering::Relaxed) {
                 app.period();
             }

@@ -7,7 +7,7 @@ use host::problem::{Candidate, Data, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING_COAST, commands};
-use shared::model::Seen;
+use shared::model::MeasuredInterval;
 use shared::motor::Machine;
 
 const SUPPLY: f64 = 12.0;
@@ -68,7 +68,7 @@ fn candidate(data: &Data, kind: Kind, change: f64) -> Candidate {
 }
 
 fn manners<'a>(
-    seen: &'a [Seen<f64>],
+    seen: &'a [MeasuredInterval<f64>],
     turns: &'a [f64],
 ) -> [(Manner<'a>, Horizon, &'static str); 4] {
     let windows = |data: &Data| Horizon::windows(data, 0.5, 4);
@@ -87,10 +87,10 @@ fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
         .iter()
         .map(|c| (c / 2000.0).rem_euclid(1.0))
         .collect();
-    let seen: Vec<Seen<f64>> = turns
+    let seen: Vec<MeasuredInterval<f64>> = turns
         .iter()
         .enumerate()
-        .map(|(k, &turns)| Seen {
+        .map(|(k, &turns)| MeasuredInterval {
             turns,
             speed: data.command[k] * 0.9,
             speed_change: 0.01,

@@ -1,7 +1,7 @@
 //! Coulomb friction that differs between the directions.
 
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Friction `Tf` against forward and `Tb` against backward motion: to the equations, Coulomb
@@ -12,7 +12,7 @@ pub struct AsymCoulomb<S> {
     bias: S,
 }
 
-abreast!(AsymCoulomb { mean, bias });
+lanes!(AsymCoulomb { mean, bias });
 
 impl<S: Scalar> Effect<S> for AsymCoulomb<S> {
     const DESCRIPTION: Description = Description {

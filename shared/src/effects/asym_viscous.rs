@@ -1,7 +1,7 @@
 //! Viscous friction that differs between the directions.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Extra viscous friction, `bf·ω` forward and `bb·ω` backward, as of a lip seal or a screw pump: the
@@ -12,7 +12,7 @@ pub struct AsymViscous<S: Scalar> {
     difference: S::Coefficient,
 }
 
-abreast!(AsymViscous { mean, difference });
+lanes!(AsymViscous { mean, difference });
 
 impl<S: Scalar> Effect<S> for AsymViscous<S> {
     const DESCRIPTION: Description = Description {

@@ -2,7 +2,7 @@
 
 use super::{Coupling, Description, Effect, Parameter, Place};
 use crate::motor::Machine;
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 use core::marker::PhantomData;
 
@@ -12,7 +12,7 @@ use core::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub struct Backlash<S>(PhantomData<S>);
 
-abreast!(Backlash { 0 });
+lanes!(Backlash { 0 });
 
 impl<S: Scalar> Effect<S> for Backlash<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Voltage drop of the brushes.
 
 use super::{Brush, Description, Effect, Needs, Parameter, Place};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// A voltage against the current: proportional up to the knee, constant beyond.
@@ -10,7 +10,7 @@ pub struct BrushDrop<S> {
     brush: Brush<S>,
 }
 
-abreast!(BrushDrop { brush });
+lanes!(BrushDrop { brush });
 
 impl<S: Scalar> Effect<S> for BrushDrop<S> {
     const DESCRIPTION: Description = Description {

@@ -1,6 +1,6 @@
 //! Functions that no number format has, as series of Chebyshev polynomials.
 
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use core::array::from_fn;
 
 /// Degree of the series.
@@ -12,7 +12,7 @@ pub(super) struct Chebyshev<S: Scalar> {
     terms: [S; DEGREE + 1],
 }
 
-abreast!(Chebyshev { terms });
+lanes!(Chebyshev { terms });
 
 impl<S: Scalar> Chebyshev<S> {
     /// The series that agrees with `f` at the extrema of `T_n`, both ends among them (Trefethen,

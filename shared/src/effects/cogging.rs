@@ -1,7 +1,7 @@
 //! Cogging: the magnets prefer some angles.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// One angle order of torque: `A·cos(kθ) + B·sin(kθ)`, the same in both directions and at all
@@ -11,7 +11,7 @@ pub struct Cogging<S: Scalar> {
     torque: Harmonic<S>,
 }
 
-abreast!(Cogging { torque });
+lanes!(Cogging { torque });
 
 impl<S: Scalar> Effect<S> for Cogging<S> {
     const DESCRIPTION: Description = Description {

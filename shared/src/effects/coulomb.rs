@@ -1,7 +1,7 @@
 //! Coulomb friction.
 
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Friction of constant size `Tc` against motion; at rest it holds up to the same size.
@@ -10,7 +10,7 @@ pub struct Coulomb<S> {
     torque: S,
 }
 
-abreast!(Coulomb { torque });
+lanes!(Coulomb { torque });
 
 impl<S: Scalar> Effect<S> for Coulomb<S> {
     const DESCRIPTION: Description = Description {

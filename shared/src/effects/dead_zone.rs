@@ -1,7 +1,7 @@
 //! Dead zone of the power stage.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// The stage loses `V0` of the command's magnitude, and gives nothing below it.
@@ -10,7 +10,7 @@ pub struct DeadZone<S> {
     volts: S,
 }
 
-abreast!(DeadZone { volts });
+lanes!(DeadZone { volts });
 
 impl<S: Scalar> Effect<S> for DeadZone<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Commands arrive late.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 use core::marker::PhantomData;
 
@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub struct Delay<S>(PhantomData<S>);
 
-abreast!(Delay { 0 });
+lanes!(Delay { 0 });
 
 impl<S: Scalar> Effect<S> for Delay<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Eccentricity of the encoder's disc or magnet.
 
 use super::{Description, Effect, Needs, Parameter, Place, harmonic::Harmonic};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// The encoder sees `θ + A·cos θ + B·sin θ`; a disc of radius `r` that sits off its axis by `e` has
@@ -11,7 +11,7 @@ pub struct EncEcc<S: Scalar> {
     error: Harmonic<S>,
 }
 
-abreast!(EncEcc { error });
+lanes!(EncEcc { error });
 
 impl<S: Scalar> Effect<S> for EncEcc<S> {
     const DESCRIPTION: Description = Description {

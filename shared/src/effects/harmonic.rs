@@ -2,7 +2,7 @@
 
 use super::Shaft;
 use crate::scalar::curves::polynomial;
-use crate::scalar::{Scalar, abreast};
+use crate::scalar::{Scalar, lanes};
 
 /// `A·cos(kθ) + B·sin(kθ)`.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub(super) struct Harmonic<S: Scalar> {
     sine: S,
 }
 
-abreast!(Harmonic {
+lanes!(Harmonic {
     order,
     wave,
     cosine,

@@ -1,7 +1,7 @@
 //! The winding heats up.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// One thermal node. The memory is the rise `y` of the resistance, as a share of the cold one:
@@ -14,7 +14,7 @@ pub struct Heating<S: Scalar> {
     magnets: S::Coefficient,
 }
 
-abreast!(Heating {
+lanes!(Heating {
     heating,
     cooling,
     magnets

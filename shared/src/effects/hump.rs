@@ -1,7 +1,7 @@
 //! Friction that is largest near standstill, and fades with the speed.
 
 use super::chebyshev::Chebyshev;
-use crate::scalar::{Mask, Real, Scalar, abreast};
+use crate::scalar::{Mask, Real, Scalar, lanes};
 
 /// `H·e^(−|ω/ωs|^δ)` for `1 ≤ δ ≤ 2`: Tustin's with 1, the Gaussian of Armstrong-Hélouvry with 2.
 ///
@@ -20,7 +20,7 @@ pub(super) struct Hump<S: Scalar> {
     part: Chebyshev<S>,
 }
 
-abreast!(Hump {
+lanes!(Hump {
     height,
     reach,
     per_reach,

@@ -1,7 +1,7 @@
 //! Saturation of the armature inductance.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Incremental inductance `L/(1 + k·c²)`: the simplest even form that stays positive.
@@ -10,7 +10,7 @@ pub struct LSat<S: Scalar> {
     falloff: S::Coefficient,
 }
 
-abreast!(LSat { falloff });
+lanes!(LSat { falloff });
 
 impl<S: Scalar> Effect<S> for LSat<S> {
     const DESCRIPTION: Description = Description {

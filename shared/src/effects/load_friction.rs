@@ -1,7 +1,7 @@
 //! Friction that grows with the torque passed through a gear.
 
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Dry friction `μ·|T|` of the torque `T` that the motor and its load pass to each other.
@@ -10,7 +10,7 @@ pub struct LoadFriction<S: Scalar> {
     share: S::Coefficient,
 }
 
-abreast!(LoadFriction { share });
+lanes!(LoadFriction { share });
 
 impl<S: Scalar> Effect<S> for LoadFriction<S> {
     const DESCRIPTION: Description = Description {

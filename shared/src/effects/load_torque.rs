@@ -1,7 +1,7 @@
 //! Constant torque on the shaft.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// A constant torque against positive rotation, as of a weight on a drum.
@@ -10,7 +10,7 @@ pub struct LoadTorque<S> {
     torque: S,
 }
 
-abreast!(LoadTorque { torque });
+lanes!(LoadTorque { torque });
 
 impl<S: Scalar> Effect<S> for LoadTorque<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Effects lowered to per unit, ready to run.
 
 use super::{Any, Brush, Budget, EffectSet, MAX_EFFECTS, Needs, Shaft, Stiff, Winding};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::PerUnit;
 
 /// Effects lowered to per unit, in the order in which the command meets them.
@@ -14,7 +14,7 @@ pub struct Lowered<S: Scalar> {
     pub brush: Brush<S>,
 }
 
-abreast!(Lowered {
+lanes!(Lowered {
     effects,
     needs,
     brush

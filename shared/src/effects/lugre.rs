@@ -3,7 +3,7 @@
 use super::decay::{REACH, decay};
 use super::hump::Hump;
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Stiff};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// `dz/dt = ω − |ω|·z/zs(ω)`, `T = σ0·z + σ1·dz/dt`, with the deflection `zs` at which the bristles
@@ -28,7 +28,7 @@ pub struct Lugre<S: Scalar> {
     softest: S,
 }
 
-abreast!(Lugre {
+lanes!(Lugre {
     torque,
     excess,
     far,
@@ -91,8 +91,8 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         let late = shaft.late.max(-self.far).min(self.far);
         let late = late.times(self.per_deflection);
         // What a little more travel bends at the end of the part, it bends half in the mean.
-        let give = (self.torque * shaft.give).min(self.softest);
-        let further = give.times(self.per_deflection) * bent.further;
+        let compliance = (self.torque * shaft.compliance).min(self.softest);
+        let further = compliance.times(self.per_deflection) * bent.further;
         Stiff {
             torque: self.torque * (bent.mean - late * bent.further)
                 + self.damped(self.torque * (bent.end - memory), shaft),

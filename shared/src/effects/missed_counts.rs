@@ -1,7 +1,7 @@
 //! The counter misses counts.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// A decoder that cannot follow loses the share `s` of the travel that is beyond the speed `w0`, and
@@ -16,7 +16,7 @@ pub struct MissedCounts<S: Scalar> {
     speed: S,
 }
 
-abreast!(MissedCounts { share, speed });
+lanes!(MissedCounts { share, speed });
 
 impl<S: Scalar> Effect<S> for MissedCounts<S> {
     const DESCRIPTION: Description = Description {

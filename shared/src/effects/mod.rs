@@ -46,7 +46,7 @@ pub use set::EffectSet;
 pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, Winding};
 
 use crate::motor::Machine;
-use crate::scalar::{Abreast, Real, Scalar};
+use crate::scalar::{FromLanes, Real, Scalar};
 use crate::units::PerUnit;
 
 /// Most effects in one model.
@@ -248,11 +248,11 @@ macro_rules! kinds {
         #[derive(Clone, Copy, Debug)]
         enum Any<S: Scalar> { $($kind($file::$kind<S>)),* }
 
-        impl<W, const N: usize> Abreast<Any<f64>, N> for Any<W>
+        impl<W, const N: usize> FromLanes<Any<f64>, N> for Any<W>
         where
             W: Scalar<Coefficient = W, Angle = W> + From<[f64; N]>,
         {
-            fn abreast(each: [&Any<f64>; N]) -> Option<Self> {
+            fn from_lanes(each: [&Any<f64>; N]) -> Option<Self> {
                 match each[0] {
                     $(Any::$kind(first) => {
                         let mut own = [first; N];
@@ -260,7 +260,7 @@ macro_rules! kinds {
                             let Any::$kind(effect) = one else { return None };
                             *own = effect;
                         }
-                        Some(Any::$kind(Abreast::abreast(own)?))
+                        Some(Any::$kind(FromLanes::from_lanes(own)?))
                     }),*
                 }
             }

@@ -1,7 +1,7 @@
 //! Constant voltage added to the command.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// An offset of the power stage or of the logged command.
@@ -10,7 +10,7 @@ pub struct OffsetVoltage<S> {
     volts: S,
 }
 
-abreast!(OffsetVoltage { volts });
+lanes!(OffsetVoltage { volts });
 
 impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
     const DESCRIPTION: Description = Description {

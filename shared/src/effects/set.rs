@@ -7,6 +7,17 @@ use crate::scalar::Real;
 use crate::units::PerUnit;
 
 /// The effects of one model with their parameters, in SI. Copyable, no allocation.
+///
+/// ```
+/// use shared::effects::{EffectSet, Kind};
+///
+/// let mut effects = EffectSet::<f64>::default();
+/// // Coulomb friction of 0.9 V, referred to the winding.
+/// effects.push(Kind::Coulomb, &[0.9])?;
+/// let (kind, values) = effects.iter().next().expect("one effect");
+/// assert_eq!((kind.name(), values), ("coulomb", &[0.9][..]));
+/// # Ok::<(), shared::error::ModelError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectSet<R> {
     kinds: [Option<Kind>; MAX_EFFECTS],

@@ -1,6 +1,6 @@
 //! What an effect sees of the motor, and what it may give back. Per unit.
 
-use crate::scalar::{Mask, Real, Scalar, abreast};
+use crate::scalar::{Mask, Real, Scalar, lanes};
 
 /// The mean state of shaft and winding over a part of a step.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub struct Shaft<S: Scalar> {
     /// [`Effect::friction`](super::Effect::friction).
     pub transmitted: S,
     /// By how much the travel falls per torque against it, turns.
-    pub give: S,
+    pub compliance: S,
     /// Length of the part in intervals.
     pub length: S::Coefficient,
     /// One over that.
@@ -46,7 +46,7 @@ impl<S: Scalar> Shaft<S> {
             current,
             current_change: zero,
             transmitted: current,
-            give: zero,
+            compliance: zero,
             length: S::coefficient(0.0),
             per_length: S::coefficient(0.0),
         }
@@ -90,7 +90,7 @@ pub struct Budget<S> {
     pub bias: S,
 }
 
-abreast!(Budget {
+lanes!(Budget {
     moving,
     holding,
     bias
@@ -182,7 +182,7 @@ pub struct Brush<S> {
     pub knee: S,
 }
 
-abreast!(Brush { drop, knee });
+lanes!(Brush { drop, knee });
 
 impl<S: Scalar> Brush<S> {
     /// Both, which bend at the later of their knees.

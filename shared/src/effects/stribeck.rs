@@ -2,7 +2,7 @@
 
 use super::hump::Hump;
 use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Sliding friction `Tc` that rises to `Tc + Ts` as the speed falls below about `ws`. The exponent is
@@ -14,7 +14,7 @@ pub struct Stribeck<S: Scalar> {
     excess: Hump<S>,
 }
 
-abreast!(Stribeck {
+lanes!(Stribeck {
     sliding,
     holding,
     excess

@@ -1,7 +1,7 @@
 //! The supply falls with the current drawn from it.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// The bridge draws the part `d = u/Vs` of the current from the supply and passes on the part `d` of
@@ -12,7 +12,7 @@ pub struct SupplySag<S: Scalar> {
     sag: S::Coefficient,
 }
 
-abreast!(SupplySag { sag });
+lanes!(SupplySag { sag });
 
 impl<S: Scalar> Effect<S> for SupplySag<S> {
     const DESCRIPTION: Description = Description {

@@ -2,7 +2,7 @@
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
 use crate::scalar::curves::polynomial;
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Torque `Is·tanh(c/Is)` of a current `c`, with `Is = 1/√(3·k3)`: a bounded law whose series begins
@@ -13,7 +13,7 @@ pub struct TorqueSat<S: Scalar> {
     square: S::Coefficient,
 }
 
-abreast!(TorqueSat { square });
+lanes!(TorqueSat { square });
 
 /// `tanh(x)/x` as a quotient of polynomials in `x²`, the fourth approximant of its continued
 /// fraction (Lambert): off by less than 2e-6 up to `x = 2.45`, highest powers first.

@@ -1,7 +1,7 @@
 //! An eccentric mass on a horizontal shaft.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Gravity on a mass off the axis: `A·cos θ + B·sin θ`. What the mass adds to the inertia is part of
@@ -11,7 +11,7 @@ pub struct Unbalance<S: Scalar> {
     torque: Harmonic<S>,
 }
 
-abreast!(Unbalance { torque });
+lanes!(Unbalance { torque });
 
 impl<S: Scalar> Effect<S> for Unbalance<S> {
     const DESCRIPTION: Description = Description {

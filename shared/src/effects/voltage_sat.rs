@@ -1,7 +1,7 @@
 //! The power stage clips.
 
 use super::{Description, Effect, Parameter, Place};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Commands beyond `±V1` give `±V1`. There is nothing to see where no command reaches the limit.
@@ -10,7 +10,7 @@ pub struct VoltageSat<S> {
     limit: S,
 }
 
-abreast!(VoltageSat { limit });
+lanes!(VoltageSat { limit });
 
 impl<S: Scalar> Effect<S> for VoltageSat<S> {
     const DESCRIPTION: Description = Description {

@@ -1,7 +1,7 @@
 //! Windage: the drag of the air that a fan or a fast rotor stirs.
 
 use super::{Description, Effect, Needs, Parameter, Place, Shaft};
-use crate::scalar::{Real, Scalar, abreast};
+use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
 /// Turbulent drag, `c·ω·|ω|`.
@@ -10,7 +10,7 @@ pub struct Windage<S: Scalar> {
     drag: S::Coefficient,
 }
 
-abreast!(Windage { drag });
+lanes!(Windage { drag });
 
 impl<S: Scalar> Effect<S> for Windage<S> {
     const DESCRIPTION: Description = Description {

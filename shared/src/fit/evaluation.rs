@@ -1,6 +1,6 @@
 //! One candidate along the trace, so many samples at a time.
 
-use super::arithmetic::Turning;
+use super::arithmetic::Sliding;
 use super::{Arithmetic, Point, Space};
 use crate::model::{Motion, Rigid};
 use crate::scalar::Angle;
@@ -9,10 +9,10 @@ use crate::trace::{OPEN, Trace};
 /// Samples between two looks at the bound: as many whole turns of any format's loop.
 const BLOCK: usize = 72;
 
-/// Largest mean error that where the shaft stood within a count can explain, counts.
+/// Largest mean error that the unknown start within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
 
-/// As much of a mean error as that can explain, counts.
+/// The part of a mean error that the unknown start can explain, counts.
 #[inline(never)]
 pub(super) fn explained(mean: f32) -> f32 {
     if mean.abs() > UNKNOWN_START {
@@ -65,23 +65,23 @@ pub(super) fn build<S: Arithmetic>(
     room.taken
 }
 
-/// A rigid motor that follows a trace from standstill, and how far it strays.
+/// A rigid motor that follows a trace from standstill, and its error.
 ///
 /// Its cost is the variance of the error: where within a count the shaft stood at the start is not known, so a constant
 /// difference does not count.
 ///
-/// A period in which the bridge is closed and the shaft turns on takes a short way, which differs from [`Rigid::step`] in
-/// rounding only.
+/// A period in which the bridge is closed and the shaft slides on takes the hot loop of [`Arithmetic`], which differs from
+/// [`Rigid::step`] in rounding only.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluation<S: Arithmetic> {
     model: Rigid<S>,
     rows: S::Rows,
-    /// None if the sense of the motion is not known, or friction holds the shaft.
-    turning: Option<Turning<S>>,
+    /// `None` if the sense of the motion is not known, or friction holds the shaft.
+    sliding: Option<Sliding<S>>,
     /// See [`Arithmetic::pull`].
     pull: S,
     speed: S,
-    lead: S::Lead,
+    error: S::AngleError,
     at: usize,
     sums: S::Sums,
     /// Mean square above which the candidate does not matter.
@@ -95,16 +95,16 @@ impl<S: Arithmetic> Evaluation<S> {
         zero: S,
         none: S::Coefficient,
         rows: S::Rows,
-        lead: S::Lead,
+        error: S::AngleError,
         sums: S::Sums,
     ) -> Self {
         Evaluation {
             model: Rigid::of(zero, none),
             rows,
-            turning: None,
+            sliding: None,
             pull: zero,
             speed: zero,
-            lead,
+            error,
             at: 0,
             sums,
             bound: 0.0,
@@ -125,8 +125,8 @@ impl<S: Arithmetic> Evaluation<S> {
             return false;
         };
         self.rows = rows;
-        self.turning = None;
-        (self.pull, self.speed, self.lead) = (S::zero(), S::zero(), Default::default());
+        self.sliding = None;
+        (self.pull, self.speed, self.error) = (S::zero(), S::zero(), Default::default());
         (self.at, self.sums) = (0, Default::default());
         (self.bound, self.result) = (bound, None);
         true
@@ -152,9 +152,9 @@ impl<S: Arithmetic> Evaluation<S> {
                 break;
             };
             if free {
-                self.at += S::glide_free(self, duties, steps, most);
+                self.at += S::run_frictionless(self, duties, steps, most);
             } else {
-                self.follow(duties, steps, to <= trace.closed);
+                self.run_rows(duties, steps, to <= trace.closed);
                 self.at = to;
             }
             ran += (self.at - from) as u32;
@@ -178,12 +178,12 @@ impl<S: Arithmetic> Evaluation<S> {
 
     /// One period: the duty acts, the count is read at its end.
     pub fn step(&mut self, duty: i16, step: i16) {
-        self.follow(&[duty], &[step], duty != OPEN);
+        self.run_rows(&[duty], &[step], duty != OPEN);
     }
 
     /// Counts by which the model is ahead of the reading now.
     pub fn error(&self) -> f32 {
-        S::counts(self.lead)
+        S::counts(self.error)
     }
 
     /// Mean squared error over the `periods` stepped so far, counts².
@@ -192,8 +192,8 @@ impl<S: Arithmetic> Evaluation<S> {
         self.spread(periods) / periods
     }
 
-    /// Runs along rows; `closed` if the bridge is closed in all of them.
-    fn follow(&mut self, duties: &[i16], steps: &[i16], closed: bool) {
+    /// Runs along rows of duties and steps; `closed` if the bridge is closed in all of them.
+    fn run_rows(&mut self, duties: &[i16], steps: &[i16], closed: bool) {
         let mut at = 0;
         while let (Some(&duty), Some(&step)) = (duties.get(at), steps.get(at)) {
             let on = match (closed, duty) {
@@ -201,46 +201,46 @@ impl<S: Arithmetic> Evaluation<S> {
                 (false, OPEN) => (&duties[..0], &steps[..0]),
                 (false, _) => (&duties[at..=at], &steps[at..=at]),
             };
-            let glided = if self.model.is_free() {
-                S::glide_free(self, on.0, on.1, f32::INFINITY)
+            let taken = if self.model.is_free() {
+                S::run_frictionless(self, on.0, on.1, f32::INFINITY)
             } else {
-                if self.turning.is_none() {
-                    self.turn();
+                if self.sliding.is_none() {
+                    self.enter_sliding();
                 }
-                S::glide(self, on.0, on.1)
+                S::run_sliding(self, on.0, on.1)
             };
-            at += glided;
-            if glided == 0 {
-                self.rough(duty, step);
+            at += taken;
+            if taken == 0 {
+                self.step_general(duty, step);
                 at += 1;
             }
         }
     }
 
-    /// Takes up load and friction in the sense in which the shaft turns, if it does.
+    /// Enters the hot loop: makes the increments by load and friction in the sense in which the shaft turns, if it does.
     #[inline(never)]
-    fn turn(&mut self) {
-        let Some((sense, [current, speed, angle])) = self.model.turning(self.speed) else {
+    fn enter_sliding(&mut self) {
+        let Some((sense, [current, speed, angle])) = self.model.sliding(self.speed) else {
             return;
         };
         let angle = S::Angle::default().advance(angle, self.model.counts_per_unit());
-        let lead = S::ahead(Default::default(), angle, 0);
-        let turning = S::turning(&self.rows, sense, (current, speed, lead));
-        self.pull = self.pull + turning.push;
-        self.turning = Some(turning);
+        let error = S::advance_error(Default::default(), angle, 0);
+        let sliding = S::sliding(&self.rows, sense, (current, speed, error));
+        self.pull = self.pull + sliding.push;
+        self.sliding = Some(sliding);
     }
 
-    /// Periods with the bridge closed of a motor that nothing brakes, `N` at a time, until after a block the sum of squares may
-    /// exceed `most`; returns how many those were.
+    /// Runs a motor without friction and load along periods with the bridge closed, `N` at a time, until after a block the sum of
+    /// squares may exceed `most`; returns how many periods those were.
     #[inline(always)]
-    pub(super) fn glide_free<const N: usize>(
+    pub(super) fn run_frictionless<const N: usize>(
         &mut self,
         duties: &[i16],
         steps: &[i16],
         most: f32,
     ) -> usize {
         let rows = self.rows;
-        let (mut at, mut sums) = ((self.pull, self.speed, self.lead), self.sums);
+        let (mut at, mut sums) = ((self.pull, self.speed, self.error), self.sums);
         let len = duties.len().min(steps.len());
         let (duties, rest) = duties[..len].as_chunks::<N>();
         let (steps, rest_steps) = steps[..len].as_chunks::<N>();
@@ -250,13 +250,13 @@ impl<S: Arithmetic> Evaluation<S> {
                 // No compiler that minds the size sees that the loop in the loop is none.
                 let turns = duties.as_flattened().iter().zip(steps.as_flattened());
                 for (&duty, &step) in turns {
-                    at = S::follow(&rows, at, duty, step);
+                    at = S::step_row(&rows, at, duty, step);
                     S::collect(&mut sums, at.2);
                 }
             } else {
                 for (duties, steps) in duties.iter().zip(steps) {
                     for (&duty, &step) in duties.iter().zip(steps) {
-                        at = S::follow(&rows, at, duty, step);
+                        at = S::step_row(&rows, at, duty, step);
                         S::collect(&mut sums, at.2);
                     }
                 }
@@ -269,45 +269,45 @@ impl<S: Arithmetic> Evaluation<S> {
         let mut periods = (duties.len() - left) * N;
         if N > 1 && left == 0 {
             for (&duty, &step) in rest.iter().zip(rest_steps) {
-                at = S::follow(&rows, at, duty, step);
+                at = S::step_row(&rows, at, duty, step);
                 S::collect(&mut sums, at.2);
             }
             periods += rest.len();
         }
-        ((self.pull, self.speed, self.lead), self.sums) = (at, sums);
+        ((self.pull, self.speed, self.error), self.sums) = (at, sums);
         periods
     }
 
-    /// Periods in which the shaft turns on, with the bridge closed; returns how many those were.
+    /// Runs along periods in which the shaft slides on, with the bridge closed; returns how many those were.
     #[inline(always)]
-    pub(super) fn glide(&mut self, duties: &[i16], steps: &[i16]) -> usize {
-        let Some(turning) = self.turning else {
+    pub(super) fn run_sliding(&mut self, duties: &[i16], steps: &[i16]) -> usize {
+        let Some(sliding) = self.sliding else {
             return 0;
         };
         let rows = self.rows;
-        let (mut at, mut sums) = ((self.pull, self.speed, self.lead), self.sums);
+        let (mut at, mut sums) = ((self.pull, self.speed, self.error), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
-            let mut to = S::follow(&rows, at, duty, step);
-            (to.0, to.1) = S::turned((to.0, to.1), &turning);
-            if !S::along(to.1, turning.sense) {
+            let mut to = S::step_row(&rows, at, duty, step);
+            (to.0, to.1) = S::add_sliding((to.0, to.1), &sliding);
+            if !S::along(to.1, sliding.sense) {
                 break;
             }
-            to.2 = to.2 + turning.lead;
+            to.2 = to.2 + sliding.error;
             at = to;
             S::collect(&mut sums, at.2);
             periods += 1;
         }
-        ((self.pull, self.speed, self.lead), self.sums) = (at, sums);
+        ((self.pull, self.speed, self.error), self.sums) = (at, sums);
         periods
     }
 
-    /// A period in which anything may happen.
+    /// Takes a period in which the shaft may stop, start or coast.
     #[inline(never)]
-    fn rough(&mut self, duty: i16, step: i16) {
+    fn step_general(&mut self, duty: i16, step: i16) {
         let open = duty == OPEN;
         let command = S::from_q15(if open { 0 } else { duty });
-        let push = self.turning.map_or(S::zero(), |turning| turning.push);
+        let push = self.sliding.map_or(S::zero(), |sliding| sliding.push);
         let mut motion = Motion {
             current: S::current(&self.rows, self.pull, self.speed, push),
             speed: self.speed,
@@ -316,12 +316,12 @@ impl<S: Arithmetic> Evaluation<S> {
         S::step(&self.model, &mut motion, command, open);
         self.pull = S::pull(&self.rows, motion.current, motion.speed);
         self.speed = motion.speed;
-        self.lead = S::ahead(self.lead, motion.angle, step);
-        S::collect(&mut self.sums, self.lead);
-        self.turning = None;
+        self.error = S::advance_error(self.error, motion.angle, step);
+        S::collect(&mut self.sums, self.error);
+        self.sliding = None;
     }
 
-    /// Sum of the squared errors about their mean, as far as that can be a matter of where the shaft stood.
+    /// Sum of the squared errors about their mean, as far as the unknown start explains that mean.
     fn spread(&self, periods: f32) -> f32 {
         let (sum, squares) = S::sums(&self.sums);
         let mean = explained(sum / periods);

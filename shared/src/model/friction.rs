@@ -1,25 +1,26 @@
-//! Friction inside a part of a step: stops and releases are located by halving it, and its pieces
-//! are taken by the exact maps of the halves. No root finding; and the same path for every lane.
+//! Friction within a substep, by event location: a substep that holds a stop, a release or a contact
+//! is halved until the event is in the shortest one, and each half is taken by its exact map. No root
+//! finding, and one path for all lanes.
 
-use super::body::Body;
-use super::pieces::Pieces;
-use super::rung::RUNGS;
+use super::dyadic::LEVELS;
+use super::mechanics::Mechanics;
 use super::state::Motion;
+use super::substep_iter::SubstepIter;
 use crate::effects::Budget;
-use crate::scalar::{Angle, Mask, Scalar, abreast};
+use crate::scalar::{Angle, Mask, Scalar, lanes};
 
-/// What is held over a part of a step.
+/// Forces, held over a substep.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces<S> {
-    /// At the winding.
+    /// Voltage at the winding.
     pub volts: S,
-    /// On the shaft, against positive rotation.
+    /// Torque on the shaft, against positive rotation.
     pub torque: S,
-    /// Friction.
+    /// Budget of friction.
     pub budget: Budget<S>,
 }
 
-abreast!(Forces {
+lanes!(Forces {
     volts,
     torque,
     budget
@@ -34,17 +35,18 @@ pub fn direction<S: Scalar>(speed: S, pull: S, budget: &Budget<S>) -> S {
     S::select(is_zero(speed), start, speed.signum())
 }
 
+/// Whether a number is zero, of either sign.
 #[inline(always)]
 pub fn is_zero<S: Scalar>(x: S) -> S::Mask {
     x.less(S::zero()).or(S::zero().less(x)).not()
 }
 
-/// One piece, taken as if nothing happened within it.
-struct Piece<S: Scalar> {
-    /// Where it ends.
+/// A substep, taken as if it held no event.
+struct Trial<S: Scalar> {
+    /// The motion at its end.
     end: Motion<S>,
-    /// Angle that the shaft turned.
-    turned: S,
+    /// Angle that the shaft travelled.
+    travel: S,
     /// Net torque on a resting shaft before and after.
     pull: (S, S),
     /// Friction holds the shaft.
@@ -55,11 +57,11 @@ struct Piece<S: Scalar> {
     breaks_loose: S::Mask,
 }
 
-impl<S: Scalar> Piece<S> {
-    /// With the load against the flank on `side`.
+impl<S: Scalar> Trial<S> {
+    /// Takes it from `from`, with the load against the flank on `side`.
     #[inline(always)]
-    fn take<B: Body<S>>(
-        body: &B,
+    fn take<M: Mechanics<S>>(
+        mechanics: &M,
         level: usize,
         from: &Motion<S>,
         side: S,
@@ -72,25 +74,25 @@ impl<S: Scalar> Piece<S> {
             budget,
         } = *forces;
         let zero = S::zero();
-        let pull = from.current - torque - body.load(from, side);
+        let pull = from.current - torque - mechanics.load(from, side);
         let sense = direction(from.speed, pull, &budget);
         let holds = is_zero(sense);
         let against = torque + sense * budget.moving;
-        let slide = body.slide(level, from, side, volts, against, open);
-        let settle = body.settle(level, from, side, volts, open);
+        let free = mechanics.step_free(level, from, side, volts, against, open);
+        let stuck = mechanics.step_stuck(level, from, side, volts, open);
         let mut end = Motion {
-            current: from.current + S::select(holds, settle.current, slide.current),
-            speed: from.speed + S::select(holds, zero, slide.speed),
+            current: from.current + S::select(holds, stuck.current, free.current),
+            speed: from.speed + S::select(holds, zero, free.speed),
             ..*from
         };
-        if B::COUPLED {
-            end.twist = from.twist + S::select(holds, settle.twist, slide.twist);
-            end.slip = from.slip + S::select(holds, settle.slip, slide.slip);
+        if M::COUPLED {
+            end.twist = from.twist + S::select(holds, stuck.twist, free.twist);
+            end.slip = from.slip + S::select(holds, stuck.slip, free.slip);
         }
-        let pull_after = end.current - torque - body.load(&end, side);
-        Piece {
+        let pull_after = end.current - torque - mechanics.load(&end, side);
+        Trial {
             end,
-            turned: S::select(holds, zero, slide.angle),
+            travel: S::select(holds, zero, free.angle),
             pull: (pull, pull_after),
             holds,
             turns_back: (end.speed * sense).less(zero),
@@ -100,15 +102,15 @@ impl<S: Scalar> Piece<S> {
 
     /// Whether the shaft stopped, reversed or broke loose.
     #[inline(always)]
-    fn eventful(&self) -> bool {
+    fn has_event(&self) -> bool {
         self.turns_back.or(self.breaks_loose).any()
     }
 
-    /// The end of a piece so short that the stop or the release in it need not be located any
-    /// better.
+    /// Corrects the speed at the end of a shortest substep that holds a stop or a release: the event
+    /// is located well enough.
     #[inline(always)]
-    fn settle_speed<B: Body<S>>(&mut self, body: &B, level: usize, budget: &Budget<S>) {
-        let started = started(self.pull, budget, |torque| body.yields(level, torque));
+    fn resolve_event<M: Mechanics<S>>(&mut self, mechanics: &M, level: usize, budget: &Budget<S>) {
+        let started = started(self.pull, budget, || mechanics.speed_per_torque(level));
         let passed = passed_through(self.end.speed, self.pull.1, budget);
         let sliding = S::select(self.turns_back, passed, self.end.speed);
         let held = S::select(self.breaks_loose, started, S::zero());
@@ -118,11 +120,11 @@ impl<S: Scalar> Piece<S> {
         self.end.speed = speed;
     }
 
-    /// A piece so short that the contact within it need not be located any better: for the `share`
-    /// of it after the contact the motion is that of `touching`, which touched all along.
+    /// Resolves a contact within a shortest substep: for the `share` of it after the contact the
+    /// motion is that of `touching`, whose flanks touched all along.
     #[inline(always)]
-    fn land(&mut self, touching: &Self, share: S) {
-        self.turned = blend(self.turned, touching.turned, share);
+    fn resolve_contact(&mut self, touching: &Self, share: S) {
+        self.travel = blend(self.travel, touching.travel, share);
         let (end, other) = (&mut self.end, &touching.end);
         end.current = blend(end.current, other.current, share);
         end.speed = blend(end.speed, other.speed, share);
@@ -131,45 +133,46 @@ impl<S: Scalar> Piece<S> {
     }
 }
 
-/// `a`, or as much as the `share` says of `b`.
+/// Linear interpolation from `a` to `b`.
 #[inline(always)]
 fn blend<S: Scalar>(a: S, b: S, share: S) -> S {
     a + (b - a) * share
 }
 
-/// Takes a part of a step if the shaft slides on throughout; most do. Gives the angle travelled.
+/// Takes a substep in which the shaft slides on throughout, as in most; `None` if it may not.
+/// Returns the travel.
 #[inline(always)]
-pub fn slide_on<S: Scalar, B: Body<S>>(
-    body: &B,
+pub fn step_sliding<S: Scalar, M: Mechanics<S>>(
+    mechanics: &M,
     level: usize,
     motion: &mut Motion<S>,
     forces: &Forces<S>,
     open: bool,
     counts_per_unit: S::Coefficient,
 ) -> Option<S> {
-    if B::COUPLED {
+    if M::COUPLED {
         return None;
     }
     let zero = S::zero();
     let sense = motion.speed.signum();
     let torque = forces.torque + sense * forces.budget.moving;
-    let slide = body.slide(level, motion, zero, forces.volts, torque, open);
-    let speed = motion.speed + slide.speed;
+    let by = mechanics.step_free(level, motion, zero, forces.volts, torque, open);
+    let speed = motion.speed + by.speed;
     if is_zero(sense).or((speed * sense).less(zero)).any() {
         return None;
     }
-    motion.current = motion.current + slide.current;
+    motion.current = motion.current + by.current;
     motion.speed = speed;
-    motion.angle = motion.angle.advance(slide.angle, counts_per_unit);
-    Some(slide.angle)
+    motion.angle = motion.angle.advance(by.angle, counts_per_unit);
+    Some(by.angle)
 }
 
-/// Takes a part of a step (`level` halvings of it) in the largest pieces that hold no stop, no
-/// release and no contact. Gives the angle travelled, in base speed × interval.
-// Rare, and long: out of the way of what is neither.
+/// Takes a substep of `level` in the longest shorter ones that hold no stop, no release and no
+/// contact. Returns the travel, in base speed × interval.
+// Rare and long, so kept out of line.
 #[inline(never)]
-pub fn slide_and_stick<S: Scalar, B: Body<S>>(
-    body: &B,
+pub fn step_with_events<S: Scalar, M: Mechanics<S>>(
+    mechanics: &M,
     level: usize,
     motion: &mut Motion<S>,
     forces: &Forces<S>,
@@ -179,50 +182,54 @@ pub fn slide_and_stick<S: Scalar, B: Body<S>>(
     S::routine(
         #[inline(always)]
         || {
-            let mut pieces = Pieces::new(level, RUNGS - 1);
+            let mut substeps = SubstepIter::new(level, LEVELS - 1);
             let mut travel = S::zero();
-            while let Some(level) = pieces.next() {
-                let side = body.side(motion);
-                let mut piece = Piece::take(body, level, motion, side, forces, open);
-                let end_side = body.side(&piece.end);
-                let contact = B::COUPLED && is_zero(end_side - side).not().any();
-                if (piece.eventful() || contact) && pieces.halve() {
+            while let Some(level) = substeps.next() {
+                let side = mechanics.side(motion);
+                let mut trial = Trial::take(mechanics, level, motion, side, forces, open);
+                let end_side = mechanics.side(&trial.end);
+                let contact = M::COUPLED && is_zero(end_side - side).not().any();
+                if (trial.has_event() || contact) && substeps.halve() {
                     continue;
                 }
                 if contact {
                     // Flanks part without a jump of the torque, but they touch with one.
-                    let touching = Piece::take(body, level, motion, end_side, forces, open);
-                    let beyond = body.beyond(&piece.end, end_side);
-                    let share = beyond.part_of(beyond - body.beyond(motion, end_side));
+                    let touching = Trial::take(mechanics, level, motion, end_side, forces, open);
+                    let beyond = mechanics.beyond(&trial.end, end_side);
+                    let share = beyond.part_of(beyond - mechanics.beyond(motion, end_side));
                     let lands = is_zero(side).and(is_zero(end_side).not());
-                    piece.land(&touching, S::select(lands, share, S::zero()));
+                    trial.resolve_contact(&touching, S::select(lands, share, S::zero()));
                 }
-                if piece.eventful() {
-                    piece.settle_speed(body, level, &forces.budget);
+                if trial.has_event() {
+                    trial.resolve_event(mechanics, level, &forces.budget);
                 }
-                piece.end.angle = motion.angle.advance(piece.turned, counts_per_unit);
-                *motion = piece.end;
-                travel = travel + piece.turned;
-                pieces.pass();
+                trial.end.angle = motion.angle.advance(trial.travel, counts_per_unit);
+                *motion = trial.end;
+                travel = travel + trial.travel;
+                substeps.pass();
             }
             travel
         },
     )
 }
 
-/// Speed of a shaft that broke loose within the smallest piece, in which the pull rose evenly from
-/// `pull.0` to `pull.1`: the excess over friction acts for the rest of the piece.
+/// Speed of a shaft that broke loose within a shortest substep, in which the pull rose evenly from
+/// `pull.0` to `pull.1`: the excess over friction acts for the rest of the substep.
 #[inline(always)]
-pub fn started<S: Scalar>(pull: (S, S), budget: &Budget<S>, yields: impl FnOnce(S) -> S) -> S {
+pub fn started<S: Scalar>(
+    pull: (S, S),
+    budget: &Budget<S>,
+    speed_per_torque: impl FnOnce() -> S::Coefficient,
+) -> S {
     let (before, pull) = pull;
     let excess = pull.abs() - budget.holding;
     let rest = excess.part_of(pull.abs() - before.abs());
     let mean = excess * S::from_f64(0.5) + (budget.holding - budget.moving);
-    yields(-(mean * rest * pull.signum()))
+    (-(mean * rest * pull.signum())).times(speed_per_torque())
 }
 
-/// Speed after a reversal within the smallest piece. It was run with friction on the old side
-/// throughout; beyond the reversal the same pull meets friction on the new side, so the speed
+/// Speed after a reversal within a shortest substep, which was taken with friction on the old side
+/// throughout. Beyond the reversal the same pull meets friction on the new side, so the speed
 /// gained there shrinks as the net torque does. Zero if friction holds the pull.
 #[inline(always)]
 pub fn passed_through<S: Scalar>(speed: S, pull: S, budget: &Budget<S>) -> S {

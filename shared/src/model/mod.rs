@@ -1,85 +1,82 @@
-//! Motor + effects + encoder: the few lines to read first.
+//! Motor + effects + encoder: read this file first.
 //!
-//! A [`Model`] holds coefficients and never changes; a [`State`] is what runs. Without effects a
-//! step is one linear map. With effects it is cut into parts, and in each part
+//! A [`Model`] holds coefficients and never changes; a [`State`] runs. Without effects a step is one
+//! linear map. With effects it is cut into substeps, and in each substep
 //!
-//! * what depends on speed, angle and current is held at its mean over the part (`foresee`), and a
-//!   part that is too long for that is halved (`part`);
+//! * what depends on speed, angle and current is held at its predicted mean, and a substep that is
+//!   too long for that is halved (`predict`, `substep`);
 //! * a changed winding, and the drop of brushes, are solved for as volts (`winding`);
-//! * friction is a budget whose stops and releases are located by halving (`friction`);
+//! * friction is a budget; its stops and releases are located by halving (`friction`);
 //! * a load behind a spring or a gap moves by maps of its own (`coupled`).
 //!
+//! The maps of a step, of its half, quarter, … are in `step_map`, `substep_map` and `dyadic`. The folder
+//! `fast` holds shorter forms of the same step; skip it at first, a law says that they give the same bits.
+//!
 //! The voltage jumps at the start of a step, and where the winding is much faster than a step the
-//! current follows at once. What depends on the current then gets its first parts graded: short
-//! after the jump, longer later; the larger the jump, the shorter the first.
+//! current follows at once. Effects of the current then get graded substeps: short after the jump,
+//! longer later; the larger the jump, the shorter the first.
 
-mod body;
 mod coupled;
-mod foresee;
+mod dyadic;
+mod fast;
 mod friction;
-mod glide;
-mod led;
-mod linear;
-mod located;
-mod part;
-mod pieces;
-mod rigid;
-mod rung;
+mod mechanics;
+mod plan;
+mod predict;
+mod series_parallel;
 mod state;
+mod step_map;
+mod stretch;
+mod substep;
+mod substep_iter;
+mod substep_map;
 mod winding;
 
-use crate::discretise::Discretisation;
-use crate::effects::{EffectSet, Lowered};
+use crate::effects::Lowered;
 use crate::error::ModelError;
-use crate::motor::Machine;
-use crate::scalar::{Abreast, Angle, Mask, Real, Scalar, abreast};
-use crate::units::{PerUnit, Quantity};
-use coupled::{Coupled, MotorAndLoad};
+use crate::scalar::{Angle, Real, Scalar, lanes};
+use crate::units::Quantity;
+use coupled::MotorAndLoad;
+pub use fast::{ConstantForce, Increments, Rigid, RigidPlan};
 use friction::Forces;
-pub use glide::Glide;
-pub use led::Seen;
-pub use linear::Increments;
-pub use rigid::{Rigid, RigidPlan};
-use rung::{RUNGS, Timed};
+pub use plan::Plan;
+pub use series_parallel::MeasuredInterval;
 pub use state::{MAX_DELAY, Motion, Past, State};
-
-/// What a model is made of, in SI.
-#[derive(Clone, Copy, Debug)]
-pub struct Plan<R> {
-    /// The linear machine.
-    pub machine: Machine<R>,
-    /// Effects with their parameters.
-    pub effects: EffectSet<R>,
-    /// Bases of the per-unit system; one interval is one step.
-    pub units: PerUnit<R>,
-    /// Exact, or the paper's Euler step.
-    pub discretisation: Discretisation,
-    /// Parts that an interval is cut into where effects bend the path; at least 1.
-    pub substeps: u16,
-}
-
-impl<R: Real> Plan<R> {
-    /// The linear machine, discretised exactly.
-    #[inline(always)]
-    pub fn linear(machine: Machine<R>, units: PerUnit<R>) -> Self {
-        Plan {
-            machine,
-            effects: EffectSet::default(),
-            units,
-            discretisation: Discretisation::Exact,
-            substeps: 1,
-        }
-    }
-}
+use stretch::Stretch;
 
 /// Coefficients of one model in the number format `S`. Immutable.
+///
+/// A step takes the command that is held over one interval, per unit:
+///
+/// ```
+/// use shared::effects::Kind;
+/// use shared::model::{Model, Plan, State};
+/// use shared::motor::Machine;
+/// use shared::units::PerUnit;
+///
+/// // 24 V, 800 rad/s, 1 ms, 4096 counts per revolution.
+/// let units = PerUnit::new(24.0, 800.0, 1e-3, 4096.0)?;
+/// let machine = Machine { kb: 0.03, damping: 0.002, inertia: 1.1e-3, electrical: 0.7e-3 };
+/// let mut plan = Plan::linear(machine, units);
+/// plan.effects.push(Kind::Coulomb, &[0.9])?;
+///
+/// let model = Model::<f64>::new(&plan)?;
+/// let mut state = State::default();
+/// for _ in 0..100 {
+///     model.step(&mut state, 0.5, false);
+/// }
+/// let counts = model.reading(&state);
+/// // 347 rad/s in the end, reached with a time constant of 34 ms.
+/// assert!((15_000.0..15_500.0).contains(&counts));
+/// # Ok::<(), shared::error::ModelError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Model<S: Scalar> {
-    /// From the moment at which a command reaches the bridge to the end of the step.
+    /// From the moment at which the command reaches the bridge to the end of the step.
     rest: Stretch<S>,
-    /// Before that moment, the command before still acts.
+    /// Before that moment, while the previous command still acts.
     first: Option<Stretch<S>>,
-    /// Whole samples that commands are late.
+    /// Whole samples by which commands are late.
     late: usize,
     counts_per_unit: S::Coefficient,
     /// Revolutions by angle in base speed × interval.
@@ -88,13 +85,13 @@ pub struct Model<S: Scalar> {
     /// Whole, for the position within a revolution.
     counts_per_rev: u32,
     effects: Lowered<S>,
-    /// Doubtful torque times its length that needs no shorter parts.
+    /// Largest change of the predicted torque, times the length, that needs no halving.
     tolerated: S,
-    /// What acts on the shaft, if nothing of it depends on the state.
+    /// The forces, if nothing of them depends on the state.
     constant: Forces<S>,
 }
 
-abreast!(Model {
+lanes!(Model {
     rest,
     first,
     late,
@@ -106,39 +103,6 @@ abreast!(Model {
     tolerated,
     constant
 });
-
-/// A stretch of a step under one command.
-#[derive(Clone, Copy, Debug)]
-struct Stretch<S: Scalar> {
-    motor: [Timed<S>; RUNGS],
-    coupled: Option<Coupled<S>>,
-    /// Equal parts.
-    parts: u16,
-    /// Halvings of the first part after a large jump of the voltage.
-    grade: usize,
-}
-
-impl<W, const N: usize> Abreast<Stretch<f64>, N> for Stretch<W>
-where
-    W: Scalar<Coefficient = W, Angle = W> + From<[f64; N]>,
-{
-    fn abreast(each: [&Stretch<f64>; N]) -> Option<Self> {
-        Some(Stretch {
-            motor: Abreast::abreast(each.map(|one| &one.motor))?,
-            coupled: Abreast::abreast(each.map(|one| &one.coupled))?,
-            parts: Abreast::abreast(each.map(|one| &one.parts))?,
-            // More of them are only finer.
-            grade: each.iter().fold(0, |most, one| most.max(one.grade)),
-        })
-    }
-}
-
-/// The first part after a jump of the voltage is at most this fraction of the electrical time
-/// constant, if eight rungs suffice for that.
-const FIRST_PART: f64 = 0.25;
-
-/// Largest jump of the voltage, per unit, that needs no graded parts.
-const SMALL_JUMP: f64 = 0.004;
 
 impl<S: Scalar> Model<S> {
     /// Discretises and lowers a plan.
@@ -176,7 +140,11 @@ impl<S: Scalar> Model<S> {
     #[inline(always)]
     pub fn step(&self, state: &mut State<S>, command: S, open: bool) {
         if self.effects.is_empty() {
-            let by = self.rest.motor[0].slide(&state.motion, command, S::zero(), open);
+            let by = self
+                .rest
+                .motor
+                .whole()
+                .step_free(&state.motion, command, S::zero(), open);
             let motion = &mut state.motion;
             motion.current = motion.current + by.current;
             motion.speed = motion.speed + by.speed;
@@ -186,12 +154,12 @@ impl<S: Scalar> Model<S> {
         }
     }
 
-    /// Takes note of a command that was given before the first step, so that it can arrive late.
+    /// Records a command that was given before the first step, so that it can arrive late.
     pub fn recall(&self, state: &mut State<S>, command: S, open: bool) {
         state.past.push(command, open);
     }
 
-    /// What the encoder sees, in counts before it rounds down.
+    /// The angle that the encoder senses, in counts before it rounds down.
     #[inline(always)]
     pub fn reading(&self, state: &State<S>) -> S::Angle {
         let angle = state.motion.angle;
@@ -229,18 +197,18 @@ impl<S: Scalar> Model<S> {
         };
         state.volts = volts;
         state.open = open;
-        for _ in 0..stretch.parts {
-            // An eighth, an eighth, a quarter, a half: all together one part.
-            self.move_on(stretch, grade, state, volts, open);
+        for _ in 0..stretch.substeps {
+            // Graded: an eighth, an eighth, a quarter, a half; together one substep.
+            self.take_substep(stretch, grade, state, volts, open);
             while grade > 0 {
-                self.move_on(stretch, grade, state, volts, open);
+                self.take_substep(stretch, grade, state, volts, open);
                 grade -= 1;
             }
         }
     }
 
     #[inline(always)]
-    fn move_on(
+    fn take_substep(
         &self,
         stretch: &Stretch<S>,
         level: usize,
@@ -250,66 +218,11 @@ impl<S: Scalar> Model<S> {
     ) {
         let motor = &stretch.motor;
         match &stretch.coupled {
-            None => self.part(motor, level, state, volts, open),
+            None => self.substep(motor, level, state, volts, open),
             Some(coupled) => {
-                self.part(&MotorAndLoad { motor, coupled }, level, state, volts, open);
+                self.substep(&MotorAndLoad { motor, coupled }, level, state, volts, open);
             }
         }
-    }
-}
-
-impl<S: Scalar> Stretch<S> {
-    /// Halvings of the first part after a jump of the voltage: one for each doubling beyond the
-    /// largest jump that needs none.
-    #[inline(always)]
-    fn grade_after(&self, jump: S) -> usize {
-        let mut tame = S::from_f64(SMALL_JUMP);
-        let mut grade = 0;
-        while grade < self.grade && tame.less(jump).any() {
-            tame = tame + tame;
-            grade += 1;
-        }
-        grade
-    }
-
-    /// A stretch of `length` intervals.
-    fn new<R: Real>(plan: &Plan<R>, effects: &Lowered<S>, length: R) -> Result<Self, ModelError> {
-        let machine = plan.machine.lower(&plan.units);
-        let how = plan.discretisation;
-        let needs = effects.needs;
-        let coupling = plan.effects.coupling(&plan.units, &machine);
-        // Held voltage and torque need no parts: one exact map does, and friction's stops are located
-        // wherever they are.
-        let straight = !(needs.mean || coupling.is_some());
-        let parts = if straight { 1 } else { plan.substeps.max(1) };
-        let step = length / R::from_f64(parts as f64);
-        let mut grade = 0;
-        if needs.current {
-            let first = machine.electrical * R::from_f64(FIRST_PART);
-            let mut part = step;
-            while part > first && grade < RUNGS - 1 {
-                part = part * R::from_f64(0.5);
-                grade += 1;
-            }
-        }
-        let depth = if straight && !needs.friction {
-            0
-        } else {
-            RUNGS - 1
-        };
-        let (coupled, machine) = match coupling {
-            None => (None, machine),
-            Some(coupling) => {
-                let (coupled, motor) = Coupled::new(&machine, &coupling, step, how)?;
-                (Some(coupled), motor)
-            }
-        };
-        Ok(Stretch {
-            motor: rung::ladder(&machine, step, depth, how)?,
-            coupled,
-            parts,
-            grade,
-        })
     }
 }
 

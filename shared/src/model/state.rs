@@ -1,9 +1,9 @@
-//! What runs: the state of the motor, of its load and of the effects' memories.
+//! Running state: of the motor, of its load and of the effects' memories.
 
 use crate::effects::MAX_EFFECTS;
-use crate::scalar::{Scalar, abreast};
+use crate::scalar::{Scalar, lanes};
 
-/// What moves: winding, shaft and load.
+/// Motion of winding, shaft and load.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motion<S: Scalar> {
     /// Current, as the voltage across the resistance; per unit.
@@ -18,7 +18,7 @@ pub struct Motion<S: Scalar> {
     pub slip: S,
 }
 
-abreast!(Motion {
+lanes!(Motion {
     current,
     speed,
     angle,
@@ -26,23 +26,23 @@ abreast!(Motion {
     slip
 });
 
-/// What runs. `Default` is rest at angle zero, with everything cold and relaxed. Nothing in it
+/// Running state of a [`Model`](super::Model). `Default` is rest at angle zero, with everything cold and relaxed. Nothing in it
 /// depends on the sample interval, so models of one motor at different intervals can share it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct State<S: Scalar> {
     /// Winding, shaft and load.
     pub motion: Motion<S>,
-    /// Voltage that acted last, per unit: a jump of it is followed in small parts.
+    /// Voltage that acted last, per unit: a jump of it is followed in graded substeps.
     pub volts: S,
     /// Whether the bridge was open last.
     pub open: bool,
-    /// What the effects remember, one number each, in the order in which they act.
+    /// Memory of the effects, one number each, in the order in which they act.
     pub memory: [S; MAX_EFFECTS],
     /// Commands on their way to the bridge.
     pub past: Past<S>,
 }
 
-abreast!(State {
+lanes!(State {
     motion,
     volts,
     open,
@@ -76,7 +76,7 @@ pub struct Past<S> {
     newest: usize,
 }
 
-abreast!(Past {
+lanes!(Past {
     volts,
     open,
     newest

@@ -1,29 +1,29 @@
 //! Changes of the winding, and the drop of its brushes, as volts added to the drive.
 //!
 //! With resistance `1 + r`, inductance `1/(1 + l)`, back-EMF `1 + e` times their own and a drop `D`
-//! of the brushes, all held over the part,
+//! of the brushes, all held over the substep,
 //!
 //! ```text
 //! τe·dc/dt = (1 + l)·(v − (1 + r)·c − (1 + e)·kb·ω − D(c))  =  v + E − c − kb·ω
 //! ```
 //!
 //! defines the volts `E` that the plain winding must see instead. Its mean is solved for, with the
-//! gain `g` of the mean current: the current follows within the part when the winding is fast, and
+//! gain `g` of the mean current: the current follows within the substep when the winding is fast, and
 //! an explicit formula would overshoot. `D = Vb·clamp(c/knee, ±1)` has one bend each way and is
 //! solved exactly.
 
-use super::rung::Timing;
+use super::substep_map::SubstepTiming;
 use crate::effects::{Brush, Shaft, Winding};
 use crate::scalar::{Mask, Scalar};
 
-/// Volts `E` for a part whose mean, with the plain winding at `volts`, is `free`.
+/// Volts `E` of a substep whose mean shaft, with the plain winding at `volts`, is `free`.
 #[inline(always)]
 pub fn extra_volts<S: Scalar>(
     changed: &Winding<S>,
     brush: &Brush<S>,
     volts: S,
     free: &Shaft<S>,
-    timing: &Timing<S>,
+    timing: &SubstepTiming<S>,
 ) -> S {
     let one = S::from_f64(1.0);
     let Winding {
@@ -50,7 +50,7 @@ pub fn extra_volts<S: Scalar>(
     (given - drop) * scale
 }
 
-/// Whether the current passes a bend of the brushes' law on its way through the part.
+/// Whether the current passes a bend of the brushes' law within the substep.
 #[inline(always)]
 pub fn bends<S: Scalar>(brush: &Brush<S>, start: &Shaft<S>, mean: &Shaft<S>) -> S::Mask {
     let zero = S::zero();

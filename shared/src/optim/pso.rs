@@ -39,6 +39,19 @@ struct Particle<R, const D: usize> {
 }
 
 /// Particle swarm of up to `P` particles over up to `D` unknowns.
+///
+/// ```
+/// use shared::optim::{Optimiser, Pso, PsoSettings};
+///
+/// // Ten particles over two unknowns, seed 1; the minimum is at (0.2, 0.7).
+/// let mut swarm = Pso::<f64, 10, 2>::new(2, 10, PsoSettings::default(), 1);
+/// for _ in 0..1000 {
+///     let [a, b] = swarm.ask();
+///     swarm.tell((a - 0.2).powi(2) + (b - 0.7).powi(2));
+/// }
+/// let [a, b] = swarm.best().x;
+/// assert!((a - 0.2).abs() < 1e-3 && (b - 0.7).abs() < 1e-3);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Pso<R, const P: usize, const D: usize, G = Generator> {
     inertia: R,

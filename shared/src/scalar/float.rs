@@ -261,7 +261,7 @@ impl Angle<f32> for SplitAngle {
         let mut fraction = sum - whole as f32;
         if fraction < 0.0 {
             fraction += 1.0;
-            whole -= 1;
+            whole = whole.wrapping_sub(1);
         }
         SplitAngle {
             whole: self.whole.wrapping_add(whole),

@@ -8,16 +8,16 @@
 //! * comparisons give a [`Mask`] and choices are [`Scalar::select`], so that a SIMD lane type, where
 //!   every lane is another candidate, can be a `Scalar` too.
 
-mod abreast;
 pub mod curves;
 mod fixed;
 mod float;
+mod lanes;
 mod mask;
 
-pub use abreast::Abreast;
-pub(crate) use abreast::abreast;
 pub(crate) use fixed::product;
 pub use fixed::{Fixed, FixedCoefficient};
+pub use lanes::FromLanes;
+pub(crate) use lanes::lanes;
 pub use mask::Mask;
 
 use core::fmt::Debug;

@@ -10,7 +10,7 @@ use super::simulate::{Candidate, Method, Simulation};
 use crate::lanes::{LANES, Lanes, Token, Work, work};
 use shared::effects::Kind;
 use shared::model::{Model, State};
-use shared::scalar::Abreast;
+use shared::scalar::FromLanes;
 use std::ops::Range;
 
 /// Fewest candidates that are worth lanes of their own.
@@ -269,7 +269,7 @@ impl Work for Together<'_, '_> {
         let data = self.run.data;
         let models = |group: &Vec<_>| -> Option<Vec<Model<Lanes<T, M>>>> {
             (0..data.lengths.len())
-                .map(|k| Model::abreast(each(group, |(simulation, _)| &simulation.models()[k])))
+                .map(|k| Model::from_lanes(each(group, |(simulation, _)| &simulation.models()[k])))
                 .collect()
         };
         let models: Vec<_> = self.groups.iter().map(models).collect::<Option<_>>()?;
@@ -280,7 +280,7 @@ impl Work for Together<'_, '_> {
                 let states = each(group, |(simulation, legs): &(Simulation<'_>, Vec<Leg>)| {
                     simulation.begin(&legs[index])
                 });
-                State::<Lanes<T, M>>::abreast(states.each_ref())
+                State::<Lanes<T, M>>::from_lanes(states.each_ref())
             };
             let mut states: Vec<_> = self.groups.iter().map(begin).collect::<Option<_>>()?;
             for from in leg.range.clone().step_by(SOME) {

@@ -3,7 +3,7 @@
 use super::cost::{Horizon, StartAngle};
 use super::data::Data;
 use super::simulate::Candidate;
-use shared::model::{Model, Seen, State};
+use shared::model::{MeasuredInterval, Model, State};
 use shared::scalar::{Mask, Scalar};
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ pub enum Manner<'a> {
     /// Its effects are led along a measured motion.
     Led {
         /// One entry an interval.
-        seen: &'a [Seen<f64>],
+        seen: &'a [MeasuredInterval<f64>],
         /// Position within the revolution, one entry a sample.
         turns: &'a [f64],
     },
@@ -153,7 +153,7 @@ impl<S: Number> Course<'_, S> {
         each: &mut impl FnMut(usize, S),
     ) -> usize {
         let data = self.data;
-        let Some(mut glide) = self.model(range.start).glide(state) else {
+        let Some(mut fast) = self.model(range.start).constant_force(state) else {
             return range.start;
         };
         let length = data.length_of[range.start];
@@ -164,9 +164,9 @@ impl<S: Number> Course<'_, S> {
         while k < range.end && data.length_of[k] == length && !data.is_open(k) {
             if data.command[k] != command {
                 command = data.command[k];
-                glide.set(self.command(k));
+                fast.set_command(self.command(k));
             }
-            let Some(next) = glide.step(&motion) else {
+            let Some(next) = fast.step(&motion) else {
                 break;
             };
             each(k, motion.angle);
@@ -174,7 +174,7 @@ impl<S: Number> Course<'_, S> {
             k += 1;
         }
         if k > range.start {
-            glide.leave(state, motion);
+            fast.store(state, motion);
         }
         k
     }
@@ -203,19 +203,19 @@ impl<S: Number> Course<'_, S> {
         &self,
         mut state: State<S>,
         range: Range<usize>,
-        seen: &[Seen<f64>],
+        seen: &[MeasuredInterval<f64>],
         turns: &[f64],
         mut each: impl FnMut(usize, S),
     ) -> State<S> {
         for k in range {
             let model = self.model(k);
             each(k, model.reading_at(&state, S::from_f64(turns[k])));
-            let seen = Seen {
+            let seen = MeasuredInterval {
                 turns: S::from_f64(seen[k].turns),
                 speed: S::from_f64(seen[k].speed),
                 speed_change: S::from_f64(seen[k].speed_change),
             };
-            model.lead(&mut state, self.command(k), self.data.is_open(k), &seen);
+            model.step_along(&mut state, self.command(k), self.data.is_open(k), &seen);
         }
         state
     }

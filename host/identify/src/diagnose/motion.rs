@@ -1,7 +1,7 @@
 //! The motion that was measured, as the effects of a led model want it.
 
 use servoid_engine::problem::Data;
-use shared::model::Seen;
+use shared::model::MeasuredInterval;
 
 /// Counts that the fastest motion passes within half a window of the speed's estimate, roughly: enough
 /// that the encoder's steps are one part in a hundred.
@@ -12,7 +12,7 @@ const HALF: (usize, usize) = (2, 12);
 /// Position and speed of the shaft over each sample interval.
 pub struct Motion {
     /// Over each interval; the last one repeats the one before.
-    pub seen: Vec<Seen<f64>>,
+    pub seen: Vec<MeasuredInterval<f64>>,
     /// Position within the revolution at each sample, turns.
     pub turns: Vec<f64>,
 }
@@ -38,7 +38,7 @@ impl Motion {
                 }
                 let travel = (data.centre(next) - data.centre(k)) / data.units.counts_per_rev;
                 let still = still(data, k, half);
-                Seen {
+                MeasuredInterval {
                     turns: (turns[k] + 0.5 * travel).rem_euclid(1.0),
                     speed: if still {
                         0.0

@@ -1,6 +1,6 @@
-//! The short way in fixed point.
+//! The hot loop in fixed point.
 
-use super::{Arithmetic, Row, Turning, compiled_here};
+use super::{Arithmetic, Row, Sliding, compiled_here};
 use crate::fit::Evaluation;
 use crate::model::{Motion, Rigid, RigidPlan};
 use crate::scalar::{Fixed, FixedCoefficient, product};
@@ -26,7 +26,7 @@ const DUTY_SHIFT: i32 = 28 - 15;
 
 /// A row times current, speed and duty, with the bits below the point of all of them.
 #[inline(always)]
-fn weighed(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+fn weighted(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
     let duty = i32::from(duty) << DUTY_SHIFT;
     product(row[0], current) + product(row[1], speed) + product(row[2], duty)
 }
@@ -69,8 +69,8 @@ impl Arithmetic for Fixed {
         (0, 0),
     );
     type Rows = FixedRows;
-    /// With 32 bits below the point.
-    type Lead = i64;
+    /// Counts with 32 bits below the point.
+    type AngleError = i64;
     /// With 10 and 20 bits below the point. The sum wraps beyond a mean of 1,024 counts, where all that it could take off the
     /// squares is less than a thousandth of them: 32 bits save each period three instructions.
     type Sums = (i32, i64);
@@ -98,47 +98,48 @@ impl Arithmetic for Fixed {
         pull
     }
 
-    fn turning(_: &FixedRows, sense: Fixed, by: (Fixed, Fixed, i64)) -> Turning<Fixed> {
-        let (pull, speed, lead) = by;
-        Turning {
+    fn sliding(_: &FixedRows, sense: Fixed, by: (Fixed, Fixed, i64)) -> Sliding<Fixed> {
+        let (pull, speed, error) = by;
+        Sliding {
             push: Fixed::default(),
             pull,
             speed,
-            lead,
+            error,
             sense,
         }
     }
 
     #[inline(always)]
-    fn turned((pull, speed): (Fixed, Fixed), by: &Turning<Fixed>) -> (Fixed, Fixed) {
+    fn add_sliding((pull, speed): (Fixed, Fixed), by: &Sliding<Fixed>) -> (Fixed, Fixed) {
         (pull + by.pull, speed + by.speed)
     }
 
     #[inline(always)]
-    fn follow(
+    fn step_row(
         rows: &FixedRows,
-        (current, speed, lead): (Fixed, Fixed, i64),
+        (current, speed, error): (Fixed, Fixed, i64),
         duty: i16,
         step: i16,
     ) -> (Fixed, Fixed, i64) {
         let (c, s) = (current.word(), speed.word());
-        // Upper words have 28 bits below the point, leads 32.
-        let travel = weighed(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
+        // Upper words have 28 bits below the point, errors 32.
+        let travel = weighted(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
         (
-            current + Fixed::from_bits(raised(weighed(&rows.current, c, s, duty), CURRENT_SHIFT)),
-            speed + Fixed::from_bits(raised(weighed(&rows.speed, c, s, duty), SPEED_SHIFT)),
-            lead.wrapping_add(travel)
+            current + Fixed::from_bits(raised(weighted(&rows.current, c, s, duty), CURRENT_SHIFT)),
+            speed + Fixed::from_bits(raised(weighted(&rows.speed, c, s, duty), SPEED_SHIFT)),
+            error
+                .wrapping_add(travel)
                 .wrapping_sub(i64::from(step) << 32),
         )
     }
 
-    fn ahead(lead: i64, angle: Self::Angle, step: i16) -> i64 {
+    fn advance_error(error: i64, angle: Self::Angle, step: i16) -> i64 {
         let by = angle.bits().wrapping_sub(i64::from(step) << 32);
-        lead.wrapping_add(by)
+        error.wrapping_add(by)
     }
 
-    fn counts(lead: i64) -> f32 {
-        lead as f32 * (1.0 / 4_294_967_296.0)
+    fn counts(error: i64) -> f32 {
+        error as f32 * (1.0 / 4_294_967_296.0)
     }
 
     #[inline(always)]
@@ -149,11 +150,11 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn collect(sums: &mut Self::Sums, lead: i64) {
-        let lead = limited((lead >> 22) as i32);
-        sums.0 = sums.0.wrapping_add(lead);
+    fn collect(sums: &mut Self::Sums, error: i64) {
+        let error = limited((error >> 22) as i32);
+        sums.0 = sums.0.wrapping_add(error);
         // 2⁵² each at most: a device's recording has less than 2¹¹ periods.
-        sums.1 = sums.1.wrapping_add(product(lead, lead));
+        sums.1 = sums.1.wrapping_add(product(error, error));
     }
 
     #[inline(always)]

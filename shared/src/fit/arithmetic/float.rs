@@ -1,6 +1,6 @@
-//! The short way in f32.
+//! The hot loop in f32.
 
-use super::{Arithmetic, Row, Turning, compiled_here};
+use super::{Arithmetic, Row, Sliding, compiled_here};
 use crate::fit::Evaluation;
 use crate::model::{Motion, Rigid, RigidPlan};
 use crate::scalar::Readable;
@@ -10,14 +10,14 @@ impl Arithmetic for f32 {
     const FORMAT: Format = Format::F32;
     const EMPTY: Evaluation<f32> = Evaluation::of(0.0, 0.0, [[0.0; 3]; 3], 0.0, (0.0, 0.0));
     type Rows = [Row<f32>; 3];
-    type Lead = f32;
+    type AngleError = f32;
     type Sums = (f32, f32);
 
     compiled_here!(6);
 
-    /// The pull is what current and speed add to the speed in a period: by it the speed needs a product less, and is rounded
-    /// once, where a row of three products would round it three times. In a recording of 2,000 periods the speed's rounding is
-    /// what f32 costs: the shaft has turned by the sum of it.
+    /// The pull is the increment of the speed by current and speed in a period. With it the speed needs one product less and is
+    /// rounded once; a row of three products would round it three times. Over 2,000 periods the rounding of the speed is what
+    /// f32 costs, because the angle is its sum.
     fn rows(increments: [&[f32; 4]; 3], counts_per_unit: f32) -> Option<Self::Rows> {
         let [[forgotten, b, c, _], [p, q, r, _], angle] = increments;
         let [u, v, w, _] = angle.map(|k| k * counts_per_unit);
@@ -40,31 +40,31 @@ impl Arithmetic for f32 {
         (pull - push - q * speed) / p
     }
 
-    /// What it adds to the speed is part of the pull.
-    fn turning(
+    /// The increment of the speed is part of the pull.
+    fn sliding(
         &[[a, _, _], [p, q, _], [u, _, _]]: &Self::Rows,
         sense: f32,
-        (current, speed, lead): (f32, f32, f32),
-    ) -> Turning<f32> {
-        Turning {
+        (current, speed, error): (f32, f32, f32),
+    ) -> Sliding<f32> {
+        Sliding {
             push: speed,
             // The current keeps a - q of itself.
             pull: speed * (1.0 - (a - q)) + p * current,
             speed: 0.0,
-            lead: lead - u * speed,
+            error: error - u * speed,
             sense,
         }
     }
 
     #[inline(always)]
-    fn turned((pull, speed): (f32, f32), by: &Turning<f32>) -> (f32, f32) {
+    fn add_sliding((pull, speed): (f32, f32), by: &Sliding<f32>) -> (f32, f32) {
         (pull + by.pull, speed)
     }
 
     #[inline(always)]
-    fn follow(
+    fn step_row(
         &[[a, b, c], [_, _, r], [u, v, w]]: &Self::Rows,
-        (pull, speed, lead): (f32, f32, f32),
+        (pull, speed, error): (f32, f32, f32),
         duty: i16,
         step: i16,
     ) -> (f32, f32, f32) {
@@ -73,17 +73,17 @@ impl Arithmetic for f32 {
             a * pull + b * speed + c * duty,
             speed + (pull + r * duty),
             // Here two hundred counts and more cancel, whatever the order.
-            lead - step + u * pull + v * speed + w * duty,
+            error - step + u * pull + v * speed + w * duty,
         )
     }
 
-    fn ahead(lead: f32, angle: Self::Angle, step: i16) -> f32 {
-        lead + angle.minus(step.into())
+    fn advance_error(error: f32, angle: Self::Angle, step: i16) -> f32 {
+        error + angle.minus(step.into())
     }
 
     #[inline(always)]
-    fn counts(lead: f32) -> f32 {
-        lead
+    fn counts(error: f32) -> f32 {
+        error
     }
 
     #[inline(always)]
@@ -92,9 +92,9 @@ impl Arithmetic for f32 {
     }
 
     #[inline(always)]
-    fn collect(sums: &mut Self::Sums, lead: f32) {
-        sums.0 += lead;
-        sums.1 += lead * lead;
+    fn collect(sums: &mut Self::Sums, error: f32) {
+        sums.0 += error;
+        sums.1 += error * error;
     }
 
     #[inline(always)]

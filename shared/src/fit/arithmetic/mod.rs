@@ -1,4 +1,8 @@
 //! A number format that a device can fit in, and the few operations of its hot loop.
+//!
+//! The loop stands here and not in `model/fast`, because it is no form of the model's step. It takes raw duties and counts,
+//! accumulates the error and not the angle, orders its products for one core's multiplier, and differs from
+//! [`Rigid::step`] in rounding. `shared/tests/device_fit.rs` holds its laws.
 
 mod fixed;
 mod float;
@@ -12,17 +16,17 @@ use core::ops::Add;
 /// By current (or [pull](Arithmetic::pull)), by speed and by the winding's voltage.
 pub type Row<C> = [C; 3];
 
-/// What load and friction add in each period while the shaft turns one way.
+/// Increments of one period by load and friction, while the shaft slides on in one sense.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Turning<S: Arithmetic> {
-    /// To the pull, once.
+pub struct Sliding<S: Arithmetic> {
+    /// Of the pull, once, when the shaft begins to slide.
     pub push: S,
-    /// To the pull.
+    /// Of the pull.
     pub pull: S,
-    /// To the speed.
+    /// Of the speed.
     pub speed: S,
-    /// To the lead.
-    pub lead: S::Lead,
+    /// Of the error.
+    pub error: S::AngleError,
     /// Sense of the motion.
     pub sense: S,
 }
@@ -39,9 +43,9 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     const EMPTY: Evaluation<Self>;
     /// Multipliers of current, speed and duty.
     type Rows: Copy + Default + core::fmt::Debug;
-    /// Counts by which a model is ahead of the reading.
-    type Lead: Copy + Default + core::fmt::Debug + Add<Output = Self::Lead>;
-    /// Sum and sum of squares of leads.
+    /// Error of the angle: counts by which the model is ahead of the reading.
+    type AngleError: Copy + Default + core::fmt::Debug + Add<Output = Self::AngleError>;
+    /// Sum and sum of squares of errors.
     type Sums: Copy + Default + core::fmt::Debug;
 
     /// Rows for the increments of current, speed and angle (in units of angle, of which each is so many counts) by current,
@@ -50,33 +54,34 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
         increments: [&[Self::Coefficient; 4]; 3],
         counts_per_unit: Self::Coefficient,
     ) -> Option<Self::Rows>;
-    /// What the short way keeps beside the speed for a current: itself, or something else that says as much.
+    /// State that the hot loop keeps in place of the current: the current itself, or a combination of current and speed.
     fn pull(rows: &Self::Rows, current: Self, speed: Self) -> Self;
-    /// The current again, while the pull has a push in it.
+    /// The current from that state, while the state contains a push.
     fn current(rows: &Self::Rows, pull: Self, speed: Self, push: Self) -> Self;
-    /// What a torque that adds so much to current, speed and lead in each period adds on the short way.
-    fn turning(rows: &Self::Rows, sense: Self, by: (Self, Self, Self::Lead)) -> Turning<Self>;
-    /// Adds that to pull and speed, if anything is to be added.
-    fn turned(to: (Self, Self), by: &Turning<Self>) -> (Self, Self);
-    /// A period without torque on the shaft: pull, speed and lead at its end.
-    fn follow(
+    /// Increments in the hot loop by a torque that adds `by` to current, speed and error in each period.
+    fn sliding(rows: &Self::Rows, sense: Self, by: (Self, Self, Self::AngleError))
+    -> Sliding<Self>;
+    /// Adds these increments to pull and speed.
+    fn add_sliding(to: (Self, Self), by: &Sliding<Self>) -> (Self, Self);
+    /// One period without torque on the shaft: pull, speed and error at its end.
+    fn step_row(
         rows: &Self::Rows,
-        from: (Self, Self, Self::Lead),
+        from: (Self, Self, Self::AngleError),
         duty: i16,
         step: i16,
-    ) -> (Self, Self, Self::Lead);
-    /// A lead a period later: the model turned by `angle`, and the reading went `step` counts further.
-    fn ahead(lead: Self::Lead, angle: Self::Angle, step: i16) -> Self::Lead;
-    /// A lead in counts.
-    fn counts(lead: Self::Lead) -> f32;
+    ) -> (Self, Self, Self::AngleError);
+    /// The error a period later: the model turned by `angle`, and the reading by `step` counts.
+    fn advance_error(error: Self::AngleError, angle: Self::Angle, step: i16) -> Self::AngleError;
+    /// An error in counts.
+    fn counts(error: Self::AngleError) -> f32;
     /// Whether a speed has the sign of `sense`.
     fn along(speed: Self, sense: Self) -> bool;
-    /// Adds a lead to the sums.
-    fn collect(sums: &mut Self::Sums, lead: Self::Lead);
+    /// Adds an error to the sums.
+    fn collect(sums: &mut Self::Sums, error: Self::AngleError);
     /// Sum in counts, and of squares in counts².
     fn sums(sums: &Self::Sums) -> (f32, f32);
 
-    /// Whether the squares are below `most` counts² beyond doubt; cheaper than to ask how many they are.
+    /// Whether the squares are surely below `most` counts²; cheaper than to compute them.
     fn surely_below(sums: &Self::Sums, most: f32) -> bool;
 
     /// Whether [`Rigid::set`] succeeds in this format. Here, and not where it is called, because this crate is compiled for
@@ -84,13 +89,19 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> bool;
     /// [`Rigid::step`] in this format.
     fn step(model: &Rigid<Self>, motion: &mut Motion<Self>, command: Self, open: bool);
-    /// [`Evaluation`](super::Evaluation)'s short way in this format.
-    fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize;
+    /// [`Evaluation`](super::Evaluation)'s hot loop in this format.
+    fn run_sliding(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize;
     /// The same for a motor without friction and load.
-    fn glide_free(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16], most: f32) -> usize;
+    fn run_frictionless(
+        run: &mut Evaluation<Self>,
+        duties: &[i16],
+        steps: &[i16],
+        most: f32,
+    ) -> usize;
 }
 
-/// What is compiled here; without friction so many periods a turn of the loop, whose counter costs as much as one of f32's sums.
+/// Compiles the hot loops in this crate. A motor without friction and load takes `$at_a_time` periods a turn of the loop, whose
+/// counter costs as much as one sum in f32.
 macro_rules! compiled_here {
     ($at_a_time:literal) => {
         fn set(model: &mut Rigid<Self>, plan: &RigidPlan<f32>) -> bool {
@@ -101,17 +112,17 @@ macro_rules! compiled_here {
             model.step(motion, command, open);
         }
 
-        fn glide(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize {
-            run.glide(duties, steps)
+        fn run_sliding(run: &mut Evaluation<Self>, duties: &[i16], steps: &[i16]) -> usize {
+            run.run_sliding(duties, steps)
         }
 
-        fn glide_free(
+        fn run_frictionless(
             run: &mut Evaluation<Self>,
             duties: &[i16],
             steps: &[i16],
             most: f32,
         ) -> usize {
-            run.glide_free::<$at_a_time>(duties, steps, most)
+            run.run_frictionless::<$at_a_time>(duties, steps, most)
         }
     };
 }

@@ -1,42 +1,43 @@
-//! What acts in a part of a step, foreseen.
+//! Predicts the mean forces of a substep (predictor and corrector).
 //!
 //! The maps are exact for held voltage and torque. What the effects add depends on speed, angle and
-//! current, so it is asked for twice: near the start, to foresee the part; then at the mean of what
-//! was foreseen, to take it. What is held at its mean leaves an error of third order in the length
-//! of the part. Where the two answers differ much, the part is doubtful, and is better halved.
+//! current, so the model evaluates it twice: near the start, to predict the mean shaft of the substep;
+//! then at that mean. Forces held at their mean leave an error of third order in the length of the
+//! substep. Where the two evaluations differ much, the substep needs halving.
 
 use super::Model;
-use super::body::{Body, Increment};
 use super::friction::{Forces, direction};
-use super::rung::Timing;
+use super::mechanics::{Increment, Mechanics};
 use super::state::{Motion, State};
+use super::substep_map::SubstepTiming;
 use super::winding::{bends, extra_volts};
 use crate::effects::{Budget, Lowered, Shaft};
 use crate::scalar::{Angle, Mask, Scalar};
 
-/// A part is halved if what is doubtful in it might leave the angle wrong by more than this, counts.
+/// A substep is halved if the change of its forces between the two evaluations might leave the angle wrong by more
+/// than this, counts.
 ///
 /// A torque `τ` that acts for a time `h` gives the speed `τ·h/m`, which back-EMF and friction take
 /// away again with the time constant `m/(kb + b)`; meanwhile the shaft turns by `τ·h/(kb + b)`. Per
 /// unit, `kb` is about one.
 const TOLERATED_COUNTS: f64 = 0.1;
 
-/// What acts in a part.
-pub(super) struct Foreseen<S: Scalar> {
-    /// What is held for the part.
+/// Predicted mean forces of a substep.
+pub(super) struct Prediction<S: Scalar> {
+    /// Held over the substep.
     pub(super) forces: Forces<S>,
-    /// Whether the part is too long for that.
-    pub(super) doubtful: S::Mask,
+    /// Whether the substep is too long for that.
+    pub(super) needs_halving: S::Mask,
 }
 
 impl<S: Scalar> Model<S> {
-    /// Doubtful torque times its length, per unit, that needs no shorter parts.
+    /// Largest change of the torque between the evaluations, times the length, that needs no halving; per unit.
     #[inline(always)]
     pub(super) fn tolerated(counts_per_unit: f64) -> S {
         S::from_f64(TOLERATED_COUNTS / counts_per_unit)
     }
 
-    /// What acts where nothing depends on the state.
+    /// The forces, where nothing of them depends on the state.
     #[inline(always)]
     pub(super) fn constant(effects: &Lowered<S>) -> Forces<S> {
         let rest = Shaft::at(S::zero(), S::zero(), S::zero());
@@ -49,9 +50,14 @@ impl<S: Scalar> Model<S> {
         }
     }
 
-    /// The shaft at the start of a part.
+    /// The shaft at the start of a substep.
     #[inline(always)]
-    pub(super) fn start(&self, motion: &Motion<S>, timing: &Timing<S>, open: bool) -> Shaft<S> {
+    pub(super) fn start(
+        &self,
+        motion: &Motion<S>,
+        timing: &SubstepTiming<S>,
+        open: bool,
+    ) -> Shaft<S> {
         let turns = if self.effects.needs.angle {
             motion.angle.turns(self.counts_per_rev)
         } else {
@@ -61,21 +67,21 @@ impl<S: Scalar> Model<S> {
         let ahead = motion.speed.times(timing.length);
         Shaft {
             travel: ahead.times(self.turns_per_unit),
-            give: timing.give.times(self.turns_per_unit),
+            compliance: timing.compliance.times(self.turns_per_unit),
             length: timing.length,
             per_length: timing.per_length,
             ..Shaft::at(turns, motion.speed, current)
         }
     }
 
-    /// The mean shaft of a part that began at `start` and brings `by` at `volts` on the winding.
+    /// The mean shaft of a substep that begins at `start` and adds `by` to the state, at `volts` on the winding.
     #[inline(always)]
     pub(super) fn mean(
         &self,
         start: &Shaft<S>,
         by: &Increment<S>,
         volts: S,
-        timing: &Timing<S>,
+        timing: &SubstepTiming<S>,
         open: bool,
     ) -> Shaft<S> {
         let half = S::from_f64(0.5);
@@ -103,7 +109,7 @@ impl<S: Scalar> Model<S> {
         }
     }
 
-    /// What acts at `shaft` and is held for the part, with the drive at `volts` and a torque
+    /// The forces at `shaft`, to be held over the substep, with the drive at `volts` and a torque
     /// `further` that is known already.
     #[inline]
     pub(super) fn forces(
@@ -145,8 +151,8 @@ impl<S: Scalar> Model<S> {
         )
     }
 
-    /// Volts that the changes of the winding `at` a shaft add to those of the drive, with which alone
-    /// the shaft would be `free`.
+    /// Volts that the changed winding `at` a shaft adds to those of the drive, with which alone the
+    /// shaft would be `free`.
     #[inline]
     pub(super) fn extra_volts(
         &self,
@@ -154,7 +160,7 @@ impl<S: Scalar> Model<S> {
         volts: S,
         at: &Shaft<S>,
         free: &Shaft<S>,
-        timing: &Timing<S>,
+        timing: &SubstepTiming<S>,
     ) -> S {
         S::routine(
             #[inline(always)]
@@ -165,80 +171,80 @@ impl<S: Scalar> Model<S> {
         )
     }
 
-    /// What acts in a part that begins at `start` with the drive at `volts`.
+    /// Predicts the forces of a substep that begins at `start` with the drive at `volts`.
     #[inline(always)]
-    pub(super) fn foresee<B: Body<S>>(
+    pub(super) fn predict<M: Mechanics<S>>(
         &self,
-        body: &B,
+        mechanics: &M,
         level: usize,
         state: &State<S>,
         start: &Shaft<S>,
         volts: S,
         open: bool,
-    ) -> Foreseen<S> {
+    ) -> Prediction<S> {
         let zero = S::zero();
         let effects = &self.effects;
-        let part = Part {
+        let substep = Substep {
             model: self,
-            body,
+            mechanics,
             level,
             state,
             start,
-            side: body.side(&state.motion),
+            side: mechanics.side(&state.motion),
             volts,
             open,
         };
         let winding = effects.needs.winding && !open;
 
-        // First thought, from the start of the part.
-        let first = part.forces(&part.ahead(), zero);
-        let torque = first.torque + part.drag(&first);
-        let mut shaft = part.slide(zero, torque);
+        // Predictor: forces at the start of the substep.
+        let first = substep.forces(&substep.ahead(), zero);
+        let torque = first.torque + substep.drag(&first);
+        let mut shaft = substep.step_free(zero, torque);
         let mut extra = zero;
         if winding {
-            extra = part.extra_volts(start, &shaft);
-            shaft = part.slide(extra, torque);
+            extra = substep.extra_volts(start, &shaft);
+            shaft = substep.step_free(extra, torque);
         }
         let mut stiff = zero;
         if effects.needs.stiff {
             stiff = effects.stiff(&shaft, &state.memory).from(zero);
-            shaft = part.slide(extra, torque + stiff);
+            shaft = substep.step_free(extra, torque + stiff);
         }
 
-        // Second thought, from the mean shaft of the first.
-        let mut doubt = zero;
+        // Corrector: forces at the predicted mean shaft.
+        let mut change = zero;
         let mut bent = zero.less(zero);
         if winding {
-            let gain = body.timing(level).gain;
+            let gain = mechanics.timing(level).gain;
             let current = shaft.current - gain * extra;
-            let again = part.extra_volts(&shaft, &Shaft { current, ..shaft });
+            let again = substep.extra_volts(&shaft, &Shaft { current, ..shaft });
             shaft.current = current + gain * again;
             bent = bends(&effects.brush, start, &shaft);
-            doubt = doubt + (again - extra).abs();
+            change = change + (again - extra).abs();
             extra = again;
         }
         if effects.needs.stiff {
             let given = effects.stiff(&shaft, &state.memory);
             let again = given.from(stiff);
-            doubt = doubt + (again - stiff).abs() + given.doubt;
+            change = change + (again - stiff).abs() + given.doubt;
             stiff = again;
         }
-        let mut forces = part.forces(&shaft, stiff);
-        doubt = doubt + (forces.torque - stiff - first.torque).abs();
-        doubt = doubt + (forces.budget.moving - first.budget.moving).abs();
+        let mut forces = substep.forces(&shaft, stiff);
+        change = change + (forces.torque - stiff - first.torque).abs();
+        change = change + (forces.budget.moving - first.budget.moving).abs();
         forces.volts = volts + extra;
-        let impulse = doubt.times(body.timing(level).length);
-        Foreseen {
+        let impulse = change.times(mechanics.timing(level).length);
+        Prediction {
             forces,
-            doubtful: bent.or(self.tolerated.less(impulse)),
+            needs_halving: bent.or(self.tolerated.less(impulse)),
         }
     }
 }
 
-/// A part that begins at `start` with the drive at `volts`.
-struct Part<'a, S: Scalar, B> {
+/// A substep that begins at `start` with the drive at `volts`.
+struct Substep<'a, S: Scalar, M> {
     model: &'a Model<S>,
-    body: &'a B,
+    mechanics: &'a M,
     level: usize,
     state: &'a State<S>,
     start: &'a Shaft<S>,
@@ -247,8 +253,8 @@ struct Part<'a, S: Scalar, B> {
     open: bool,
 }
 
-impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
-    /// The shaft as the speed at the start alone foresees it.
+impl<S: Scalar, M: Mechanics<S>> Substep<'_, S, M> {
+    /// The shaft at the middle, as the speed at the start alone predicts it.
     #[inline(always)]
     fn ahead(&self) -> Shaft<S> {
         let half = S::from_f64(0.5);
@@ -258,21 +264,21 @@ impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
         }
     }
 
-    /// Torque of the friction in `forces` as the part begins.
+    /// Torque of the friction in `forces` at the start.
     #[inline(always)]
     fn drag(&self, forces: &Forces<S>) -> S {
         if !self.model.effects.needs.friction {
             return S::zero();
         }
-        let load = self.body.load(&self.state.motion, self.side);
+        let load = self.mechanics.load(&self.state.motion, self.side);
         let pull = self.start.current - forces.torque - load;
         direction(self.start.speed, pull, &forces.budget) * forces.budget.moving
     }
 
-    /// What acts at `shaft`, with a torque `further` that is known already.
+    /// The forces at `shaft`, with a torque `further` that is known already.
     #[inline(always)]
     fn forces(&self, shaft: &Shaft<S>, further: S) -> Forces<S> {
-        let Part {
+        let Substep {
             state, volts, open, ..
         } = *self;
         self.model.forces(state, shaft, volts, further, open)
@@ -280,20 +286,19 @@ impl<S: Scalar, B: Body<S>> Part<'_, S, B> {
 
     /// The mean shaft under a held torque, with `extra` volts on top of those of the drive.
     #[inline(always)]
-    fn slide(&self, extra: S, torque: S) -> Shaft<S> {
+    fn step_free(&self, extra: S, torque: S) -> Shaft<S> {
         let volts = self.volts + extra;
-        let (motion, timing) = (&self.state.motion, self.body.timing(self.level));
+        let (motion, timing) = (&self.state.motion, self.mechanics.timing(self.level));
         let by = self
-            .body
-            .slide(self.level, motion, self.side, volts, torque, self.open);
+            .mechanics
+            .step_free(self.level, motion, self.side, volts, torque, self.open);
         self.model.mean(self.start, &by, volts, timing, self.open)
     }
 
-    /// Volts that the changes of the winding `at` a shaft add to those of the drive, with which alone
-    /// the shaft would be `free`.
+    /// [`Model::extra_volts`] of this substep.
     #[inline(always)]
     fn extra_volts(&self, at: &Shaft<S>, free: &Shaft<S>) -> S {
-        let timing = self.body.timing(self.level);
+        let timing = self.mechanics.timing(self.level);
         self.model
             .extra_volts(self.state, self.volts, at, free, timing)
     }

@@ -1,17 +1,24 @@
-//! Gauss and Newton's steps from the end of a search (Levenberg, 1944; Marquardt, 1963), and the curvature there.
+//! The polish: Levenberg and Marquardt's method (1944, 1963) from the end of the search, a slice at a time.
 //!
 //! The sensitivity of the error to each unknown is a difference of two runs. Three models run side by side: the centre and
-//! two others, each displaced along one axis, for each pair of axes in turn. So the normal equations are summed up in the
-//! room of three models, however many unknowns there are, and d·(d − 1)/2 passes give all of them.
+//! two others, each displaced along one axis, for each pair of axes in turn. So the normal equations need the room of three
+//! models, however many unknowns there are, and d·(d − 1)/2 passes fill them.
 
-use super::evaluation::{Room, Runs, build, explained};
+mod cholesky;
+mod curvature;
+mod sensitivity;
+
+use super::evaluation::{Runs, build};
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
 use crate::trace::Trace;
+use cholesky::{Matrix, inverse};
+pub use curvature::Curvature;
+use sensitivity::Differences;
 
 /// Most rounds.
 const ROUNDS: u32 = 20;
-/// Damping of the first step, as a part of the curvature along each axis.
+/// Damping of the first step, as a fraction of the curvature along each axis.
 const DAMPING: f32 = 1e-3;
 const LEAST_DAMPING: f32 = 1e-6;
 const MOST_DAMPING: f32 = 1e6;
@@ -21,17 +28,12 @@ const LONGEST: f32 = 0.02;
 const SHORTEST: f32 = 1e-7;
 /// A displacement should move the reading by about this, counts RMS: far above f32's rounding, well within what is linear.
 const VISIBLE: f32 = 1.0;
-/// … or by this part of the error, where that is large: stops and releases make the cost rough in small.
+/// … or by this fraction of the error, where that is large: stops and releases make the cost rough on a small scale.
 const ROUGH: f32 = 0.3;
 /// Within this factor of it, a displacement is good enough.
 const TOLERABLE: f32 = 5.0;
-/// A step that promises, or gains, less than this part of the cost is the last.
+/// A step that promises, or gains, less than this fraction of the cost is the last.
 const NEGLIGIBLE: f32 = 1e-4;
-
-/// A pivot that is no more than this part of its diagonal is rounding.
-const SINGULAR: f32 = 1e-6;
-
-type Matrix = [[f32; MOST]; MOST];
 
 /// Sums of products of the sensitivities over the trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,93 +44,7 @@ struct Normal {
     slope: [f32; MOST],
 }
 
-/// Curvature of the sum of squares over the unit cube, halved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Curvature {
-    inverse: Matrix,
-    periods: f32,
-}
-
-impl Curvature {
-    /// Standard deviation of what changes by `gradient` over the cube, where the mean squared error is `least` and so many
-    /// `readings` of the trace say something new.
-    pub fn std(&self, gradient: &Point, least: f32, readings: usize) -> f32 {
-        let repeats = self.periods / readings.max(1) as f32;
-        let mut variance = 0.0;
-        for (row, &a) in self.inverse.iter().zip(gradient) {
-            for (entry, &b) in row.iter().zip(gradient) {
-                if a != 0.0 && b != 0.0 {
-                    variance += entry * a * b;
-                }
-            }
-        }
-        Real::sqrt(least * repeats * variance.max(0.0))
-    }
-}
-
-/// What the centre and two displaced models differ by, summed up along the trace.
-#[derive(Clone, Copy, Debug, Default)]
-struct Differences {
-    at: usize,
-    /// Of the error and of both differences; of the error by both; of the differences by themselves and by each other, row by
-    /// row of the upper triangle.
-    sums: [f32; 8],
-    /// The same since the last whole block.
-    block: [f32; 8],
-}
-
-/// Periods that are summed up by themselves first: a sum of sums rounds less than one long sum.
-const BLOCK: usize = 32;
-
-impl Differences {
-    /// Runs the models side by side for a while; returns how many periods they ran in all.
-    fn run<S: Arithmetic>(&mut self, runs: &mut Runs<S>, trace: &Trace<'_>, samples: u32) -> u32 {
-        let to = (self.at + samples as usize / 3 + 1).min(trace.len());
-        let from = self.at;
-        for k in from..to {
-            let mut errors = [0.0f32; 3];
-            for (run, error) in runs.iter_mut().filter_map(Room::model).zip(&mut errors) {
-                run.step(trace.duties[k], trace.steps[k]);
-                *error = run.error();
-            }
-            let [e, a, b] = errors;
-            let (a, b) = (a - e, b - e);
-            let terms = [e, a, b, e * a, e * b, a * a, a * b, b * b];
-            for (sum, term) in self.block.iter_mut().zip(terms) {
-                *sum += term;
-            }
-            if (k + 1).is_multiple_of(BLOCK) || k + 1 == trace.len() {
-                for (sum, block) in self.sums.iter_mut().zip(&mut self.block) {
-                    *sum += *block;
-                    *block = 0.0;
-                }
-            }
-        }
-        self.at = to;
-        3 * (to - from) as u32
-    }
-
-    /// Products about the means: where within a count the shaft stood is not known. But if the mean error is more than that can
-    /// explain, where it stood is at the end of its range and stays there: the cost has no other mean to take off.
-    fn products(&self) -> [f32; 5] {
-        let [e, a, b, ea, eb, aa, ab, bb] = self.sums;
-        let mut part = 1.0 / self.at.max(1) as f32;
-        let mean = e * part;
-        let start = explained(mean);
-        if start != mean {
-            part = 0.0;
-        }
-        [
-            ea - start * a,
-            eb - start * b,
-            aa - a * a * part,
-            ab - a * b * part,
-            bb - b * b * part,
-        ]
-    }
-}
-
-/// What comes next. Models are not part of it: they are built where they stay, since a device has no room to hand them on.
+/// The next piece of work. Models are not part of it: a device has no room to move them, so they are built in place.
 #[derive(Clone, Copy, Debug)]
 enum Work {
     /// Build the models of a pair of axes.
@@ -181,11 +97,7 @@ impl Polish {
         rounds: 0,
         evaluations: 0,
         work: Work::Displace(0, 0),
-        differences: Differences {
-            at: 0,
-            sums: [0.0; 8],
-            block: [0.0; 8],
-        },
+        differences: Differences::EMPTY,
     };
 
     /// Begins an empty one from `centre`, where the mean squared error is `cost`. Puts the origin of `space` there, see
@@ -274,8 +186,8 @@ impl Polish {
         }
     }
 
-    /// The centre moved along `axis`, away from a wall of friction, load or winding if there is one; the logarithms' walls are
-    /// where nothing happens.
+    /// The centre moved along `axis`, and by how much; away from the upper bound of friction, load or winding where it is
+    /// near.
     // Called from four places.
     #[inline(never)]
     fn displaced(&self, axis: usize) -> (Point, f32) {
@@ -333,7 +245,7 @@ impl Polish {
         };
     }
 
-    /// Judges a trial; goes on from it, or tries a shorter step.
+    /// Accepts a trial and goes on from it, or tries a shorter step.
     fn judge(&mut self, space: &Space, cost: f32) {
         if cost < self.cost {
             let gained = self.cost - cost;
@@ -353,8 +265,9 @@ impl Polish {
         }
     }
 
-    /// Sets the trial to where the normal equations lead, damped as much as it takes. Where that is beyond a wall, the step
-    /// ends at the wall and the others are solved for again beside it: merely cut off, it would climb the valley's side.
+    /// Sets the trial to the solution of the normal equations, damped as much as needed. Where it is beyond a bound, that
+    /// coordinate ends at the bound and the others are solved for again: merely cut off, the step would climb the valley's
+    /// side.
     fn aim(&mut self, space: &Space) -> Work {
         let n = space.dim();
         let matrix = &self.normal.matrix;
@@ -408,45 +321,4 @@ impl Polish {
         }
         Work::Done
     }
-}
-
-/// Inverse of a symmetric matrix whose diagonal is enlarged by the part `damping`, by Cholesky's method without roots
-/// (`L·D·Lᵀ`), for the `free` coordinates; none if that is not positive definite.
-fn inverse(matrix: &Matrix, n: usize, damping: f32, free: &[bool; MOST]) -> Option<Matrix> {
-    let entry = |a: usize, b: usize| match (free[a] && free[b], a == b) {
-        (true, true) => matrix[a][a] * (1.0 + damping),
-        (true, false) => matrix[a][b],
-        (false, same) => f32::from(u8::from(same)),
-    };
-    let (mut lower, mut pivots) = ([[0.0; MOST]; MOST], [0.0; MOST]);
-    for a in 0..n {
-        for b in 0..=a {
-            let terms = (0..b).map(|k| lower[a][k] * lower[b][k] * pivots[k]);
-            let rest = terms.fold(entry(a, b), |rest, term: f32| rest - term);
-            if a != b {
-                lower[a][b] = rest / pivots[b];
-            } else if rest > SINGULAR * entry(a, a) && rest.is_finite() {
-                pivots[a] = rest;
-            } else {
-                return None;
-            }
-        }
-    }
-    let mut inverse = [[0.0; MOST]; MOST];
-    for column in 0..n {
-        let mut x = [0.0f32; MOST];
-        for a in 0..n {
-            let terms = (0..a).map(|k| lower[a][k] * x[k]);
-            let unit = f32::from(u8::from(a == column));
-            x[a] = terms.fold(unit, |rest, term| rest - term);
-        }
-        for a in (0..n).rev() {
-            let terms = (a + 1..n).map(|k| lower[k][a] * x[k]);
-            x[a] = terms.fold(x[a] / pivots[a], |rest, term| rest - term);
-        }
-        for (row, x) in inverse.iter_mut().zip(x) {
-            row[column] = x;
-        }
-    }
-    Some(inverse)
 }

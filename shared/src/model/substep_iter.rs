@@ -1,22 +1,22 @@
-//! A part of a step in pieces: halved where much happens, and longer again after that.
+//! The substeps of a step, or of a substep: halved where much happens, and longer again after that.
 
-/// The pieces of a part. Each is a half, a quarter, … of it, so that there are maps for all.
-pub struct Pieces {
-    /// Halvings of the step that make the part, and its shortest pieces.
+/// Walks through a substep in shorter ones. Each is a half, a quarter, … of a step, so that there are
+/// maps for all.
+pub struct SubstepIter {
+    /// Level of the whole, and of the shortest substep.
     base: usize,
     finest: usize,
-    /// Halvings that make the next piece.
+    /// Level of the next substep.
     level: usize,
-    /// Where it begins, in shortest pieces.
+    /// Where it begins, in shortest substeps.
     done: u32,
 }
 
-impl Pieces {
-    /// A part that is `base` halvings of a step, in one piece as yet; `finest` halvings make the
-    /// shortest.
+impl SubstepIter {
+    /// A whole of level `base`, as one substep so far; `finest` is the level of the shortest.
     #[inline(always)]
     pub fn new(base: usize, finest: usize) -> Self {
-        Pieces {
+        SubstepIter {
             base,
             finest: finest.max(base),
             level: base,
@@ -24,25 +24,25 @@ impl Pieces {
         }
     }
 
-    /// Halvings of a step that make the next piece; none if the part is done.
+    /// Level of the next substep; `None` at the end.
     #[inline(always)]
     pub fn next(&self) -> Option<usize> {
         (!self.done()).then_some(self.level)
     }
 
-    /// Whether the part is done.
+    /// Whether the end is reached.
     #[inline(always)]
     pub fn done(&self) -> bool {
         self.done >= self.length(self.base)
     }
 
-    /// Halvings of a step that make the next piece of a part that is not done.
+    /// Level of the next substep, where the end is not reached.
     #[inline(always)]
     pub fn level(&self) -> usize {
         self.level
     }
 
-    /// Halves the next piece, unless it is the shortest already; says whether it did.
+    /// Halves the next substep, unless it is the shortest already; returns whether it did.
     #[inline(always)]
     pub fn halve(&mut self) -> bool {
         let longer = self.level < self.finest;
@@ -50,18 +50,17 @@ impl Pieces {
         longer
     }
 
-    /// Leaves the piece behind. The next is as long as the halves of halves allow.
+    /// Passes the substep. The next one is as long as its place allows: it begins at a multiple of its length.
     #[inline(always)]
     pub fn pass(&mut self) {
         self.done += self.length(self.level);
-        // As long as where it begins is a multiple of its length.
         let longest = self
             .finest
             .saturating_sub(self.done.trailing_zeros() as usize);
         self.level = longest.max(self.base);
     }
 
-    /// Length of a piece, in shortest ones.
+    /// Length of a substep, in shortest ones.
     #[inline(always)]
     fn length(&self, level: usize) -> u32 {
         1 << (self.finest - level)

@@ -1,0 +1,140 @@
+//! A motor that is one rigid body, with Coulomb friction and a constant load: as much of [`Model`](crate::model::Model) as
+//! fits beside a recording on a small device. It has the same maps and the same friction, so the same bits.
+
+use super::friction_event::step_with_events;
+use crate::discretise::Discretisation;
+use crate::effects::Budget;
+use crate::error::ModelError;
+use crate::model::Motion;
+use crate::model::dyadic::{LEVELS, build_step_maps};
+use crate::model::friction::Forces;
+use crate::model::step_map::StepMap;
+use crate::motor::Machine;
+use crate::scalar::{Angle, Real, Scalar};
+use crate::units::{PerUnit, Quantity};
+
+/// What a [`Rigid`] motor is made of, in SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidPlan<R> {
+    /// The linear machine.
+    pub machine: Machine<R>,
+    /// Coulomb friction, V referred to the winding.
+    pub coulomb: R,
+    /// Constant torque against positive rotation, V referred to the winding.
+    pub load: R,
+    /// Bases of the per-unit system; one interval is one step.
+    pub units: PerUnit<R>,
+}
+
+/// Coefficients of a rigid motor in the number format `S`. Immutable.
+#[derive(Clone, Copy, Debug)]
+pub struct Rigid<S: Scalar> {
+    motor: [StepMap<S>; LEVELS],
+    /// The load, and friction.
+    forces: Forces<S>,
+    /// Whether there is friction.
+    has_friction: bool,
+    /// Whether there is neither friction nor a load.
+    free: bool,
+    counts_per_unit: S::Coefficient,
+}
+
+impl<S: Scalar> Rigid<S> {
+    /// A motor that nothing moves, of zeros in its format; to be [`set`](Self::set).
+    pub const fn of(zero: S, none: S::Coefficient) -> Self {
+        Rigid {
+            motor: [StepMap::of(none); LEVELS],
+            forces: Forces {
+                volts: zero,
+                torque: zero,
+                budget: Budget {
+                    moving: zero,
+                    holding: zero,
+                    bias: zero,
+                },
+            },
+            has_friction: false,
+            free: false,
+            counts_per_unit: none,
+        }
+    }
+}
+
+impl<S: Scalar<Mask = bool>> Rigid<S> {
+    /// Discretises and lowers a plan, in place. After an error the coefficients are not usable.
+    ///
+    /// # Errors
+    /// A parameter that is not physical, or a coefficient beyond the range of `S`.
+    pub fn set<R: Real>(&mut self, plan: &RigidPlan<R>) -> Result<(), ModelError> {
+        plan.machine.check()?;
+        let units = &plan.units;
+        self.has_friction = plan.coulomb != R::zero();
+        self.free = !self.has_friction && plan.load == R::zero();
+        let depth = if self.has_friction { LEVELS - 1 } else { 0 };
+        let machine = plan.machine.lower(units);
+        let one = R::from_f64(1.0);
+        build_step_maps(&mut self.motor, &machine, one, depth, Discretisation::Exact)?;
+        self.forces.torque = units.number(plan.load, Quantity::Torque);
+        self.forces.budget = Budget::even(units.number(plan.coulomb, Quantity::Torque));
+        self.counts_per_unit = S::coefficient_of(units.counts_per_unit());
+        Ok(())
+    }
+
+    /// Discretises and lowers a plan.
+    ///
+    /// # Errors
+    /// Those of [`set`](Self::set).
+    pub fn new<R: Real>(plan: &RigidPlan<R>) -> Result<Self, ModelError> {
+        let mut rigid = Rigid::of(S::zero(), S::Coefficient::default());
+        rigid.set(plan)?;
+        Ok(rigid)
+    }
+
+    /// Increments of current, speed and angle in an interval with the bridge closed, each by current, speed, command and
+    /// torque.
+    pub fn increments(&self) -> [&[S::Coefficient; 4]; 3] {
+        self.motor[0].increments()
+    }
+
+    /// Counts in a unit of angle.
+    pub fn counts_per_unit(&self) -> S::Coefficient {
+        self.counts_per_unit
+    }
+
+    /// Whether there is neither friction nor a load.
+    pub fn is_free(&self) -> bool {
+        self.free
+    }
+
+    /// Sense of the motion at `speed`, and the increments of current, speed and angle by load and friction in each interval
+    /// in which the shaft turns on in that sense; `None` if friction may hold it.
+    pub fn sliding(&self, speed: S) -> Option<(S, [S; 3])> {
+        let sense = speed.signum();
+        let torque = if !self.has_friction {
+            self.forces.torque
+        } else if sense.less(S::zero()) || S::zero().less(sense) {
+            self.forces.torque + sense * self.forces.budget.moving
+        } else {
+            return None;
+        };
+        Some((sense, self.motor[0].by_torque(torque)))
+    }
+
+    /// Advances by one interval with `command` held; `open` while the bridge is open.
+    #[inline(always)]
+    pub fn step(&self, motion: &mut Motion<S>, command: S, open: bool) {
+        let scale = self.counts_per_unit;
+        if !self.has_friction {
+            let by = self.motor[0].step_free(motion, command, self.forces.torque, open);
+            motion.current = motion.current + by.current;
+            motion.speed = motion.speed + by.speed;
+            motion.angle = motion.angle.advance(by.angle, scale);
+            return;
+        }
+        let forces = Forces {
+            volts: command,
+            ..self.forces
+        };
+        step_with_events(&self.motor, motion, &forces, open, scale);
+    }
+}
