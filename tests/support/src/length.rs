@@ -20,12 +20,3 @@ pub fn cases<N: std::fmt::Display>(all: N, few: N) -> N {
     note("SHORT", &format!("{few} of {all} cases"));
     few
 }
-
-/// Whether a case or part that takes long is tried now.
-#[must_use]
-pub fn tried(what: &str) -> bool {
-    if !long() {
-        note("SHORT", &format!("without {what}"));
-    }
-    long()
-}
