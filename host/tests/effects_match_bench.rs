@@ -3,8 +3,8 @@
 //!
 //! The two share no code. The bench integrates plain SI equations finely; the model takes a few
 //! exact maps a sample. Where both agree over twenty seconds to a fraction of a count, two
-//! derivations agree. The one thing between them is `prove::truth`: SI parameters of the bench in the
-//! volts-referred terms of the model.
+//! derivations agree. The one thing between them is `Hidden::truth`: the SI parameters of the bench, stated by the
+//! bench itself in the volts-referred terms of the model.
 
 use host::bench::{Bench, DriveSample, Hidden, Machine, PRESETS, Run};
 use servoid_identify::truth;
@@ -45,7 +45,7 @@ fn rms(machine: &Machine, effects: &[Hidden], run: &Run, substeps: u16) -> f64 {
     let mut set = EffectSet::default();
     for hidden in effects {
         let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
-        let values = truth::parameters(hidden, machine, COUNTS_PER_REV).expect("a counterpart");
+        let values = hidden.truth(machine, COUNTS_PER_REV);
         set.push(kind, &values).expect("a valid effect");
     }
     let units = PerUnit::new(

@@ -1,6 +1,6 @@
 //! One hidden effect as ordered: which, with which parameters, how strong.
 
-use super::effects::{Effect, Kind, Param};
+use super::effects::{Effect, Kind, Param, Random};
 use super::{BenchError, Machine};
 use std::fmt;
 
@@ -76,6 +76,26 @@ impl Hidden {
     pub fn scaled(mut self, strength: f64) -> Result<Self, BenchError> {
         self.set(STRENGTH.name, strength)?;
         Ok(self)
+    }
+
+    /// Draws the parameters that give the effect its form rather than its size; those that are not drawn stay.
+    ///
+    /// # Errors
+    /// [`BenchError::OutOfRange`] where the effect draws what it does not allow.
+    pub fn draw_form(
+        &mut self,
+        machine: &Machine,
+        random: &mut dyn Random,
+    ) -> Result<(), BenchError> {
+        for (key, value) in (self.kind.draw)(&self.effective(), machine, random) {
+            self.set(key, value)?;
+        }
+        Ok(())
+    }
+
+    /// What is hidden, as the parameters of a model that is referred to the winding: see [`Kind::truth`].
+    pub fn truth(&self, machine: &Machine, counts_per_rev: u32) -> Vec<f64> {
+        (self.kind.truth)(&self.effective(), machine, counts_per_rev)
     }
 
     /// The effect's name.

@@ -38,6 +38,20 @@ pub(super) static KIND: Kind = Kind {
             backward_n_m: values[1],
         })
     },
+    draw: |typical, _, random| {
+        let mean = 0.5 * (typical[0] + typical[1]);
+        let lean = random.sign() * random.log_uniform(0.1, 0.6);
+        vec![
+            ("forward", mean * (1.0 + lean)),
+            ("backward", mean * (1.0 - lean)),
+        ]
+    },
+    truth: |values, machine, _| {
+        vec![
+            machine.winding_volts(values[0]),
+            machine.winding_volts(values[1]),
+        ]
+    },
 };
 
 impl Effect for AsymCoulomb {

@@ -37,6 +37,21 @@ pub(super) static KIND: Kind = Kind {
             backward_n_m_s: values[1],
         })
     },
+    draw: |typical, _, random| {
+        let (much, little) = (typical[0], typical[0] * random.uniform(0.0, 0.6));
+        let (forward, backward) = if random.chance(0.5) {
+            (much, little)
+        } else {
+            (little, much)
+        };
+        vec![("forward", forward), ("backward", backward)]
+    },
+    truth: |values, machine, _| {
+        vec![
+            machine.winding_volts(values[0]),
+            machine.winding_volts(values[1]),
+        ]
+    },
 };
 
 impl Effect for AsymViscous {

@@ -39,6 +39,8 @@ pub(super) static KIND: Kind = Kind {
             inductance_h: machine.inductance_h,
         })
     },
+    draw: |typical, _, random| vec![("knee", typical[1] * random.log_uniform(0.3, 3.0))],
+    truth: |values, machine, _| vec![values[0], values[1] * machine.resistance_ohm],
 };
 
 impl Effect for BrushDrop {

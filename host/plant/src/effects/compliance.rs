@@ -49,6 +49,18 @@ pub(super) static KIND: Kind = Kind {
             damping_ratio: values[2],
         })
     },
+    draw: |_, _, random| {
+        vec![
+            ("load_share", random.uniform(0.2, 0.7)),
+            ("damping", random.log_uniform(0.02, 0.2)),
+        ]
+    },
+    truth: |values, machine, _| {
+        let share = values[1];
+        let reduced = share * (1.0 - share) * machine.inertia_kg_m2;
+        let period = TAU * (values[0] * reduced).sqrt();
+        vec![period, share, values[2]]
+    },
 };
 
 const TYPICAL_SHARE: f64 = 0.4;

@@ -24,6 +24,8 @@ pub(super) static KIND: Kind = Kind {
             offset_v: values[0],
         })
     },
+    draw: |typical, _, random| vec![("offset", random.sign() * typical[0])],
+    truth: |values, _, _| vec![values[0]],
 };
 
 impl Effect for OffsetVoltage {

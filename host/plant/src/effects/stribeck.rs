@@ -58,6 +58,24 @@ pub(super) static KIND: Kind = Kind {
             exponent: values[3],
         })
     },
+    draw: |typical, machine, random| {
+        vec![
+            ("extra", typical[1] * random.log_uniform(0.3, 1.5)),
+            (
+                "speed",
+                machine.top_speed_rad_s() * random.log_uniform(0.01, 0.06),
+            ),
+            ("exponent", random.uniform(1.0, 2.0)),
+        ]
+    },
+    truth: |values, machine, _| {
+        vec![
+            machine.winding_volts(values[0]),
+            machine.winding_volts(values[1]),
+            values[2],
+            values[3],
+        ]
+    },
 };
 
 impl Effect for Stribeck {
