@@ -1,6 +1,6 @@
 //! The counter misses counts.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{Description, Effect, Facts, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar, abreast};
 use crate::units::{PerUnit, Quantity};
 
@@ -32,6 +32,10 @@ impl<S: Scalar> Effect<S> for MissedCounts<S> {
         exposed_by: "fast runs there and back; an index pulse",
         look_alikes: &["enc_ecc"],
         source: "see EFFECTS in the project's notes: loss grows above a speed",
+        facts: Facts {
+            by_chance: true,
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         sensed: true,
