@@ -90,14 +90,11 @@ const COARSE_LIMITS: Range<f64> = 0.24..0.36;
 /// Bristles that bend within hundredths of a sample want more substeps on a quick motor.
 const COARSE_BRISTLE_LIMITS: Range<f64> = 0.24..0.6;
 
-/// Counts are lost at random on the bench: no parameters reproduce the draw.
-const RANDOM: [Kind; 1] = [Kind::MissedCounts];
-
 #[test]
 fn true_parameters_leave_the_encoders_own_error_for_every_effect_on_every_machine() {
     for name in PRESETS {
         let machine = Machine::preset(name).expect("a preset");
-        for kind in Kind::ALL.iter().filter(|kind| !RANDOM.contains(kind)) {
+        for kind in Kind::ALL.iter().filter(|kind| !kind.facts().by_chance) {
             let hidden = vec![Hidden::typical(kind.name(), &machine).expect("in the catalogue")];
             let run = record(machine, hidden.clone(), &COMMISSIONING);
             let coarse_limits = match kind {

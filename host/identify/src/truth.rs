@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 use servoid_plant::Machine;
-use shared::effects::Kind;
+use shared::effects::{Kind, Pair};
 use shared::motor::Physical;
 
 /// The bench's machine in the model's terms.
@@ -35,8 +35,7 @@ pub struct ParameterError {
 }
 
 /// Errors of the `found` values of an effect's parameters. Amplitudes of cosine and sine are compared as one
-/// vector; of viscous friction in two directions only the difference, since the machine's own can take any
-/// common part; nothing is compared with a truth of zero.
+/// vector; of parameters whose common part the machine can take only the difference; nothing is compared with a truth of zero.
 pub fn errors(kind: Kind, found: &[f64], truth: &[f64]) -> Vec<ParameterError> {
     let error = |parameter: &str, size: bool, distance: f64, of: f64| ParameterError {
         effect: kind.name().to_owned(),
@@ -45,12 +44,12 @@ pub fn errors(kind: Kind, found: &[f64], truth: &[f64]) -> Vec<ParameterError> {
         percent: 100.0 * distance / of.abs(),
     };
     let parameters = kind.description().parameters;
-    let (mut errors, rest) = match (kind, found, truth) {
-        (Kind::Cogging | Kind::Unbalance | Kind::EncEcc, [a, b, ..], [x, y, ..]) => {
+    let (mut errors, rest) = match (kind.facts().pair, found, truth) {
+        (Some(Pair::CosineAndSine), [a, b, ..], [x, y, ..]) => {
             let distance = (a - x).hypot(b - y);
             (vec![error("amplitude", true, distance, x.hypot(*y))], 2)
         }
-        (Kind::AsymViscous, [a, b, ..], [x, y, ..]) => {
+        (Some(Pair::Difference), [a, b, ..], [x, y, ..]) => {
             let distance = ((a - b) - (x - y)).abs();
             (vec![error("difference", true, distance, x - y)], 2)
         }
@@ -96,11 +95,12 @@ mod tests {
                 let truth = hidden.truth(&machine, 2000);
                 assert_eq!(truth.len(), kind.description().parameters.len(), "{kind:?}");
                 let errors = errors(kind, &truth, &truth);
-                assert!(
-                    errors
-                        .iter()
-                        .any(|error| error.size || kind == Kind::VoltageSat)
-                );
+                // A limit has no size: it is reached or it is not.
+                let sized = kind
+                    .parameters()
+                    .iter()
+                    .any(|parameter| parameter.amplitude);
+                assert!(errors.iter().any(|error| error.size || !sized));
                 assert!(
                     errors.iter().all(|error| error.percent == 0.0),
                     "{errors:?}"

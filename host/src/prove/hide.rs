@@ -65,10 +65,8 @@ pub fn surprise(machine: &Machine, seed: u64) -> Result<Hidden, BenchError> {
 
 /// Whether neither is the other, nor declared to look like it.
 pub fn acts_otherwise(a: &str, b: &str) -> bool {
-    let looks_like = |a: &str, b: &str| {
-        Kind::by_name(a).is_some_and(|kind| kind.description().look_alikes.contains(&b))
-    };
-    a != b && !looks_like(a, b) && !looks_like(b, a)
+    let kinds = Kind::by_name(a).zip(Kind::by_name(b));
+    a != b && !kinds.is_some_and(|(a, b)| a.looks_like(b))
 }
 
 /// The effect of that name with a random strength and shape.
