@@ -31,7 +31,7 @@ impl<S: Scalar> Effect<S> for MissedCounts<S> {
         signature: "small steps of whole counts against the motion, the more the faster it is, that stay",
         exposed_by: "fast runs there and back; an index pulse",
         look_alikes: &["enc_ecc"],
-        source: "see EFFECTS in the project's notes: loss grows above a speed",
+        source: "none; the loss is taken to grow above a speed",
         facts: Facts {
             by_chance: true,
             ..Facts::PLAIN
