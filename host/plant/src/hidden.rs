@@ -125,7 +125,7 @@ impl Hidden {
 
     /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
     pub(super) fn is_electrical(&self) -> bool {
-        self.kind.electrical
+        self.kind.electrical.is_some()
     }
 
     /// Makes the effect itself.

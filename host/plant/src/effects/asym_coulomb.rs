@@ -13,7 +13,7 @@ struct AsymCoulomb {
 pub(super) static KIND: Kind = Kind {
     name: "asym_coulomb",
     about: "dry friction that differs between the directions",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "forward",

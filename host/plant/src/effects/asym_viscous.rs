@@ -12,7 +12,7 @@ struct AsymViscous {
 pub(super) static KIND: Kind = Kind {
     name: "asym_viscous",
     about: "extra viscous friction that differs between the directions",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "forward",

@@ -19,7 +19,7 @@ struct Backlash {
 pub(super) static KIND: Kind = Kind {
     name: "backlash",
     about: "a gap between the motor and its load",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "gap",

@@ -13,7 +13,7 @@ struct BrushDrop {
 pub(super) static KIND: Kind = Kind {
     name: "brush_drop",
     about: "a nearly constant voltage is lost against the current",
-    electrical: true,
+    electrical: Some(|values, _| values[0]),
     params: &[
         Param {
             name: "drop",

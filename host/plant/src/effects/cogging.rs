@@ -16,7 +16,7 @@ struct Cogging {
 pub(super) static KIND: Kind = Kind {
     name: "cogging",
     about: "detent torque, periodic in the angle",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "torque",

@@ -15,7 +15,7 @@ struct Compliance {
 pub(super) static KIND: Kind = Kind {
     name: "compliance",
     about: "an elastic shaft between the motor and its load",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "compliance",

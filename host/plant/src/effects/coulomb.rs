@@ -11,7 +11,7 @@ struct Coulomb {
 pub(super) static KIND: Kind = Kind {
     name: "coulomb",
     about: "dry friction of one size at every speed",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "torque",
         unit: "N*m",

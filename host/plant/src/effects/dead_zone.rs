@@ -14,7 +14,7 @@ struct DeadZone {
 pub(super) static KIND: Kind = Kind {
     name: "dead_zone",
     about: "small commands give no voltage",
-    electrical: true,
+    electrical: Some(|values, _| values[0]),
     params: &[
         Param {
             name: "width",

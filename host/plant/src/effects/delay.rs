@@ -11,7 +11,7 @@ struct Delay {
 pub(super) static KIND: Kind = Kind {
     name: "delay",
     about: "the command reaches the bridge late",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "time",
         unit: "s",

@@ -13,7 +13,7 @@ struct EncEcc {
 pub(super) static KIND: Kind = Kind {
     name: "enc_ecc",
     about: "the encoder reads an angle error once per revolution",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "amplitude",

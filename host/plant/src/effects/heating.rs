@@ -16,7 +16,7 @@ struct Heating {
 pub(super) static KIND: Kind = Kind {
     name: "heating",
     about: "the winding heats up: more resistance, weaker magnets",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "thermal_resistance",

@@ -14,7 +14,7 @@ struct LSat {
 pub(super) static KIND: Kind = Kind {
     name: "l_sat",
     about: "the inductance falls as the current grows",
-    electrical: true,
+    electrical: Some(|_, _| 0.0),
     params: &[Param {
         name: "falloff",
         unit: "1/A^2",

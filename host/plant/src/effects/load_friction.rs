@@ -12,7 +12,7 @@ struct LoadFriction {
 pub(super) static KIND: Kind = Kind {
     name: "load_friction",
     about: "dry friction that grows with the transmitted torque",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "share",
         unit: "1",

@@ -10,7 +10,7 @@ struct LoadTorque {
 pub(super) static KIND: Kind = Kind {
     name: "load_torque",
     about: "a constant torque on the shaft, at rest too",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "torque",
         unit: "N*m",

@@ -17,7 +17,7 @@ struct Lugre {
 pub(super) static KIND: Kind = Kind {
     name: "lugre",
     about: "dry friction with an elastic deflection before it slides",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "coulomb",

@@ -15,7 +15,7 @@ struct MissedCounts {
 pub(super) static KIND: Kind = Kind {
     name: "missed_counts",
     about: "now and then the counter loses some counts for good",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "rate",

@@ -62,8 +62,9 @@ pub struct Kind {
     pub name: &'static str,
     /// What it is, in a few words.
     pub about: &'static str,
-    /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
-    pub electrical: bool,
+    /// For an effect that acts on the armature voltage, and so vanishes behind a current loop: the voltage that it
+    /// takes from an armature that is stalled, in closed form, from its parameters.
+    pub electrical: Option<fn(&[f64], &Stall) -> f64>,
     /// Its parameters, in the order in which `build` takes them.
     pub params: &'static [Param],
     /// Makes the effect from its parameters, already scaled by the strength.
@@ -75,6 +76,17 @@ pub struct Kind {
     /// torque `T` is the voltage `T·R/Kt`, a current the voltage across the resistance. From the values of
     /// this effect's parameters, the machine and the encoder's counts per revolution.
     pub truth: fn(&[f64], &Machine, u32) -> Vec<f64>,
+}
+
+/// A stalled armature under a steady command.
+#[derive(Clone, Copy, Debug)]
+pub struct Stall {
+    /// The command, V.
+    pub command_v: f64,
+    /// The machine's supply, V.
+    pub supply_v: f64,
+    /// The current that flows, A.
+    pub current_a: f64,
 }
 
 /// A source of random numbers, which the caller seeds.

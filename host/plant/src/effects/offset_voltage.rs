@@ -10,7 +10,7 @@ struct OffsetVoltage {
 pub(super) static KIND: Kind = Kind {
     name: "offset_voltage",
     about: "a constant voltage is added to every command",
-    electrical: true,
+    electrical: Some(|values, _| -values[0]),
     params: &[Param {
         name: "offset",
         unit: "V",

@@ -15,7 +15,7 @@ struct Stribeck {
 pub(super) static KIND: Kind = Kind {
     name: "stribeck",
     about: "dry friction that is larger at rest than in motion",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "coulomb",

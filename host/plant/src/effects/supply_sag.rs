@@ -13,7 +13,9 @@ struct SupplySag {
 pub(super) static KIND: Kind = Kind {
     name: "supply_sag",
     about: "the supply's voltage falls with the current drawn from it",
-    electrical: true,
+    electrical: Some(|values, stall| {
+        values[0] * (stall.command_v / stall.supply_v).powi(2) * stall.current_a
+    }),
     params: &[Param {
         name: "resistance",
         unit: "ohm",

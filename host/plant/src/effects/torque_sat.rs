@@ -12,7 +12,7 @@ struct TorqueSat {
 pub(super) static KIND: Kind = Kind {
     name: "torque_sat",
     about: "large currents give less torque than their share",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "cubic",
         unit: "1/A^2",

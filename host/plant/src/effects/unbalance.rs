@@ -14,7 +14,7 @@ struct Unbalance {
 pub(super) static KIND: Kind = Kind {
     name: "unbalance",
     about: "gravity on an eccentric mass, once per revolution",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "torque",

@@ -11,7 +11,7 @@ struct VoltageSat {
 pub(super) static KIND: Kind = Kind {
     name: "voltage_sat",
     about: "large commands are clipped",
-    electrical: true,
+    electrical: Some(|values, stall| values[0] - (stall.supply_v - stall.command_v)),
     params: &[Param {
         name: "lost",
         unit: "V",

@@ -11,7 +11,7 @@ struct Windage {
 pub(super) static KIND: Kind = Kind {
     name: "windage",
     about: "drag that grows with the square of the speed",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "drag",
         unit: "N*m*s^2",
