@@ -115,7 +115,7 @@ fn model<S: Arithmetic>(kind: Option<Kind>) -> Option<Model<S>> {
     let mut effects = EffectSet::default();
     if let Some(kind) = kind {
         let mut values = [0.0f32; MAX_PARAMETERS];
-        for (value, parameter) in values.iter_mut().zip(kind.description().parameters) {
+        for (value, parameter) in values.iter_mut().zip(kind.parameters()) {
             *value = parameter.scaled(parameter.typical, SUPPLY, SPEED) as f32;
         }
         effects.push(kind, &values).ok()?;

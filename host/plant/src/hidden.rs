@@ -1,6 +1,6 @@
 //! One hidden effect as ordered: which, with which parameters, how strong.
 
-use super::effects::{Effect, Kind, Param};
+use super::effects::{Effect, Kind, Param, Random};
 use super::{BenchError, Machine};
 use std::fmt;
 
@@ -78,6 +78,26 @@ impl Hidden {
         Ok(self)
     }
 
+    /// Draws the parameters that give the effect its form rather than its size; those that are not drawn stay.
+    ///
+    /// # Errors
+    /// [`BenchError::OutOfRange`] where the effect draws what it does not allow.
+    pub fn draw_form(
+        &mut self,
+        machine: &Machine,
+        random: &mut dyn Random,
+    ) -> Result<(), BenchError> {
+        for (key, value) in (self.kind.draw)(&self.effective(), machine, random) {
+            self.set(key, value)?;
+        }
+        Ok(())
+    }
+
+    /// What is hidden, as the parameters of a model that is referred to the winding: see [`Kind::truth`].
+    pub fn truth(&self, machine: &Machine, counts_per_rev: u32) -> Vec<f64> {
+        (self.kind.truth)(&self.effective(), machine, counts_per_rev)
+    }
+
     /// The effect's name.
     pub fn name(&self) -> &'static str {
         self.kind.name
@@ -105,7 +125,7 @@ impl Hidden {
 
     /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
     pub(super) fn is_electrical(&self) -> bool {
-        self.kind.electrical
+        self.kind.electrical.is_some()
     }
 
     /// Makes the effect itself.

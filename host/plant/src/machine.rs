@@ -113,6 +113,16 @@ impl Machine {
         self.no_load_speed_rad_s(self.supply_v)
     }
 
+    /// Voltage that the winding spends on a torque, N·m (or on a damping or a drag, per its unit).
+    pub fn winding_volts(&self, torque_n_m: f64) -> f64 {
+        torque_n_m * self.resistance_ohm / self.kt_n_m_a
+    }
+
+    /// A coefficient of the squared current, 1/A², per squared voltage across the resistance.
+    pub fn per_square_volt(&self, per_square_ampere: f64) -> f64 {
+        per_square_ampere / (self.resistance_ohm * self.resistance_ohm)
+    }
+
     /// Refuses values that no motor has.
     pub(super) fn check(&self) -> Result<(), BenchError> {
         let positive = [

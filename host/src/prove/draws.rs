@@ -1,5 +1,6 @@
 //! Random draws of a case, from a stream that belongs to its seed, its number and a purpose.
 
+use servoid_plant::effects::Random;
 use shared::rng::{self, Generator, Rng};
 
 /// A stream of draws.
@@ -34,11 +35,6 @@ impl Draws {
         rng::uniform::<f64>(&mut self.0) < part
     }
 
-    /// Plus or minus one.
-    pub fn sign(&mut self) -> f64 {
-        if self.chance(0.5) { 1.0 } else { -1.0 }
-    }
-
     /// An index below `bound`, or 0 where `bound` is 0.
     pub fn below(&mut self, bound: usize) -> usize {
         rng::below(&mut self.0, bound as u32) as usize
@@ -57,6 +53,20 @@ impl Draws {
             order.swap(last, self.below(last + 1));
         }
         order
+    }
+}
+
+impl Random for Draws {
+    fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        Draws::uniform(self, low, high)
+    }
+
+    fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
+        Draws::log_uniform(self, low, high)
+    }
+
+    fn chance(&mut self, part: f64) -> bool {
+        Draws::chance(self, part)
     }
 }
 

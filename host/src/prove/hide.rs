@@ -5,7 +5,6 @@ use super::{HowMany, SetUp};
 use servoid_plant::effects::CATALOGUE;
 use servoid_plant::{BenchError, Hidden, Machine};
 use shared::effects::Kind;
-use std::f64::consts::PI;
 
 /// Strength, in times the typical.
 const STRENGTH: (f64, f64) = (0.3, 3.0);
@@ -66,10 +65,8 @@ pub fn surprise(machine: &Machine, seed: u64) -> Result<Hidden, BenchError> {
 
 /// Whether neither is the other, nor declared to look like it.
 pub fn acts_otherwise(a: &str, b: &str) -> bool {
-    let looks_like = |a: &str, b: &str| {
-        Kind::by_name(a).is_some_and(|kind| kind.description().look_alikes.contains(&b))
-    };
-    a != b && !looks_like(a, b) && !looks_like(b, a)
+    let kinds = Kind::by_name(a).zip(Kind::by_name(b));
+    a != b && !kinds.is_some_and(|(a, b)| a.looks_like(b))
 }
 
 /// The effect of that name with a random strength and shape.
@@ -78,80 +75,11 @@ pub fn acts_otherwise(a: &str, b: &str) -> bool {
 /// [`BenchError::UnknownEffect`].
 pub fn draw(name: &str, machine: &Machine, draws: &mut Draws) -> Result<Hidden, BenchError> {
     let mut hidden = Hidden::typical(name, machine)?;
-    for (key, value) in shape(&hidden, machine, draws) {
-        hidden.set(key, value)?;
-    }
+    hidden.draw_form(machine, draws)?;
     // Few digits, so that the printed effect is the hidden one.
     let exact: Vec<_> = hidden.parameters().collect();
     for (key, value, _) in exact {
         hidden.set(key, rounded(value))?;
     }
     hidden.scaled(draws.log_uniform(STRENGTH.0, STRENGTH.1))
-}
-
-/// Values of the parameters that make the effect's form rather than its size.
-fn shape(hidden: &Hidden, machine: &Machine, draws: &mut Draws) -> Vec<(&'static str, f64)> {
-    let typical = |key: &str| {
-        let mut all = hidden.parameters();
-        all.find(|(name, ..)| *name == key)
-            .map_or(0.0, |(_, value, _)| value)
-    };
-    let top = machine.top_speed_rad_s();
-    match hidden.name() {
-        "load_torque" => vec![("torque", draws.sign() * typical("torque"))],
-        "offset_voltage" => vec![("offset", draws.sign() * typical("offset"))],
-        "asym_coulomb" => {
-            let mean = 0.5 * (typical("forward") + typical("backward"));
-            let lean = draws.sign() * draws.log_uniform(0.1, 0.6);
-            vec![
-                ("forward", mean * (1.0 + lean)),
-                ("backward", mean * (1.0 - lean)),
-            ]
-        }
-        "asym_viscous" => {
-            let (much, little) = (
-                typical("forward"),
-                typical("forward") * draws.uniform(0.0, 0.6),
-            );
-            let (forward, backward) = if draws.chance(0.5) {
-                (much, little)
-            } else {
-                (little, much)
-            };
-            vec![("forward", forward), ("backward", backward)]
-        }
-        "cogging" => vec![
-            ("order", draws.log_uniform(4.0, 60.0).round()),
-            ("phase", draws.uniform(-PI, PI)),
-        ],
-        "unbalance" | "enc_ecc" => vec![("phase", draws.uniform(-PI, PI))],
-        "stribeck" => vec![
-            ("extra", typical("extra") * draws.log_uniform(0.3, 1.5)),
-            ("speed", top * draws.log_uniform(0.01, 0.06)),
-            ("exponent", draws.uniform(1.0, 2.0)),
-        ],
-        "lugre" => vec![
-            ("extra", draws.uniform(0.0, 0.6)),
-            ("speed", top * draws.log_uniform(0.01, 0.06)),
-            ("presliding", draws.log_uniform(0.002, 0.03)),
-            ("damping", draws.uniform(0.2, 1.0)),
-        ],
-        "brush_drop" => vec![("knee", typical("knee") * draws.log_uniform(0.3, 3.0))],
-        "backlash" => vec![
-            ("load_share", draws.uniform(0.2, 0.7)),
-            ("contact_hz", draws.log_uniform(250.0, 1000.0)),
-            ("damping", draws.uniform(0.4, 1.0)),
-        ],
-        "compliance" => vec![
-            ("load_share", draws.uniform(0.2, 0.7)),
-            ("damping", draws.log_uniform(0.02, 0.2)),
-        ],
-        "heating" => vec![
-            ("time_constant", draws.log_uniform(5.0, 60.0)),
-            ("magnet", draws.uniform(0.0, 0.002)),
-        ],
-        "missed_counts" => vec![("largest", draws.log_uniform(4.0, 40.0).round())],
-        // Only their size, or a form that the model does not know (a dead zone that is cut).
-        _ => Vec::new(),
-    }
 }

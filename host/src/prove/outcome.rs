@@ -227,7 +227,7 @@ fn parameter_errors(drawn: &Drawn, model: &Refit) -> Result<Vec<ParameterError>,
         let truth = hidden
             .iter()
             .find(|hidden| hidden.name() == kind.name())
-            .and_then(|hidden| truth::parameters(hidden, &machine, drawn.counts_per_rev));
+            .map(|hidden| hidden.truth(&machine, drawn.counts_per_rev));
         if let Some(truth) = truth {
             errors.extend(truth::errors(kind, found, &truth));
         }

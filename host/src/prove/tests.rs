@@ -3,7 +3,6 @@
 use super::draws::Draws;
 use super::hide::{self, acts_otherwise};
 use super::*;
-use servoid_identify::truth;
 use servoid_plant::Hidden;
 use servoid_plant::effects::CATALOGUE;
 use shared::effects::Kind;
@@ -98,8 +97,8 @@ fn what_is_drawn_prints_and_reads_back_to_the_bit() {
             let machine = drawn.motor.machine();
             for (hidden, spec) in drawn.hidden().unwrap().iter().zip(&drawn.hidden) {
                 assert_eq!(&hidden.to_string(), spec);
-                let truth = truth::parameters(hidden, &machine, drawn.counts_per_rev);
-                assert!(truth.is_some_and(|values| values.iter().all(|v| v.is_finite())));
+                let truth = hidden.truth(&machine, drawn.counts_per_rev);
+                assert!(truth.iter().all(|value| value.is_finite()));
             }
         }
     }
@@ -120,7 +119,7 @@ fn whatever_is_hidden_lies_in_the_search_range() {
             let mut draws = Draws::of(&[SEED, number]);
             let machine = Motor::draw(&mut draws).unwrap().machine();
             let hidden: Hidden = hide::draw(kind.name(), &machine, &mut draws).unwrap();
-            let truth = truth::parameters(&hidden, &machine, 4096).unwrap();
+            let truth = hidden.truth(&machine, 4096);
             let top = machine.top_speed_rad_s();
             for (parameter, value) in kind.description().parameters.iter().zip(truth) {
                 if NARROW.contains(&(*kind, parameter.name)) {

@@ -3,8 +3,8 @@
 //!
 //! The two share no code. The bench integrates plain SI equations finely; the model takes a few
 //! exact maps a sample. Where both agree over twenty seconds to a fraction of a count, two
-//! derivations agree. The one thing between them is `prove::truth`: SI parameters of the bench in the
-//! volts-referred terms of the model.
+//! derivations agree. The one thing between them is `Hidden::truth`: the SI parameters of the bench, stated by the
+//! bench itself in the volts-referred terms of the model.
 
 use host::bench::{Bench, DriveSample, Hidden, Machine, PRESETS, Run};
 use servoid_identify::truth;
@@ -45,7 +45,7 @@ fn rms(machine: &Machine, effects: &[Hidden], run: &Run, substeps: u16) -> f64 {
     let mut set = EffectSet::default();
     for hidden in effects {
         let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
-        let values = truth::parameters(hidden, machine, COUNTS_PER_REV).expect("a counterpart");
+        let values = hidden.truth(machine, COUNTS_PER_REV);
         set.push(kind, &values).expect("a valid effect");
     }
     let units = PerUnit::new(
@@ -90,14 +90,11 @@ const COARSE_LIMITS: Range<f64> = 0.24..0.36;
 /// Bristles that bend within hundredths of a sample want more substeps on a quick motor.
 const COARSE_BRISTLE_LIMITS: Range<f64> = 0.24..0.6;
 
-/// Counts are lost at random on the bench: no parameters reproduce the draw.
-const RANDOM: [Kind; 1] = [Kind::MissedCounts];
-
 #[test]
 fn true_parameters_leave_the_encoders_own_error_for_every_effect_on_every_machine() {
     for name in PRESETS {
         let machine = Machine::preset(name).expect("a preset");
-        for kind in Kind::ALL.iter().filter(|kind| !RANDOM.contains(kind)) {
+        for kind in Kind::ALL.iter().filter(|kind| !kind.facts().by_chance) {
             let hidden = vec![Hidden::typical(kind.name(), &machine).expect("in the catalogue")];
             let run = record(machine, hidden.clone(), &COMMISSIONING);
             let coarse_limits = match kind {

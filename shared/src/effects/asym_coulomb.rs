@@ -1,6 +1,9 @@
 //! Coulomb friction that differs between the directions.
 
-use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{
+    AtSpeed, Budget, Contained, Description, Effect, Evidence, Facts, Needs, Parameter, Place,
+    Shaft, Value,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +31,25 @@ impl<S: Scalar> Effect<S> for AsymCoulomb<S> {
         exposed_by: "steps of both signs; a hold at rest tells it from a constant load",
         look_alikes: &["coulomb", "load_torque", "offset_voltage"],
         source: "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
+        facts: Facts {
+            contains: &[Contained {
+                name: "coulomb",
+                values: &[Value::Mean(0, 1)],
+                at_rest: &[],
+                whole: true,
+            }],
+            evidence: Evidence::ChangesSign,
+            at_speed: AtSpeed::Sliding {
+                mean_of: &[0, 1],
+                without: Some("the mean of both directions stands for each"),
+            },
+            caution: Some(
+                "unequal friction, and equal friction beside a constant load or an offset, do the same while the shaft \
+                 turns: hold it at rest at several angles, where a load acts and friction only holds, and let it run down \
+                 with the bridge open, where an offset vanishes",
+            ),
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         friction: true,

@@ -1,6 +1,6 @@
 //! Viscous friction that differs between the directions.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{AtSpeed, Description, Effect, Evidence, Facts, Needs, Pair, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +28,15 @@ impl<S: Scalar> Effect<S> for AsymViscous<S> {
         exposed_by: "two speeds in each direction",
         look_alikes: &["asym_coulomb", "windage"],
         source: "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
+        facts: Facts {
+            evidence: Evidence::Grows,
+            pair: Some(Pair::Difference),
+            at_speed: AtSpeed::Viscous {
+                mean_of: &[0, 1],
+                without: Some("the mean of both directions stands for each"),
+            },
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,6 @@
 //! A load behind a gap.
 
-use super::{Coupling, Description, Effect, Parameter, Place};
+use super::{Contained, Coupling, Description, Effect, Facts, Parameter, Place, Starts, Value};
 use crate::motor::Machine;
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
@@ -30,6 +30,18 @@ impl<S: Scalar> Effect<S> for Backlash<S> {
         exposed_by: "square waves of small amplitude; multisines of several amplitudes",
         look_alikes: &["compliance", "delay", "lugre"],
         source: "Nordin, Gutman, Automatica 38(10), 2002",
+        facts: Facts {
+            // A gap that is closed. Its flanks are stiffer than many a shaft.
+            contains: &[Contained {
+                name: "compliance",
+                values: &[Value::Own(2), Value::Own(1), Value::Own(3)],
+                at_rest: &[(0, 1e-6)],
+                whole: false,
+            }],
+            starts: Starts::Shares(&[(0, &[1.0, 0.4]), (1, &[1.0, 0.4, 1.75]), (2, &[1.0, 0.3])]),
+            series_parallel: false,
+            ..Facts::PLAIN
+        },
     };
 
     fn lower<R: Real>(_values: &[R], _units: &PerUnit<R>) -> Self {

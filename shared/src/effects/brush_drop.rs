@@ -1,6 +1,8 @@
 //! Voltage drop of the brushes.
 
-use super::{Brush, Description, Effect, Needs, Parameter, Place};
+use super::{
+    Brush, Description, Effect, Evidence, Facts, Needs, Other, Parameter, Place, Starts, ToldFrom,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -26,6 +28,18 @@ impl<S: Scalar> Effect<S> for BrushDrop<S> {
         exposed_by: "braking and driving at the same speed; coasting tells it from friction",
         look_alikes: &["coulomb", "dead_zone"],
         source: "Modelica Standard Library, Machines.Losses.DCMachines.Brush",
+        facts: Facts {
+            starts: Starts::Shares(&[(1, &[1.0, 0.2])]),
+            evidence: Evidence::ChangesSign,
+            told_from: &[ToldFrom {
+                other: Other::Effect("dead_zone"),
+                record: "the same commands on two supply voltages: a dead time scales with the supply, brushes do not",
+                measure: Some(
+                    "the same at two supply voltages: what the stage loses grows with the supply, what the brushes drop does not",
+                ),
+            }],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

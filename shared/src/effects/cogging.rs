@@ -1,6 +1,9 @@
 //! Cogging: the magnets prefer some angles.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
+use super::{
+    AtSpeed, Description, Effect, Evidence, Facts, Needs, Order, Pair, Parameter, Place, Shaft,
+    Starts, harmonic::Harmonic,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +31,14 @@ impl<S: Scalar> Effect<S> for Cogging<S> {
         exposed_by: "creeping at least three turns both ways",
         look_alikes: &["unbalance", "enc_ecc"],
         source: "Piccoli, Yim, Robotics: Science and Systems, 2014",
+        facts: Facts {
+            starts: Starts::AngleOrders,
+            evidence: Evidence::Repeats,
+            periodic: Some(Order::Parameter(2)),
+            pair: Some(Pair::CosineAndSine),
+            at_speed: AtSpeed::OtherForm("a torque that depends on the angle has no place here"),
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,6 @@
 //! A load behind a spring.
 
-use super::{Coupling, Description, Effect, Parameter, Place};
+use super::{Coupling, Description, Effect, Facts, Other, Parameter, Place, Starts, ToldFrom};
 use crate::motor::Machine;
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
@@ -29,6 +29,23 @@ impl<S: Scalar> Effect<S> for Compliance<S> {
         exposed_by: "a chirp, multisine",
         look_alikes: &["backlash", "delay", "lugre"],
         source: "Ellis, Control System Design Guide, 2012, ch. 16",
+        facts: Facts {
+            starts: Starts::Shares(&[(0, &[1.0, 2.0, 0.5, 0.25]), (1, &[1.0, 0.4, 1.75])]),
+            series_parallel: false,
+            told_from: &[
+                ToldFrom {
+                    other: Other::Effect("backlash"),
+                    record: "multisines of several amplitudes: the resonance moves with the amplitude for a gap, not for a spring",
+                    measure: None,
+                },
+                ToldFrom {
+                    other: Other::Effect("delay"),
+                    record: "a chirp: the phase of a delay falls evenly with the frequency, a resonance steps by half a turn",
+                    measure: None,
+                },
+            ],
+            ..Facts::PLAIN
+        },
     };
 
     fn lower<R: Real>(_values: &[R], _units: &PerUnit<R>) -> Self {

@@ -1,6 +1,9 @@
 //! Coulomb friction.
 
-use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{
+    AtSpeed, Budget, Description, Effect, Evidence, Facts, Needs, Other, Parameter, Place, Shaft,
+    ToldFrom,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -11,6 +14,14 @@ pub struct Coulomb<S> {
 }
 
 lanes!(Coulomb { torque });
+
+/// All that is electrical vanishes with the bridge open, and friction stays.
+pub(super) const ELECTRICAL: ToldFrom = ToldFrom {
+    other: Other::At(Place::Drive),
+    record: "a run-down with the bridge open, where all that is electrical vanishes and friction stays, or log the \
+             current",
+    measure: None,
+};
 
 impl<S: Scalar> Effect<S> for Coulomb<S> {
     const DESCRIPTION: Description = Description {
@@ -28,6 +39,15 @@ impl<S: Scalar> Effect<S> for Coulomb<S> {
         exposed_by: "a slow triangle through zero, or steps of both signs",
         look_alikes: &["stribeck", "asym_coulomb", "brush_drop", "lugre"],
         source: "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
+        facts: Facts {
+            evidence: Evidence::ChangesSign,
+            at_speed: AtSpeed::Sliding {
+                mean_of: &[0],
+                without: None,
+            },
+            told_from: &[ELECTRICAL],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         friction: true,

@@ -1,6 +1,6 @@
 //! Dead zone of the power stage.
 
-use super::{Description, Effect, Parameter, Place};
+use super::{Description, Effect, Evidence, Facts, Parameter, Place};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +28,10 @@ impl<S: Scalar> Effect<S> for DeadZone<S> {
         exposed_by: "a slow triangle of small amplitude",
         look_alikes: &["coulomb", "brush_drop", "stribeck"],
         source: "Kara, Eker, Energy Conversion and Management 45, 2004",
+        facts: Facts {
+            evidence: Evidence::ChangesSign,
+            ..Facts::PLAIN
+        },
     };
     const ORDER: u8 = 1;
 

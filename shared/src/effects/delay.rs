@@ -1,6 +1,6 @@
 //! Commands arrive late.
 
-use super::{Description, Effect, Parameter, Place};
+use super::{Description, Effect, Facts, Parameter, Place};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 use core::marker::PhantomData;
@@ -29,6 +29,10 @@ impl<S: Scalar> Effect<S> for Delay<S> {
         exposed_by: "a chirp, steps and reversals",
         look_alikes: &["compliance", "l_sat"],
         source: "Ljung, System Identification, 1999, ch. 4",
+        facts: Facts {
+            series_parallel: false,
+            ..Facts::PLAIN
+        },
     };
 
     fn lower<R: Real>(_values: &[R], _units: &PerUnit<R>) -> Self {

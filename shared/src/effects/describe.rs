@@ -1,5 +1,6 @@
 //! What an effect says about itself, for people and for programs.
 
+use super::Facts;
 use crate::units::Quantity;
 
 /// Most parameters of one effect.
@@ -118,4 +119,6 @@ pub struct Description {
     pub look_alikes: &'static [&'static str],
     /// Where the equation comes from.
     pub source: &'static str,
+    /// What is true of it beyond its equation.
+    pub facts: Facts,
 }

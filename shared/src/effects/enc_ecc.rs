@@ -1,6 +1,9 @@
 //! Eccentricity of the encoder's disc or magnet.
 
-use super::{Description, Effect, Needs, Parameter, Place, harmonic::Harmonic};
+use super::{
+    Description, Effect, Facts, Needs, Order, Other, Pair, Parameter, Place, ToldFrom,
+    harmonic::Harmonic,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -12,6 +15,15 @@ pub struct EncEcc<S: Scalar> {
 }
 
 lanes!(EncEcc { error });
+
+/// An error of the angle stays where a torque shrinks.
+const fn by_several_speeds(other: &'static str) -> ToldFrom {
+    ToldFrom {
+        other: Other::Effect(other),
+        record: "constant runs at several speeds: an error of the angle stays the same, a torque shrinks as speed rises",
+        measure: None,
+    }
+}
 
 impl<S: Scalar> Effect<S> for EncEcc<S> {
     const DESCRIPTION: Description = Description {
@@ -27,6 +39,12 @@ impl<S: Scalar> Effect<S> for EncEcc<S> {
         exposed_by: "constant high speed, where the inertia holds the speed",
         look_alikes: &["unbalance", "cogging"],
         source: "the triangle of axis, disc centre and reading head; TI TIDUFF8",
+        facts: Facts {
+            periodic: Some(Order::Once),
+            pair: Some(Pair::CosineAndSine),
+            told_from: &[by_several_speeds("cogging"), by_several_speeds("unbalance")],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         sensed: true,

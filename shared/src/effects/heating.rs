@@ -1,6 +1,6 @@
 //! The winding heats up.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
+use super::{Description, Effect, Evidence, Facts, Needs, Parameter, Place, Shaft, Winding};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -35,6 +35,10 @@ impl<S: Scalar> Effect<S> for Heating<S> {
         exposed_by: "the same short experiment cold and, after minutes of load, hot",
         look_alikes: &["supply_sag", "windage", "torque_sat"],
         source: "IEC 60034-1 for copper; Hughes, Electric Motors and Drives, 2013 (one thermal node)",
+        facts: Facts {
+            evidence: Evidence::Drifts,
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,6 @@
 //! Saturation of the armature inductance.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
+use super::{Description, Effect, Facts, Needs, Parameter, Place, Shaft, Winding};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +28,10 @@ impl<S: Scalar> Effect<S> for LSat<S> {
         exposed_by: "reversals at full voltage against small steps, sampled faster than L/R",
         look_alikes: &["torque_sat", "delay"],
         source: "Krause, Wasynczuk, Sudhoff, Analysis of Electric Machinery, 2002 (saturation)",
+        facts: Facts {
+            series_parallel: false,
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

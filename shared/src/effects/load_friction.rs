@@ -1,6 +1,9 @@
 //! Friction that grows with the torque passed through a gear.
 
-use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
+use super::supply_sag::WITH_THE_SUPPLY_LOGGED;
+use super::{
+    AtSpeed, Budget, Description, Effect, Facts, Needs, Other, Parameter, Place, Shaft, ToldFrom,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +31,15 @@ impl<S: Scalar> Effect<S> for LoadFriction<S> {
         exposed_by: "accelerating and braking at several levels; lifting and lowering a weight",
         look_alikes: &["supply_sag", "coulomb", "torque_sat"],
         source: "Duclusaud, Passault, Extended friction models for servo actuators, ICRA 2025",
+        facts: Facts {
+            at_speed: AtSpeed::OtherForm("friction that grows with the load has no place here"),
+            told_from: &[ToldFrom {
+                other: Other::Effect("supply_sag"),
+                record: WITH_THE_SUPPLY_LOGGED,
+                measure: Some("a measured supply voltage, or a known weight lifted and lowered"),
+            }],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

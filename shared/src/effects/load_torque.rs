@@ -1,6 +1,8 @@
 //! Constant torque on the shaft.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{
+    AtSpeed, Description, Effect, Evidence, Facts, Needs, Other, Parameter, Place, Shaft, ToldFrom,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +30,18 @@ impl<S: Scalar> Effect<S> for LoadTorque<S> {
         exposed_by: "coasting with the bridge open, or holding at rest",
         look_alikes: &["offset_voltage", "asym_coulomb"],
         source: "any text on drives",
+        facts: Facts {
+            evidence: Evidence::Constant,
+            at_speed: AtSpeed::OtherForm("a constant torque has no place here"),
+            told_from: &[ToldFrom {
+                other: Other::Effect("asym_coulomb"),
+                record: "a hold at rest and slow creeping back: a load acts at rest, unequal friction only holds",
+                measure: Some(
+                    "a hold at several angles with a creep back: a load acts at rest, friction does not",
+                ),
+            }],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         torque: true,

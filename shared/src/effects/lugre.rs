@@ -2,7 +2,10 @@
 
 use super::decay::{REACH, decay};
 use super::hump::Hump;
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, Stiff};
+use super::{
+    AtSpeed, Contained, Description, Effect, Evidence, Facts, Needs, Parameter, Place, Shaft,
+    Starts, Stiff, Value,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -58,6 +61,38 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         exposed_by: "small reversals below break-away",
         look_alikes: &["coulomb", "stribeck", "backlash", "compliance"],
         source: "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40(3), 1995",
+        facts: Facts {
+            contains: &[
+                Contained {
+                    name: "coulomb",
+                    values: &[Value::Own(0)],
+                    at_rest: &[(1, 0.0), (3, 0.0), (4, 0.0)],
+                    whole: true,
+                },
+                // Bristles that hardly bend; of the Stribeck humps only the Gaussian one.
+                Contained {
+                    name: "stribeck",
+                    values: &[
+                        Value::Own(0),
+                        Value::Product(1, 0),
+                        Value::Own(2),
+                        Value::Fixed(2.0),
+                    ],
+                    at_rest: &[(3, 0.0), (4, 0.0)],
+                    whole: false,
+                },
+            ],
+            // Bristles slide as dry friction does.
+            starts: Starts::Fit("coulomb"),
+            costly: true,
+            series_parallel: false,
+            evidence: Evidence::ChangesSign,
+            at_speed: AtSpeed::Sliding {
+                mean_of: &[0],
+                without: Some("what is elastic and what is larger near standstill is left out"),
+            },
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,6 @@
 //! The counter misses counts.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{Description, Effect, Facts, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -31,7 +31,11 @@ impl<S: Scalar> Effect<S> for MissedCounts<S> {
         signature: "small steps of whole counts against the motion, the more the faster it is, that stay",
         exposed_by: "fast runs there and back; an index pulse",
         look_alikes: &["enc_ecc"],
-        source: "see EFFECTS in the project's notes: loss grows above a speed",
+        source: "none; the loss is taken to grow above a speed",
+        facts: Facts {
+            by_chance: true,
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         sensed: true,

@@ -34,6 +34,7 @@ mod windage;
 mod chebyshev;
 mod decay;
 mod describe;
+mod facts;
 mod harmonic;
 mod hump;
 mod lowered;
@@ -41,6 +42,7 @@ mod set;
 mod shaft;
 
 pub use describe::{Description, MAX_PARAMETERS, Parameter, Place};
+pub use facts::{AtSpeed, Contained, Evidence, Facts, Order, Other, Pair, Starts, ToldFrom, Value};
 pub use lowered::Lowered;
 pub use set::EffectSet;
 pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, Winding};
@@ -199,10 +201,24 @@ macro_rules! kinds {
             /// Every effect.
             pub const ALL: &'static [Kind] = &[$(Kind::$kind),*];
 
-            /// What it is.
+            /// What it is. Nothing that runs on a device reads it, so that its texts stay out of the image.
             pub fn description(self) -> &'static Description {
                 match self {
                     $(Kind::$kind => const { &<$file::$kind<f64> as Effect<f64>>::DESCRIPTION }),*
+                }
+            }
+
+            /// Its name.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Kind::$kind => const { <$file::$kind<f64> as Effect<f64>>::DESCRIPTION.name }),*
+                }
+            }
+
+            /// Its parameters.
+            pub fn parameters(self) -> &'static [Parameter] {
+                match self {
+                    $(Kind::$kind => const { <$file::$kind<f64> as Effect<f64>>::DESCRIPTION.parameters }),*
                 }
             }
 
@@ -357,11 +373,6 @@ kinds! {
 }
 
 impl Kind {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        self.description().name
-    }
-
     /// The effect called `name`.
     pub fn by_name(name: &str) -> Option<Kind> {
         Kind::ALL.iter().copied().find(|kind| kind.name() == name)

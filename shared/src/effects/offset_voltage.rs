@@ -1,6 +1,6 @@
 //! Constant voltage added to the command.
 
-use super::{Description, Effect, Parameter, Place};
+use super::{Description, Effect, Evidence, Facts, Other, Parameter, Place, ToldFrom};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -11,6 +11,15 @@ pub struct OffsetVoltage<S> {
 }
 
 lanes!(OffsetVoltage { volts });
+
+/// An offset vanishes with the bridge open, and what acts on the shaft does not.
+const fn by_a_run_down(other: &'static str) -> ToldFrom {
+    ToldFrom {
+        other: Other::Effect(other),
+        record: "a run-down with the bridge open, where a voltage offset vanishes and a torque does not",
+        measure: None,
+    }
+}
 
 impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
     const DESCRIPTION: Description = Description {
@@ -28,6 +37,11 @@ impl<S: Scalar> Effect<S> for OffsetVoltage<S> {
         exposed_by: "zero command with the bridge closed and with it open",
         look_alikes: &["load_torque", "asym_coulomb"],
         source: "any text on drives",
+        facts: Facts {
+            evidence: Evidence::Constant,
+            told_from: &[by_a_run_down("load_torque"), by_a_run_down("asym_coulomb")],
+            ..Facts::PLAIN
+        },
     };
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {

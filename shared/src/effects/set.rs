@@ -53,7 +53,7 @@ impl<R: Real> EffectSet<R> {
         if slot == MAX_EFFECTS {
             return Err(ModelError::TooManyEffects { limit: MAX_EFFECTS });
         }
-        let parameters = kind.description().parameters;
+        let parameters = kind.parameters();
         for (k, parameter) in parameters.iter().enumerate() {
             let value = values.get(k).copied().unwrap_or_default();
             if !value.is_finite() {
@@ -74,14 +74,14 @@ impl<R: Real> EffectSet<R> {
             .iter()
             .zip(&self.values)
             .filter_map(|(kind, values)| {
-                kind.map(|kind| (kind, &values[..kind.description().parameters.len()]))
+                kind.map(|kind| (kind, &values[..kind.parameters().len()]))
             })
     }
 
     /// Each effect that does something: at least one of its amplitudes is not zero.
     pub fn present(&self) -> impl Iterator<Item = (Kind, &[R])> {
         self.iter().filter(|(kind, values)| {
-            let parameters = kind.description().parameters;
+            let parameters = kind.parameters();
             let mut amplitudes = parameters
                 .iter()
                 .zip(values.iter())

@@ -1,7 +1,11 @@
 //! Stribeck friction: static friction above the sliding one.
 
+use super::coulomb::ELECTRICAL;
 use super::hump::Hump;
-use super::{Budget, Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{
+    AtSpeed, Budget, Contained, Description, Effect, Evidence, Facts, Needs, Parameter, Place,
+    Shaft, Starts, Value,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -36,6 +40,22 @@ impl<S: Scalar> Effect<S> for Stribeck<S> {
         exposed_by: "a slow triangle of small amplitude, or creeping both ways",
         look_alikes: &["coulomb", "lugre", "dead_zone"],
         source: "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994, eq. 2",
+        facts: Facts {
+            contains: &[Contained {
+                name: "coulomb",
+                values: &[Value::Own(0)],
+                at_rest: &[(1, 0.0)],
+                whole: true,
+            }],
+            starts: Starts::Shares(&[(2, &[1.0, 4.0])]),
+            evidence: Evidence::ChangesSign,
+            at_speed: AtSpeed::Sliding {
+                mean_of: &[0],
+                without: Some("what is larger near standstill is left out"),
+            },
+            told_from: &[ELECTRICAL],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,6 @@
 //! The supply falls with the current drawn from it.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, Winding};
+use super::{Description, Effect, Facts, Needs, Other, Parameter, Place, Shaft, ToldFrom, Winding};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -13,6 +13,10 @@ pub struct SupplySag<S: Scalar> {
 }
 
 lanes!(SupplySag { sag });
+
+/// What the supply gives way shows in its voltage.
+pub(super) const WITH_THE_SUPPLY_LOGGED: &str =
+    "hard steps and a stall while the supply voltage is logged";
 
 impl<S: Scalar> Effect<S> for SupplySag<S> {
     const DESCRIPTION: Description = Description {
@@ -30,6 +34,14 @@ impl<S: Scalar> Effect<S> for SupplySag<S> {
         exposed_by: "hard steps and reversals at several levels",
         look_alikes: &["load_friction", "torque_sat", "voltage_sat", "heating"],
         source: "Mohan, Undeland, Robbins, Power Electronics, 2003, ch. 7 (averaged chopper)",
+        facts: Facts {
+            told_from: &[ToldFrom {
+                other: Other::Effect("voltage_sat"),
+                record: WITH_THE_SUPPLY_LOGGED,
+                measure: None,
+            }],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

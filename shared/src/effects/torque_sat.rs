@@ -1,6 +1,6 @@
 //! Magnetic saturation of the torque.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{Description, Effect, Facts, Needs, Parameter, Place, Shaft};
 use crate::scalar::curves::polynomial;
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
@@ -36,6 +36,7 @@ impl<S: Scalar> Effect<S> for TorqueSat<S> {
         exposed_by: "reversals at full voltage, where the current is largest",
         look_alikes: &["supply_sag", "load_friction", "l_sat"],
         source: "Krause, Wasynczuk, Sudhoff, Analysis of Electric Machinery, 2002 (armature reaction)",
+        facts: Facts::PLAIN,
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,9 @@
 //! An eccentric mass on a horizontal shaft.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft, harmonic::Harmonic};
+use super::{
+    AtSpeed, Description, Effect, Evidence, Facts, Needs, Order, Other, Pair, Parameter, Place,
+    Shaft, ToldFrom, harmonic::Harmonic,
+};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -27,6 +30,18 @@ impl<S: Scalar> Effect<S> for Unbalance<S> {
         exposed_by: "a slow full turn both ways",
         look_alikes: &["cogging", "enc_ecc", "load_torque"],
         source: "any text on mechanics; m*g*e is the weight's largest torque",
+        facts: Facts {
+            evidence: Evidence::Repeats,
+            periodic: Some(Order::Once),
+            pair: Some(Pair::CosineAndSine),
+            at_speed: AtSpeed::OtherForm("a torque that depends on the angle has no place here"),
+            told_from: &[ToldFrom {
+                other: Other::Effect("cogging"),
+                record: "the same run with the bench tilted or the motor turned by 90 degrees: gravity stays where it was",
+                measure: None,
+            }],
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -1,6 +1,6 @@
 //! The power stage clips.
 
-use super::{Description, Effect, Parameter, Place};
+use super::{Description, Effect, Facts, Other, Parameter, Place, Starts, ToldFrom};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -26,6 +26,17 @@ impl<S: Scalar> Effect<S> for VoltageSat<S> {
         exposed_by: "commands of at least four sizes up to the full supply",
         look_alikes: &["supply_sag", "torque_sat"],
         source: "any text on power electronics: switch drop, limit of the duty cycle",
+        facts: Facts {
+            starts: Starts::Shares(&[(0, &[1.0, 0.7, 0.5])]),
+            told_from: &[ToldFrom {
+                other: Other::Effect("torque_sat"),
+                record: "a stall with the current logged: a plateau of the current, or of the torque alone",
+                measure: Some(
+                    "a current sensor together with a known added inertia: a plateau of the current against a sag of the torque",
+                ),
+            }],
+            ..Facts::PLAIN
+        },
     };
     const ORDER: u8 = 2;
 

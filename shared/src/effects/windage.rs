@@ -1,6 +1,6 @@
 //! Windage: the drag of the air that a fan or a fast rotor stirs.
 
-use super::{Description, Effect, Needs, Parameter, Place, Shaft};
+use super::{AtSpeed, Description, Effect, Evidence, Facts, Needs, Parameter, Place, Shaft};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -28,6 +28,11 @@ impl<S: Scalar> Effect<S> for Windage<S> {
         exposed_by: "a staircase up to full speed, and coasting down from it",
         look_alikes: &["asym_viscous", "heating", "supply_sag", "torque_sat"],
         source: "Vrancik, NASA TN D-4849, 1968",
+        facts: Facts {
+            evidence: Evidence::Grows,
+            at_speed: AtSpeed::OtherForm("drag on the square of the speed has no place here"),
+            ..Facts::PLAIN
+        },
     };
     const NEEDS: Needs = Needs {
         mean: true,

@@ -3,20 +3,13 @@
 use super::{Diagnosis, HeldOut, Verdict};
 use servoid_engine::problem::Data;
 use servoid_io::recording::Drive;
-use shared::effects::{Kind, Place};
+use shared::effects::Kind;
 
 /// What to do next.
 pub(super) fn advise(diagnosis: &mut Diagnosis) {
     let mut advice = Vec::new();
     for step in &diagnosis.steps {
-        if step.added == Kind::AsymCoulomb {
-            advice.push(
-                "unequal friction, and equal friction beside a constant load or an offset, do the same while the shaft \
-                 turns: hold it at rest at several angles, where a load acts and friction only holds, and let it run down \
-                 with the bridge open, where an offset vanishes"
-                    .to_owned(),
-            );
-        }
+        advice.extend(step.added.facts().caution.map(str::to_owned));
         for &other in &step.indistinguishable_from {
             advice.extend(split(step.added, other));
         }
@@ -44,17 +37,16 @@ pub(super) fn advise(diagnosis: &mut Diagnosis) {
 /// The experiment that tells two effects apart. `None` where the one is the other with some parameters at rest:
 /// the simpler one is meant until a recording asks for more.
 fn split(added: Kind, other: Kind) -> Option<String> {
-    let how = match pair(added, other) {
-        Pair::Refined => return None,
-        Pair::How(how) => how.to_owned(),
-        Pair::Other if added.description().exposed_by == other.description().exposed_by => {
-            added.description().exposed_by.to_owned()
-        }
-        Pair::Other => format!(
-            "{} (exposes {}), and {} (exposes {})",
-            added.description().exposed_by,
+    if added.refines(other) || other.refines(added) {
+        return None;
+    }
+    let [own, others] = [added, other].map(|kind| kind.description().exposed_by);
+    let how = match added.told_from(other) {
+        Some(told) => told.record.to_owned(),
+        None if own == others => own.to_owned(),
+        None => format!(
+            "{own} (exposes {}), and {others} (exposes {})",
             added.name(),
-            other.description().exposed_by,
             other.name()
         ),
     };
@@ -63,72 +55,6 @@ fn split(added: Kind, other: Kind) -> Option<String> {
         added.name(),
         other.name()
     ))
-}
-
-enum Pair {
-    Refined,
-    How(&'static str),
-    Other,
-}
-
-/// Splits that were found by simulation, for the pairs that look most alike.
-fn pair(a: Kind, b: Kind) -> Pair {
-    use Kind::{
-        AsymCoulomb, Backlash, BrushDrop, Cogging, Compliance, Coulomb, DeadZone, Delay, EncEcc,
-        LoadFriction, LoadTorque, Lugre, OffsetVoltage, Stribeck, SupplySag, TorqueSat, Unbalance,
-        VoltageSat,
-    };
-    let is = |x: Kind, y: Kind| (a, b) == (x, y) || (a, b) == (y, x);
-    let electrical = |kind: Kind| kind.description().place == Place::Drive;
-    if [Stribeck, AsymCoulomb, Lugre]
-        .iter()
-        .any(|&k| is(Coulomb, k))
-    {
-        Pair::Refined
-    } else if is(LoadTorque, OffsetVoltage) || is(OffsetVoltage, AsymCoulomb) {
-        Pair::How(
-            "a run-down with the bridge open, where a voltage offset vanishes and a torque does not",
-        )
-    } else if is(LoadTorque, AsymCoulomb) {
-        Pair::How(
-            "a hold at rest and slow creeping back: a load acts at rest, unequal friction only holds",
-        )
-    } else if [Coulomb, Stribeck].contains(&a) && electrical(b)
-        || [Coulomb, Stribeck].contains(&b) && electrical(a)
-    {
-        Pair::How(
-            "a run-down with the bridge open, where all that is electrical vanishes and friction stays, or log the \
-             current",
-        )
-    } else if is(BrushDrop, DeadZone) {
-        Pair::How(
-            "the same commands on two supply voltages: a dead time scales with the supply, brushes do not",
-        )
-    } else if is(Backlash, Compliance) {
-        Pair::How(
-            "multisines of several amplitudes: the resonance moves with the amplitude for a gap, not for a spring",
-        )
-    } else if is(Compliance, Delay) {
-        Pair::How(
-            "a chirp: the phase of a delay falls evenly with the frequency, a resonance steps by half a turn",
-        )
-    } else if is(SupplySag, LoadFriction) || is(SupplySag, VoltageSat) {
-        Pair::How("hard steps and a stall while the supply voltage is logged")
-    } else if is(VoltageSat, TorqueSat) {
-        Pair::How(
-            "a stall with the current logged: a plateau of the current, or of the torque alone",
-        )
-    } else if is(Cogging, EncEcc) || is(Unbalance, EncEcc) {
-        Pair::How(
-            "constant runs at several speeds: an error of the angle stays the same, a torque shrinks as speed rises",
-        )
-    } else if is(Unbalance, Cogging) {
-        Pair::How(
-            "the same run with the bench tilted or the motor turned by 90 degrees: gravity stays where it was",
-        )
-    } else {
-        Pair::Other
-    }
 }
 
 /// What the recordings cannot tell, whatever the verdict (the exact scalings of the equations).

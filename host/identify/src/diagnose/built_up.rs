@@ -3,7 +3,6 @@
 
 use super::effort::Effort;
 use super::refit::Refit;
-use super::sketch::Sketch;
 use super::workshop::Workshop;
 use crate::fit::Options;
 use servoid_engine::problem::{Candidate, Data};
@@ -38,10 +37,9 @@ pub fn built_up(
 }
 
 fn added(workshop: &Workshop<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
-    // Bristles start from dry friction.
-    let dry = (kind == Kind::Lugre).then(|| workshop.sketch(model, Kind::Coulomb, &[]));
-    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
-    let sketch = workshop.sketch(model, kind, &dry)?;
+    let first = kind.facts().starts.after();
+    let first = first.and_then(|plainer| workshop.sketch(model, plainer, &[]));
+    let sketch = workshop.sketch(model, kind, first.as_slice())?;
     let refit = workshop.refit(&sketch).ok()?;
     if refit.judged().at_floor() {
         return Some(refit);

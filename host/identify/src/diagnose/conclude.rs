@@ -4,7 +4,7 @@ use super::levels::Level;
 use super::refit::Refit;
 use super::workshop::Workshop;
 use super::{Diagnosis, Step, judge, missed, moves_both_ways, needless, plainer, spectrum, swap};
-use shared::effects::Kind;
+use shared::effects::Starts;
 
 /// Swaps earlier terms with their look-alikes, and writes down the steps to the model that was chosen.
 pub fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagnosis) {
@@ -77,7 +77,7 @@ pub fn conclude(workshop: &Workshop<'_>, levels: &[Level], diagnosis: &mut Diagn
             confidence: explained * company.confidence(),
             candidates,
             p_values,
-            spectrum: (added == Kind::Cogging)
+            spectrum: (added.facts().starts == Starts::AngleOrders)
                 .then(|| spectrum::spectrum(workshop.data, &before.candidate)),
         });
         before = after.clone();

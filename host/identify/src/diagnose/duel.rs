@@ -2,7 +2,6 @@
 //! the other one stands, before one of them is believed.
 
 use super::carried::{Found, carried};
-use super::judge::look_alikes;
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
@@ -23,7 +22,7 @@ pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
     };
     let near = |model: &Refit| model.judged().score() - best.judged().score() < NEAR;
     let alike = |model: &Refit| match (model.effects.split_last(), best.effects.split_last()) {
-        (Some((&own, rest)), Some((&other, others))) => rest == others && look_alikes(own, other),
+        (Some((&own, rest)), Some((&other, others))) => rest == others && own.looks_like(other),
         _ => false,
     };
     let places: Vec<usize> = (1..models.len())

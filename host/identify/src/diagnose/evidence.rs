@@ -6,7 +6,7 @@ use super::whereabouts::{Against, Bin, Line, Map, Whereabouts};
 use super::{Diagnosis, Refit};
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data};
-use shared::effects::{EffectSet, Kind};
+use shared::effects::{EffectSet, Evidence, Kind};
 
 /// A mean counts as different from zero from so many standard errors on.
 const SURE: f64 = 5.0;
@@ -71,21 +71,16 @@ pub(super) fn without(candidate: &Candidate, kind: Kind) -> Candidate {
 /// What the drawing shows of the effect `kind` with these `values` of its parameters, if it shows anything.
 pub fn sentence(kind: Kind, values: &[f64], missing: &Whereabouts) -> Option<String> {
     let speed = missing.map(Against::Speed).and_then(Directions::of);
-    let special = match kind {
-        Kind::Coulomb
-        | Kind::Lugre
-        | Kind::AsymCoulomb
-        | Kind::Stribeck
-        | Kind::BrushDrop
-        | Kind::DeadZone => speed.and_then(|s| s.friction()),
-        Kind::LoadTorque | Kind::OffsetVoltage => speed.and_then(|s| s.constant()),
-        Kind::Windage | Kind::AsymViscous => speed.and_then(|s| s.growing()),
-        Kind::Cogging => values
-            .get(2)
-            .and_then(|order| line(missing, order.round() as usize)),
-        Kind::Unbalance => line(missing, 1),
-        Kind::Heating => missing.map(Against::Time).and_then(drift),
-        _ => None,
+    let facts = kind.facts();
+    let special = match facts.evidence {
+        Evidence::ChangesSign => speed.and_then(|s| s.friction()),
+        Evidence::Constant => speed.and_then(|s| s.constant()),
+        Evidence::Grows => speed.and_then(|s| s.growing()),
+        Evidence::Repeats => facts
+            .periodic
+            .and_then(|order| line(missing, order.of(values)?)),
+        Evidence::Drifts => missing.map(Against::Time).and_then(drift),
+        Evidence::LargestShare => None,
     };
     special.or_else(|| missing.most().map(general))
 }

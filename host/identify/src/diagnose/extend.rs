@@ -1,6 +1,6 @@
 //! Models with one effect more: all are sketched, the promising ones refitted.
 
-use super::judge::{is_exact, look_alikes, removes};
+use super::judge::{is_exact, removes};
 use super::missed;
 use super::refit::Refit;
 use super::sketch::Sketch;
@@ -30,7 +30,7 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
         }
         for &kind in Kind::ALL {
             // Losses are found, not sketched.
-            if parent.effects.contains(&kind) || kind == Kind::MissedCounts {
+            if parent.effects.contains(&kind) || kind.facts().by_chance {
                 continue;
             }
             let mut set = parent.effects.clone();
@@ -75,7 +75,8 @@ pub fn extend(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sy
 /// are tried where nothing else will do.
 fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
     let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents).into_iter().partition(|(at, kind)| {
-        *kind != Kind::Lugre && !parents[*at].effects.contains(&Kind::Lugre)
+        let beside = &parents[*at].effects;
+        !beside.iter().chain([kind]).any(|kind| kind.facts().costly)
     });
     let sketch_all = |sets: &[(usize, Kind)], dry: &[Sketch]| -> Vec<Sketch> {
         sets.par_iter()
@@ -132,14 +133,15 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
     }
     // Bristles cannot be led: they start from dry friction, where that comes near the best.
     let least = sketches.first().map_or(f64::INFINITY, Sketch::foreseen);
-    let dry = |sketch: &Sketch| {
-        matches!(sketch.newest(), Some(Kind::Coulomb | Kind::Stribeck))
-            && sketch.foreseen() < NEAR_DRY * least.max(FLOOR)
+    let near_dry = |kind: Kind| {
+        sketches.iter().any(|sketch| {
+            let dry = |newest: Kind| kind.containing(newest).is_some();
+            sketch.newest().is_some_and(dry) && sketch.foreseen() < NEAR_DRY * least.max(FLOOR)
+        })
     };
-    let near_dry = sketches.iter().any(dry);
     let bristles: Vec<_> = bristles
         .into_iter()
-        .filter(|(parent, kind)| *kind != Kind::Lugre || (*parent == 0 && near_dry))
+        .filter(|(parent, kind)| !kind.facts().costly || (*parent == 0 && near_dry(*kind)))
         .collect();
     let mut more = sketch_all(&bristles, &sketches);
     sort_sketches(&mut more);
@@ -150,9 +152,12 @@ fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync))
 /// explain.
 fn bristled(workshop: &Workshop<'_>, models: &[Refit]) -> Option<Refit> {
     let best = models.first().filter(|model| !model.ran().at_floor())?;
-    let dry = |kind: &&Kind| matches!(kind, Kind::Coulomb | Kind::Stribeck);
-    let place = *best.effects.iter().find(dry)?;
-    swapped(workshop, best, place, Kind::Lugre, models)
+    let costly = Kind::ALL.iter().filter(|kind| kind.facts().costly);
+    costly.copied().find_map(|kind| {
+        let dry = |place: &&Kind| kind.containing(**place).is_some();
+        let place = *best.effects.iter().find(dry)?;
+        swapped(workshop, best, place, kind, models)
+    })
 }
 
 /// Best first.
@@ -184,7 +189,7 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
             return;
         };
         let beside = sketch.structure.effects.starts_with(&parent.effects);
-        if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
+        if beside && kind.looks_like(newest) && sketch.foreseen() > CLOSE * least {
             let with_all = workshop.sketch_again(sketch, &parent, best);
             let again = workshop.sketch(&parent, newest, &[]);
             for mut again in [with_all, again].into_iter().flatten() {
@@ -258,7 +263,9 @@ fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
             .newest()
             .is_some_and(|kind| names.contains(&kind.name()))
     });
-    if sketch.newest() == Some(Kind::Lugre) && sketch.foreseen() > BRISTLED * best.ran().fitted {
+    if sketch.newest().is_some_and(|kind| kind.facts().costly)
+        && sketch.foreseen() > BRISTLED * best.ran().fitted
+    {
         // Their fit takes as long as a dozen others.
         return false;
     }

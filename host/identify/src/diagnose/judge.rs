@@ -48,7 +48,7 @@ pub fn replaces(simpler: &Refit, other: &Refit) -> bool {
 fn akin(a: &Refit, b: &Refit) -> bool {
     let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
     match (own.next(), own.next()) {
-        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alikes(place, kind)),
+        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| place.looks_like(kind)),
         _ => false,
     }
 }
@@ -70,12 +70,6 @@ pub fn removes(before: &Refit, after: &Refit) -> bool {
     };
     let removed = 1.0 - new.excess() / old.excess();
     removed > MUST_REMOVE && new.fitted < old.fitted
-}
-
-/// Whether two effects are known to look alike.
-pub fn look_alikes(a: Kind, b: Kind) -> bool {
-    a.description().look_alikes.contains(&b.name())
-        || b.description().look_alikes.contains(&a.name())
 }
 
 /// What stands beside the chosen model.
@@ -101,7 +95,7 @@ pub fn company(chosen: &Refit, place: Kind, others: &[Refit]) -> Company {
             if !company.alike.contains(&instead) {
                 company.alike.push(instead);
             }
-        } else if !look_alikes(place, instead) {
+        } else if !place.looks_like(instead) {
             company.lead = company.lead.min(behind);
         }
     }
@@ -115,7 +109,7 @@ impl Company {
         let strangers = self
             .alike
             .iter()
-            .filter(|&&kind| !look_alikes(place, kind))
+            .filter(|&&kind| !place.looks_like(kind))
             .count();
         self.alike.len() <= MOST_ALIKE && strangers <= 1
     }

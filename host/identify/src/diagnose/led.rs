@@ -22,14 +22,10 @@ pub struct Led<'a> {
     pub method: Method,
 }
 
-/// Whether a led model follows this effect: not where motor and load part ways, where commands are
-/// late, or where bristles bend, or the current rises,
-/// within a sample. Those cost little to simulate in full, or are not helped by being led.
+/// Whether a led model follows this effect. Those that it does not follow cost little to simulate in full, or are not
+/// helped by being led.
 pub fn follows(kind: Kind) -> bool {
-    !matches!(
-        kind,
-        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre | Kind::LSat
-    )
+    kind.facts().series_parallel
 }
 
 impl Led<'_> {

@@ -20,7 +20,7 @@ pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
         let simpler = chosen
             .effects
             .iter()
-            .filter(|&&place| place != Kind::MissedCounts)
+            .filter(|&&place| !place.facts().by_chance)
             .flat_map(|&place| {
                 workshop.effort.take_stock();
                 lessened(workshop, &chosen, place)

@@ -55,7 +55,7 @@ pub fn remarks(
     {
         return Ok(vec![Remark::cause(remark)]);
     }
-    if last.effects.contains(&Kind::MissedCounts) {
+    if last.effects.iter().any(|kind| kind.facts().by_chance) {
         return Ok(Vec::new());
     }
     let own = scores::whole(data, &last.candidate, last.method)?;

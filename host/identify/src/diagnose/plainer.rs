@@ -57,7 +57,7 @@ pub fn all(workshop: &Workshop<'_>, chosen: &Refit) -> Vec<Refit> {
 
 /// `chosen` with `kind` in the place of an effect that contains it.
 fn instead(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Vec<Refit> {
-    if chosen.losses.is_some() && special_values(place, kind, &[1.0; 8]).is_some() {
+    if chosen.losses.is_some() && place.containing(kind).is_some() {
         return missed::beside(workshop, chosen, |workshop, bare| {
             instead(workshop, bare, place, kind)
         });
@@ -66,7 +66,8 @@ fn instead(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> 
 }
 
 fn fitted(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Option<Refit> {
-    let values = special_values(place, kind, &super::evidence::values(chosen, place))?;
+    let general = super::evidence::values(chosen, place);
+    let values = place.containing(kind)?.values_from(&general)?;
     let mut plain = without(chosen, place);
     plain.effects.push(kind);
     plain.structure.effects.push(kind);
@@ -84,41 +85,28 @@ fn fitted(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> O
     Some(refit)
 }
 
-/// Values for the parameters of `special` at which it comes nearest to `general` with these `values`; `None` where
-/// the one does not contain the other.
-fn special_values(general: Kind, special: Kind, values: &[f64]) -> Option<Vec<f64>> {
-    match (general, special, values) {
-        (Kind::Stribeck | Kind::Lugre, Kind::Coulomb, &[torque, ..]) => Some(vec![torque]),
-        // Bristles that hardly bend.
-        (Kind::Lugre, Kind::Stribeck, &[torque, excess, speed, ..]) => {
-            Some(vec![torque, excess * torque, speed, 2.0])
-        }
-        (Kind::AsymCoulomb, Kind::Coulomb, &[forward, backward, ..]) => {
-            Some(vec![0.5 * (forward + backward)])
-        }
-        // A gap that is closed.
-        (Kind::Backlash, Kind::Compliance, &[_, share, period, damping, ..]) => {
-            Some(vec![period, share, damping])
-        }
-        _ => None,
-    }
-}
-
-/// Friction that was beside another one which contains it, and is taken away, leaves its torque to that one.
+/// An effect that was beside another one which does all that it can, and is taken away, leaves its size to that one.
 pub fn absorb(rest: &mut Refit, gone: Kind, values: &[f64]) {
-    let (Kind::Coulomb, &[torque, ..]) = (gone, values) else {
+    if !gone
+        .parameters()
+        .iter()
+        .all(|parameter| parameter.amplitude)
+    {
         return;
-    };
-    let mut place = 0;
+    }
+    let mut begin = 0;
     for &kind in &rest.structure.effects {
-        let torques = match kind {
-            Kind::Stribeck | Kind::Lugre => 1,
-            Kind::AsymCoulomb => 2,
-            _ => 0,
-        };
-        for own in rest.parameters.iter_mut().skip(place).take(torques) {
-            *own += torque;
+        let contained = kind.containing(gone).filter(|special| special.whole);
+        for (part, size) in contained
+            .into_iter()
+            .flat_map(|special| special.values.iter().zip(values))
+        {
+            for place in part.places() {
+                if let Some(own) = rest.parameters.get_mut(begin + place) {
+                    *own += size;
+                }
+            }
         }
-        place += kind.description().parameters.len();
+        begin += kind.parameters().len();
     }
 }

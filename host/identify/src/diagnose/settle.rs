@@ -7,7 +7,6 @@ use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle};
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
 use servoid_engine::solve::{Found, Objective};
 use shared::cost::Cost;
-use shared::effects::Kind;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Evaluations for the end of a fit that stands near its minimum.
@@ -80,7 +79,7 @@ fn with_losses(fit: &mut Fit, last: &Refit) {
     for kind in &last.effects {
         for parameter in kind.description().parameters {
             let Some(&value) = values.next() else { return };
-            if *kind == Kind::MissedCounts {
+            if kind.facts().by_chance {
                 fit.parameters.push(Parameter {
                     name: format!("{}.{}", kind.name(), parameter.name),
                     value,

@@ -13,7 +13,7 @@ use crate::fit::base_for;
 use servoid_engine::problem::unknowns::Scale;
 use servoid_engine::problem::{Candidate, Structure};
 use servoid_engine::solve::Objective;
-use shared::effects::{Kind, MAX_EFFECTS};
+use shared::effects::{Kind, MAX_EFFECTS, Starts};
 use shared::units::Quantity;
 
 /// Most orders of a cogging torque in a model.
@@ -206,7 +206,7 @@ impl Workshop<'_> {
     /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
     /// strongest order alone may leave more than it explains.
     fn orders(&self, parent: &Refit, kind: Kind) -> Option<Vec<f64>> {
-        if kind != Kind::Cogging || self.span.window_s.is_none() {
+        if kind.facts().starts != Starts::AngleOrders || self.span.window_s.is_none() {
             return None;
         }
         let room = MAX_EFFECTS - parent.structure.effects.len();

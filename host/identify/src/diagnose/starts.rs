@@ -4,20 +4,20 @@ use super::orders;
 use super::refit::Refit;
 use super::sketch::Sketch;
 use super::workshop::Workshop;
-use shared::effects::Kind;
-use shared::units::Quantity;
+use shared::effects::{Kind, Starts};
 
 /// Lines of the angle's spectrum that are tried.
 const LINES: usize = 3;
 /// Part of the typical amplitude to start from.
 const AMPLITUDE: f64 = 0.5;
 
-/// Starts for the parameters of `kind`, SI, beside the model `parent`.
+/// Starts for the parameters of `kind`, SI, beside the model `parent`. `first` are sketches of other effects, best first,
+/// which some effects start from.
 pub fn starts(
     workshop: &Workshop<'_>,
     parent: &Refit,
     kind: Kind,
-    dry: &[Sketch],
+    first: &[Sketch],
 ) -> Vec<Vec<f64>> {
     let data = workshop.data;
     let parameters = kind.description().parameters;
@@ -28,11 +28,9 @@ pub fn starts(
             p.scaled(p.typical * share, data.supply, data.units.speed)
         })
         .collect();
-    if kind == Kind::Lugre {
-        return bristles(parent, &typical, dry);
-    }
-    if let Some(axes) = several(kind) {
-        return axes.iter().fold(vec![typical], |starts, &(index, shares)| {
+    match kind.facts().starts {
+        Starts::Typical => vec![typical],
+        Starts::Shares(axes) => axes.iter().fold(vec![typical], |starts, &(index, shares)| {
             let along = |start: &Vec<f64>| -> Vec<Vec<f64>> {
                 let at = |&share: &f64| {
                     let mut values = start.clone();
@@ -42,53 +40,39 @@ pub fn starts(
                 shares.iter().map(at).collect()
             };
             starts.iter().flat_map(along).collect()
-        });
-    }
-    match parameters
-        .iter()
-        .position(|p| p.quantity == Quantity::PerRev)
-    {
-        None => vec![typical],
-        Some(_) => orders::lines(data, &parent.candidate)
+        }),
+        Starts::AngleOrders => orders::lines(data, &parent.candidate)
             .iter()
             .filter(|line| line.order > 1)
             .take(LINES)
             .map(|line| vec![line.cosine, line.sine, line.order as f64])
             .collect(),
+        Starts::Fit(_) => fitted_first(parent, kind, typical, first)
+            .into_iter()
+            .collect(),
     }
 }
 
-/// Effects whose cost has several valleys: parameters, each with the shares of its typical value to start from.
-fn several(kind: Kind) -> Option<&'static [(usize, &'static [f64])]> {
-    match kind {
-        Kind::VoltageSat => Some(&[(0, &[1.0, 0.7, 0.5])]),
-        Kind::Backlash => Some(&[(0, &[1.0, 0.4]), (1, &[1.0, 0.4, 1.75]), (2, &[1.0, 0.3])]),
-        Kind::Compliance => Some(&[(0, &[1.0, 2.0, 0.5, 0.25]), (1, &[1.0, 0.4, 1.75])]),
-        Kind::BrushDrop => Some(&[(1, &[1.0, 0.2])]),
-        Kind::Stribeck => Some(&[(2, &[1.0, 4.0])]),
-        _ => None,
+/// Typical values, but what the effect has in common with a plainer one as the best sketch with that has it.
+fn fitted_first(
+    parent: &Refit,
+    kind: Kind,
+    typical: Vec<f64>,
+    first: &[Sketch],
+) -> Option<Vec<f64>> {
+    let plainer = kind.facts().starts.after()?;
+    let contained = kind.containing(plainer)?;
+    let sketch = first.iter().find(|sketch| {
+        sketch.newest() == Some(plainer) && sketch.structure.effects.starts_with(&parent.effects)
+    })?;
+    let found = sketch.structure.values(&sketch.x);
+    let found = sketch.structure.effect_values(&found);
+    let own = &found[found.len().saturating_sub(contained.values.len())..];
+    let mut values = typical;
+    for (value, found) in contained.values.iter().zip(own) {
+        for place in value.places() {
+            values[place] = *found;
+        }
     }
-}
-
-/// Bristles slide as dry friction does: their torque, and what they hold more at rest, start at what dry
-/// friction alone would have.
-fn bristles(parent: &Refit, typical: &[f64], dry: &[Sketch]) -> Vec<Vec<f64>> {
-    let of_parent = |sketch: &&Sketch| sketch.structure.effects.starts_with(&parent.effects);
-    let best = |kind: Kind| {
-        dry.iter()
-            .filter(of_parent)
-            .find(|sketch| sketch.newest() == Some(kind))
-    };
-    let own = |sketch: &Sketch, count: usize| {
-        let values = sketch.structure.values(&sketch.x);
-        let values = sketch.structure.effect_values(&values);
-        values[values.len().saturating_sub(count)..].to_vec()
-    };
-    let mut starts = Vec::new();
-    if let Some(sketch) = best(Kind::Coulomb) {
-        let mut values = typical.to_vec();
-        values[..1].copy_from_slice(&own(sketch, 1));
-        starts.push(values);
-    }
-    starts
+    Some(values)
 }

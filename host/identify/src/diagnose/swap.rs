@@ -2,7 +2,6 @@
 
 use super::judge::{best, is_exact};
 use super::refit::Refit;
-use super::sketch::Sketch;
 use super::workshop::Workshop;
 use rayon::prelude::*;
 use shared::effects::Kind;
@@ -15,7 +14,7 @@ pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refi
         .look_alikes
         .par_iter()
         .filter_map(|name| Kind::by_name(name))
-        .filter(|&kind| kind != Kind::MissedCounts)
+        .filter(|&kind| !kind.facts().by_chance)
         .filter_map(|kind| swapped(workshop, chosen, place, kind, known))
         .collect()
 }
@@ -31,7 +30,7 @@ pub fn swapped(
     if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
         return None;
     }
-    if kind == Kind::Lugre && is_exact(chosen, workshop.floor) {
+    if kind.facts().costly && is_exact(chosen, workshop.floor) {
         return None;
     }
     let without = without(chosen, place);
@@ -40,10 +39,9 @@ pub fn swapped(
     if known.iter().any(|model| same(&model.effects, &set)) {
         return None;
     }
-    // Bristles start from dry friction.
-    let dry = (kind == Kind::Lugre).then(|| workshop.sketch(&without, Kind::Coulomb, &[]));
-    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
-    let sketch = workshop.sketch(&without, kind, &dry)?;
+    let first = kind.facts().starts.after();
+    let first = first.and_then(|plainer| workshop.sketch(&without, plainer, &[]));
+    let sketch = workshop.sketch(&without, kind, first.as_slice())?;
     if !sketch.rivals(chosen) {
         return None;
     }

@@ -50,13 +50,6 @@ pub struct Hypothesis {
     pub values: Vec<f64>,
 }
 
-/// Effects that are special cases of others: the first is the second with some parameters at rest.
-const SPECIAL_CASES: [(Kind, Kind); 3] = [
-    (Kind::Coulomb, Kind::Stribeck),
-    (Kind::Coulomb, Kind::AsymCoulomb),
-    (Kind::Coulomb, Kind::Lugre),
-];
-
 impl Hypothesis {
     /// The effect with its typical values on a motor of the bench.
     pub fn typical(kind: Kind, motor: &bench::Machine) -> Self {
@@ -117,9 +110,7 @@ impl Hypothesis {
     /// Whether it can become `other` by its parameters alone. Then it explains whatever `other` does,
     /// and no recording speaks against it.
     pub fn contains(&self, other: &Hypothesis) -> bool {
-        let covers = |general: Kind, special: Kind| {
-            general == special || SPECIAL_CASES.contains(&(special, general))
-        };
+        let covers = |general: Kind, special: Kind| general == special || general.refines(special);
         let mut free = self.effects.clone();
         other.effects.iter().all(|&special| {
             let exact = free.iter().position(|&kind| kind == special);
@@ -167,7 +158,8 @@ mod tests {
 
     #[test]
     fn friction_with_more_parameters_contains_coulomb_friction_but_not_the_reverse() {
-        for (special, general) in SPECIAL_CASES {
+        for name in ["stribeck", "asym_coulomb", "lugre"] {
+            let (special, general) = (Kind::Coulomb, Kind::by_name(name).expect("an effect"));
             assert!(with(&[general]).contains(&with(&[special])));
             assert!(!with(&[special]).contains(&with(&[general])));
         }

@@ -66,18 +66,15 @@ pub fn remedy(a: &Hypothesis, b: &Hypothesis) -> String {
         let absent = |kind: &&Kind| !other.effects.contains(kind);
         of.effects.iter().filter(absent).copied().collect()
     };
-    let apart: Vec<Kind> = only(a, b).into_iter().chain(only(b, a)).collect();
-    let any = |wanted: &[Kind]| wanted.iter().all(|kind| apart.contains(kind));
+    let mut apart: Vec<Kind> = only(a, b).into_iter().chain(only(b, a)).collect();
+    apart.sort_unstable();
+    let measures = apart.iter().flat_map(|kind| kind.facts().told_from);
+    let measures = measures.filter(|told| apart.iter().any(|&kind| told.other.is(kind)));
+    let known = measures.filter_map(|told| told.measure).next();
     let placed =
         |places: &[Place]| (apart.iter()).any(|kind| places.contains(&kind.description().place));
-    let text = if any(&[Kind::LoadTorque, Kind::AsymCoulomb]) {
-        "a hold at several angles with a creep back: a load acts at rest, friction does not"
-    } else if any(&[Kind::BrushDrop, Kind::DeadZone]) {
-        "the same at two supply voltages: what the stage loses grows with the supply, what the brushes drop does not"
-    } else if any(&[Kind::VoltageSat, Kind::TorqueSat]) {
-        "a current sensor together with a known added inertia: a plateau of the current against a sag of the torque"
-    } else if any(&[Kind::LoadFriction, Kind::SupplySag]) {
-        "a measured supply voltage, or a known weight lifted and lowered"
+    let text = if let Some(known) = known {
+        known
     } else if placed(&[Place::Sensed]) {
         "an index pulse, or runs at several speeds: an error of the encoder stays at its angle, a torque does not"
     } else if placed(&[Place::Drive, Place::Winding])

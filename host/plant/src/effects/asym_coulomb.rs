@@ -13,7 +13,7 @@ struct AsymCoulomb {
 pub(super) static KIND: Kind = Kind {
     name: "asym_coulomb",
     about: "dry friction that differs between the directions",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "forward",
@@ -37,6 +37,20 @@ pub(super) static KIND: Kind = Kind {
             forward_n_m: values[0],
             backward_n_m: values[1],
         })
+    },
+    draw: |typical, _, random| {
+        let mean = 0.5 * (typical[0] + typical[1]);
+        let lean = random.sign() * random.log_uniform(0.1, 0.6);
+        vec![
+            ("forward", mean * (1.0 + lean)),
+            ("backward", mean * (1.0 - lean)),
+        ]
+    },
+    truth: |values, machine, _| {
+        vec![
+            machine.winding_volts(values[0]),
+            machine.winding_volts(values[1]),
+        ]
     },
 };
 

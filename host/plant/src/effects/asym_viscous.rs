@@ -12,7 +12,7 @@ struct AsymViscous {
 pub(super) static KIND: Kind = Kind {
     name: "asym_viscous",
     about: "extra viscous friction that differs between the directions",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "forward",
@@ -36,6 +36,21 @@ pub(super) static KIND: Kind = Kind {
             forward_n_m_s: values[0],
             backward_n_m_s: values[1],
         })
+    },
+    draw: |typical, _, random| {
+        let (much, little) = (typical[0], typical[0] * random.uniform(0.0, 0.6));
+        let (forward, backward) = if random.chance(0.5) {
+            (much, little)
+        } else {
+            (little, much)
+        };
+        vec![("forward", forward), ("backward", backward)]
+    },
+    truth: |values, machine, _| {
+        vec![
+            machine.winding_volts(values[0]),
+            machine.winding_volts(values[1]),
+        ]
     },
 };
 

@@ -19,7 +19,7 @@ struct Backlash {
 pub(super) static KIND: Kind = Kind {
     name: "backlash",
     about: "a gap between the motor and its load",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "gap",
@@ -63,6 +63,14 @@ pub(super) static KIND: Kind = Kind {
             inertia_kg_m2: machine.inertia_kg_m2,
         })
     },
+    draw: |_, _, random| {
+        vec![
+            ("load_share", random.uniform(0.2, 0.7)),
+            ("contact_hz", random.log_uniform(250.0, 1000.0)),
+            ("damping", random.uniform(0.4, 1.0)),
+        ]
+    },
+    truth: |values, _, _| vec![values[0], values[1], 1.0 / values[2], values[3]],
 };
 
 impl Effect for Backlash {

@@ -13,7 +13,7 @@ struct BrushDrop {
 pub(super) static KIND: Kind = Kind {
     name: "brush_drop",
     about: "a nearly constant voltage is lost against the current",
-    electrical: true,
+    electrical: Some(|values, _| values[0]),
     params: &[
         Param {
             name: "drop",
@@ -39,6 +39,8 @@ pub(super) static KIND: Kind = Kind {
             inductance_h: machine.inductance_h,
         })
     },
+    draw: |typical, _, random| vec![("knee", typical[1] * random.log_uniform(0.3, 3.0))],
+    truth: |values, machine, _| vec![values[0], values[1] * machine.resistance_ohm],
 };
 
 impl Effect for BrushDrop {

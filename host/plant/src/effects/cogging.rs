@@ -1,6 +1,7 @@
 //! Cogging: the detent torque between magnets and teeth.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Param, cosine_and_sine};
+use std::f64::consts::PI;
 
 /// T = −A·(sin(nθ + φ) + a₂·sin(2nθ + 2φ)), the first terms of the Fourier series over one
 /// revolution, whose lowest order n is the least common multiple of slots and poles (Hanselman,
@@ -15,7 +16,7 @@ struct Cogging {
 pub(super) static KIND: Kind = Kind {
     name: "cogging",
     about: "detent torque, periodic in the angle",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "torque",
@@ -57,6 +58,16 @@ pub(super) static KIND: Kind = Kind {
             phase_rad: values[2],
             second: values[3],
         })
+    },
+    draw: |_, _, random| {
+        vec![
+            ("order", random.log_uniform(4.0, 60.0).round()),
+            ("phase", random.uniform(-PI, PI)),
+        ]
+    },
+    truth: |values, machine, _| {
+        let [cosine, sine] = cosine_and_sine(machine.winding_volts(values[0]), values[2]);
+        vec![cosine, sine, values[1]]
     },
 };
 

@@ -15,7 +15,7 @@ struct Compliance {
 pub(super) static KIND: Kind = Kind {
     name: "compliance",
     about: "an elastic shaft between the motor and its load",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "compliance",
@@ -48,6 +48,18 @@ pub(super) static KIND: Kind = Kind {
             load_share: values[1],
             damping_ratio: values[2],
         })
+    },
+    draw: |_, _, random| {
+        vec![
+            ("load_share", random.uniform(0.2, 0.7)),
+            ("damping", random.log_uniform(0.02, 0.2)),
+        ]
+    },
+    truth: |values, machine, _| {
+        let share = values[1];
+        let reduced = share * (1.0 - share) * machine.inertia_kg_m2;
+        let period = TAU * (values[0] * reduced).sqrt();
+        vec![period, share, values[2]]
     },
 };
 

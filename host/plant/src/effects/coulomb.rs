@@ -1,6 +1,6 @@
 //! Coulomb friction.
 
-use super::{Effect, Kind, Param, Sliding};
+use super::{Effect, Kind, Param, Sliding, only_its_size};
 
 /// T = −Tc·sgn ω while moving; at rest it holds against up to Tc (Coulomb 1785; Olsson et al.,
 /// "Friction models and friction compensation", Eur. J. Control 4(3), 1998, eq. 1).
@@ -11,7 +11,7 @@ struct Coulomb {
 pub(super) static KIND: Kind = Kind {
     name: "coulomb",
     about: "dry friction of one size at every speed",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "torque",
         unit: "N*m",
@@ -25,6 +25,8 @@ pub(super) static KIND: Kind = Kind {
             torque_n_m: values[0],
         })
     },
+    draw: only_its_size,
+    truth: |values, machine, _| vec![machine.winding_volts(values[0])],
 };
 
 impl Effect for Coulomb {

@@ -1,6 +1,6 @@
 //! Dead zone of the power stage.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Param, only_its_size};
 
 /// Commands within ±D give no voltage. Beyond, the output is v − D·sgn v, as in a bridge that loses
 /// the same pulse width of every period, or the whole v with `cut = 1`, as in a stage that ignores
@@ -14,7 +14,7 @@ struct DeadZone {
 pub(super) static KIND: Kind = Kind {
     name: "dead_zone",
     about: "small commands give no voltage",
-    electrical: true,
+    electrical: Some(|values, _| values[0]),
     params: &[
         Param {
             name: "width",
@@ -39,6 +39,8 @@ pub(super) static KIND: Kind = Kind {
             cut: values[1],
         })
     },
+    draw: only_its_size,
+    truth: |values, _, _| vec![values[0]],
 };
 
 impl Effect for DeadZone {

@@ -1,6 +1,6 @@
 //! Transport delay between the command and the bridge.
 
-use super::{Effect, Kind, Param};
+use super::{Effect, Kind, Param, only_its_size};
 
 /// The bridge carries out at time t what was commanded at t − τ, its voltage and whether it is
 /// enabled alike, as a bus or a queue of commands does. τ need not be a multiple of the sample.
@@ -11,7 +11,7 @@ struct Delay {
 pub(super) static KIND: Kind = Kind {
     name: "delay",
     about: "the command reaches the bridge late",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "time",
         unit: "s",
@@ -21,6 +21,8 @@ pub(super) static KIND: Kind = Kind {
         typical: |_| 2e-3,
     }],
     build: |values, _| Box::new(Delay { time_s: values[0] }),
+    draw: only_its_size,
+    truth: |values, _, _| vec![values[0]],
 };
 
 impl Effect for Delay {

@@ -1,6 +1,7 @@
 //! Eccentricity of the encoder's disc or magnet.
 
-use super::{Effect, Kind, Param};
+use super::{Effect, Kind, Param, cosine_and_sine};
+use std::f64::consts::PI;
 
 /// The encoder sees θ + ε·sin(θ + φ), with ε ≈ e/r for a disc of radius r that sits off its axis by e, as
 /// follows from the triangle of axis, disc centre and reading head. The motion itself is not touched.
@@ -12,7 +13,7 @@ struct EncEcc {
 pub(super) static KIND: Kind = Kind {
     name: "enc_ecc",
     about: "the encoder reads an angle error once per revolution",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "amplitude",
@@ -37,6 +38,8 @@ pub(super) static KIND: Kind = Kind {
             phase_rad: values[1],
         })
     },
+    draw: |_, _, random| vec![("phase", random.uniform(-PI, PI))],
+    truth: |values, _, _| cosine_and_sine(values[0], values[1]).to_vec(),
 };
 
 impl Effect for EncEcc {

@@ -16,7 +16,7 @@ struct Heating {
 pub(super) static KIND: Kind = Kind {
     name: "heating",
     about: "the winding heats up: more resistance, weaker magnets",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "thermal_resistance",
@@ -59,6 +59,20 @@ pub(super) static KIND: Kind = Kind {
             magnet_per_k: values[3],
             cold_resistance_ohm: machine.resistance_ohm,
         })
+    },
+    draw: |_, _, random| {
+        vec![
+            ("time_constant", random.log_uniform(5.0, 60.0)),
+            ("magnet", random.uniform(0.0, 0.002)),
+        ]
+    },
+    truth: |values, machine, _| {
+        // dΔT/dt = (Rth·R(1 + αΔT)·i² − ΔT)/τ with y = α·ΔT and c = R·i.
+        vec![
+            values[2] * values[0] / (machine.resistance_ohm * values[1]),
+            values[1],
+            values[3] / values[2],
+        ]
     },
 };
 

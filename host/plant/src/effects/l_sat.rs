@@ -1,6 +1,6 @@
 //! Saturation of the armature inductance.
 
-use super::{At, Effect, Kind, Param, Winding};
+use super::{At, Effect, Kind, Param, Winding, only_its_size};
 
 /// L(i) = L0/(1 + k·i²): the incremental inductance dλ/di of an iron path that saturates, alike in both
 /// directions of the current, so that v = R·i + L(i)·di/dt + Kb·ω holds as it stands. It is the simplest
@@ -14,7 +14,7 @@ struct LSat {
 pub(super) static KIND: Kind = Kind {
     name: "l_sat",
     about: "the inductance falls as the current grows",
-    electrical: true,
+    electrical: Some(|_, _| 0.0),
     params: &[Param {
         name: "falloff",
         unit: "1/A^2",
@@ -29,6 +29,8 @@ pub(super) static KIND: Kind = Kind {
             rate_per_s: machine.resistance_ohm / machine.inductance_h,
         })
     },
+    draw: only_its_size,
+    truth: |values, machine, _| vec![machine.per_square_volt(values[0])],
 };
 
 impl Effect for LSat {

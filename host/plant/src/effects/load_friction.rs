@@ -1,6 +1,6 @@
 //! Friction that grows with the torque passed through a gear.
 
-use super::{At, Effect, Kind, Param, Sliding};
+use super::{At, Effect, Kind, Param, Sliding, only_its_size};
 
 /// F = μ·|Kt·i − Tload|, a share of the torque that the motor and its load pass to each other (Duclusaud and
 /// Passault, "Extended friction models for the physics simulation of servo actuators", 2024: the
@@ -12,7 +12,7 @@ struct LoadFriction {
 pub(super) static KIND: Kind = Kind {
     name: "load_friction",
     about: "dry friction that grows with the transmitted torque",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "share",
         unit: "1",
@@ -22,6 +22,8 @@ pub(super) static KIND: Kind = Kind {
         typical: |_| 0.08,
     }],
     build: |values, _| Box::new(LoadFriction { share: values[0] }),
+    draw: only_its_size,
+    truth: |values, _, _| vec![values[0]],
 };
 
 impl Effect for LoadFriction {

@@ -10,7 +10,7 @@ struct LoadTorque {
 pub(super) static KIND: Kind = Kind {
     name: "load_torque",
     about: "a constant torque on the shaft, at rest too",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "torque",
         unit: "N*m",
@@ -24,6 +24,8 @@ pub(super) static KIND: Kind = Kind {
             torque_n_m: values[0],
         })
     },
+    draw: |typical, _, random| vec![("torque", random.sign() * typical[0])],
+    truth: |values, machine, _| vec![machine.winding_volts(values[0])],
 };
 
 impl Effect for LoadTorque {

@@ -17,7 +17,7 @@ struct Lugre {
 pub(super) static KIND: Kind = Kind {
     name: "lugre",
     about: "dry friction with an elastic deflection before it slides",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "coulomb",
@@ -71,6 +71,32 @@ pub(super) static KIND: Kind = Kind {
             speed_rad_s: values[2],
             inertia_kg_m2: machine.inertia_kg_m2,
         })
+    },
+    draw: |_, machine, random| {
+        vec![
+            ("extra", random.uniform(0.0, 0.6)),
+            (
+                "speed",
+                machine.top_speed_rad_s() * random.log_uniform(0.01, 0.06),
+            ),
+            ("presliding", random.log_uniform(0.002, 0.03)),
+            ("damping", random.uniform(0.2, 1.0)),
+        ]
+    },
+    truth: |values, machine, _| {
+        let [torque, extra, speed, presliding, damping] = *values else {
+            return Vec::new();
+        };
+        // The model has the time σ1/σ0 in the place of the damping ratio.
+        let stiffness = torque * (1.0 + extra) / presliding;
+        let damping = 2.0 * damping * (stiffness * machine.inertia_kg_m2).sqrt();
+        vec![
+            machine.winding_volts(torque),
+            extra,
+            speed,
+            presliding,
+            damping / stiffness,
+        ]
     },
 };
 

@@ -2,6 +2,7 @@
 
 use super::{Effect, Kind, Param};
 use crate::Chance;
+use std::f64::consts::TAU;
 
 /// Bursts of lost counts arrive at random (Poisson), the more often the faster the shaft turns: at
 /// r·|ω|/ω0 per second, with ω0 the machine's top speed. A burst loses 1 … N counts, all sizes alike, in the
@@ -14,7 +15,7 @@ struct MissedCounts {
 pub(super) static KIND: Kind = Kind {
     name: "missed_counts",
     about: "now and then the counter loses some counts for good",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "rate",
@@ -38,6 +39,13 @@ pub(super) static KIND: Kind = Kind {
             rate_per_rad: values[0] / machine.top_speed_rad_s(),
             largest: values[1].floor(),
         })
+    },
+    draw: |_, _, random| vec![("largest", random.log_uniform(4.0, 40.0).round())],
+    truth: |values, machine, counts_per_rev| {
+        // Mean size of a burst, and bursts per radian; they begin at no speed.
+        let size = (1.0 + values[1]) / 2.0;
+        let per_rad = values[0] / machine.top_speed_rad_s();
+        vec![size * per_rad * TAU / f64::from(counts_per_rev), 0.0]
     },
 };
 

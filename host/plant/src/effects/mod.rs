@@ -62,12 +62,48 @@ pub struct Kind {
     pub name: &'static str,
     /// What it is, in a few words.
     pub about: &'static str,
-    /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
-    pub electrical: bool,
+    /// For an effect that acts on the armature voltage, and so vanishes behind a current loop: the voltage that it
+    /// takes from an armature that is stalled, in closed form, from its parameters.
+    pub electrical: Option<fn(&[f64], &Stall) -> f64>,
     /// Its parameters, in the order in which `build` takes them.
     pub params: &'static [Param],
     /// Makes the effect from its parameters, already scaled by the strength.
     pub build: fn(&[f64], &Machine) -> Box<dyn Effect>,
+    /// Draws the parameters that give the effect its form rather than its size, by name, from their typical
+    /// values on a machine; those that are not drawn stay typical.
+    pub draw: fn(&[f64], &Machine, &mut dyn Random) -> Vec<(&'static str, f64)>,
+    /// States the parameters of a model that is referred to the winding, in its documented order and units: a
+    /// torque `T` is the voltage `T·R/Kt`, a current the voltage across the resistance. From the values of
+    /// this effect's parameters, the machine and the encoder's counts per revolution.
+    pub truth: fn(&[f64], &Machine, u32) -> Vec<f64>,
+}
+
+/// A stalled armature under a steady command.
+#[derive(Clone, Copy, Debug)]
+pub struct Stall {
+    /// The command, V.
+    pub command_v: f64,
+    /// The machine's supply, V.
+    pub supply_v: f64,
+    /// The current that flows, A.
+    pub current_a: f64,
+}
+
+/// A source of random numbers, which the caller seeds.
+pub trait Random {
+    /// Uniform from `low` to `high`.
+    fn uniform(&mut self, low: f64, high: f64) -> f64;
+
+    /// Uniform in the logarithm, from `low` to `high`, both above zero.
+    fn log_uniform(&mut self, low: f64, high: f64) -> f64;
+
+    /// True with the chance `part`.
+    fn chance(&mut self, part: f64) -> bool;
+
+    /// Plus or minus one.
+    fn sign(&mut self) -> f64 {
+        if self.chance(0.5) { 1.0 } else { -1.0 }
+    }
 }
 
 /// One physical parameter of an effect.
@@ -84,6 +120,16 @@ pub struct Param {
     pub range: (f64, f64),
     /// A typical value on the given machine.
     pub typical: fn(&Machine) -> f64,
+}
+
+/// [`Kind::draw`] of an effect that has only a size, or a form that the model does not know.
+fn only_its_size(_: &[f64], _: &Machine, _: &mut dyn Random) -> Vec<(&'static str, f64)> {
+    Vec::new()
+}
+
+/// `A·sin(angle + φ)` as its parts of cosine and sine.
+fn cosine_and_sine(amplitude: f64, phase: f64) -> [f64; 2] {
+    [amplitude * phase.sin(), amplitude * phase.cos()]
 }
 
 impl Kind {

@@ -10,7 +10,7 @@ struct OffsetVoltage {
 pub(super) static KIND: Kind = Kind {
     name: "offset_voltage",
     about: "a constant voltage is added to every command",
-    electrical: true,
+    electrical: Some(|values, _| -values[0]),
     params: &[Param {
         name: "offset",
         unit: "V",
@@ -24,6 +24,8 @@ pub(super) static KIND: Kind = Kind {
             offset_v: values[0],
         })
     },
+    draw: |typical, _, random| vec![("offset", random.sign() * typical[0])],
+    truth: |values, _, _| vec![values[0]],
 };
 
 impl Effect for OffsetVoltage {

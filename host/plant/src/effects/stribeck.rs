@@ -15,7 +15,7 @@ struct Stribeck {
 pub(super) static KIND: Kind = Kind {
     name: "stribeck",
     about: "dry friction that is larger at rest than in motion",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "coulomb",
@@ -57,6 +57,24 @@ pub(super) static KIND: Kind = Kind {
             speed_rad_s: values[2],
             exponent: values[3],
         })
+    },
+    draw: |typical, machine, random| {
+        vec![
+            ("extra", typical[1] * random.log_uniform(0.3, 1.5)),
+            (
+                "speed",
+                machine.top_speed_rad_s() * random.log_uniform(0.01, 0.06),
+            ),
+            ("exponent", random.uniform(1.0, 2.0)),
+        ]
+    },
+    truth: |values, machine, _| {
+        vec![
+            machine.winding_volts(values[0]),
+            machine.winding_volts(values[1]),
+            values[2],
+            values[3],
+        ]
     },
 };
 

@@ -1,6 +1,6 @@
 //! The supply's voltage sags under load.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Param, only_its_size};
 
 /// The bridge chops the bus, so that it draws d·i with the duty cycle d = u/Vs, and the bus gives
 /// Vs − Rs·d·i; the armature gets d times that: v = u − Rs·d²·i (averaged chopper; Mohan, Undeland and
@@ -13,7 +13,9 @@ struct SupplySag {
 pub(super) static KIND: Kind = Kind {
     name: "supply_sag",
     about: "the supply's voltage falls with the current drawn from it",
-    electrical: true,
+    electrical: Some(|values, stall| {
+        values[0] * (stall.command_v / stall.supply_v).powi(2) * stall.current_a
+    }),
     params: &[Param {
         name: "resistance",
         unit: "ohm",
@@ -27,6 +29,11 @@ pub(super) static KIND: Kind = Kind {
             resistance_ohm: values[0],
             supply_v: machine.supply_v,
         })
+    },
+    draw: only_its_size,
+    truth: |values, machine, _| {
+        let supply = machine.supply_v;
+        vec![values[0] / machine.resistance_ohm / (supply * supply)]
     },
 };
 

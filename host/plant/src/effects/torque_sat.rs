@@ -1,6 +1,6 @@
 //! Magnetic saturation of the torque.
 
-use super::{At, Effect, Kind, Param, Winding};
+use super::{At, Effect, Kind, Param, Winding, only_its_size};
 
 /// T = Kt·Is·tanh(i/Is) with Is = 1/√(3·k3), a bounded law whose series begins with the cubic one,
 /// Kt·(i − k3·i³): armature reaction bends the field, and large currents give less torque than their
@@ -12,7 +12,7 @@ struct TorqueSat {
 pub(super) static KIND: Kind = Kind {
     name: "torque_sat",
     about: "large currents give less torque than their share",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "cubic",
         unit: "1/A^2",
@@ -26,6 +26,8 @@ pub(super) static KIND: Kind = Kind {
             scale_per_a: (3.0 * values[0]).sqrt(),
         })
     },
+    draw: only_its_size,
+    truth: |values, machine, _| vec![machine.per_square_volt(values[0])],
 };
 
 impl Effect for TorqueSat {

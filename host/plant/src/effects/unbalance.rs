@@ -1,6 +1,7 @@
 //! An eccentric mass on a horizontal shaft.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Param, cosine_and_sine};
+use std::f64::consts::PI;
 
 /// T = −m·g·e·sin(θ + φ): gravity on a mass m at the distance e from the axis; φ is the angle of the
 /// mass above its lowest point when θ = 0. The mass adds nothing to the inertia: the machine's inertia
@@ -13,7 +14,7 @@ struct Unbalance {
 pub(super) static KIND: Kind = Kind {
     name: "unbalance",
     about: "gravity on an eccentric mass, once per revolution",
-    electrical: false,
+    electrical: None,
     params: &[
         Param {
             name: "torque",
@@ -37,6 +38,10 @@ pub(super) static KIND: Kind = Kind {
             torque_n_m: values[0],
             phase_rad: values[1],
         })
+    },
+    draw: |_, _, random| vec![("phase", random.uniform(-PI, PI))],
+    truth: |values, machine, _| {
+        cosine_and_sine(machine.winding_volts(values[0]), values[1]).to_vec()
     },
 };
 

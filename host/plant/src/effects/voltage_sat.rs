@@ -1,6 +1,6 @@
 //! The power stage clips.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Param, only_its_size};
 
 /// |v| ≤ Vs − ΔV: the stage does not reach the last ΔV below its supply, by its switches' drop or by a
 /// limit on the duty cycle. Smaller commands pass unchanged.
@@ -11,7 +11,7 @@ struct VoltageSat {
 pub(super) static KIND: Kind = Kind {
     name: "voltage_sat",
     about: "large commands are clipped",
-    electrical: true,
+    electrical: Some(|values, stall| values[0] - (stall.supply_v - stall.command_v)),
     params: &[Param {
         name: "lost",
         unit: "V",
@@ -25,6 +25,8 @@ pub(super) static KIND: Kind = Kind {
             limit_v: (machine.supply_v - values[0]).max(0.0),
         })
     },
+    draw: only_its_size,
+    truth: |values, machine, _| vec![machine.supply_v - values[0]],
 };
 
 impl Effect for VoltageSat {

@@ -1,6 +1,6 @@
 //! Windage: the drag of the air that a fan or a fast rotor stirs.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Param, only_its_size};
 
 /// T = −c·ω·|ω|, turbulent drag (Vrancik, "Prediction of windage power loss in alternators", NASA TN
 /// D-4849, 1968, with its coefficient taken as constant).
@@ -11,7 +11,7 @@ struct Windage {
 pub(super) static KIND: Kind = Kind {
     name: "windage",
     about: "drag that grows with the square of the speed",
-    electrical: false,
+    electrical: None,
     params: &[Param {
         name: "drag",
         unit: "N*m*s^2",
@@ -25,6 +25,8 @@ pub(super) static KIND: Kind = Kind {
             drag_n_m_s2: values[0],
         })
     },
+    draw: only_its_size,
+    truth: |values, machine, _| vec![machine.winding_volts(values[0])],
 };
 
 impl Effect for Windage {

@@ -1,7 +1,7 @@
 //! Laws of the bench: exact solutions, energy, and what every effect of the catalogue must obey. Here are
 //! the drives and the measures that they share, and the orders that must be refused.
 
-use super::effects::CATALOGUE;
+use super::effects::{CATALOGUE, Stall};
 use super::*;
 use std::f64::consts::TAU;
 

@@ -99,16 +99,10 @@ fn a_stalled_armature_shows_each_loss_of_voltage_in_its_current() {
     for (name, machine) in machines() {
         let supply = machine.supply_v;
         let volts = 0.97 * supply;
-        let lost = |hidden: &Hidden, amps: f64| match hidden.name() {
-            "offset_voltage" => -truth(hidden, "offset"),
-            "dead_zone" => truth(hidden, "width"),
-            "voltage_sat" => truth(hidden, "lost") - (supply - volts),
-            "supply_sag" => truth(hidden, "resistance") * (volts / supply).powi(2) * amps,
-            "brush_drop" => truth(hidden, "drop"),
-            "l_sat" => 0.0,
-            other => panic!("{other} is electrical: say here what voltage it takes"),
-        };
-        for kind in CATALOGUE.iter().filter(|kind| kind.electrical) {
+        for kind in CATALOGUE {
+            let Some(lost) = kind.electrical else {
+                continue;
+            };
             let hidden = hide(&machine, kind.name, 1.0);
             let mut lock = hide(&machine, "coulomb", 1.0);
             lock.set("torque", 2.0 * machine.stall_torque_n_m())
@@ -117,7 +111,13 @@ fn a_stalled_armature_shows_each_loss_of_voltage_in_its_current() {
                 .run(&hold(volts, 1.0))
                 .unwrap();
             let amps = *run.current_a.last().unwrap();
-            let expected = (volts - lost(&hidden, amps)) / machine.resistance_ohm;
+            let values: Vec<f64> = hidden.parameters().map(|(_, value, _)| value).collect();
+            let stall = Stall {
+                command_v: volts,
+                supply_v: supply,
+                current_a: amps,
+            };
+            let expected = (volts - lost(&values, &stall)) / machine.resistance_ohm;
             assert!(
                 (amps / expected - 1.0).abs() < 1e-9,
                 "{name}, {}: {amps} A",

@@ -3,7 +3,7 @@
 
 use super::subject::{Subject, Term};
 use super::written::{Carried, Written};
-use shared::effects::Kind;
+use shared::effects::{AtSpeed, Kind, Place};
 
 /// Friction at speed, referred to the winding; behind a current loop in units of the command.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,37 +18,18 @@ pub struct Friction {
 
 /// How much of an effect the two numbers carry.
 pub fn carried(kind: Kind) -> Carried {
-    match kind {
-        Kind::Coulomb => Carried::Whole,
-        Kind::AsymCoulomb => Carried::Without("the mean of both directions stands for each"),
-        Kind::Stribeck => Carried::Without("what is larger near standstill is left out"),
-        Kind::Lugre => {
-            Carried::Without("what is elastic and what is larger near standstill is left out")
+    match kind.facts().at_speed {
+        AtSpeed::Sliding { without, .. } | AtSpeed::Viscous { without, .. } => {
+            without.map_or(Carried::Whole, Carried::Without)
         }
-        Kind::AsymViscous => Carried::Without("the mean of both directions stands for each"),
-        Kind::LoadFriction => Carried::Not("friction that grows with the load has no place here"),
-        Kind::LoadTorque => Carried::Not("a constant torque has no place here"),
-        Kind::Windage => Carried::Not("drag on the square of the speed has no place here"),
-        Kind::Cogging | Kind::Unbalance => {
-            Carried::Not("a torque that depends on the angle has no place here")
-        }
-        Kind::Backlash | Kind::Compliance => {
-            Carried::Not("a second inertia has no place here; all of it stands as one")
-        }
-        Kind::EncEcc | Kind::MissedCounts => {
-            Carried::Not("it is the encoder's, and touches no motion")
-        }
-        Kind::DeadZone
-        | Kind::OffsetVoltage
-        | Kind::BrushDrop
-        | Kind::SupplySag
-        | Kind::VoltageSat
-        | Kind::Delay => {
-            Carried::Not("it is the power stage's or the brushes', and has no place here")
-        }
-        Kind::TorqueSat | Kind::LSat | Kind::Heating => {
-            Carried::Not("constants of the winding that change have no place here")
-        }
+        AtSpeed::OtherForm(why) => Carried::Not(why),
+        AtSpeed::Nothing => Carried::Not(match kind.description().place {
+            Place::Torque | Place::Friction => "a torque of another form has no place here",
+            Place::Load => "a second inertia has no place here; all of it stands as one",
+            Place::Sensed => "it is the encoder's, and touches no motion",
+            Place::Drive => "it is the power stage's or the brushes', and has no place here",
+            Place::Winding => "constants of the winding that change have no place here",
+        }),
     }
 }
 
@@ -57,10 +38,10 @@ impl Friction {
     pub fn of(subject: &Subject, written: &mut Written) -> Self {
         let mut sum = Friction::default();
         for term in &subject.terms {
-            let own = match term.kind {
-                Kind::Coulomb | Kind::Stribeck | Kind::Lugre => &[0][..],
-                Kind::AsymCoulomb | Kind::AsymViscous => &[0, 1],
-                _ => continue,
+            let (own, slides) = match term.kind.facts().at_speed {
+                AtSpeed::Sliding { mean_of, .. } => (mean_of, true),
+                AtSpeed::Viscous { mean_of, .. } => (mean_of, false),
+                AtSpeed::Nothing | AtSpeed::OtherForm(_) => continue,
             };
             let Some(mean) = mean(term, own) else {
                 written.lacks(
@@ -69,11 +50,11 @@ impl Friction {
                 );
                 continue;
             };
-            if term.kind == Kind::AsymViscous {
-                sum.viscous += mean;
-            } else {
+            if slides {
                 sum.sliding += mean;
                 sum.slides.push(term.kind.name());
+            } else {
+                sum.viscous += mean;
             }
         }
         sum

@@ -109,11 +109,10 @@ impl DemoReport<'_> {
     }
 
     fn parameter_errors(&self) -> Vec<ParameterError> {
-        let truth = truth::parameters(self.hidden, &self.machine, self.counts_per_rev);
-        let kind = Kind::by_name(self.hidden.name());
-        let (Some(truth), Some(kind)) = (truth, kind) else {
+        let Some(kind) = Kind::by_name(self.hidden.name()) else {
             return Vec::new();
         };
+        let truth = self.hidden.truth(&self.machine, self.counts_per_rev);
         let found = values_of(self, kind);
         if found.is_empty() {
             return Vec::new();

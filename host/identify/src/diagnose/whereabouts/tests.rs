@@ -31,7 +31,7 @@ fn missing(kind: Kind) -> (Whereabouts, Whereabouts) {
         start_offset: 0.0,
     };
     let mut complete = linear;
-    let values = truth::parameters(&hidden, &machine, 8000).expect("its counterpart");
+    let values = hidden.truth(&machine, 8000);
     complete.effects.push(kind, &values).expect("one effect");
     let look = |candidate| whereabouts(&data, candidate, &complete, Method::default());
     (

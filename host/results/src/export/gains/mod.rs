@@ -27,7 +27,7 @@ use clap::ValueEnum;
 use design::Method;
 use loops::{Closed, Plant};
 use servoid_io::recording::Drive;
-use shared::effects::Kind;
+use shared::effects::Place;
 use std::f64::consts::TAU;
 
 const FORMAT: &str = "gains";
@@ -147,7 +147,7 @@ impl Controllers {
             ));
         }
         for term in &subject.terms {
-            if matches!(term.kind, Kind::Compliance | Kind::Backlash) {
+            if term.kind.description().place == Place::Load {
                 self.remarks.push(format!(
                     "{}: the margins are of motor and load as one body; stay well below their resonance",
                     term.kind.name()

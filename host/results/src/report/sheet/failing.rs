@@ -10,7 +10,7 @@ use servoid_engine::problem::{Candidate, Data};
 use servoid_identify::diagnose::whereabouts::{
     Correlations, Whereabouts, correlations, whereabouts,
 };
-use shared::effects::{EffectSet, Kind};
+use shared::effects::{EffectSet, Kind, Order, Place};
 
 /// A model with its name.
 pub struct Model {
@@ -93,7 +93,7 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
 
 /// The model without what goes with the angle; `None` if nothing in it does.
 fn without_waves(candidate: &Candidate) -> Option<Candidate> {
-    let waves = |kind: Kind| matches!(kind, Kind::Cogging | Kind::Unbalance);
+    let waves = |kind: Kind| periodic_torque(kind).is_some();
     if !candidate.effects.iter().any(|(kind, _)| waves(kind)) {
         return None;
     }
@@ -113,12 +113,14 @@ fn orders_of(candidate: &Candidate) -> Vec<usize> {
     let orders = candidate
         .effects
         .iter()
-        .filter_map(|(kind, values)| match kind {
-            Kind::Cogging => values.get(2).map(|order| order.round() as usize),
-            Kind::Unbalance => Some(1),
-            _ => None,
-        });
+        .filter_map(|(kind, values)| periodic_torque(kind)?.of(values));
     orders.collect()
+}
+
+/// Cycles a revolution of an effect that is a torque which repeats with the angle.
+fn periodic_torque(kind: Kind) -> Option<Order> {
+    let periodic = kind.facts().periodic;
+    periodic.filter(|_| kind.description().place == Place::Torque)
 }
 
 fn missing(found: &[(&str, Whereabouts)]) -> String {

@@ -134,8 +134,7 @@ mod tests {
                 start_offset: 0.0,
             };
             let found = waves(&data, &candidate);
-            let values = truth::parameters(&hidden, &motor, showcase::COUNTS_PER_REV);
-            let values = values.expect("a counterpart");
+            let values = hidden.truth(&motor, showcase::COUNTS_PER_REV);
             let size = values[0].hypot(values[1]);
             for lines in [&found.forward, &found.backward] {
                 let told: Vec<_> = lines.iter().take(4).collect();
