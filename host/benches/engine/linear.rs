@@ -70,17 +70,6 @@ pub fn rows() {
         reference,
     );
     row(
-        "bounds of the full cost in f32, five candidates by turns",
-        each(&|k| {
-            let structure = &problem.structure;
-            let bounds = quick.bounds_of(&structure.candidate(&structure.values(&points[k])));
-            bounds.map_or(f64::NAN, |bounds| *bounds.start())
-        }),
-        reference,
-    );
-    let apart = widest(&quick, &problem, &points);
-    println!("  the widest bounds are {apart:.1e} of the cost apart");
-    row(
         "refused by the bound",
         each(&|k| quick.cost_within(&points[k], 1e-3)),
         reference,
@@ -88,16 +77,6 @@ pub fn rows() {
     swarm(&problem, reference);
     least_squares(&data, reference);
     contest(&problem, reference);
-}
-
-/// The distance between the bounds of a cost, as a part of it; the greatest.
-fn widest(quick: &Quick<'_>, problem: &FitProblem<'_>, points: &[Vec<f64>]) -> f64 {
-    let structure = &problem.structure;
-    let width = |x: &Vec<f64>| {
-        let bounds = quick.bounds_of(&structure.candidate(&structure.values(x)));
-        bounds.map_or(f64::NAN, |b| (b.end() - b.start()) / b.end())
-    };
-    points.iter().map(width).fold(0.0, f64::max)
 }
 
 /// The same costs, always in full.

@@ -5,14 +5,12 @@
 //! computed one by one.
 
 mod number;
-mod singles;
 mod token;
 mod triangles;
 mod turn;
 
 use core::marker::PhantomData;
 pub use number::{LANES, LaneMask, Lanes};
-pub use singles::{SINGLES, Singles};
 pub use token::Token;
 pub use triangles::Triangles;
 pub use turn::{Square, Turn};

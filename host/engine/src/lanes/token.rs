@@ -13,13 +13,6 @@ pub trait Token: Simd + Turn {
     fn here() -> Self;
 }
 
-impl Token for pulp::Scalar {
-    #[inline(always)]
-    fn here() -> Self {
-        pulp::Scalar::new()
-    }
-}
-
 #[cfg(target_arch = "x86_64")]
 impl Token for pulp::x86::V3 {
     #[inline(always)]

@@ -3,12 +3,9 @@
 //!
 //! The angles of [`held`](super::held)'s strides come side by side in lanes. Where the transient has died away
 //! only a line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
-//! that follows from where the block begins. Whoever only compares costs loses nothing by it. Sums in single precision come
-//! with bounds, between which the cost lies.
+//! that follows from where the block begins. Whoever only compares costs loses nothing by it.
 
-mod bounds;
 mod errors;
-mod rebased;
 mod sum;
 
 use super::compress::Compress;
@@ -16,17 +13,14 @@ use super::cost::reading_shift;
 use super::course::whole;
 use super::data::Data;
 use super::held::{Ahead, Held, Place, STRIDE, STRIDES, Summed};
-use super::settling::Settling;
 use super::simulate::Candidate;
 use super::{FitProblem, Horizon, StartAngle};
 use crate::solve::{Compressed, Objective, Tangent};
-use bounds::Bounds;
 use errors::{Motion, errors};
-use rebased::Rebased;
 use shared::cost::Cost;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::model::Increments;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use sum::{Floored, Plain, Squares, Sum};
 
 /// Fewest samples that a command must be held for, on average.
@@ -45,8 +39,6 @@ pub struct Quick<'a> {
     problem: &'a FitProblem<'a>,
     /// Where it can be had: on even samples, driven throughout by commands that are held.
     blocks: Option<Vec<Block>>,
-    /// The readings of the blocks in single precision, where magnitudes are summed.
-    rebased: Vec<Rebased>,
 }
 
 /// Samples under one command.
@@ -77,21 +69,7 @@ impl<'a> Quick<'a> {
         let even = data.lengths == [1.0] && !data.coasts() && problem.horizon == Horizon::Whole;
         let apt = summed && even && problem.structure.effects.is_empty();
         let blocks = apt.then(|| blocks(data)).flatten();
-        let magnitudes = problem.cost
-            == Cost::Absolute {
-                model_floored: false,
-            };
-        let rebased = blocks
-            .iter()
-            .filter(|_| magnitudes)
-            .flatten()
-            .map(|block| Rebased::new(block, &data.counts))
-            .collect();
-        Quick {
-            problem,
-            blocks,
-            rebased,
-        }
+        Quick { problem, blocks }
     }
 
     /// Whether costs are quicker here than sample by sample.
@@ -102,28 +80,6 @@ impl<'a> Quick<'a> {
     /// The cost of a model; infinite where it cannot run.
     pub fn cost_of(&self, candidate: &Candidate) -> f64 {
         self.cost_of_within(candidate, f64::INFINITY)
-    }
-
-    /// What the cost of a model lies between, from sums in single precision; `None` where there are none such: only
-    /// magnitudes of errors are summed so, and only of motors that settle.
-    // Searches do not ask for them: half of the time goes into the path, which both sums need, and the other sum
-    // stops as soon as it is above the limit.
-    pub fn bounds_of(&self, candidate: &Candidate) -> Option<RangeInclusive<f64>> {
-        if self.rebased.is_empty() {
-            return None;
-        }
-        let (held, pieces, _) = self.course(candidate, f64::INFINITY)?;
-        let settling = Settling::new(&held, &held.ahead())?;
-        let bounds = Bounds {
-            rebased: &self.rebased,
-            held: &held,
-            settling: &settling,
-            blocks: self.blocks.as_ref()?,
-            pieces: &pieces,
-        };
-        let bounds = bounds.of_magnitudes()?;
-        let weight = self.problem.weight;
-        Some(bounds.start() * weight..=bounds.end() * weight)
     }
 
     fn cost_of_within(&self, candidate: &Candidate, limit: f64) -> f64 {

@@ -3,13 +3,11 @@
 //! The state less where it tends to, `d`, obeys `d(k+1) = (I + E)·d(k)`, so that `θ(k) = level + slope·k + z(k)` with
 //! `z = P·d` and `P = T·E⁻¹`, `T` being what a step's angle takes of the state.
 
-use super::held::{
-    Ahead, Held, Matrix, Pair, Place, STRIDE, STRIDES, across, determinant, dot, plus, times,
-};
+use super::held::{Ahead, Held, Matrix, Pair, Place, across, determinant, dot, times};
 
 /// Error of an angle that is allowed, counts. Of a motor whose modes are so slow that line and transient are large numbers
 /// whose difference may have lost more, there is no path.
-pub(super) const ANGLE_ERROR_COUNTS: f64 = 1e-7;
+const ANGLE_ERROR_COUNTS: f64 = 1e-7;
 /// Roundings of line and transient, as parts of the transient.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
@@ -23,9 +21,7 @@ pub struct Settling {
     angle: Pair,
     /// Transient by state.
     transient: Pair,
-    /// Transient after each of the samples of a stride by the state at its start.
-    ahead: [[f64; STRIDE]; 2],
-    /// Largest magnitude of each of these.
+    /// Largest magnitude of the transient at any sample of a stride, by each part of the state at its start.
     most: Pair,
 }
 
@@ -60,18 +56,16 @@ impl Settling {
             by_command: (step.state_by_command, step.angle_by_command),
             angle: step.angle,
             transient,
-            ahead: ahead.by_state,
             most: [0.0; 2],
         };
-        let tables = settling.ahead.iter_mut().zip(&mut settling.most);
+        let tables = ahead.by_state.iter().zip(&mut settling.most);
         for ((table, largest), transient) in tables.zip(transient) {
             // Eight by eight, which the processor does at once.
             let mut most = [0.0; 8];
-            let (rows, _) = table.as_chunks_mut::<8>();
+            let (rows, _) = table.as_chunks::<8>();
             for row in rows {
-                for (ahead, most) in row.iter_mut().zip(&mut most) {
-                    *ahead += transient;
-                    let x = ahead.abs();
+                for (ahead, most) in row.iter().zip(&mut most) {
+                    let x = (ahead + transient).abs();
                     *most = if x > *most { x } else { *most };
                 }
             }
@@ -99,39 +93,5 @@ impl Settling {
     #[inline(always)]
     pub fn largest(&self, off: Pair) -> f64 {
         (self.most[0] * off[0]).abs() + (self.most[1] * off[1]).abs()
-    }
-
-    /// Of the state less where it tends to, what its current and its speed have at the start of each of so many strides, by
-    /// current and by speed at the start of the first: `[[current by current, by speed], [speed by current, by speed]]`.
-    pub fn at_strides(&self, held: &Held) -> [[[f64; STRIDES]; 2]; 2] {
-        let mut at = [[[0.0; STRIDES]; 2]; 2];
-        (at[0][0][0], at[1][1][0]) = (1.0, 1.0);
-        for (doubling, span) in held.strides().iter().enumerate() {
-            let known = 1 << doubling;
-            if known >= STRIDES {
-                break;
-            }
-            for [by_current, by_speed] in &mut at {
-                for k in 0..known {
-                    let row = [by_current[k], by_speed[k]];
-                    [by_current[known + k], by_speed[known + k]] =
-                        plus(row, across(row, &span.state));
-                }
-            }
-        }
-        at
-    }
-
-    /// Largest magnitudes in [`ahead`](Self::ahead).
-    #[inline(always)]
-    pub fn most(&self) -> [f64; 2] {
-        self.most
-    }
-
-    /// Transient after each of the samples of a stride by the state, less where it tends to, at its start: counts per unit of
-    /// current and of speed.
-    #[inline(always)]
-    pub fn ahead(&self) -> [&[f64; STRIDE]; 2] {
-        self.ahead.each_ref()
     }
 }

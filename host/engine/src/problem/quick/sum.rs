@@ -9,7 +9,7 @@ use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::scalar::Scalar;
 
 /// A transient below this many counts is none.
-pub(super) const SETTLED_COUNTS: f64 = 1e-10;
+const SETTLED_COUNTS: f64 = 1e-10;
 /// Lanes to a stride.
 const ROWS: usize = STRIDE / LANES;
 
