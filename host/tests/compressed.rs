@@ -1,10 +1,11 @@
 //! Residuals compressed while they come say what all of them together say, and a search led by them ends at the same place.
 #![forbid(unsafe_code)]
 
+use host::block_cost::Quick;
 use host::fit::{self, Options};
-use host::problem::simulate::{Method, Simulation};
-use host::problem::{About, Candidate, Data, FitProblem, Horizon, Quick, StartAngle};
+use host::problem::{About, Candidate, Data, FitProblem, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
+use host::simulation::{Method, Simulation};
 use host::solve::{self, Compressed, Evaluator, Found, Objective};
 use nalgebra::DMatrix;
 use shared::cost::Cost;
@@ -81,12 +82,12 @@ fn data(seed: u64, commands: Commands) -> Data {
         start_offset: 0.0,
     };
     let simulation = Simulation::new(&bases, &motor, Method::default()).expect("a motor");
-    let leg = host::problem::course::Leg {
+    let leg = host::simulation::Leg {
         range: 0..samples,
         angle: 100.3,
         speed: 0.0,
     };
-    let errors = simulation.errors(host::problem::course::Manner::Free, &[leg]);
+    let errors = simulation.errors(host::simulation::Manner::Free, &[leg]);
     for (reading, error) in recording.counts.iter_mut().zip(errors) {
         *reading = (*reading + error).floor();
     }

@@ -1,11 +1,11 @@
 //! Candidates computed side by side are the candidates computed one by one.
 #![forbid(unsafe_code)]
 
-use host::problem::abreast::Run;
-use host::problem::course::{Leg, Manner, legs};
-use host::problem::simulate::{Method, Simulation};
 use host::problem::{Candidate, Data, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
+use host::simulation::Run;
+use host::simulation::{Leg, Manner, legs};
+use host::simulation::{Method, Simulation};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING_COAST, commands};
 use shared::model::Seen;

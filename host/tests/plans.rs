@@ -3,8 +3,8 @@
 use host::bench::{Bench, DriveSample, Hidden, Machine};
 use host::fit::{self, Options};
 use host::plan::{Effort, Hypothesis, Limits, Ranked, Separation, Setup, Trial, Work, rank};
-use host::problem::cost::{errors, rms_counts};
 use host::problem::{Data, Horizon, StartAngle};
+use host::problem::{errors, rms_counts};
 use host::recording::Recording;
 use host::solve::levenberg_marquardt::LevenbergMarquardt;
 use servoid_io::record::Record;

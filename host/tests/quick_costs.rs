@@ -1,8 +1,9 @@
 //! Quicker costs are the costs, and whoever only compares them decides the same.
 #![forbid(unsafe_code)]
 
+use host::block_cost::Quick;
 use host::paper::{BOX, Experiment, Variant, paper_problem};
-use host::problem::{Base, Data, FitProblem, Horizon, Quick, StartAngle, Structure};
+use host::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use host::recording::{Drive, Recording};
 use host::solve::{Evaluator, Found, Objective, Solver, swarm};
 use shared::cost::Cost;

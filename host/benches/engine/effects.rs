@@ -1,10 +1,10 @@
 //! Nanoseconds a step of one candidate, with every effect: alone, and side by side with others.
 
 use super::{clock, euler};
-use servoid_engine::problem::abreast::Run;
-use servoid_engine::problem::course::{Leg, Manner, legs};
-use servoid_engine::problem::simulate::{Method, Simulation};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::simulation::Run;
+use servoid_engine::simulation::{Leg, Manner, legs};
+use servoid_engine::simulation::{Method, Simulation};
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, commands};

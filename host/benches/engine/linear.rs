@@ -1,8 +1,9 @@
 //! The linear motor on the paper's step of 10,000 samples: one cost, searches, and the paper's comparison.
 
 use super::{clock, euler};
+use servoid_engine::block_cost::Quick;
 use servoid_engine::compare::{self, Contest};
-use servoid_engine::problem::{FitProblem, Quick};
+use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::{self, Evaluator, Found, Objective, Solver, swarm::ParticleSwarm};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::paper::{self, BOX, Experiment, Variant};

@@ -2,7 +2,7 @@
 
 use super::clock;
 use super::linear::STEP;
-use servoid_engine::problem::Quick;
+use servoid_engine::block_cost::Quick;
 use servoid_engine::solve::{Evaluator, Objective, Solver, cma_es, swarm::ParticleSwarm};
 use servoid_identify::paper::{BOX, PRINTED, Variant, paper_problem};
 use std::sync::atomic::AtomicBool;

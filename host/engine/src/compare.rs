@@ -2,7 +2,8 @@
 //! A single run proves nothing (the spread over seeds is often a factor of five), so every figure is
 //! a median with its spread.
 
-use crate::problem::{FitProblem, Quick};
+use crate::block_cost::Quick;
+use crate::problem::FitProblem;
 use crate::solve::{Evaluator, Found, Solver};
 use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;

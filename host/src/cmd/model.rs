@@ -2,9 +2,9 @@
 
 use crate::cli::{CostName, Integrator, ModelArgs};
 use crate::error::Error;
-use servoid_engine::problem::simulate::Method;
-use servoid_engine::problem::unknowns::Scale;
+use servoid_engine::problem::Scale;
 use servoid_engine::problem::{FitProblem, Structure};
+use servoid_engine::simulation::Method;
 use servoid_identify::fit::Options;
 use servoid_io::input::Known;
 use servoid_io::input::suggest::did_you_mean;

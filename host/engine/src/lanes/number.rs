@@ -1,14 +1,11 @@
 //! The same number of several candidates, in the lanes of vector registers.
 
 use super::token::Token;
-use super::turn::Square;
+use super::turn::{LANES, Square};
 use bytemuck::cast;
 use core::fmt::{self, Debug};
 use core::ops::{Add, Mul, Neg, Sub};
 use shared::scalar::{Angle, Mask, Scalar, curves};
-
-/// Candidates side by side.
-pub const LANES: usize = 8;
 
 /// The same number of [`LANES`] candidates, in `M` registers of the processor `T`. What is done to it is done
 /// to each as [`f64`] does it, to the bit.

@@ -5,7 +5,7 @@
 //! Computations*, 5.2), so that nothing is lost of what a decomposition of the whole matrix would have: sums of products
 //! would lose half the digits.
 
-use super::with_vectors;
+use super::dispatch::with_vectors;
 use nalgebra::DMatrix;
 
 /// Rows that are reflected at a time.

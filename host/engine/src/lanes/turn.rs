@@ -1,8 +1,10 @@
 //! Eight rows of eight numbers turned into their columns, in registers: what the lanes saw at eight samples becomes what
 //! each of them saw. By single loads and stores it took as long as half a step of the model.
 
-use super::number::LANES;
 use bytemuck::cast;
+
+/// Candidates that run side by side.
+pub const LANES: usize = 8;
 
 /// A row for each of eight samples, or of eight lanes.
 pub type Square = [[f64; LANES]; LANES];

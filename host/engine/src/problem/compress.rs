@@ -4,7 +4,7 @@ use crate::lanes::{LANES, Triangles};
 use crate::solve::Tangent;
 
 /// The compression so far.
-pub(super) struct Compress {
+pub(crate) struct Compress {
     triangles: Triangles<LANES>,
     /// What residuals are counted from; `None` for their own mean.
     zero: Option<f64>,
@@ -13,7 +13,7 @@ pub(super) struct Compress {
 
 impl Compress {
     /// Of a model and so many others, with residuals about `zero`, or about the mean of each model's own.
-    pub(super) fn new(others: usize, zero: Option<f64>) -> Self {
+    pub(crate) fn new(others: usize, zero: Option<f64>) -> Self {
         // To count from the mean is to be orthogonal to a constant: that is a column before the others.
         let constant = usize::from(zero.is_none());
         Compress {
@@ -24,7 +24,7 @@ impl Compress {
     }
 
     /// Takes some samples' errors of the model, and by how much those of the others differ.
-    pub(super) fn add(&mut self, here: &[f64], changes: &[&[f64]]) {
+    pub(crate) fn add(&mut self, here: &[f64], changes: &[&[f64]]) {
         let zero = self.zero.unwrap_or(0.0);
         for from in (0..here.len()).step_by(LANES) {
             let count = LANES.min(here.len() - from);
@@ -48,7 +48,7 @@ impl Compress {
     }
 
     /// The tangent; `None` where a number is none.
-    pub(super) fn tangent(self) -> Option<Tangent> {
+    pub(crate) fn tangent(self) -> Option<Tangent> {
         let constant = usize::from(self.zero.is_none());
         let width = 1 + self.others;
         let whole = self.triangles.together();

@@ -1,10 +1,10 @@
 //! A fit of the led model: cheap, smooth, and for that a start only.
 
 use super::motion::Motion;
-use servoid_engine::problem::abreast::Run;
-use servoid_engine::problem::course::{Leg, Manner, legs};
-use servoid_engine::problem::simulate::{Candidate, Method, Simulation};
 use servoid_engine::problem::{Data, Horizon, StartAngle, Structure};
+use servoid_engine::simulation::Run;
+use servoid_engine::simulation::{Candidate, Method, Simulation};
+use servoid_engine::simulation::{Leg, Manner, legs};
 use servoid_engine::solve::Objective;
 use shared::effects::Kind;
 

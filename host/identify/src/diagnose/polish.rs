@@ -4,8 +4,8 @@ use super::descent::{PROBE, Settings};
 use super::refit::Refit;
 use super::workshop::Workshop;
 use crate::error::Error;
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon};
+use servoid_engine::simulation::Method;
 
 /// Of one that must converge.
 const LAST: Settings = Settings {

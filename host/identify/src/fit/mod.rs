@@ -16,9 +16,10 @@ mod validate;
 
 use crate::error::Error;
 use regression::Guess;
-use servoid_engine::problem::cost::Horizon;
-use servoid_engine::problem::simulate::Method;
-use servoid_engine::problem::{Base, Data, FitProblem, Quick, StartAngle, Structure};
+use servoid_engine::block_cost::Quick;
+use servoid_engine::problem::Horizon;
+use servoid_engine::problem::{Base, Data, FitProblem, StartAngle, Structure};
+use servoid_engine::simulation::Method;
 use servoid_engine::solve::nelder_mead::NelderMead;
 use servoid_engine::solve::{Evaluator, Found, Solver};
 use servoid_io::input::Known;

@@ -3,9 +3,9 @@
 use super::filter::{Passing, filtered};
 use super::{Options, SPEED_HALF_WIDTH};
 use crate::error::Error;
-use servoid_engine::problem::cost::{Horizon, errors};
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
+use servoid_engine::problem::{Horizon, errors};
+use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 use shared::effects::{Lowered, Place, Shaft};
 

@@ -2,9 +2,9 @@
 
 use super::{SPEED_HALF_WIDTH, may_start_moving, scores};
 use crate::error::Error;
-use servoid_engine::problem::cost::{Horizon, errors, rms_counts};
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
+use servoid_engine::problem::{Horizon, errors, rms_counts};
+use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 
 /// Step of the start speed by which its effect is measured, as a part of the fastest.

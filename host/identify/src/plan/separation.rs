@@ -3,7 +3,7 @@
 use super::hypothesis::{Hypothesis, Setup};
 use super::playback::record;
 use crate::fit::{self, Options};
-use servoid_engine::problem::cost::rms_counts;
+use servoid_engine::problem::rms_counts;
 use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use servoid_engine::solve::Objective;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;

@@ -11,9 +11,9 @@ pub use whiteness::{Correlations, Whiteness, correlations, whiteness};
 
 use crate::error::Error;
 use crate::fit::scores::{EquationResidual, equation_residuals, whole};
-use servoid_engine::problem::course::{Manner, legs};
-use servoid_engine::problem::simulate::{Method, Simulation};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::simulation::{Manner, legs};
+use servoid_engine::simulation::{Method, Simulation};
 
 /// Filter time of the residual, sample intervals: long enough that the encoder's steps do not drown it, short
 /// against a motor's time constants.

@@ -1,76 +1,14 @@
 //! The cost of a point of the unit cube, and the residuals behind it.
 
-use super::abreast::Run;
 use super::compress::Compress;
-use super::course::{Manner, legs};
-use super::data::Data;
-use super::simulate::{Candidate, Method, Simulation};
+use super::residuals::{centre, errors, is_centred, reading_shift};
 use super::spread::Spread;
-use super::unknowns::Structure;
+use super::structure::Structure;
+use crate::data::Data;
+use crate::simulation::{Candidate, Horizon, Method, Run, Simulation, StartAngle, legs};
 use crate::solve::{Compressed, Objective, Tangent};
 use shared::cost::Cost;
 use shared::error::ModelError;
-use std::ops::Range;
-
-/// How far the model runs on its own before it is set back to the measurement.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Horizon {
-    /// From the first sample to the last: the open-loop error.
-    Whole,
-    /// In windows, each started from the measured angle and speed.
-    Windows(Vec<Window>),
-    /// Pulled towards the measurement, so that an error is forgotten within so many seconds.
-    Nudged(f64),
-}
-
-/// One window of a [`Horizon`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Window {
-    /// Its samples.
-    pub range: Range<usize>,
-    /// Measured speed at its first sample, rad/s.
-    pub speed: f64,
-}
-
-impl Horizon {
-    /// What moves a model along it.
-    fn manner(&self) -> Manner<'static> {
-        match self {
-            Horizon::Nudged(memory_s) => Manner::Nudged(*memory_s),
-            Horizon::Whole | Horizon::Windows(_) => Manner::Free,
-        }
-    }
-
-    /// Windows of `seconds`, with the speed taken from `2·half + 1` samples.
-    pub fn windows(data: &Data, seconds: f64, half: usize) -> Self {
-        let mut windows = Vec::new();
-        let mut from = 0;
-        while from + 1 < data.len() {
-            let end = data.time_s[from] + seconds;
-            let to = from + data.time_s[from..].partition_point(|&t| t < end);
-            let to = to.max(from + 2);
-            // A last sample alone would be in no window.
-            let to = if to + 1 < data.len() { to } else { data.len() };
-            let counts_s = data.speed_counts_s(from, half);
-            let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
-            windows.push(Window {
-                range: from..to,
-                speed,
-            });
-            from = to;
-        }
-        Horizon::Windows(windows)
-    }
-}
-
-/// What is known of the angle at the first sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StartAngle {
-    /// The encoder started exactly at zero of its first cell, as in the paper.
-    Known,
-    /// Somewhere in its cell: the best offset is taken for each candidate.
-    Free,
-}
 
 /// A recording, a model with unknowns, and a cost.
 pub struct FitProblem<'a> {
@@ -233,87 +171,6 @@ impl FitProblem<'_> {
 
 /// Rounding of a sum of squares, as a part of it.
 const ROUNDING: f64 = 1e-9;
-
-/// Costs take the distance above a floored reading; other readings are the angle itself.
-pub(super) fn reading_shift(data: &Data) -> f64 {
-    if data.quantised {
-        0.0
-    } else {
-        shared::encoder::FLOOR_OFFSET_COUNTS
-    }
-}
-
-/// Runs a candidate over a horizon; see [`FitProblem::errors`].
-pub fn errors(
-    data: &Data,
-    candidate: &Candidate,
-    method: Method,
-    horizon: &Horizon,
-    start_angle: StartAngle,
-    cost: Cost,
-) -> Result<Vec<f64>, ModelError> {
-    let simulation = Simulation::new(data, candidate, method)?;
-    let legs = legs(data, candidate, horizon, start_angle);
-    let mut errors = simulation.errors(horizon.manner(), &legs);
-    centre(data, candidate, horizon, start_angle, cost, &mut errors);
-    Ok(errors)
-}
-
-/// Whether the start angle of a whole run is free.
-fn is_centred(
-    data: &Data,
-    candidate: &Candidate,
-    horizon: &Horizon,
-    start_angle: StartAngle,
-) -> bool {
-    // Where effects depend on the angle it is absolute, and a shift would be one freedom too many.
-    let absolute = data.quantised && candidate.needs_angle();
-    *horizon == Horizon::Whole && start_angle == StartAngle::Free && !absolute
-}
-
-/// Takes the best start angle of a whole run where it is free.
-fn centre(
-    data: &Data,
-    candidate: &Candidate,
-    horizon: &Horizon,
-    start_angle: StartAngle,
-    cost: Cost,
-    errors: &mut [f64],
-) {
-    if !is_centred(data, candidate, horizon, start_angle) {
-        return;
-    }
-    let centre = data.centre(0) - data.counts[0];
-    let middle = match cost {
-        Cost::Absolute { .. } => median(errors),
-        Cost::Squared | Cost::Interval { .. } => mean(errors),
-    };
-    for error in errors {
-        *error += centre - middle;
-    }
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    let middle = sorted.len() / 2;
-    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-/// Root mean square of model minus measurement, in counts, where the measurement is the centre of
-/// the cell that was read.
-pub fn rms_counts(data: &Data, errors: &[f64]) -> f64 {
-    let centre = if data.quantised {
-        shared::encoder::FLOOR_OFFSET_COUNTS
-    } else {
-        0.0
-    };
-    let sum: f64 = errors.iter().map(|e| (e - centre) * (e - centre)).sum();
-    Cost::rms(sum, errors.len())
-}
 
 impl Objective for FitProblem<'_> {
     fn dim(&self) -> usize {

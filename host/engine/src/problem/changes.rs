@@ -1,9 +1,8 @@
 //! By how much the errors of models near one differ from its own, handed over as they come: of an hour's recording, a column
 //! for each of them would be larger than the recording.
 
-use super::cost::FitProblem;
-use super::course::legs;
-use super::simulate::Candidate;
+use super::fit_problem::FitProblem;
+use crate::simulation::{Candidate, legs};
 use shared::cost::Cost;
 
 /// What changes are counted from.

@@ -1,7 +1,7 @@
 //! The errors of a block of samples, a stride at a time.
 
+use super::held::{Ahead, Place, STRIDE, Span};
 use crate::lanes::with_vectors;
-use crate::problem::held::{Ahead, Place, STRIDE, Span};
 
 /// A motor under a command.
 pub(super) struct Motion<'m> {

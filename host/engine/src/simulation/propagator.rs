@@ -1,8 +1,6 @@
 //! Models run along the data: one candidate's, or those of several abreast.
 
-use super::cost::{Horizon, StartAngle};
-use super::data::Data;
-use super::simulate::Candidate;
+use crate::data::Data;
 use shared::model::{Model, Seen, State};
 use shared::scalar::{Mask, Scalar};
 use std::ops::Range;
@@ -27,54 +25,6 @@ pub enum Manner<'a> {
         /// Position within the revolution, one entry a sample.
         turns: &'a [f64],
     },
-}
-
-/// A part of the recording that a model runs through on its own.
-#[derive(Clone, Debug)]
-pub struct Leg {
-    /// Its samples.
-    pub range: Range<usize>,
-    /// What the encoder sees at its first one, counts.
-    pub angle: f64,
-    /// Speed there, rad/s.
-    pub speed: f64,
-}
-
-/// The whole of the data for a candidate.
-pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Leg {
-    let angle = match start_angle {
-        StartAngle::Known => data.counts[0],
-        StartAngle::Free => data.centre(0) + candidate.start_offset,
-    };
-    Leg {
-        range: 0..data.len(),
-        angle,
-        speed: candidate.start_speed,
-    }
-}
-
-/// The legs of a horizon for a candidate.
-pub fn legs(
-    data: &Data,
-    candidate: &Candidate,
-    horizon: &Horizon,
-    start_angle: StartAngle,
-) -> Vec<Leg> {
-    match horizon {
-        Horizon::Whole => vec![whole(data, candidate, start_angle)],
-        Horizon::Nudged(_) => vec![Leg {
-            angle: data.centre(0),
-            ..whole(data, candidate, start_angle)
-        }],
-        Horizon::Windows(windows) => {
-            let leg = |window: &super::cost::Window| Leg {
-                range: window.range.clone(),
-                angle: data.centre(window.range.start),
-                speed: window.speed,
-            };
-            windows.iter().map(leg).collect()
-        }
-    }
 }
 
 /// The data, and a model for each length of interval in it.

@@ -1,10 +1,10 @@
 //! Sums over the samples of a path, side by side in lanes.
 
-use super::{Block, Piece, SLACK};
+use super::blocks::{Block, Piece, SLACK};
+use super::held::{BEGINS, Begins, Held, Place, STRIDE};
+use super::settling::Settling;
+use crate::data::Data;
 use crate::lanes::{LANES, Lanes, Token, Work, work};
-use crate::problem::data::Data;
-use crate::problem::held::{BEGINS, Begins, Held, Place, STRIDE};
-use crate::problem::settling::Settling;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::scalar::Scalar;
 

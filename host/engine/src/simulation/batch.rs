@@ -4,9 +4,11 @@
 //! them it is halved for all. So a lane may be a little finer than the same candidate run alone; bitwise the same
 //! where no such choice arises.
 
-use super::course::{Course, Leg, Manner};
-use super::data::Data;
-use super::simulate::{Candidate, Method, Simulation};
+use super::candidate::{Candidate, Method};
+use super::propagator::{Course, Manner};
+use super::segment::Leg;
+use super::single::Simulation;
+use crate::data::Data;
 use crate::lanes::{LANES, Lanes, Token, Work, work};
 use shared::effects::Kind;
 use shared::model::{Model, State};

@@ -227,11 +227,6 @@ impl Held {
         &self.spans[OF_BEGINS]
     }
 
-    /// The spans from a stride on.
-    pub fn strides(&self) -> &[Span] {
-        &self.spans[OF_STRIDE..]
-    }
-
     /// Where a command leads in so many samples, and what their angles sum to.
     #[inline(always)]
     pub fn lead(&self, from: Place, command: f64, samples: usize) -> (Place, Summed) {

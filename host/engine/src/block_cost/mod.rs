@@ -1,60 +1,39 @@
 //! The cost of a linear motor whose commands are held for long: many samples at a time, and no more of them than
 //! show that the cost is above a limit.
 //!
-//! The angles of [`held`](super::held)'s strides come side by side in lanes. Where the transient has died away
+//! The angles of `held`'s strides come side by side in lanes. Where the transient has died away
 //! only a line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
 //! that follows from where the block begins. Whoever only compares costs loses nothing by it.
 
+mod blocks;
 mod errors;
+mod held;
+mod settling;
 mod sum;
 
-use super::compress::Compress;
-use super::cost::reading_shift;
-use super::course::whole;
-use super::data::Data;
-use super::held::{Ahead, Held, Place, STRIDE, STRIDES, Summed};
-use super::simulate::Candidate;
-use super::{FitProblem, Horizon, StartAngle};
+use crate::problem::FitProblem;
+use crate::problem::compress::Compress;
+use crate::problem::residuals::reading_shift;
+use crate::simulation::{Candidate, Horizon, StartAngle, whole};
 use crate::solve::{Compressed, Objective, Tangent};
+use blocks::{BLOCK, Block, Piece, SLACK, blocks};
 use errors::{Motion, errors};
+use held::{Ahead, Held, Place, Summed};
 use shared::cost::Cost;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::model::Increments;
-use std::ops::Range;
 use sum::{Floored, Plain, Squares, Sum};
 
-/// Fewest samples that a command must be held for, on average.
-const HELD: usize = 2 * STRIDE;
-/// Samples of a block.
-const BLOCK: usize = STRIDE * STRIDES;
 /// Rounding of a sum of a block, as a part of what is added up.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Most that an angle which is summed may lack of a transient that has died away, counts, and what rounding loses of a line.
 const LEFT_OUT_COUNTS: f64 = 1e-9;
-/// Rounding of a whole cost, as a part of it.
-const SLACK: f64 = 1e-9;
 
 /// A problem with a quicker cost.
 pub struct Quick<'a> {
     problem: &'a FitProblem<'a>,
     /// Where it can be had: on even samples, driven throughout by commands that are held.
     blocks: Option<Vec<Block>>,
-}
-
-/// Samples under one command.
-struct Block {
-    range: Range<usize>,
-    command: f64,
-    /// Sum of the readings.
-    readings: f64,
-}
-
-/// A block of a motor's course.
-struct Piece {
-    /// Where it begins.
-    place: Place,
-    /// The block costs no less.
-    least: f64,
 }
 
 impl<'a> Quick<'a> {
@@ -267,26 +246,4 @@ impl Compressed for Quick<'_> {
         let tangent = self.held_tangent(&candidates);
         tangent.or_else(|| self.problem.tangent(x, moved))
     }
-}
-
-/// The blocks of data whose commands are held; `None` where they change too often.
-fn blocks(data: &Data) -> Option<Vec<Block>> {
-    let mut blocks = Vec::new();
-    let (mut from, mut stretches) = (0, 0);
-    while from < data.len() {
-        let command = data.command[from];
-        let held = data.command[from..].iter().take_while(|c| **c == command);
-        let to = from + held.count().max(1);
-        for begin in (from..to).step_by(BLOCK) {
-            let range = begin..(begin + BLOCK).min(to);
-            blocks.push(Block {
-                readings: data.counts[range.clone()].iter().sum(),
-                command,
-                range,
-            });
-        }
-        stretches += 1;
-        from = to;
-    }
-    (data.len() >= HELD * stretches).then_some(blocks)
 }

@@ -1,53 +1,14 @@
 //! One candidate, run along the data.
 
-use super::course::{Course, Leg, Manner};
-use super::data::Data;
+use super::candidate::{Candidate, Method};
+use super::propagator::{Course, Manner};
+use super::segment::Leg;
+use crate::data::Data;
 use crate::lanes::with_vectors;
-use shared::discretise::Discretisation;
-use shared::effects::EffectSet;
 use shared::error::ModelError;
 use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
 use std::ops::Range;
-
-/// A model with all its numbers, in SI.
-#[derive(Clone, Copy, Debug)]
-pub struct Candidate {
-    /// The linear machine.
-    pub machine: Machine<f64>,
-    /// Effects with their parameters.
-    pub effects: EffectSet<f64>,
-    /// Speed at the first sample, rad/s.
-    pub start_speed: f64,
-    /// Angle at the first sample from the middle of its cell, counts. It matters where effects depend on
-    /// the angle; elsewhere the best shift of the whole run does the same.
-    pub start_offset: f64,
-}
-
-impl Candidate {
-    /// Whether an effect depends on the absolute angle.
-    pub fn needs_angle(&self) -> bool {
-        self.effects.iter().any(|(kind, _)| kind.needs().angle)
-    }
-}
-
-/// How a candidate is run.
-#[derive(Clone, Copy, Debug)]
-pub struct Method {
-    /// Exact, or the paper's Euler step.
-    pub discretisation: Discretisation,
-    /// Steps to a sample interval where there are effects.
-    pub substeps: u16,
-}
-
-impl Default for Method {
-    fn default() -> Self {
-        Method {
-            discretisation: Discretisation::Exact,
-            substeps: 1,
-        }
-    }
-}
 
 /// Samples that are run at a time.
 const SOME: usize = 1024;
