@@ -1,7 +1,7 @@
 //! Residuals compressed while they come say what all of them together say, and a search led by them ends at the same place.
 #![forbid(unsafe_code)]
 
-use host::block_cost::Quick;
+use host::block_cost::BlockCost;
 use host::fit::{self, Options};
 use host::problem::{About, Candidate, Data, FitProblem, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
@@ -215,7 +215,7 @@ fn what_is_compressed_is_what_all_residuals_say() {
                     check_stream(&problem, &x, &label);
                     check(
                         &problem,
-                        &Quick::new(&problem),
+                        &BlockCost::new(&problem),
                         &x,
                         &format!("{label}, quick"),
                     );
@@ -264,7 +264,7 @@ fn a_search_led_by_them_ends_at_the_same_place() {
                 };
                 let label = format!("seed {seed}, {commands:?}, {effects:?}");
                 let listed = search(&Listed(&problem));
-                let quick = search(&Quick::new(&problem));
+                let quick = search(&BlockCost::new(&problem));
                 let apart = quick.cost / listed.cost - 1.0;
                 assert!(apart < 1e-6, "{label}: {} and {}", quick.cost, listed.cost);
                 assert!(quick.evaluations <= listed.evaluations + 40, "{label}");

@@ -1,7 +1,7 @@
 //! Quicker costs are the costs, and whoever only compares them decides the same.
 #![forbid(unsafe_code)]
 
-use host::block_cost::Quick;
+use host::block_cost::BlockCost;
 use host::paper::{BOX, Experiment, Variant, paper_problem};
 use host::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use host::recording::{Drive, Recording};
@@ -124,7 +124,7 @@ fn same(a: f64, b: f64) -> bool {
 fn a_quick_cost_is_the_cost() {
     let (mut checked, mut most) = (0, 0.0f64);
     everywhere(|problem, x, label| {
-        let quick = Quick::new(problem);
+        let quick = BlockCost::new(problem);
         let (plain, quick) = (problem.cost(x), quick.cost(x));
         // A floored error of nearly a whole count may fall to either side.
         let floored = problem.cost == COSTS[1];
@@ -154,7 +154,7 @@ fn motors_in_the_corners_of_the_box_cost_the_same() {
     let mut finite = 0;
     for variant in Variant::all() {
         let problem = paper_problem(&data, variant, BOX);
-        let quick = Quick::new(&problem);
+        let quick = BlockCost::new(&problem);
         for corner in 0..1 << problem.dim() {
             let x: Vec<f64> = (0..problem.dim())
                 .map(|k| f64::from(corner >> k & 1))
@@ -181,7 +181,7 @@ fn motors_in_the_corners_of_the_box_cost_the_same() {
 fn problems_with_held_commands_are_quick() {
     let data = data(1, true);
     for cost in COSTS {
-        assert!(Quick::new(&problem(&data, cost, StartAngle::Known, false)).helps());
+        assert!(BlockCost::new(&problem(&data, cost, StartAngle::Known, false)).helps());
     }
 }
 
@@ -189,7 +189,7 @@ fn problems_with_held_commands_are_quick() {
 #[test]
 fn a_limit_changes_nothing_below_it() {
     everywhere(|problem, x, label| {
-        let quick = Quick::new(problem);
+        let quick = BlockCost::new(problem);
         let cost = quick.cost(x);
         for part in [0.0, 0.3, 0.9, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.1, 1e3] {
             let limit = cost * part;
@@ -205,7 +205,7 @@ fn a_limit_changes_nothing_below_it() {
 }
 
 /// The same costs, always in full.
-struct Full<'a>(Quick<'a>);
+struct Full<'a>(BlockCost<'a>);
 
 impl Objective for Full<'_> {
     fn dim(&self) -> usize {
@@ -248,8 +248,8 @@ fn whoever_only_compares_costs_decides_the_same() {
     for (number, problem) in problems.iter().enumerate() {
         for solver in &solvers {
             for seed in 0..SEEDS {
-                let cut = search(solver.as_ref(), &Quick::new(problem), seed);
-                let full = search(solver.as_ref(), &Full(Quick::new(problem)), seed);
+                let cut = search(solver.as_ref(), &BlockCost::new(problem), seed);
+                let full = search(solver.as_ref(), &Full(BlockCost::new(problem)), seed);
                 let label = format!("problem {number}, {}, seed {seed}", solver.name());
                 assert_eq!(cut.x, full.x, "{label}");
                 assert_eq!(cut.curve, full.curve, "{label}");

@@ -2,7 +2,7 @@
 
 use super::clock;
 use super::effects::{INTERVAL_S, candidate, data};
-use servoid_engine::block_cost::Quick;
+use servoid_engine::block_cost::BlockCost;
 use servoid_engine::problem::{self, Data, Horizon, StartAngle};
 use servoid_engine::simulation::Method;
 use servoid_engine::solve::{self, Objective};
@@ -56,7 +56,7 @@ pub fn rows() {
         let per_sample = |work: &dyn Fn() -> f64| clock::least(work) * 1e9 / samples as f64;
         let options = Options::default();
         let problem = fit::problem(&data, &options).expect("a start");
-        let quick = Quick::new(&problem);
+        let quick = BlockCost::new(&problem);
         let start = problem.start.clone().expect("a start");
         let coulomb = candidate(&data, &[Kind::Coulomb], 0.0);
         let friction = per_sample(&|| {

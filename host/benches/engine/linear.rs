@@ -1,7 +1,7 @@
 //! The linear motor on the paper's step of 10,000 samples: one cost, searches, and the paper's comparison.
 
 use super::{clock, euler};
-use servoid_engine::block_cost::Quick;
+use servoid_engine::block_cost::BlockCost;
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::{self, Evaluator, Found, Objective, Solver, swarm::ParticleSwarm};
@@ -37,7 +37,7 @@ pub fn rows() {
     let data = STEP.record().expect("the paper's step");
     let variant = Variant::all().next().expect("a variant");
     let problem = paper::paper_problem(&data, variant, BOX);
-    let quick = Quick::new(&problem);
+    let quick = BlockCost::new(&problem);
     let mut generator = rng::seeded(1);
     let points: Vec<Vec<f64>> = (0..CANDIDATES)
         .map(|_| {
@@ -81,7 +81,7 @@ pub fn rows() {
 }
 
 /// The same costs, always in full.
-struct Full<'a>(Quick<'a>);
+struct Full<'a>(BlockCost<'a>);
 
 impl Objective for Full<'_> {
     fn dim(&self) -> usize {
@@ -104,7 +104,7 @@ fn swarm(problem: &FitProblem<'_>, reference: f64) {
         swarm.search(&mut evaluator, 1);
         evaluator.finish()
     };
-    let (cut, full) = (Quick::new(problem), Full(Quick::new(problem)));
+    let (cut, full) = (BlockCost::new(problem), Full(BlockCost::new(problem)));
     let (found, other) = (search(&cut), search(&full));
     let same = found.x == other.x && found.curve == other.curve;
     let whole = reference * found.evaluations as f64;

@@ -2,7 +2,7 @@
 //! A single run proves nothing (the spread over seeds is often a factor of five), so every figure is
 //! a median with its spread.
 
-use crate::block_cost::Quick;
+use crate::block_cost::BlockCost;
 use crate::problem::FitProblem;
 use crate::solve::{Evaluator, Found, Solver};
 use rayon::prelude::*;
@@ -41,7 +41,7 @@ pub fn run(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Row> {
-    let quick = Quick::new(contest.problem);
+    let quick = BlockCost::new(contest.problem);
     solvers
         .iter()
         .map(|solver| {

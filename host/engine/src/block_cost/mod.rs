@@ -30,13 +30,13 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const LEFT_OUT_COUNTS: f64 = 1e-9;
 
 /// A problem with a quicker cost.
-pub struct Quick<'a> {
+pub struct BlockCost<'a> {
     problem: &'a FitProblem<'a>,
     /// Where it can be had: on even samples, driven throughout by commands that are held.
     blocks: Option<Vec<Block>>,
 }
 
-impl<'a> Quick<'a> {
+impl<'a> BlockCost<'a> {
     /// Looks for commands that are held.
     pub fn new(problem: &'a FitProblem<'a>) -> Self {
         let data = problem.data;
@@ -48,7 +48,7 @@ impl<'a> Quick<'a> {
         let even = data.lengths == [1.0] && !data.coasts() && problem.horizon == Horizon::Whole;
         let apt = summed && even && problem.structure.effects.is_empty();
         let blocks = apt.then(|| blocks(data)).flatten();
-        Quick { problem, blocks }
+        BlockCost { problem, blocks }
     }
 
     /// Whether costs are quicker here than sample by sample.
@@ -155,7 +155,7 @@ impl<'a> Quick<'a> {
     }
 }
 
-impl Objective for Quick<'_> {
+impl Objective for BlockCost<'_> {
     fn dim(&self) -> usize {
         self.problem.dim()
     }
@@ -186,14 +186,14 @@ impl Objective for Quick<'_> {
     }
 }
 
-impl Quick<'_> {
+impl BlockCost<'_> {
     fn candidate(&self, x: &[f64]) -> Candidate {
         let structure = &self.problem.structure;
         structure.candidate(&structure.values(x))
     }
 
     /// The tangent at a model; `None` where a model must be run sample by sample.
-    fn held_tangent(&self, candidates: &[Candidate]) -> Option<Tangent> {
+    fn closed_form_tangent(&self, candidates: &[Candidate]) -> Option<Tangent> {
         let problem = self.problem;
         let courses: Vec<(Held, Vec<Piece>, f64)> = candidates
             .iter()
@@ -232,7 +232,7 @@ impl Quick<'_> {
     }
 }
 
-impl Compressed for Quick<'_> {
+impl Compressed for BlockCost<'_> {
     fn squares_and_cost(&self, x: &[f64]) -> Option<(f64, f64)> {
         match self.held(&self.candidate(x), f64::INFINITY) {
             Some(cost) => Some((cost / self.problem.weight, cost)),
@@ -243,7 +243,7 @@ impl Compressed for Quick<'_> {
     fn tangent(&self, x: &[f64], moved: &[Vec<f64>]) -> Option<Tangent> {
         let points = std::iter::once(x).chain(moved.iter().map(|x| &x[..]));
         let candidates: Vec<Candidate> = points.map(|x| self.candidate(x)).collect();
-        let tangent = self.held_tangent(&candidates);
+        let tangent = self.closed_form_tangent(&candidates);
         tangent.or_else(|| self.problem.tangent(x, moved))
     }
 }

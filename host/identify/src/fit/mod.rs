@@ -16,7 +16,7 @@ mod validate;
 
 use crate::error::Error;
 use regression::Guess;
-use servoid_engine::block_cost::Quick;
+use servoid_engine::block_cost::BlockCost;
 use servoid_engine::problem::Horizon;
 use servoid_engine::problem::{Base, Data, FitProblem, StartAngle, Structure};
 use servoid_engine::simulation::Method;
@@ -200,7 +200,7 @@ impl Starts<'_> {
         let FitProblem {
             data, structure, ..
         } = &self.problem;
-        let quick = Quick::new(&self.problem);
+        let quick = BlockCost::new(&self.problem);
         let speed_now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
             * core::f64::consts::TAU;
         let start = |guess: &Guess| {
@@ -258,7 +258,7 @@ pub fn search(
     stop: &AtomicBool,
     observer: &mut dyn FnMut(usize, f64),
 ) -> Found {
-    let quick = Quick::new(problem);
+    let quick = BlockCost::new(problem);
     let mut evaluator = Evaluator::new(&quick, options.budget, stop, observer);
     solver.search(&mut evaluator, options.seed);
     if solver.name() == "lm" && problem.cost != Cost::Squared {
