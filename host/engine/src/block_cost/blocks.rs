@@ -1,15 +1,15 @@
 //! The blocks of a recording: samples under one command.
 
-use super::held::{Place, STRIDE, STRIDES};
+use super::zero_order_hold::{LinearState, STRIDE, STRIDES};
 use crate::data::Data;
 use std::ops::Range;
 
 /// Fewest samples that a command must be held for, on average.
-const HELD: usize = 2 * STRIDE;
+const MEAN_HOLD: usize = 2 * STRIDE;
 /// Samples of a block.
 pub(super) const BLOCK: usize = STRIDE * STRIDES;
 /// Rounding of a whole cost, as a part of it.
-pub(super) const SLACK: f64 = 1e-9;
+pub(super) const COST_ROUNDING: f64 = 1e-9;
 
 /// Samples under one command.
 pub(super) struct Block {
@@ -22,9 +22,9 @@ pub(super) struct Block {
 }
 
 /// A block of a motor's course.
-pub(super) struct Piece {
+pub(super) struct BlockPath {
     /// Where it begins.
-    pub(super) place: Place,
+    pub(super) motor: LinearState,
     /// The block costs no less.
     pub(super) least: f64,
 }
@@ -48,5 +48,5 @@ pub(super) fn blocks(data: &Data) -> Option<Vec<Block>> {
         stretches += 1;
         from = to;
     }
-    (data.len() >= HELD * stretches).then_some(blocks)
+    (data.len() >= MEAN_HOLD * stretches).then_some(blocks)
 }

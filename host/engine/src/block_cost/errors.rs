@@ -1,6 +1,6 @@
 //! The errors of a block of samples, a stride at a time.
 
-use super::held::{Ahead, Place, STRIDE, Span};
+use super::zero_order_hold::{LinearState, STRIDE, Span, StrideAngles};
 use crate::lanes::with_vectors;
 
 /// A motor under a command.
@@ -8,21 +8,26 @@ pub(super) struct Motion<'m> {
     /// What a stride adds.
     pub(super) stride: &'m Span,
     /// The angles in it.
-    pub(super) ahead: &'m Ahead,
+    pub(super) ahead: &'m StrideAngles,
     /// The command.
     pub(super) command: f64,
 }
 
-/// Model minus reading at each of the samples of a block that begins at a place, counts.
-pub(super) fn errors(motion: &Motion<'_>, place: Place, readings: &[f64], errors: &mut [f64]) {
+/// Model minus reading at each of the samples of a block that begins at a motor, counts.
+pub(super) fn errors(
+    motion: &Motion<'_>,
+    motor: LinearState,
+    readings: &[f64],
+    errors: &mut [f64],
+) {
     with_vectors(
         #[inline(always)]
-        || of_block(motion, place, readings, errors),
+        || of_block(motion, motor, readings, errors),
     );
 }
 
 #[inline(always)]
-fn of_block(motion: &Motion<'_>, mut place: Place, readings: &[f64], errors: &mut [f64]) {
+fn of_block(motion: &Motion<'_>, mut motor: LinearState, readings: &[f64], errors: &mut [f64]) {
     let (ahead, command) = (motion.ahead, motion.command);
     let [by_current, by_speed] = &ahead.by_state;
     let mut driven = ahead.by_command;
@@ -32,14 +37,14 @@ fn of_block(motion: &Motion<'_>, mut place: Place, readings: &[f64], errors: &mu
     let (strides, rest) = errors.as_chunks_mut::<STRIDE>();
     let (read, last) = readings.as_chunks::<STRIDE>();
     for (errors, readings) in strides.iter_mut().zip(read) {
-        let Place { state, angle } = place;
+        let LinearState { state, angle } = motor;
         for k in 0..STRIDE {
             let turned = by_current[k] * state[0] + by_speed[k] * state[1];
             errors[k] = ((driven[k] + angle) - readings[k]) + turned;
         }
-        place = motion.stride.on(place, command);
+        motor = motion.stride.advance(motor, command);
     }
-    let Place { state, angle } = place;
+    let LinearState { state, angle } = motor;
     for (k, (error, reading)) in rest.iter_mut().zip(last).enumerate() {
         let turned = by_current[k] * state[0] + by_speed[k] * state[1];
         *error = ((driven[k] + angle) - reading) + turned;

@@ -7,27 +7,27 @@
 
 mod blocks;
 mod errors;
-mod held;
 mod settling;
 mod sum;
+mod zero_order_hold;
 
 use crate::problem::FitProblem;
 use crate::problem::compress::Compress;
 use crate::problem::residuals::reading_shift;
 use crate::simulation::{Candidate, Horizon, StartAngle, whole};
 use crate::solve::{Compressed, Objective, Tangent};
-use blocks::{BLOCK, Block, Piece, SLACK, blocks};
+use blocks::{BLOCK, Block, BlockPath, COST_ROUNDING, blocks};
 use errors::{Motion, errors};
-use held::{Ahead, Held, Place, Summed};
 use shared::cost::Cost;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::model::Increments;
 use sum::{Floored, Plain, Squares, Sum};
+use zero_order_hold::{AngleSum, HoldResponse, LinearState, StrideAngles};
 
 /// Rounding of a sum of a block, as a part of what is added up.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Most that an angle which is summed may lack of a transient that has died away, counts, and what rounding loses of a line.
-const LEFT_OUT_COUNTS: f64 = 1e-9;
+const TRUNCATION_COUNTS: f64 = 1e-9;
 
 /// A problem with a quicker cost.
 pub struct BlockCost<'a> {
@@ -62,7 +62,7 @@ impl<'a> BlockCost<'a> {
     }
 
     fn cost_of_within(&self, candidate: &Candidate, limit: f64) -> f64 {
-        self.held(candidate, limit)
+        self.closed_form_cost(candidate, limit)
             .unwrap_or_else(|| self.problem.cost_of(candidate))
     }
 
@@ -70,37 +70,41 @@ impl<'a> BlockCost<'a> {
     /// costs at least. `None` where it must be run sample by sample.
     // Inlined, as a motor is large to be handed on.
     #[inline(always)]
-    fn course(&self, candidate: &Candidate, limit: f64) -> Option<(Held, Vec<Piece>, f64)> {
+    fn path(
+        &self,
+        candidate: &Candidate,
+        limit: f64,
+    ) -> Option<(HoldResponse, Vec<BlockPath>, f64)> {
         let blocks = self.blocks.as_ref()?;
         let problem = self.problem;
         let data = problem.data;
         // A model that cannot run says so where it is summed sample by sample.
         let discretisation = problem.method.discretisation;
         let step = Increments::of(&candidate.machine, &data.units, discretisation).ok()?;
-        let held = Held::new(&step)?;
+        let hold = HoldResponse::new(&step)?;
         let leg = whole(data, candidate, problem.start_angle);
-        let start = Place {
+        let start = LinearState {
             state: [0.0, leg.speed / data.units.speed],
             angle: leg.angle + reading_shift(data),
         };
-        let (pieces, least) = self.pieces(blocks, &held, start, limit);
-        Some((held, pieces, least))
+        let (paths, least) = self.paths(blocks, &hold, start, limit);
+        Some((hold, paths, least))
     }
 
     /// The cost, or more than `limit` where that is less; `None` where it must be summed sample by sample.
-    fn held(&self, candidate: &Candidate, limit: f64) -> Option<f64> {
+    fn closed_form_cost(&self, candidate: &Candidate, limit: f64) -> Option<f64> {
         let problem = self.problem;
         let data = problem.data;
         let limit = limit / problem.weight;
-        let (held, pieces, least) = self.course(candidate, limit)?;
-        if least * (1.0 - SLACK) > limit {
+        let (hold, paths, least) = self.path(candidate, limit)?;
+        if least * (1.0 - COST_ROUNDING) > limit {
             return Some(least * problem.weight);
         }
         let run = Sum {
             data,
-            held: &held,
+            hold: &hold,
             blocks: self.blocks.as_ref()?,
-            pieces: &pieces,
+            paths: &paths,
             least,
             limit,
         };
@@ -124,31 +128,38 @@ impl<'a> BlockCost<'a> {
         sum.is_finite().then_some(sum * problem.weight)
     }
 
-    /// The pieces of a motor's course, as far as needed to see that the cost is above `limit`, and the least cost.
-    fn pieces(&self, blocks: &[Block], held: &Held, start: Place, limit: f64) -> (Vec<Piece>, f64) {
-        let mut pieces: Vec<Piece> = Vec::with_capacity(blocks.len());
-        let (mut place, mut total) = (start, 0.0);
+    /// The paths of a motor's course, as far as needed to see that the cost is above `limit`, and the least cost.
+    fn paths(
+        &self,
+        blocks: &[Block],
+        hold: &HoldResponse,
+        start: LinearState,
+        limit: f64,
+    ) -> (Vec<BlockPath>, f64) {
+        let mut paths: Vec<BlockPath> = Vec::with_capacity(blocks.len());
+        let (mut motor, mut total) = (start, 0.0);
         for block in blocks {
-            let (to, summed) = held.lead(place, block.command, block.range.len());
-            let least = self.least(block, summed);
+            let (to, angle_sum) = hold.advance(motor, block.command, block.range.len());
+            let least = self.lower_bound(block, angle_sum);
             total += least;
-            pieces.push(Piece { place, least });
-            if total * (1.0 - SLACK) > limit {
+            paths.push(BlockPath { motor, least });
+            if total * (1.0 - COST_ROUNDING) > limit {
                 break;
             }
-            place = to;
+            motor = to;
         }
-        (pieces, total)
+        (paths, total)
     }
 
     /// A block costs at least this: its errors' sum, however they are spread.
-    fn least(&self, block: &Block, angles: Summed) -> f64 {
+    fn lower_bound(&self, block: &Block, angles: AngleSum) -> f64 {
         let Cost::Absolute { model_floored } = self.problem.cost else {
             return 0.0;
         };
         let samples = block.range.len() as f64;
         let sum = angles.sum - block.readings;
-        let lost = ROUNDING * (angles.terms + block.readings.abs()) + LEFT_OUT_COUNTS * samples;
+        let lost =
+            SUM_ROUNDING * (angles.terms + block.readings.abs()) + TRUNCATION_COUNTS * samples;
         // Rounded down, an error is less by up to one.
         let above = if model_floored { sum - samples } else { sum };
         (above.max(-sum) - lost).max(0.0)
@@ -195,25 +206,28 @@ impl BlockCost<'_> {
     /// The tangent at a model; `None` where a model must be run sample by sample.
     fn closed_form_tangent(&self, candidates: &[Candidate]) -> Option<Tangent> {
         let problem = self.problem;
-        let courses: Vec<(Held, Vec<Piece>, f64)> = candidates
+        let motions: Vec<(HoldResponse, Vec<BlockPath>, f64)> = candidates
             .iter()
-            .map(|candidate| self.course(candidate, f64::INFINITY))
+            .map(|candidate| self.path(candidate, f64::INFINITY))
             .collect::<Option<_>>()?;
         let zero = (problem.start_angle == StartAngle::Known).then_some(FLOOR_OFFSET_COUNTS);
         let mut compress = Compress::new(candidates.len() - 1, zero);
-        let aheads: Vec<Ahead> = courses.iter().map(|(held, ..)| held.ahead()).collect();
+        let aheads: Vec<StrideAngles> = motions
+            .iter()
+            .map(|(hold, ..)| hold.stride_angles())
+            .collect();
         let mut some = vec![[0.0; BLOCK]; candidates.len()];
         for (number, block) in self.blocks.as_ref()?.iter().enumerate() {
             let readings = &problem.data.counts[block.range.clone()];
-            for (((held, pieces, _), ahead), some) in courses.iter().zip(&aheads).zip(&mut some) {
+            for (((hold, paths, _), ahead), some) in motions.iter().zip(&aheads).zip(&mut some) {
                 let motion = Motion {
-                    stride: held.stride(),
+                    stride: hold.stride(),
                     ahead,
                     command: block.command,
                 };
                 errors(
                     &motion,
-                    pieces[number].place,
+                    paths[number].motor,
                     readings,
                     &mut some[..readings.len()],
                 );
@@ -234,7 +248,7 @@ impl BlockCost<'_> {
 
 impl Compressed for BlockCost<'_> {
     fn squares_and_cost(&self, x: &[f64]) -> Option<(f64, f64)> {
-        match self.held(&self.candidate(x), f64::INFINITY) {
+        match self.closed_form_cost(&self.candidate(x), f64::INFINITY) {
             Some(cost) => Some((cost / self.problem.weight, cost)),
             None => self.problem.squares_and_cost(x),
         }

@@ -3,7 +3,9 @@
 //! The state less where it tends to, `d`, obeys `d(k+1) = (I + E)·d(k)`, so that `θ(k) = level + slope·k + z(k)` with
 //! `z = P·d` and `P = T·E⁻¹`, `T` being what a step's angle takes of the state.
 
-use super::held::{Ahead, Held, Matrix, Pair, Place, across, determinant, dot, times};
+use super::zero_order_hold::{
+    HoldResponse, LinearState, Matrix, Pair, StrideAngles, determinant, dot, row_times, times,
+};
 
 /// Error of an angle that is allowed, counts. Of a motor whose modes are so slow that line and transient are large numbers
 /// whose difference may have lost more, there is no path.
@@ -39,8 +41,8 @@ pub struct Path {
 impl Settling {
     /// `None` for motors that do not settle.
     #[inline(always)]
-    pub fn new(held: &Held, ahead: &Ahead) -> Option<Self> {
-        let step = held.step();
+    pub fn new(hold: &HoldResponse, ahead: &StrideAngles) -> Option<Self> {
+        let step = hold.step();
         let e = step.state;
         let det = determinant(&e);
         if det.is_nan() || det.abs() <= f64::MIN_POSITIVE {
@@ -50,7 +52,7 @@ impl Settling {
             [e[1][1] / det, -e[0][1] / det],
             [-e[1][0] / det, e[0][0] / det],
         ];
-        let transient = across(step.angle, &inverse);
+        let transient = row_times(step.angle, &inverse);
         let mut settling = Settling {
             inverse,
             by_command: (step.state_by_command, step.angle_by_command),
@@ -74,9 +76,9 @@ impl Settling {
         Some(settling)
     }
 
-    /// The path from a place under a command; `None` where rounding may tell.
+    /// The path from a motor under a command; `None` where rounding may tell.
     #[inline(always)]
-    pub fn path(&self, from: &Place, command: f64) -> Option<Path> {
+    pub fn path(&self, from: &LinearState, command: f64) -> Option<Path> {
         let (state_by, angle_by) = self.by_command;
         let rest = times(&self.inverse, state_by.map(|by| by * command)).map(|x| -x);
         let off = [from.state[0] - rest[0], from.state[1] - rest[1]];

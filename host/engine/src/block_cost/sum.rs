@@ -1,8 +1,8 @@
 //! Sums over the samples of a path, side by side in lanes.
 
-use super::blocks::{Block, Piece, SLACK};
-use super::held::{BEGINS, Begins, Held, Place, STRIDE};
+use super::blocks::{Block, BlockPath, COST_ROUNDING};
 use super::settling::Settling;
+use super::zero_order_hold::{HoldResponse, LinearState, STARTS, STRIDE, StrideStarts};
 use crate::data::Data;
 use crate::lanes::{LANES, Lanes, Token, Work, work};
 use shared::encoder::FLOOR_OFFSET_COUNTS;
@@ -13,7 +13,7 @@ const SETTLED_COUNTS: f64 = 1e-10;
 /// Lanes to a stride.
 const ROWS: usize = STRIDE / LANES;
 
-/// What is summed over the errors, as [`Cost::sample`](shared::cost::Cost::sample) has it.
+/// What is angle_sum over the errors, as [`Cost::sample`](shared::cost::Cost::sample) has it.
 pub(super) trait Summand: Copy {
     /// Sums to keep.
     const SUMS: usize;
@@ -57,16 +57,16 @@ impl Summand for Squares {
     }
 }
 
-/// A path to be summed over.
+/// A path to be angle_sum over.
 pub(super) struct Sum<'s> {
     /// The data.
     pub(super) data: &'s Data,
     /// The motor.
-    pub(super) held: &'s Held,
-    /// Where commands are held,
+    pub(super) hold: &'s HoldResponse,
+    /// Where commands are hold,
     pub(super) blocks: &'s [Block],
     /// and the motor's path there.
-    pub(super) pieces: &'s [Piece],
+    pub(super) paths: &'s [BlockPath],
     /// All blocks together cost no less.
     pub(super) least: f64,
     /// More than this is as good as any.
@@ -90,23 +90,23 @@ impl<C: Summand> Work for Summing<'_, '_, C> {
         let run = self.0;
         let zero = Lanes::<T, M>::default();
         let mut sums = [[zero; 2]; ROWS];
-        let ahead = run.held.ahead();
+        let ahead = run.hold.stride_angles();
         let motion = Motion {
             zero,
             by_current: rows(zero, &ahead.by_state[0]),
             by_speed: rows(zero, &ahead.by_state[1]),
             by_command: rows(zero, &ahead.by_command),
-            begins: Abreast::new(zero, &run.held.begins()),
-            settling: Settling::new(run.held, &ahead),
+            begins: Abreast::new(zero, &run.hold.stride_starts()),
+            settling: Settling::new(run.hold, &ahead),
         };
         let mut rest = run.least;
-        for (block, piece) in run.blocks.iter().zip(run.pieces) {
+        for (block, path) in run.blocks.iter().zip(run.paths) {
             let readings = &run.data.counts[block.range.clone()];
-            run.block::<T, M, C>(&motion, piece.place, block.command, readings, &mut sums);
-            rest -= piece.least;
+            run.block::<T, M, C>(&motion, path.motor, block.command, readings, &mut sums);
+            rest -= path.least;
             if C::SUMS == 1 {
                 let sum = total(&sums, 0);
-                if (sum + rest) * (1.0 - SLACK) > run.limit {
+                if (sum + rest) * (1.0 - COST_ROUNDING) > run.limit {
                     return [sum + rest, 0.0];
                 }
             }
@@ -156,7 +156,7 @@ struct Abreast<T: Token, const M: usize> {
 
 impl<T: Token, const M: usize> Abreast<T, M> {
     #[inline(always)]
-    fn new(like: Lanes<T, M>, begins: &Begins) -> Self {
+    fn new(like: Lanes<T, M>, begins: &StrideStarts) -> Self {
         let two = |[a, b]: [[f64; LANES]; 2]| [like.each_like(a), like.each_like(b)];
         Abreast {
             state: [two(begins.state[0]), two(begins.state[1])],
@@ -168,7 +168,7 @@ impl<T: Token, const M: usize> Abreast<T, M> {
 
     /// The places of a motor: currents, speeds and angles.
     #[inline(always)]
-    fn places(&self, Place { state, angle }: Place, command: f64) -> [[f64; LANES]; 3] {
+    fn places(&self, LinearState { state, angle }: LinearState, command: f64) -> [[f64; LANES]; 3] {
         let like = self.angle_by_command;
         let (current, speed, command) =
             (like.like(state[0]), like.like(state[1]), like.like(command));
@@ -184,7 +184,7 @@ impl<T: Token, const M: usize> Abreast<T, M> {
     }
 }
 
-const _: () = assert!(BEGINS == LANES);
+const _: () = assert!(STARTS == LANES);
 
 impl<T: Token, const M: usize> Motion<T, M> {
     /// What a stride from a state would cost in `sums`, `driven` being its angles by the command.
@@ -192,7 +192,7 @@ impl<T: Token, const M: usize> Motion<T, M> {
     fn add<C: Summand>(
         &self,
         driven: &Stride<T, M>,
-        Place { state, angle }: Place,
+        LinearState { state, angle }: LinearState,
         readings: &[f64; STRIDE],
         sums: &mut [[Lanes<T, M>; 2]; ROWS],
     ) {
@@ -212,9 +212,9 @@ impl<T: Token, const M: usize> Motion<T, M> {
 
     /// The line that a motor without a transient goes along: its angle, and how it rises with each sample.
     #[inline(always)]
-    fn line(&self, place: &Place, command: f64) -> Option<[f64; 2]> {
+    fn line(&self, motor: &LinearState, command: f64) -> Option<[f64; 2]> {
         let settling = self.settling.as_ref()?;
-        let path = settling.path(place, command)?;
+        let path = settling.path(motor, command)?;
         (settling.largest(path.off) < SETTLED_COUNTS).then_some([path.level, path.slope])
     }
 }
@@ -224,7 +224,7 @@ impl Sum<'_> {
     fn block<T: Token, const M: usize, C: Summand>(
         &self,
         motion: &Motion<T, M>,
-        mut place: Place,
+        mut motor: LinearState,
         command: f64,
         readings: &[f64],
         sums: &mut [[Lanes<T, M>; 2]; ROWS],
@@ -232,7 +232,7 @@ impl Sum<'_> {
         let zero = motion.zero;
         let (strides, rest) = readings.as_chunks::<STRIDE>();
         let mut driven = motion.by_command;
-        if let Some([level, slope]) = motion.line(&place, command) {
+        if let Some([level, slope]) = motion.line(&motor, command) {
             let mut line = [0.0; STRIDE];
             for (k, line) in line.iter_mut().enumerate() {
                 *line = slope * k as f64;
@@ -246,7 +246,7 @@ impl Sum<'_> {
                     C::add((driven[row] + angle) - readings[row], &mut sums[row]);
                 }
             }
-            place = Place {
+            motor = LinearState {
                 state: [0.0; 2],
                 angle: level + rise * strides.len() as f64,
             };
@@ -255,20 +255,20 @@ impl Sum<'_> {
             for driven in &mut driven {
                 *driven = *driven * command_in_lanes;
             }
-            for strides in strides.chunks(BEGINS) {
-                let [currents, speeds, angles] = motion.begins.places(place, command);
-                for (k, stride) in strides.iter().take(BEGINS).enumerate() {
-                    let place = Place {
+            for strides in strides.chunks(STARTS) {
+                let [currents, speeds, angles] = motion.begins.places(motor, command);
+                for (k, stride) in strides.iter().take(STARTS).enumerate() {
+                    let motor = LinearState {
                         state: [currents[k], speeds[k]],
                         angle: angles[k],
                     };
-                    motion.add::<C>(&driven, place, stride, sums);
+                    motion.add::<C>(&driven, motor, stride, sums);
                 }
-                if strides.len() == BEGINS {
-                    place = self.held.abreast().on(place, command);
+                if strides.len() == STARTS {
+                    motor = self.hold.group().advance(motor, command);
                 } else {
                     let k = strides.len();
-                    place = Place {
+                    motor = LinearState {
                         state: [currents[k], speeds[k]],
                         angle: angles[k],
                     };
@@ -282,7 +282,7 @@ impl Sum<'_> {
             counts[..rest.len()].fill(1.0);
             let counts = rows(zero, &counts);
             let mut some = [[zero; 2]; ROWS];
-            motion.add::<C>(&driven, place, &padded, &mut some);
+            motion.add::<C>(&driven, motor, &padded, &mut some);
             for row in 0..ROWS {
                 for which in 0..C::SUMS {
                     sums[row][which] = sums[row][which] + some[row][which] * counts[row];
