@@ -82,12 +82,12 @@ fn data(seed: u64, commands: Commands) -> Data {
         start_offset: 0.0,
     };
     let simulation = Simulation::new(&bases, &motor, Method::default()).expect("a motor");
-    let leg = host::simulation::Leg {
+    let segment = host::simulation::Segment {
         range: 0..samples,
         angle: 100.3,
         speed: 0.0,
     };
-    let errors = simulation.errors(host::simulation::Manner::Free, &[leg]);
+    let errors = simulation.errors(host::simulation::Mode::Free, &[segment]);
     for (reading, error) in recording.counts.iter_mut().zip(errors) {
         *reading = (*reading + error).floor();
     }
@@ -201,13 +201,13 @@ fn what_is_compressed_is_what_all_residuals_say() {
                 };
                 let x = problem.start.clone().expect("a start");
                 let windows = Horizon::windows(&data, 0.25, 4);
-                let manners = [
+                let modes = [
                     (Horizon::Whole, StartAngle::Free),
                     (Horizon::Whole, StartAngle::Known),
                     (windows, StartAngle::Free),
                     (Horizon::Nudged(0.1), StartAngle::Free),
                 ];
-                for (horizon, start_angle) in manners {
+                for (horizon, start_angle) in modes {
                     let label = format!("seed {seed}, {commands:?}, {effects:?}, {start_angle:?}");
                     problem.horizon = horizon;
                     problem.start_angle = start_angle;

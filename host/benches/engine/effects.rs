@@ -3,8 +3,8 @@
 use super::{clock, euler};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
 use servoid_engine::simulation::Run;
-use servoid_engine::simulation::{Leg, Manner, legs};
 use servoid_engine::simulation::{Method, Simulation};
+use servoid_engine::simulation::{Mode, Segment, segments};
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, commands};
@@ -117,10 +117,10 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
     let run = Run {
         data,
         method: Method::default(),
-        manner: Manner::Free,
+        mode: Mode::Free,
     };
-    let legs = |candidate: &Candidate| -> Vec<Leg> {
-        legs(data, candidate, &Horizon::Whole, StartAngle::Known)
+    let segments = |candidate: &Candidate| -> Vec<Segment> {
+        segments(data, candidate, &Horizon::Whole, StartAngle::Known)
     };
     let group: Vec<Candidate> = (0..LANES)
         .map(|k| candidate(data, kinds, k as f64 * 1e-5))
@@ -129,20 +129,20 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
     let alone = least(data.len(), || {
         let simulation = Simulation::new(data, one, run.method).expect("a valid model");
         let mut sum = 0.0;
-        simulation.stream(run.manner, &legs(one), |errors| sum += errors[0]);
+        simulation.stream(run.mode, &segments(one), |errors| sum += errors[0]);
         sum
     });
     let abreast = least(data.len() * LANES, || {
         let mut sum = 0.0;
-        let together = run.stream(one, others, legs, |errors, changes| {
+        let together = run.stream(one, others, segments, |errors, changes| {
             sum += errors[0] + changes[0][0];
         });
         // Whole samples of a delay are no number: such candidates are run one by one.
         if !together {
-            sum += run.errors(&group, &legs).len() as f64;
+            sum += run.errors(&group, &segments).len() as f64;
         }
         sum
     });
-    let listed = least(data.len() * LANES, || run.errors(&group, &legs));
+    let listed = least(data.len() * LANES, || run.errors(&group, &segments));
     [alone, abreast, listed]
 }

@@ -82,10 +82,10 @@ impl<'a> BlockCost<'a> {
         let discretisation = problem.method.discretisation;
         let step = Increments::of(&candidate.machine, &data.units, discretisation).ok()?;
         let hold = HoldResponse::new(&step)?;
-        let leg = whole(data, candidate, problem.start_angle);
+        let segment = whole(data, candidate, problem.start_angle);
         let start = LinearState {
-            state: [0.0, leg.speed / data.units.speed],
-            angle: leg.angle + reading_shift(data),
+            state: [0.0, segment.speed / data.units.speed],
+            angle: segment.angle + reading_shift(data),
         };
         let (paths, least) = self.paths(blocks, &hold, start, limit);
         Some((hold, paths, least))

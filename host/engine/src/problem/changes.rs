@@ -2,7 +2,7 @@
 //! for each of them would be larger than the recording.
 
 use super::fit_problem::FitProblem;
-use crate::simulation::{Candidate, legs};
+use crate::simulation::{Candidate, segments};
 use shared::cost::Cost;
 
 /// What changes are counted from.
@@ -26,11 +26,12 @@ impl FitProblem<'_> {
         let centred = self.is_centred(here);
         // The middle of absolute errors is their median, which takes all of them.
         let by_median = centred && matches!(self.cost, Cost::Absolute { .. });
-        let legs = |model: &Candidate| legs(self.data, model, &self.horizon, self.start_angle);
+        let segments =
+            |model: &Candidate| segments(self.data, model, &self.horizon, self.start_angle);
         if !by_median
             && self
                 .runs()
-                .stream(here, others, legs, |_, changes| each(changes))
+                .stream(here, others, segments, |_, changes| each(changes))
         {
             return Some(if centred { About::Mean } else { About::Zero });
         }

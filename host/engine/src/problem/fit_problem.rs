@@ -5,7 +5,7 @@ use super::residuals::{centre, errors, is_centred, reading_shift};
 use super::spread::Spread;
 use super::structure::Structure;
 use crate::data::Data;
-use crate::simulation::{Candidate, Horizon, Method, Run, Simulation, StartAngle, legs};
+use crate::simulation::{Candidate, Horizon, Method, Run, Simulation, StartAngle, segments};
 use crate::solve::{Compressed, Objective, Tangent};
 use shared::cost::Cost;
 use shared::error::ModelError;
@@ -73,7 +73,7 @@ impl FitProblem<'_> {
     fn errors_within(&self, candidate: &Candidate, limit: f64) -> Option<Vec<f64>> {
         let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
         let simulation = Simulation::new(data, candidate, self.method).ok()?;
-        let legs = legs(data, candidate, horizon, start_angle);
+        let segments = segments(data, candidate, horizon, start_angle);
         let centred = is_centred(data, candidate, horizon, start_angle);
         let zero = self.zero();
         // About their mean, errors so far never have more squares than all of them.
@@ -87,7 +87,7 @@ impl FitProblem<'_> {
             };
             squares > limit * (1.0 + ROUNDING)
         };
-        let mut errors = simulation.errors_unless(horizon.manner(), &legs, too_many)?;
+        let mut errors = simulation.errors_unless(horizon.mode(), &segments, too_many)?;
         centre(
             data,
             candidate,
@@ -109,7 +109,7 @@ impl FitProblem<'_> {
         self.runs().changes(
             here,
             others,
-            |candidate| legs(data, candidate, horizon, start_angle),
+            |candidate| segments(data, candidate, horizon, start_angle),
             |candidate, errors| {
                 centre(data, candidate, horizon, start_angle, self.cost, errors);
             },
@@ -121,7 +121,7 @@ impl FitProblem<'_> {
         Run {
             data: self.data,
             method: self.method,
-            manner: self.horizon.manner(),
+            mode: self.horizon.mode(),
         }
     }
 
@@ -211,9 +211,9 @@ impl Compressed for FitProblem<'_> {
         let candidate = &self.candidate(x);
         let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
         let simulation = Simulation::new(data, candidate, self.method).ok()?;
-        let legs = legs(data, candidate, horizon, start_angle);
+        let segments = segments(data, candidate, horizon, start_angle);
         let mut spread = Spread::default();
-        simulation.stream(horizon.manner(), &legs, |errors| spread.add(errors));
+        simulation.stream(horizon.mode(), &segments, |errors| spread.add(errors));
         let squares = if is_centred(data, candidate, horizon, start_angle) {
             spread.about_mean()
         } else {
@@ -229,11 +229,14 @@ impl Compressed for FitProblem<'_> {
         let others: Vec<Candidate> = moved.iter().map(|x| self.candidate(x)).collect();
         let (horizon, start_angle) = (&self.horizon, self.start_angle);
         let centred = self.is_centred(&here);
-        let legs = |candidate: &Candidate| legs(self.data, candidate, horizon, start_angle);
+        let segments = |candidate: &Candidate| segments(self.data, candidate, horizon, start_angle);
         let mut compress = Compress::new(moved.len(), (!centred).then(|| self.zero()));
-        if self.runs().stream(&here, &others, legs, |here, changes| {
-            compress.add(here, changes);
-        }) && let Some(tangent) = compress.tangent()
+        if self
+            .runs()
+            .stream(&here, &others, segments, |here, changes| {
+                compress.add(here, changes);
+            })
+            && let Some(tangent) = compress.tangent()
         {
             return Some(tangent);
         }

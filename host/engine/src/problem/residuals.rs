@@ -1,7 +1,7 @@
 //! Model minus reading over a horizon, and its root mean square.
 
 use crate::data::Data;
-use crate::simulation::{Candidate, Horizon, Method, Simulation, StartAngle, legs};
+use crate::simulation::{Candidate, Horizon, Method, Simulation, StartAngle, segments};
 use shared::cost::Cost;
 use shared::error::ModelError;
 
@@ -24,8 +24,8 @@ pub fn errors(
     cost: Cost,
 ) -> Result<Vec<f64>, ModelError> {
     let simulation = Simulation::new(data, candidate, method)?;
-    let legs = legs(data, candidate, horizon, start_angle);
-    let mut errors = simulation.errors(horizon.manner(), &legs);
+    let segments = segments(data, candidate, horizon, start_angle);
+    let mut errors = simulation.errors(horizon.mode(), &segments);
     centre(data, candidate, horizon, start_angle, cost, &mut errors);
     Ok(errors)
 }

@@ -5,8 +5,8 @@
 //! where no such choice arises.
 
 use super::candidate::{Candidate, Method};
-use super::propagator::{Course, Manner};
-use super::segment::Leg;
+use super::propagator::{Mode, Propagator};
+use super::segment::Segment;
 use super::single::Simulation;
 use crate::data::Data;
 use crate::lanes::{LANES, Lanes, Token, Work, work};
@@ -27,17 +27,17 @@ pub struct Run<'a> {
     /// Discretisation and parts.
     pub method: Method,
     /// What moves them.
-    pub manner: Manner<'a>,
+    pub mode: Mode<'a>,
 }
 
 impl Run<'_> {
-    /// By how much the errors of each of the `others` differ from those of `here`, all run over their `legs` and
+    /// By how much the errors of each of the `others` differ from those of `here`, all run over their `segments` and
     /// `centred`. `None` where a model cannot run.
     pub fn changes(
         &self,
         here: &Candidate,
         others: &[Candidate],
-        legs: impl Fn(&Candidate) -> Vec<Leg>,
+        segments: impl Fn(&Candidate) -> Vec<Segment>,
         centred: impl Fn(&Candidate, &mut [f64]),
     ) -> Vec<Option<Vec<f64>>> {
         let mut changes: Vec<Option<Vec<f64>>> = vec![None; others.len()];
@@ -46,7 +46,7 @@ impl Run<'_> {
             let candidates: Vec<Candidate> = std::iter::once(*here)
                 .chain(group.iter().map(|&k| others[k]))
                 .collect();
-            let mut errors = self.errors(&candidates, &legs);
+            let mut errors = self.errors(&candidates, &segments);
             for (candidate, errors) in candidates.iter().zip(&mut errors) {
                 if let Some(errors) = errors {
                     centred(candidate, errors);
@@ -75,16 +75,16 @@ impl Run<'_> {
     pub fn errors(
         &self,
         candidates: &[Candidate],
-        legs: &impl Fn(&Candidate) -> Vec<Leg>,
+        segments: &impl Fn(&Candidate) -> Vec<Segment>,
     ) -> Vec<Option<Vec<f64>>> {
-        let ready: Vec<Option<(Simulation<'_>, Vec<Leg>)>> = candidates
+        let ready: Vec<Option<(Simulation<'_>, Vec<Segment>)>> = candidates
             .iter()
             .map(|candidate| {
                 let simulation = Simulation::new(self.data, candidate, self.method).ok()?;
-                Some((simulation, legs(candidate)))
+                Some((simulation, segments(candidate)))
             })
             .collect();
-        let able: Vec<&(Simulation<'_>, Vec<Leg>)> = ready.iter().flatten().collect();
+        let able: Vec<&(Simulation<'_>, Vec<Segment>)> = ready.iter().flatten().collect();
         if let Some(mut errors) = self.abreast(&able) {
             let mut errors = errors.drain(..);
             return ready
@@ -95,8 +95,8 @@ impl Run<'_> {
         ready
             .iter()
             .map(|ready| {
-                let (simulation, legs) = ready.as_ref()?;
-                Some(simulation.errors(self.manner, legs))
+                let (simulation, segments) = ready.as_ref()?;
+                Some(simulation.errors(self.mode, segments))
             })
             .collect()
     }
@@ -107,12 +107,12 @@ impl Run<'_> {
         &self,
         here: &Candidate,
         others: &[Candidate],
-        legs: impl Fn(&Candidate) -> Vec<Leg>,
+        segments: impl Fn(&Candidate) -> Vec<Segment>,
         mut each: impl FnMut(&[f64], &[&[f64]]),
     ) -> bool {
         let ready = |candidate: &Candidate| {
             let simulation = Simulation::new(self.data, candidate, self.method).ok()?;
-            Some((simulation, legs(candidate)))
+            Some((simulation, segments(candidate)))
         };
         let Some(own) = ready(here) else {
             return false;
@@ -159,7 +159,7 @@ impl Run<'_> {
     }
 
     /// `None` where they cannot be run abreast, or had better not.
-    fn abreast(&self, able: &[&(Simulation<'_>, Vec<Leg>)]) -> Option<Vec<Vec<f64>>> {
+    fn abreast(&self, able: &[&(Simulation<'_>, Vec<Segment>)]) -> Option<Vec<Vec<f64>>> {
         if !self.suits(able.len()) || able.len() > LANES {
             return None;
         }
@@ -248,7 +248,7 @@ impl Less {
 /// Candidates to be run abreast in groups; lanes that are left over repeat a group's first one.
 struct Together<'t, 'a> {
     run: &'t Run<'a>,
-    groups: &'t [Vec<&'t (Simulation<'a>, Vec<Leg>)>],
+    groups: &'t [Vec<&'t (Simulation<'a>, Vec<Segment>)>],
     less: Less,
     /// Takes the rows of each group's lanes at a range of samples. All of the model is compiled in around it: once.
     sink: &'t mut dyn FnMut(Range<usize>, &[Rows]),
@@ -256,8 +256,8 @@ struct Together<'t, 'a> {
 
 /// One of something for each lane of a group.
 fn each<'s, 't, 'a, A>(
-    group: &'s [&'t (Simulation<'a>, Vec<Leg>)],
-    of: impl Fn(&'t (Simulation<'a>, Vec<Leg>)) -> A,
+    group: &'s [&'t (Simulation<'a>, Vec<Segment>)],
+    of: impl Fn(&'t (Simulation<'a>, Vec<Segment>)) -> A,
 ) -> [A; LANES] {
     std::array::from_fn(|lane| of(group.get(lane).unwrap_or(&group[0])))
 }
@@ -277,21 +277,24 @@ impl Work for Together<'_, '_> {
         let models: Vec<_> = self.groups.iter().map(models).collect::<Option<_>>()?;
         let mut sights: Sights = [[0.0; LANES]; SOME];
         let mut rows: Vec<Rows> = vec![[[0.0; SOME]; LANES]; self.groups.len()];
-        for (index, leg) in self.groups[0][0].1.iter().enumerate() {
+        for (index, segment) in self.groups[0][0].1.iter().enumerate() {
             let begin = |group: &Vec<_>| {
-                let states = each(group, |(simulation, legs): &(Simulation<'_>, Vec<Leg>)| {
-                    simulation.begin(&legs[index])
-                });
+                let states = each(
+                    group,
+                    |(simulation, segments): &(Simulation<'_>, Vec<Segment>)| {
+                        simulation.begin(&segments[index])
+                    },
+                );
                 State::<Lanes<T, M>>::abreast(states.each_ref())
             };
             let mut states: Vec<_> = self.groups.iter().map(begin).collect::<Option<_>>()?;
-            for from in leg.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(leg.range.end);
+            for from in segment.range.clone().step_by(SOME) {
+                let range = from..(from + SOME).min(segment.range.end);
                 let readings = &data.counts[range.clone()];
                 for ((state, models), rows) in states.iter_mut().zip(&models).zip(&mut rows) {
-                    let course = Course { data, models };
-                    *state = course.run(
-                        self.run.manner,
+                    let propagator = Propagator { data, models };
+                    *state = propagator.run(
+                        self.run.mode,
                         *state,
                         range.clone(),
                         #[inline(always)]

@@ -1,6 +1,6 @@
 //! How far a model runs on its own, and what is known of where it starts.
 
-use super::propagator::Manner;
+use super::propagator::Mode;
 use crate::data::Data;
 use std::ops::Range;
 
@@ -26,10 +26,10 @@ pub struct Window {
 
 impl Horizon {
     /// What moves a model along it.
-    pub(crate) fn manner(&self) -> Manner<'static> {
+    pub(crate) fn mode(&self) -> Mode<'static> {
         match self {
-            Horizon::Nudged(memory_s) => Manner::Nudged(*memory_s),
-            Horizon::Whole | Horizon::Windows(_) => Manner::Free,
+            Horizon::Nudged(memory_s) => Mode::Nudged(*memory_s),
+            Horizon::Whole | Horizon::Windows(_) => Mode::Free,
         }
     }
 

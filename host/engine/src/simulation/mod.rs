@@ -19,6 +19,6 @@ mod single;
 pub use batch::Run;
 pub use candidate::{Candidate, Method};
 pub use horizon::{Horizon, StartAngle, Window};
-pub use propagator::{Course, Manner, Number};
-pub use segment::{Leg, legs, whole};
+pub use propagator::{Mode, Number, Propagator};
+pub use segment::{Segment, segments, whole};
 pub use single::Simulation;

@@ -12,7 +12,7 @@ impl<S: Scalar<Coefficient = S, Angle = S>> Number for S {}
 
 /// What moves a model along.
 #[derive(Clone, Copy)]
-pub enum Manner<'a> {
+pub enum Mode<'a> {
     /// It runs freely.
     Free,
     /// It is pulled towards the readings like an observer that forgets an error within so many seconds: what
@@ -28,28 +28,28 @@ pub enum Manner<'a> {
 }
 
 /// The data, and a model for each length of interval in it.
-pub struct Course<'a, S: Scalar> {
+pub struct Propagator<'a, S: Scalar> {
     /// The data.
     pub data: &'a Data,
     /// The models.
     pub models: &'a [Model<S>],
 }
 
-impl<S: Number> Course<'_, S> {
+impl<S: Number> Propagator<'_, S> {
     /// Runs from a state over the samples of `range`; calls `each` with the sample and what the model's encoder
     /// sees there, counts. Gives the state behind them.
     #[inline(always)]
     pub fn run(
         &self,
-        manner: Manner<'_>,
+        mode: Mode<'_>,
         state: State<S>,
         range: Range<usize>,
         each: impl FnMut(usize, S),
     ) -> State<S> {
-        let memory_s = match manner {
-            Manner::Free => None,
-            Manner::Nudged(memory_s) => Some(memory_s),
-            Manner::Led { seen, turns } => return self.led(state, range, seen, turns, each),
+        let memory_s = match mode {
+            Mode::Free => None,
+            Mode::Nudged(memory_s) => Some(memory_s),
+            Mode::Led { seen, turns } => return self.led(state, range, seen, turns, each),
         };
         self.alone(state, range, memory_s, each)
     }

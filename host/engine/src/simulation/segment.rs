@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// A part of the recording that a model runs through on its own.
 #[derive(Clone, Debug)]
-pub struct Leg {
+pub struct Segment {
     /// Its samples.
     pub range: Range<usize>,
     /// What the encoder sees at its first one, counts.
@@ -17,38 +17,38 @@ pub struct Leg {
 }
 
 /// The whole of the data for a candidate.
-pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Leg {
+pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Segment {
     let angle = match start_angle {
         StartAngle::Known => data.counts[0],
         StartAngle::Free => data.centre(0) + candidate.start_offset,
     };
-    Leg {
+    Segment {
         range: 0..data.len(),
         angle,
         speed: candidate.start_speed,
     }
 }
 
-/// The legs of a horizon for a candidate.
-pub fn legs(
+/// The segments of a horizon for a candidate.
+pub fn segments(
     data: &Data,
     candidate: &Candidate,
     horizon: &Horizon,
     start_angle: StartAngle,
-) -> Vec<Leg> {
+) -> Vec<Segment> {
     match horizon {
         Horizon::Whole => vec![whole(data, candidate, start_angle)],
-        Horizon::Nudged(_) => vec![Leg {
+        Horizon::Nudged(_) => vec![Segment {
             angle: data.centre(0),
             ..whole(data, candidate, start_angle)
         }],
         Horizon::Windows(windows) => {
-            let leg = |window: &Window| Leg {
+            let segment = |window: &Window| Segment {
                 range: window.range.clone(),
                 angle: data.centre(window.range.start),
                 speed: window.speed,
             };
-            windows.iter().map(leg).collect()
+            windows.iter().map(segment).collect()
         }
     }
 }

@@ -1,8 +1,8 @@
 //! One candidate, run along the data.
 
 use super::candidate::{Candidate, Method};
-use super::propagator::{Course, Manner};
-use super::segment::Leg;
+use super::propagator::{Mode, Propagator};
+use super::segment::Segment;
 use crate::data::Data;
 use crate::lanes::with_vectors;
 use shared::error::ModelError;
@@ -46,26 +46,26 @@ impl<'a> Simulation<'a> {
         })
     }
 
-    /// Model minus reading over all legs, counts.
-    pub fn errors(&self, manner: Manner<'_>, legs: &[Leg]) -> Vec<f64> {
-        let errors = self.errors_unless(manner, legs, |_| false);
+    /// Model minus reading over all segments, counts.
+    pub fn errors(&self, mode: Mode<'_>, segments: &[Segment]) -> Vec<f64> {
+        let errors = self.errors_unless(mode, segments, |_| false);
         errors.unwrap_or_default()
     }
 
     /// The same, unless what has come so far, some samples at a time, is enough to `give_up`.
     pub fn errors_unless(
         &self,
-        manner: Manner<'_>,
-        legs: &[Leg],
+        mode: Mode<'_>,
+        segments: &[Segment],
         mut give_up: impl FnMut(&[f64]) -> bool,
     ) -> Option<Vec<f64>> {
         let mut errors = vec![0.0; self.data.len()];
-        for leg in legs {
-            let mut state = self.begin(leg);
-            for from in leg.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(leg.range.end);
+        for segment in segments {
+            let mut state = self.begin(segment);
+            for from in segment.range.clone().step_by(SOME) {
+                let range = from..(from + SOME).min(segment.range.end);
                 let some = &mut errors[range.clone()];
-                state = self.errors_of(manner, state, range, some);
+                state = self.errors_of(mode, state, range, some);
                 if give_up(some) {
                     return None;
                 }
@@ -75,14 +75,14 @@ impl<'a> Simulation<'a> {
     }
 
     /// The same, only handed over, some samples at a time.
-    pub fn stream(&self, manner: Manner<'_>, legs: &[Leg], mut each: impl FnMut(&[f64])) {
+    pub fn stream(&self, mode: Mode<'_>, segments: &[Segment], mut each: impl FnMut(&[f64])) {
         let mut errors = [0.0; SOME];
-        for leg in legs {
-            let mut state = self.begin(leg);
-            for from in leg.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(leg.range.end);
+        for segment in segments {
+            let mut state = self.begin(segment);
+            for from in segment.range.clone().step_by(SOME) {
+                let range = from..(from + SOME).min(segment.range.end);
                 let some = &mut errors[..range.len()];
-                state = self.errors_of(manner, state, range, some);
+                state = self.errors_of(mode, state, range, some);
                 each(some);
             }
         }
@@ -91,46 +91,46 @@ impl<'a> Simulation<'a> {
     /// Model minus reading at some samples, from a state on; gives the state behind them.
     fn errors_of(
         &self,
-        manner: Manner<'_>,
+        mode: Mode<'_>,
         state: State<f64>,
         range: Range<usize>,
         errors: &mut [f64],
     ) -> State<f64> {
-        let state = self.go_on(manner, state, range.clone(), errors);
+        let state = self.go_on(mode, state, range.clone(), errors);
         for (error, reading) in errors.iter_mut().zip(&self.data.counts[range]) {
             *error -= reading;
         }
         state
     }
 
-    /// Runs over a leg; writes what the model's encoder sees at each of its samples, counts.
-    pub fn run(&self, manner: Manner<'_>, leg: &Leg, sights: &mut [f64]) {
-        let sights = &mut sights[leg.range.clone()];
-        self.go_on(manner, self.begin(leg), leg.range.clone(), sights);
+    /// Runs over a segment; writes what the model's encoder sees at each of its samples, counts.
+    pub fn run(&self, mode: Mode<'_>, segment: &Segment, sights: &mut [f64]) {
+        let sights = &mut sights[segment.range.clone()];
+        self.go_on(mode, self.begin(segment), segment.range.clone(), sights);
     }
 
     /// The same from a state over some samples, one sight each; gives the state behind them.
     fn go_on(
         &self,
-        manner: Manner<'_>,
+        mode: Mode<'_>,
         state: State<f64>,
         range: Range<usize>,
         sights: &mut [f64],
     ) -> State<f64> {
         let from = range.start;
-        let course = Course {
+        let propagator = Propagator {
             data: self.data,
             models: &self.models,
         };
         with_vectors(
             #[inline(always)]
-            || course.run(manner, state, range, |k, sight| sights[k - from] = sight),
+            || propagator.run(mode, state, range, |k, sight| sights[k - from] = sight),
         )
     }
 
-    /// State at the first sample of a leg.
-    pub fn begin(&self, leg: &Leg) -> State<f64> {
-        self.start(leg.range.start, leg.angle, leg.speed)
+    /// State at the first sample of a segment.
+    pub fn begin(&self, segment: &Segment) -> State<f64> {
+        self.start(segment.range.start, segment.angle, segment.speed)
     }
 
     /// One model for each length of interval in the data.
