@@ -3,7 +3,7 @@
 
 use host::problem::{Candidate, Data, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
-use host::simulation::Run;
+use host::simulation::Batch;
 use host::simulation::{Method, Simulation};
 use host::simulation::{Mode, Segment, segments};
 use shared::effects::{EffectSet, Kind};
@@ -97,7 +97,7 @@ fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
     let candidates: Vec<Candidate> = changes.iter().map(|&c| candidate(data, kind, c)).collect();
     let mut furthest = (0.0, "");
     for (mode, horizon, name) in modes(&seen, &turns) {
-        let run = Run {
+        let run = Batch {
             data,
             method: Method::default(),
             mode,
@@ -105,12 +105,12 @@ fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
         let segments = |candidate: &Candidate| -> Vec<Segment> {
             segments(data, candidate, &horizon, StartAngle::Free)
         };
-        let abreast = run.errors(&candidates, &segments);
+        let batch = run.errors(&candidates, &segments);
         for (candidate, abreast) in candidates.iter().zip(abreast) {
             let alone = Simulation::new(data, candidate, run.method)
                 .expect("a valid model")
                 .errors(mode, &segments(candidate));
-            let abreast = abreast.expect("a valid model");
+            let batch = abreast.expect("a valid model");
             for (a, b) in alone.iter().zip(&abreast) {
                 let off = (a - b).abs();
                 if off > furthest.0 || off.is_nan() {
@@ -149,7 +149,7 @@ fn other_candidates_beside_it_change_no_more_than_finer_steps_would() {
 #[test]
 fn what_cannot_be_computed_in_lanes_is_computed_without() {
     let data = data();
-    let run = Run {
+    let run = Batch {
         data: &data,
         method: Method::default(),
         mode: Mode::Free,

@@ -2,7 +2,7 @@
 
 use super::{clock, euler};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
-use servoid_engine::simulation::Run;
+use servoid_engine::simulation::Batch;
 use servoid_engine::simulation::{Method, Simulation};
 use servoid_engine::simulation::{Mode, Segment, segments};
 use servoid_io::recording::{Drive, Recording};
@@ -114,7 +114,7 @@ pub fn rows() {
 /// ns a step of a candidate: alone and side by side with others, errors handed over as they come; and the latter with lists
 /// of all errors made of them.
 fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
-    let run = Run {
+    let run = Batch {
         data,
         method: Method::default(),
         mode: Mode::Free,
@@ -132,7 +132,7 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
         simulation.stream(run.mode, &segments(one), |errors| sum += errors[0]);
         sum
     });
-    let abreast = least(data.len() * LANES, || {
+    let batch = least(data.len() * LANES, || {
         let mut sum = 0.0;
         let together = run.stream(one, others, segments, |errors, changes| {
             sum += errors[0] + changes[0][0];

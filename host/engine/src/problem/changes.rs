@@ -30,7 +30,7 @@ impl FitProblem<'_> {
             |model: &Candidate| segments(self.data, model, &self.horizon, self.start_angle);
         if !by_median
             && self
-                .runs()
+                .batch()
                 .stream(here, others, segments, |_, changes| each(changes))
         {
             return Some(if centred { About::Mean } else { About::Zero });

@@ -5,7 +5,7 @@ use super::residuals::{centre, errors, is_centred, reading_shift};
 use super::spread::Spread;
 use super::structure::Structure;
 use crate::data::Data;
-use crate::simulation::{Candidate, Horizon, Method, Run, Simulation, StartAngle, segments};
+use crate::simulation::{Batch, Candidate, Horizon, Method, Simulation, StartAngle, segments};
 use crate::solve::{Compressed, Objective, Tangent};
 use shared::cost::Cost;
 use shared::error::ModelError;
@@ -106,7 +106,7 @@ impl FitProblem<'_> {
         others: &[Candidate],
     ) -> Vec<Option<Vec<f64>>> {
         let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
-        self.runs().changes(
+        self.batch().changes(
             here,
             others,
             |candidate| segments(data, candidate, horizon, start_angle),
@@ -117,8 +117,8 @@ impl FitProblem<'_> {
     }
 
     /// How models are run side by side.
-    pub(super) fn runs(&self) -> Run<'_> {
-        Run {
+    pub(super) fn batch(&self) -> Batch<'_> {
+        Batch {
             data: self.data,
             method: self.method,
             mode: self.horizon.mode(),
@@ -232,7 +232,7 @@ impl Compressed for FitProblem<'_> {
         let segments = |candidate: &Candidate| segments(self.data, candidate, horizon, start_angle);
         let mut compress = Compress::new(moved.len(), (!centred).then(|| self.zero()));
         if self
-            .runs()
+            .batch()
             .stream(&here, &others, segments, |here, changes| {
                 compress.add(here, changes);
             })

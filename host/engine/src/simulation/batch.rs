@@ -21,7 +21,7 @@ const FEWEST: usize = 3;
 const MOST_LENGTHS: usize = 32;
 
 /// How candidates are run.
-pub struct Run<'a> {
+pub struct Batch<'a> {
     /// The data.
     pub data: &'a Data,
     /// Discretisation and parts.
@@ -30,7 +30,7 @@ pub struct Run<'a> {
     pub mode: Mode<'a>,
 }
 
-impl Run<'_> {
+impl Batch<'_> {
     /// By how much the errors of each of the `others` differ from those of `here`, all run over their `segments` and
     /// `centred`. `None` where a model cannot run.
     pub fn changes(
@@ -85,7 +85,7 @@ impl Run<'_> {
             })
             .collect();
         let able: Vec<&(Simulation<'_>, Vec<Segment>)> = ready.iter().flatten().collect();
-        if let Some(mut errors) = self.abreast(&able) {
+        if let Some(mut errors) = self.in_lanes(&able) {
             let mut errors = errors.drain(..);
             return ready
                 .iter()
@@ -159,7 +159,7 @@ impl Run<'_> {
     }
 
     /// `None` where they cannot be run abreast, or had better not.
-    fn abreast(&self, able: &[&(Simulation<'_>, Vec<Segment>)]) -> Option<Vec<Vec<f64>>> {
+    fn in_lanes(&self, able: &[&(Simulation<'_>, Vec<Segment>)]) -> Option<Vec<Vec<f64>>> {
         if !self.suits(able.len()) || able.len() > LANES {
             return None;
         }
@@ -247,7 +247,7 @@ impl Less {
 
 /// Candidates to be run abreast in groups; lanes that are left over repeat a group's first one.
 struct Together<'t, 'a> {
-    run: &'t Run<'a>,
+    run: &'t Batch<'a>,
     groups: &'t [Vec<&'t (Simulation<'a>, Vec<Segment>)>],
     less: Less,
     /// Takes the rows of each group's lanes at a range of samples. All of the model is compiled in around it: once.

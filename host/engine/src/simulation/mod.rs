@@ -16,7 +16,7 @@ mod propagator;
 mod segment;
 mod single;
 
-pub use batch::Run;
+pub use batch::Batch;
 pub use candidate::{Candidate, Method};
 pub use horizon::{Horizon, StartAngle, Window};
 pub use propagator::{Mode, Number, Propagator};

@@ -2,7 +2,7 @@
 
 use super::motion::Motion;
 use servoid_engine::problem::{Data, Horizon, StartAngle, Structure};
-use servoid_engine::simulation::Run;
+use servoid_engine::simulation::Batch;
 use servoid_engine::simulation::{Candidate, Method, Simulation};
 use servoid_engine::simulation::{Mode, Segment, segments};
 use servoid_engine::solve::Objective;
@@ -91,7 +91,7 @@ impl Objective for Led<'_> {
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
         let candidate = |x: &[f64]| self.structure.candidate(&self.structure.values(x));
         let candidates: Vec<Candidate> = moved.iter().map(|x| candidate(x)).collect();
-        let run = Run {
+        let run = Batch {
             data: self.data,
             method: self.coarse(),
             mode: self.mode(),
