@@ -205,7 +205,7 @@ fn what_is_compressed_is_what_all_residuals_say() {
                     (Horizon::Whole, StartAngle::Free),
                     (Horizon::Whole, StartAngle::Known),
                     (windows, StartAngle::Free),
-                    (Horizon::Nudged(0.1), StartAngle::Free),
+                    (Horizon::Observer(0.1), StartAngle::Free),
                 ];
                 for (horizon, start_angle) in modes {
                     let label = format!("seed {seed}, {commands:?}, {effects:?}, {start_angle:?}");

@@ -73,8 +73,16 @@ fn modes<'a>(seen: &'a [Seen<f64>], turns: &'a [f64]) -> [(Mode<'a>, Horizon, &'
     [
         (Mode::Free, Horizon::Whole, "free"),
         (Mode::Free, windows(&data()), "in windows"),
-        (Mode::Nudged(0.1), Horizon::Nudged(0.1), "nudged"),
-        (Mode::Led { seen, turns }, Horizon::Whole, "led"),
+        (
+            Mode::Observer(0.1),
+            Horizon::Observer(0.1),
+            "pulled by an observer",
+        ),
+        (
+            Mode::SeriesParallel { seen, turns },
+            Horizon::Whole,
+            "series-parallel",
+        ),
     ]
 }
 

@@ -12,7 +12,7 @@ pub enum Horizon {
     /// In windows, each started from the measured angle and speed.
     Windows(Vec<Window>),
     /// Pulled towards the measurement, so that an error is forgotten within so many seconds.
-    Nudged(f64),
+    Observer(f64),
 }
 
 /// One window of a [`Horizon`].
@@ -28,7 +28,7 @@ impl Horizon {
     /// What moves a model along it.
     pub(crate) fn mode(&self) -> Mode<'static> {
         match self {
-            Horizon::Nudged(memory_s) => Mode::Nudged(*memory_s),
+            Horizon::Observer(memory_s) => Mode::Observer(*memory_s),
             Horizon::Whole | Horizon::Windows(_) => Mode::Free,
         }
     }

@@ -17,9 +17,9 @@ pub enum Mode<'a> {
     Free,
     /// It is pulled towards the readings like an observer that forgets an error within so many seconds: what
     /// happens once, such as a slipped detent, does not stay for ever.
-    Nudged(f64),
+    Observer(f64),
     /// Its effects are led along a measured motion.
-    Led {
+    SeriesParallel {
         /// One entry an interval.
         seen: &'a [Seen<f64>],
         /// Position within the revolution, one entry a sample.
@@ -48,8 +48,10 @@ impl<S: Number> Propagator<'_, S> {
     ) -> State<S> {
         let memory_s = match mode {
             Mode::Free => None,
-            Mode::Nudged(memory_s) => Some(memory_s),
-            Mode::Led { seen, turns } => return self.led(state, range, seen, turns, each),
+            Mode::Observer(memory_s) => Some(memory_s),
+            Mode::SeriesParallel { seen, turns } => {
+                return self.led(state, range, seen, turns, each);
+            }
         };
         self.alone(state, range, memory_s, each)
     }

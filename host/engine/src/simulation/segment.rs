@@ -38,7 +38,7 @@ pub fn segments(
 ) -> Vec<Segment> {
     match horizon {
         Horizon::Whole => vec![whole(data, candidate, start_angle)],
-        Horizon::Nudged(_) => vec![Segment {
+        Horizon::Observer(_) => vec![Segment {
             angle: data.centre(0),
             ..whole(data, candidate, start_angle)
         }],

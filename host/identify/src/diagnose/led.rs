@@ -50,7 +50,7 @@ impl Led<'_> {
     }
 
     fn mode(&self) -> Mode<'_> {
-        Mode::Led {
+        Mode::SeriesParallel {
             seen: &self.motion.seen,
             turns: &self.motion.turns,
         }

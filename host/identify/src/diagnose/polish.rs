@@ -73,7 +73,7 @@ impl Workshop<'_> {
             let method = best.method;
             let problem = FitProblem {
                 horizon: match best.tracked {
-                    Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
+                    Some(tracked) => Horizon::Observer(POLISHED * tracked.memory_s),
                     None => self.fitted_horizon.clone(),
                 },
                 ..self.problem(&best.structure, method)

@@ -219,7 +219,7 @@ impl Workshop<'_> {
         let mut last = f64::INFINITY;
         for memory_s in MEMORIES_S {
             let problem = FitProblem {
-                horizon: Horizon::Nudged(memory_s),
+                horizon: Horizon::Observer(memory_s),
                 ..self.problem(structure, self.method)
             };
             let Some(found) = self.descended(&problem, &x, FADE, self.method) else {

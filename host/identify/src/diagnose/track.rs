@@ -54,7 +54,7 @@ impl Workshop<'_> {
                     ..refit.candidate
                 },
                 refit.method,
-                &Horizon::Nudged(memory_s),
+                &Horizon::Observer(memory_s),
                 StartAngle::Free,
                 Cost::Squared,
             )
