@@ -50,10 +50,10 @@ impl<S: Number> Propagator<'_, S> {
             Mode::Free => None,
             Mode::Observer(memory_s) => Some(memory_s),
             Mode::SeriesParallel { seen, turns } => {
-                return self.led(state, range, seen, turns, each);
+                return self.series_parallel(state, range, seen, turns, each);
             }
         };
-        self.alone(state, range, memory_s, each)
+        self.parallel(state, range, memory_s, each)
     }
 
     #[inline(always)]
@@ -69,7 +69,7 @@ impl<S: Number> Propagator<'_, S> {
     /// Runs freely, or pulled towards the readings with a memory.
     // One loop for both, since all of the model is compiled into it.
     #[inline(always)]
-    fn alone(
+    fn parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,
@@ -151,7 +151,7 @@ impl<S: Number> Propagator<'_, S> {
     }
 
     #[inline(always)]
-    fn led(
+    fn series_parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,
