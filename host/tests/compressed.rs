@@ -3,7 +3,7 @@
 
 use host::block_cost::BlockCost;
 use host::fit::{self, Options};
-use host::problem::{About, Candidate, Data, FitProblem, Horizon, StartAngle};
+use host::problem::{Candidate, Centring, Data, FitProblem, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
 use host::simulation::{Method, Simulation};
 use host::solve::{self, Compressed, Evaluator, Found, Objective};
@@ -161,7 +161,7 @@ fn check_stream(problem: &FitProblem<'_>, x: &[f64], label: &str) {
         let moved = moved(x);
         let models: Vec<Candidate> = moved.iter().map(|x| model(x)).collect();
         let mut columns = vec![Vec::new(); moved.len()];
-        let about = problem
+        let centring = problem
             .stream_changes(&model(x), &models, |some| {
                 for (column, some) in columns.iter_mut().zip(some) {
                     column.extend_from_slice(some);
@@ -171,9 +171,9 @@ fn check_stream(problem: &FitProblem<'_>, x: &[f64], label: &str) {
         for (k, (column, whole)) in columns.iter().zip(problem.changes(x, &moved)).enumerate() {
             let whole = whole.expect("changes");
             assert_eq!(column.len(), whole.len(), "{label}");
-            let mean = match about {
-                About::Mean => column.iter().sum::<f64>() / column.len() as f64,
-                About::Zero => 0.0,
+            let mean = match centring {
+                Centring::Pending => column.iter().sum::<f64>() / column.len() as f64,
+                Centring::Done => 0.0,
             };
             for (change, whole) in column.iter().zip(&whole) {
                 let off = (change - mean - whole).abs();

@@ -7,11 +7,11 @@ use shared::cost::Cost;
 
 /// What changes are counted from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum About {
+pub enum Centring {
     /// They are as they count.
-    Zero,
+    Done,
     /// The mean of each model's own is still to be taken away: the start angle is free.
-    Mean,
+    Pending,
 }
 
 impl FitProblem<'_> {
@@ -22,7 +22,7 @@ impl FitProblem<'_> {
         here: &Candidate,
         others: &[Candidate],
         mut each: impl FnMut(&[&[f64]]),
-    ) -> Option<About> {
+    ) -> Option<Centring> {
         let centred = self.is_centred(here);
         // The middle of absolute errors is their median, which takes all of them.
         let by_median = centred && matches!(self.cost, Cost::Absolute { .. });
@@ -33,11 +33,15 @@ impl FitProblem<'_> {
                 .batch()
                 .stream(here, others, segments, |_, changes| each(changes))
         {
-            return Some(if centred { About::Mean } else { About::Zero });
+            return Some(if centred {
+                Centring::Pending
+            } else {
+                Centring::Done
+            });
         }
         let changes = self.changes_of(here, others);
         let columns: Option<Vec<&[f64]>> = changes.iter().map(Option::as_deref).collect();
         each(&columns?);
-        Some(About::Zero)
+        Some(Centring::Done)
     }
 }

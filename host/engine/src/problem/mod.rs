@@ -20,7 +20,7 @@ mod unknown;
 
 pub use crate::data::Data;
 pub use crate::simulation::{Candidate, Horizon, StartAngle};
-pub use changes::About;
+pub use changes::Centring;
 pub use fit_problem::FitProblem;
 pub use residuals::{errors, rms_counts};
 pub use spread::Spread;

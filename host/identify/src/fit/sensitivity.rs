@@ -3,7 +3,7 @@
 
 use super::uncertainty::SEGMENTS;
 use nalgebra::{DMatrix, DVector};
-use servoid_engine::problem::{About, Candidate, FitProblem, Spread};
+use servoid_engine::problem::{Candidate, Centring, FitProblem, Spread};
 
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
 const PROBE_COUNTS: f64 = 0.02;
@@ -39,7 +39,7 @@ pub(super) fn sensitivity(
     let mut sums = Sums::new(pairs.len(), residuals);
     let mut columns = vec![Vec::new(); pairs.len()];
     let here = problem.structure.candidate(values);
-    let about = problem.stream_changes(&here, &models, |changes| {
+    let centring = problem.stream_changes(&here, &models, |changes| {
         for ((column, pair), change) in columns.iter_mut().zip(&pairs).zip(changes.chunks(2)) {
             let quotient = |(up, down): (&f64, &f64)| match pair.width {
                 0.0 => 0.0,
@@ -50,7 +50,7 @@ pub(super) fn sensitivity(
         }
         sums.add(&columns);
     })?;
-    let sensitivity = sums.about(about);
+    let sensitivity = sums.centred(centring);
     let finite = |x: &f64| x.is_finite();
     let gradients = || sensitivity.gradients.iter().flat_map(DVector::iter);
     (sensitivity.squares.iter().all(finite) && gradients().all(finite)).then_some(sensitivity)
@@ -67,15 +67,15 @@ fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
         .map(|k| model(&moved(values, k, first(k), unknowns[k].range.1)))
         .collect();
     let mut changes = vec![Spread::default(); probes.len()];
-    let about = problem.stream_changes(&here, &probes, |some| {
+    let centring = problem.stream_changes(&here, &probes, |some| {
         for (spread, change) in changes.iter_mut().zip(some) {
             spread.add(change);
         }
     })?;
     let pair = |(k, spread): (usize, &Spread)| {
-        let squares = match about {
-            About::Mean => spread.about_mean(),
-            About::Zero => spread.about(0.0),
+        let squares = match centring {
+            Centring::Pending => spread.about_mean(),
+            Centring::Done => spread.about(0.0),
         };
         let change = (squares / problem.data.len() as f64).sqrt();
         let mut step = first(k);
@@ -165,9 +165,9 @@ impl<'r> Sums<'r> {
     }
 
     /// The sums, of columns about their mean if that is still to be taken.
-    fn about(mut self, about: About) -> Sensitivity {
+    fn centred(mut self, centring: Centring) -> Sensitivity {
         self.squares.fill_upper_triangle_with_lower_triangle();
-        if about == About::Mean {
+        if centring == Centring::Pending {
             let mean = &self.sum / self.samples.max(1) as f64;
             let raw = self.squares.diagonal();
             self.squares -= &self.sum * mean.transpose();
@@ -210,7 +210,7 @@ mod tests {
             let parts: Vec<usize> = (0..rows)
                 .map(|_| 1 + (draw().abs() * 40.0) as usize)
                 .collect();
-            for about in [About::Zero, About::Mean] {
+            for centring in [Centring::Done, Centring::Pending] {
                 let mut sums = Sums::new(columns, &residuals);
                 let mut from = 0;
                 for part in &parts {
@@ -226,8 +226,8 @@ mod tests {
                     sums.add(&(0..columns).map(some).collect::<Vec<Vec<f64>>>());
                     from = to;
                 }
-                let found = sums.about(about);
-                if about == About::Mean {
+                let found = sums.centred(centring);
+                if centring == Centring::Pending {
                     for mut column in matrix.column_iter_mut() {
                         let mean = column.mean();
                         column.add_scalar_mut(-mean);
@@ -258,7 +258,7 @@ mod tests {
         let residuals = [0.3; 1000];
         let mut sums = Sums::new(2, &residuals);
         sums.add(&[vec![0.1; 1000], (0..1000).map(f64::from).collect()]);
-        let found = sums.about(About::Mean);
+        let found = sums.centred(Centring::Pending);
         assert_eq!(found.squares[(0, 0)], 0.0);
         assert!(found.squares[(1, 1)] > 0.0);
     }
