@@ -1,8 +1,8 @@
 //! The cost of a point of the unit cube, and the residuals behind it.
 
 use super::compress::Compress;
+use super::moments::Moments;
 use super::residuals::{centre, errors, is_centred, reading_shift};
-use super::spread::Spread;
 use super::structure::Structure;
 use crate::data::Data;
 use crate::simulation::{Batch, Candidate, Horizon, Method, Simulation, StartAngle, segments};
@@ -77,13 +77,13 @@ impl FitProblem<'_> {
         let centred = is_centred(data, candidate, horizon, start_angle);
         let zero = self.zero();
         // About their mean, errors so far never have more squares than all of them.
-        let mut spread = Spread::default();
+        let mut moments = Moments::default();
         let too_many = |errors: &[f64]| {
-            spread.add(errors);
+            moments.add(errors);
             let squares = if centred {
-                spread.about_mean()
+                moments.squares_about_mean()
             } else {
-                spread.about(zero)
+                moments.squares_about(zero)
             };
             squares > limit * (1.0 + ROUNDING)
         };
@@ -212,12 +212,12 @@ impl Compressed for FitProblem<'_> {
         let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
         let simulation = Simulation::new(data, candidate, self.method).ok()?;
         let segments = segments(data, candidate, horizon, start_angle);
-        let mut spread = Spread::default();
-        simulation.stream(horizon.mode(), &segments, |errors| spread.add(errors));
+        let mut moments = Moments::default();
+        simulation.stream(horizon.mode(), &segments, |errors| moments.add(errors));
         let squares = if is_centred(data, candidate, horizon, start_angle) {
-            spread.about_mean()
+            moments.squares_about_mean()
         } else {
-            spread.about(self.zero())
+            moments.squares_about(self.zero())
         };
         squares
             .is_finite()

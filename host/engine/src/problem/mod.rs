@@ -8,13 +8,13 @@
 //! | `fit_problem` | the cost of a point of the cube, and the residuals behind it |
 //! | `changes` | by how much the residuals of models near one differ from its own |
 //! | `compress` | residuals and changes as a triangle, which is all that a least-squares step needs |
-//! | `spread` | mean and squares of many numbers, some at a time |
+//! | `moments` | mean and squares of many numbers, some at a time |
 
 mod changes;
 pub(crate) mod compress;
 mod fit_problem;
+mod moments;
 pub(crate) mod residuals;
-mod spread;
 mod structure;
 mod unknown;
 
@@ -22,7 +22,7 @@ pub use crate::data::Data;
 pub use crate::simulation::{Candidate, Horizon, StartAngle};
 pub use changes::Centring;
 pub use fit_problem::FitProblem;
+pub use moments::Moments;
 pub use residuals::{errors, rms_counts};
-pub use spread::Spread;
 pub use structure::{Base, START_OFFSET, START_SPEED, Structure};
 pub use unknown::{Scale, Unknown};

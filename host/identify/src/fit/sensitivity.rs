@@ -3,7 +3,7 @@
 
 use super::uncertainty::SEGMENTS;
 use nalgebra::{DMatrix, DVector};
-use servoid_engine::problem::{Candidate, Centring, FitProblem, Spread};
+use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
 
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
 const PROBE_COUNTS: f64 = 0.02;
@@ -66,16 +66,16 @@ fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
     let probes: Vec<Candidate> = (0..values.len())
         .map(|k| model(&moved(values, k, first(k), unknowns[k].range.1)))
         .collect();
-    let mut changes = vec![Spread::default(); probes.len()];
+    let mut changes = vec![Moments::default(); probes.len()];
     let centring = problem.stream_changes(&here, &probes, |some| {
-        for (spread, change) in changes.iter_mut().zip(some) {
-            spread.add(change);
+        for (moments, change) in changes.iter_mut().zip(some) {
+            moments.add(change);
         }
     })?;
-    let pair = |(k, spread): (usize, &Spread)| {
+    let pair = |(k, moments): (usize, &Moments)| {
         let squares = match centring {
-            Centring::Pending => spread.about_mean(),
-            Centring::Done => spread.about(0.0),
+            Centring::Pending => moments.squares_about_mean(),
+            Centring::Done => moments.squares_about(0.0),
         };
         let change = (squares / problem.data.len() as f64).sqrt();
         let mut step = first(k);
