@@ -12,8 +12,8 @@ mod sum;
 mod zero_order_hold;
 
 use crate::problem::FitProblem;
-use crate::problem::compress::Compress;
 use crate::problem::residuals::reading_shift;
+use crate::problem::tangent::TangentBuilder;
 use crate::simulation::{Candidate, Horizon, StartAngle, whole};
 use crate::solve::{Compressed, Objective, Tangent};
 use blocks::{BLOCK, Block, BlockPath, COST_ROUNDING, blocks};
@@ -211,7 +211,7 @@ impl BlockCost<'_> {
             .map(|candidate| self.path(candidate, f64::INFINITY))
             .collect::<Option<_>>()?;
         let zero = (problem.start_angle == StartAngle::Known).then_some(FLOOR_OFFSET_COUNTS);
-        let mut compress = Compress::new(candidates.len() - 1, zero);
+        let mut builder = TangentBuilder::new(candidates.len() - 1, zero);
         let aheads: Vec<StrideAngles> = motions
             .iter()
             .map(|(hold, ..)| hold.stride_angles())
@@ -240,9 +240,9 @@ impl BlockCost<'_> {
                 }
                 &change[..here.len()]
             });
-            compress.add(here, &changes.collect::<Vec<_>>());
+            builder.add(here, &changes.collect::<Vec<_>>());
         }
-        compress.tangent()
+        builder.finish()
     }
 }
 

@@ -1,9 +1,9 @@
 //! The cost of a point of the unit cube, and the residuals behind it.
 
-use super::compress::Compress;
 use super::moments::Moments;
 use super::residuals::{centre, errors, is_centred, reading_shift};
 use super::structure::Structure;
+use super::tangent::TangentBuilder;
 use crate::data::Data;
 use crate::simulation::{Batch, Candidate, Horizon, Method, Simulation, StartAngle, segments};
 use crate::solve::{Compressed, Objective, Tangent};
@@ -230,13 +230,13 @@ impl Compressed for FitProblem<'_> {
         let (horizon, start_angle) = (&self.horizon, self.start_angle);
         let centred = self.is_centred(&here);
         let segments = |candidate: &Candidate| segments(self.data, candidate, horizon, start_angle);
-        let mut compress = Compress::new(moved.len(), (!centred).then(|| self.zero()));
+        let mut builder = TangentBuilder::new(moved.len(), (!centred).then(|| self.zero()));
         if self
             .batch()
             .stream(&here, &others, segments, |here, changes| {
-                compress.add(here, changes);
+                builder.add(here, changes);
             })
-            && let Some(tangent) = compress.tangent()
+            && let Some(tangent) = builder.finish()
         {
             return Some(tangent);
         }
@@ -249,9 +249,9 @@ impl Compressed for FitProblem<'_> {
             .map(|change| change.as_ref().map_or(&nothing[..], |change| change))
             .collect();
         // Residuals are about their zero already.
-        let mut compress = Compress::new(moved.len(), Some(0.0));
-        compress.add(&residuals, &columns);
-        let mut tangent = compress.tangent()?;
+        let mut builder = TangentBuilder::new(moved.len(), Some(0.0));
+        builder.add(&residuals, &columns);
+        let mut tangent = builder.finish()?;
         tangent.possible = changes.iter().map(Option::is_some).collect();
         Some(tangent)
     }

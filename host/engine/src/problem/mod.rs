@@ -7,15 +7,15 @@
 //! | `residuals` | model minus reading over a horizon |
 //! | `fit_problem` | the cost of a point of the cube, and the residuals behind it |
 //! | `changes` | by how much the residuals of models near one differ from its own |
-//! | `compress` | residuals and changes as a triangle, which is all that a least-squares step needs |
+//! | `tangent` | residuals and changes as a triangle, which is all that a least-squares step needs |
 //! | `moments` | mean and squares of many numbers, some at a time |
 
 mod changes;
-pub(crate) mod compress;
 mod fit_problem;
 mod moments;
 pub(crate) mod residuals;
 mod structure;
+pub(crate) mod tangent;
 mod unknown;
 
 pub use crate::data::Data;

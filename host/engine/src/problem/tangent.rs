@@ -4,19 +4,19 @@ use crate::lanes::{LANES, Triangles};
 use crate::solve::Tangent;
 
 /// The compression so far.
-pub(crate) struct Compress {
+pub(crate) struct TangentBuilder {
     triangles: Triangles<LANES>,
     /// What residuals are counted from; `None` for their own mean.
     zero: Option<f64>,
     others: usize,
 }
 
-impl Compress {
+impl TangentBuilder {
     /// Of a model and so many others, with residuals about `zero`, or about the mean of each model's own.
     pub(crate) fn new(others: usize, zero: Option<f64>) -> Self {
         // To count from the mean is to be orthogonal to a constant: that is a column before the others.
         let constant = usize::from(zero.is_none());
-        Compress {
+        TangentBuilder {
             triangles: Triangles::new(constant + 1 + others),
             zero,
             others,
@@ -48,7 +48,7 @@ impl Compress {
     }
 
     /// The tangent; `None` where a number is none.
-    pub(crate) fn tangent(self) -> Option<Tangent> {
+    pub(crate) fn finish(self) -> Option<Tangent> {
         let constant = usize::from(self.zero.is_none());
         let width = 1 + self.others;
         let whole = self.triangles.together();
