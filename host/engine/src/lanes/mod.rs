@@ -7,11 +7,11 @@
 mod dispatch;
 mod number;
 mod token;
+mod transpose;
 mod triangles;
-mod turn;
 
 pub use dispatch::{Work, with_vectors, work};
 pub use number::{LaneMask, Lanes};
 pub use token::Token;
+pub use transpose::{LANES, Tile, Transpose};
 pub use triangles::Triangles;
-pub use turn::{LANES, Square, Turn};

@@ -1,7 +1,7 @@
 //! The same number of several candidates, in the lanes of vector registers.
 
 use super::token::Token;
-use super::turn::{LANES, Square};
+use super::transpose::{LANES, Tile};
 use bytemuck::cast;
 use core::fmt::{self, Debug};
 use core::ops::{Add, Mul, Neg, Sub};
@@ -60,17 +60,17 @@ impl<T: Token, const M: usize> Lanes<T, M> {
 
     /// Numbers of each candidate from one number each of all of them, and the other way round.
     #[inline(always)]
-    pub fn turned(rows: Square) -> [Self; LANES] {
-        let token = T::here();
-        let columns: [[T::f64s; M]; LANES] = cast(token.turned(rows));
-        let mut turned = [Lanes {
+    pub fn transposed(rows: Tile) -> [Self; LANES] {
+        let token = T::witness();
+        let columns: [[T::f64s; M]; LANES] = cast(token.transposed(rows));
+        let mut transposed = [Lanes {
             registers: columns[0],
             token,
         }; LANES];
-        for (turned, registers) in turned.iter_mut().zip(columns) {
-            turned.registers = registers;
+        for (transposed, registers) in transposed.iter_mut().zip(columns) {
+            transposed.registers = registers;
         }
-        turned
+        transposed
     }
 
     /// Each rounded down.
@@ -105,7 +105,7 @@ impl<T: Token, const M: usize> From<[f64; LANES]> for Lanes<T, M> {
     fn from(each: [f64; LANES]) -> Self {
         Lanes {
             registers: cast(each),
-            token: T::here(),
+            token: T::witness(),
         }
     }
 }
@@ -282,7 +282,7 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
     }
     #[inline(always)]
     fn routine<A>(body: impl FnMut() -> A) -> A {
-        T::here().vectorize(Routine(body))
+        T::witness().vectorize(Routine(body))
     }
     #[inline(always)]
     fn sin_cos_turns(self) -> (Self, Self) {

@@ -1,22 +1,22 @@
 //! The proof that the processor at hand has the instructions that lanes are computed with.
 
-use super::turn::Turn;
+use super::transpose::Transpose;
 use pulp::Simd;
 use std::sync::OnceLock;
 
 /// A processor's vector instructions, where it has them.
-pub trait Token: Simd + Turn {
+pub trait Token: Simd + Transpose {
     /// The proof.
     ///
     /// # Panics
     /// On a processor without them; work in lanes is only begun where they were found.
-    fn here() -> Self;
+    fn witness() -> Self;
 }
 
 #[cfg(target_arch = "x86_64")]
 impl Token for pulp::x86::V3 {
     #[inline(always)]
-    fn here() -> Self {
+    fn witness() -> Self {
         *V3.get().expect("work in lanes begins with the proof")
     }
 }
@@ -24,7 +24,7 @@ impl Token for pulp::x86::V3 {
 #[cfg(target_arch = "x86_64")]
 impl Token for pulp::x86::V4 {
     #[inline(always)]
-    fn here() -> Self {
+    fn witness() -> Self {
         *V4.get().expect("work in lanes begins with the proof")
     }
 }

@@ -226,7 +226,7 @@ impl Less {
             let at = square * LANES;
             let mut some = [[0.0; LANES]; LANES];
             some.copy_from_slice(&sights[at..at + LANES]);
-            let mut seen = Lanes::<T, M>::turned(some);
+            let mut seen = Lanes::<T, M>::transposed(some);
             let mut reading = [0.0; LANES];
             reading.copy_from_slice(&read[at..at + LANES]);
             let reading = Lanes::from(reading);

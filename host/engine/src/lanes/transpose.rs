@@ -1,4 +1,4 @@
-//! Eight rows of eight numbers turned into their columns, in registers: what the lanes saw at eight samples becomes what
+//! Eight rows of eight numbers transposed into their columns, in registers: what the lanes saw at eight samples becomes what
 //! each of them saw. By single loads and stores it took as long as half a step of the model.
 
 use bytemuck::cast;
@@ -7,13 +7,13 @@ use bytemuck::cast;
 pub const LANES: usize = 8;
 
 /// A row for each of eight samples, or of eight lanes.
-pub type Square = [[f64; LANES]; LANES];
+pub type Tile = [[f64; LANES]; LANES];
 
 /// Rows and columns exchanged.
-pub trait Turn: Copy {
+pub trait Transpose: Copy {
     /// The columns of these rows.
     #[inline(always)]
-    fn turned(self, rows: Square) -> Square {
+    fn transposed(self, rows: Tile) -> Tile {
         let mut columns = [[0.0; LANES]; LANES];
         for (k, row) in rows.iter().enumerate() {
             for (column, x) in columns.iter_mut().zip(row) {
@@ -24,12 +24,12 @@ pub trait Turn: Copy {
     }
 }
 
-impl Turn for pulp::Scalar {}
+impl Transpose for pulp::Scalar {}
 
 #[cfg(target_arch = "x86_64")]
-impl Turn for pulp::x86::V4 {
+impl Transpose for pulp::x86::V4 {
     #[inline(always)]
-    fn turned(self, rows: Square) -> Square {
+    fn transposed(self, rows: Tile) -> Tile {
         use core::arch::x86_64::__m512d;
         // Every other pair of two registers, from their first or their second.
         const FIRST: i32 = 0b10_00_10_00;
@@ -67,9 +67,9 @@ impl Turn for pulp::x86::V4 {
 }
 
 #[cfg(target_arch = "x86_64")]
-impl Turn for pulp::x86::V3 {
+impl Transpose for pulp::x86::V3 {
     #[inline(always)]
-    fn turned(self, rows: Square) -> Square {
+    fn transposed(self, rows: Tile) -> Tile {
         use core::arch::x86_64::__m256d;
         const LOW: i32 = 0x20;
         const HIGH: i32 = 0x31;
@@ -103,31 +103,31 @@ impl Turn for pulp::x86::V3 {
 mod tests {
     use super::*;
 
-    fn squares() -> Square {
+    fn tile() -> Tile {
         std::array::from_fn(|row| std::array::from_fn(|column| (10 * row + column) as f64))
     }
 
-    fn turns(processor: impl Turn) {
-        let rows = squares();
-        let columns = processor.turned(rows);
+    fn transposes(processor: impl Transpose) {
+        let rows = tile();
+        let columns = processor.transposed(rows);
         for row in 0..LANES {
             for column in 0..LANES {
                 assert_eq!(columns[column][row], rows[row][column]);
             }
         }
-        assert_eq!(processor.turned(columns), rows);
+        assert_eq!(processor.transposed(columns), rows);
     }
 
     #[test]
     fn rows_become_columns_with_every_kind_of_register() {
-        turns(pulp::Scalar::new());
+        transposes(pulp::Scalar::new());
         #[cfg(target_arch = "x86_64")]
         {
             if let Some(v3) = pulp::x86::V3::try_new() {
-                turns(v3);
+                transposes(v3);
             }
             if let Some(v4) = pulp::x86::V4::try_new() {
-                turns(v4);
+                transposes(v4);
             }
         }
     }
