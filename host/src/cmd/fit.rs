@@ -56,7 +56,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     )?;
     if !options.effects.is_empty() {
         let stop = session.stop();
-        fit.ladder = fit::ladder(&data, validation.as_ref(), &fit, &options, stop);
+        fit.error_ladder = fit::error_ladder(&data, validation.as_ref(), &fit, &options, stop);
     }
     if let Some(path) = &args.plot {
         let drawing = plot::overlay(&data, &fit.candidate, options.method)?;

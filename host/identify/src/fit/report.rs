@@ -1,10 +1,13 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
 use super::margins::{Loop, Margins};
+use super::options::Options;
 use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile, seen_of};
+use super::remarks;
+use super::resistance::resistance;
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
-use super::{Options, remarks, resistance::resistance, validate};
+use super::validate::validate;
 use crate::error::Error;
 use nalgebra::DMatrix;
 use servoid_engine::problem::rms_counts;
@@ -33,7 +36,7 @@ pub struct Parameter {
 
 /// The error of a model with some of the effects.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rung {
+pub struct LadderEntry {
     /// The effect that was added last; `None` for the linear motor.
     pub added: Option<&'static str>,
     /// RMS error on the fitted recording, counts.
@@ -89,7 +92,7 @@ pub struct Fit {
     /// Whether the search was stopped by the user.
     pub interrupted: bool,
     /// Errors of the models that lead to this one, effect by effect; empty where nobody asked.
-    pub ladder: Vec<Rung>,
+    pub error_ladder: Vec<LadderEntry>,
 }
 
 impl Fit {
@@ -173,7 +176,7 @@ impl Fit {
             notes,
             curve: found.curve.clone(),
             interrupted: found.interrupted,
-            ladder: Vec::new(),
+            error_ladder: Vec::new(),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The resistance from a measured current.
 
 use super::physical::Estimate;
-use super::uncertainty::SEGMENTS;
+use super::sensitivity::SEGMENTS;
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::{Method, Simulation};
 use servoid_io::recording::Drive;

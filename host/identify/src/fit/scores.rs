@@ -1,7 +1,8 @@
 //! Errors of a fitted model, in the several ways that people measure them.
 
 use super::filter::{Passing, filtered};
-use super::{Options, SPEED_HALF_WIDTH};
+use super::options::Options;
+use super::start::SPEED_HALF_WIDTH;
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
 use servoid_engine::problem::{Horizon, errors};

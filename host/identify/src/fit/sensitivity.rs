@@ -1,10 +1,11 @@
 //! Sums over the Jacobian of the residuals, which is never there as a whole: of an hour's recording it would be larger than the
 //! recording.
 
-use super::uncertainty::SEGMENTS;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
 
+/// Time segments that count as independent.
+pub(super) const SEGMENTS: usize = 24;
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
 const PROBE_COUNTS: f64 = 0.02;
 /// Part of a column's squares that rounding may leave of them about their mean.

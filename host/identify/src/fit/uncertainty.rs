@@ -7,13 +7,11 @@
 //! Liang, Zeger, 1986), where `gₛ` is a segment's part of the gradient: whatever the correlation
 //! within a segment, it is counted once.
 
-use super::memory::memory;
+use super::correlation_time::correlation_sum;
 use super::sensitivity::sensitivity;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Data, FitProblem};
 
-/// Time segments that count as independent.
-pub(super) const SEGMENTS: usize = 24;
 /// Singular values of the column-scaled Jacobian below this are directions that the data do not hold.
 const FLAT: f64 = 1e-6;
 
@@ -118,7 +116,7 @@ pub fn uncertainty(
     })
 }
 
-/// Samples divided by the sum of the residuals' autocorrelation ([`memory`]), and never more than the changes of the reading.
+/// Samples divided by the sum of the residuals' autocorrelation ([`correlation_sum`]), and never more than the changes of the reading.
 pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     let n = residuals.len();
     let mean = residuals.iter().sum::<f64>() / n.max(1) as f64;
@@ -133,7 +131,7 @@ pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     if n < 2 || variance <= 0.0 {
         return n as f64;
     }
-    let sum = memory(n / 2, |lag| product(lag) / variance);
+    let sum = correlation_sum(n / 2, |lag| product(lag) / variance);
     let independent = n as f64 / (1.0 + 2.0 * sum);
     if data.quantised {
         independent.min(data.transitions().max(1) as f64)

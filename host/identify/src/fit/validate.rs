@@ -1,6 +1,7 @@
 //! A fitted model on another recording, whose start is its own.
 
-use super::{SPEED_HALF_WIDTH, may_start_moving, scores};
+use super::scores;
+use super::start::{SPEED_HALF_WIDTH, may_start_moving};
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
 use servoid_engine::problem::{Horizon, errors, rms_counts};

@@ -9,7 +9,7 @@ const EACH: usize = 400;
 const PART: usize = 32;
 
 /// Sum of `correlation` over the lags from 1 to below `most`, up to the first that is none.
-pub fn memory(most: usize, correlation: impl Fn(usize) -> f64) -> f64 {
+pub fn correlation_sum(most: usize, correlation: impl Fn(usize) -> f64) -> f64 {
     let mut sum = 0.0;
     let (mut lag, mut last) = (1, 1.0);
     let mut step = 1;
@@ -40,13 +40,13 @@ mod tests {
                 .map(correlation)
                 .take_while(|r| *r > NONE)
                 .sum();
-            let found = memory(200_000, correlation);
+            let found = correlation_sum(200_000, correlation);
             assert!(
                 (found - each).abs() <= 0.01 * each,
                 "{decay}: {found} for {each}"
             );
         }
-        assert_eq!(memory(1, |_| 1.0), 0.0);
-        assert_eq!(memory(300, |_| 1.0), 299.0);
+        assert_eq!(correlation_sum(1, |_| 1.0), 0.0);
+        assert_eq!(correlation_sum(300, |_| 1.0), 299.0);
     }
 }
