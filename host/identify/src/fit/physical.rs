@@ -86,13 +86,13 @@ fn physical(u: &Vector) -> [f64; N] {
 }
 
 /// What the data speak about, as a function of the coordinates.
-fn seen(u: &Vector, k: usize) -> f64 {
+fn determined(u: &Vector, k: usize) -> f64 {
     let (total, m, lag, part) = (u[2], u[3], u[4], u[5]);
     [total, m + lag * part * total, lag * m, part][k]
 }
 
 /// The same of a machine.
-pub fn seen_of(machine: &Machine<f64>) -> [f64; 4] {
+pub fn determined_by_data(machine: &Machine<f64>) -> [f64; 4] {
     let total = machine.kb + machine.damping;
     let part = if total > 0.0 {
         machine.damping / total
@@ -100,7 +100,7 @@ pub fn seen_of(machine: &Machine<f64>) -> [f64; 4] {
         0.0
     };
     let u = Vector::from([0.0, 0.0, total, machine.inertia, machine.electrical, part]);
-    std::array::from_fn(|k| seen(&u, k))
+    std::array::from_fn(|k| determined(&u, k))
 }
 
 /// Typical size of each coordinate, so that information is relative.
@@ -188,7 +188,7 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         part,
     ]);
     let sizes = sizes(&start);
-    let measured = seen_of(machine);
+    let measured = determined_by_data(machine);
     let whitening = whitening(&evidence.covariance, &measured);
     let statements = facts(known, evidence.resistance, &start);
     // All that is stated, as rows of unit variance: slope, and what is still missing.
@@ -203,8 +203,8 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         for weights in &whitening {
             let mut row = (Vector::zeros(), 0.0);
             for (k, weight) in weights.iter().enumerate() {
-                row.0 += gradient(&|u| seen(u, k), u, &sizes) * *weight;
-                row.1 += (measured[k] - seen(u, k)) * weight;
+                row.0 += gradient(&|u| determined(u, k), u, &sizes) * *weight;
+                row.1 += (measured[k] - determined(u, k)) * weight;
             }
             rows.push(row);
         }
@@ -359,9 +359,13 @@ mod tests {
             electrical: 0.0,
         };
         let relative = [1e-4, 1e-3, 1e-2, 1e-2];
-        let seen = seen_of(&machine);
+        let values = determined_by_data(&machine);
         let covariance = DMatrix::from_fn(4, 4, |i, k| {
-            let size = if i == 3 { 1.0 } else { seen[i].abs().max(1e-6) };
+            let size = if i == 3 {
+                1.0
+            } else {
+                values[i].abs().max(1e-6)
+            };
             if i == k {
                 (relative[i] * size).powi(2)
             } else {

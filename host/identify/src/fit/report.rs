@@ -2,7 +2,9 @@
 
 use super::margins::{Loop, Margins};
 use super::options::Options;
-use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile, seen_of};
+use super::physical::{
+    CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, determined_by_data, reconcile,
+};
 use super::remarks;
 use super::resistance::resistance;
 use super::scores::{self, Windowed};
@@ -187,7 +189,7 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     let count = values.len().min(spread.covariance.nrows());
     let with_part = matches!(problem.structure.base, Base::Response { damping: true })
         && !spread.flat[..count].iter().any(|&flat| flat);
-    let wanted = |candidate: &Candidate| seen_of(&candidate.machine);
+    let wanted = |candidate: &Candidate| determined_by_data(&candidate.machine);
     let rows = if with_part { 4 } else { 3 };
     let mut full = values.clone();
     full.resize(problem.structure.dim(), 0.0);

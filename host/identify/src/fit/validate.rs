@@ -19,7 +19,7 @@ pub const START_OFFSETS: [f64; 8] = [-0.4, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.4]
 const DEPARTED_COUNTS: f64 = 4.0;
 /// Where the readings are followed over such a part of the recording, where a run departs may be a matter of where in the cell it
 /// began.
-const FOLLOWED: f64 = 0.05;
+const LEAST_FOLLOWED: f64 = 0.05;
 /// First step of the start offset by which its effect is measured, counts, and the wanted RMS of that effect, counts: far along
 /// a chaotic run a larger one slips a detent.
 const OFFSET_STEP: f64 = 1e-5;
@@ -51,7 +51,7 @@ pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f6
 /// # Errors
 /// Where the model cannot run.
 pub fn validate_roughly(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
-    let errors = errors_from(data, candidate, method, Start::Tried)?;
+    let errors = errors_from(data, candidate, method, Start::Grid)?;
     Ok(rms_counts(data, &errors))
 }
 
@@ -65,16 +65,16 @@ pub fn validation_errors(
     candidate: &Candidate,
     method: Method,
 ) -> Result<Vec<f64>, Error> {
-    errors_from(data, candidate, method, Start::Followed)
+    errors_from(data, candidate, method, Start::Refined)
 }
 
 /// How the place within the first cell is found at which another recording began.
 #[derive(Clone, Copy, PartialEq)]
 enum Start {
     /// Some are tried.
-    Tried,
+    Grid,
     /// The one of them that is followed furthest leads on to a better one.
-    Followed,
+    Refined,
 }
 
 fn errors_from(
@@ -123,25 +123,26 @@ fn errors_from(
                 }
             }
         }
-        if start == Start::Followed
+        if start == Start::Refined
             && rms(&best) >= START_UNNOTICED
-            && let Some(followed) = follow(data, longest.1, &|offset| run(start_speed, offset))?
-            && rms(&followed) < rms(&best)
+            && let Some(refined) =
+                refined_offset(data, longest.1, &|offset| run(start_speed, offset))?
+            && rms(&refined) < rms(&best)
         {
-            best = followed;
+            best = refined;
         }
     }
-    if let Some(led) = led(data, candidate, method)
-        && rms(&led) < rms(&best)
+    if let Some(continued) = continued_from_whole(data, candidate, method)
+        && rms(&continued) < rms(&best)
     {
-        best = led;
+        best = continued;
     }
     Ok(best)
 }
 
 /// The run from the place within the first cell from which the readings are followed furthest: by least squares over the stretch
 /// that is followed already, which carries it further. `None` where none is followed for long.
-fn follow(
+fn refined_offset(
     data: &Data,
     mut offset: f64,
     run: &dyn Fn(f64) -> Result<Vec<f64>, Error>,
@@ -154,7 +155,7 @@ fn follow(
     while stalled < STALLED {
         let errors = run(offset)?;
         let to = departure(data, &errors);
-        if to < reached || (to as f64) < FOLLOWED * data.len() as f64 {
+        if to < reached || (to as f64) < LEAST_FOLLOWED * data.len() as f64 {
             break;
         }
         stalled = if to > reached { 0 } else { stalled + 1 };
@@ -192,7 +193,7 @@ fn slope_step(here: &[f64], ahead: &[f64], step: f64, centre: f64) -> f64 {
 }
 
 /// Model minus reading at the end of a whole recording, for a model that ran along it from its begin.
-fn led(data: &Data, candidate: &Candidate, method: Method) -> Option<Vec<f64>> {
+fn continued_from_whole(data: &Data, candidate: &Candidate, method: Method) -> Option<Vec<f64>> {
     let whole = data.end_of.as_ref()?;
     let mut errors = scores::whole(whole, candidate, method).ok()?;
     let before = errors.len().checked_sub(data.len())?;
