@@ -81,16 +81,16 @@ pub fn rows() {
     println!("scalar Euler in f64: {baseline:.2} ns a step");
     println!(
         "{:16} {:>8} {:>8} {:>8} {:>10} {:>8}",
-        "", "alone", "abreast", "gain", "of Euler", "in lists"
+        "", "alone", "in lanes", "gain", "of Euler", "in lists"
     );
     let kinds = Kind::ALL.iter().map(std::slice::from_ref);
     for kinds in std::iter::once(&[][..]).chain(kinds) {
-        let [alone, abreast, listed] = steps(&data, kinds);
+        let [alone, in_lanes, listed] = steps(&data, kinds);
         println!(
-            "{:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x {listed:8.1}",
+            "{:16} {alone:8.1} {in_lanes:8.1} {:7.1}x {:9.2}x {listed:8.1}",
             kinds.first().map_or("linear", |kind| kind.name()),
-            alone / abreast,
-            abreast / baseline
+            alone / in_lanes,
+            in_lanes / baseline
         );
     }
     println!("\neffects in one model");
@@ -102,11 +102,11 @@ pub fn rows() {
         Kind::BrushDrop,
     ];
     for many in 0..=some.len() {
-        let [alone, abreast, listed] = steps(&data, &some[..many]);
+        let [alone, in_lanes, listed] = steps(&data, &some[..many]);
         println!(
-            "{many:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x {listed:8.1}",
-            alone / abreast,
-            abreast / baseline
+            "{many:16} {alone:8.1} {in_lanes:8.1} {:7.1}x {:9.2}x {listed:8.1}",
+            alone / in_lanes,
+            in_lanes / baseline
         );
     }
 }
@@ -132,7 +132,7 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
         simulation.stream(run.mode, &segments(one), |errors| sum += errors[0]);
         sum
     });
-    let batch = least(data.len() * LANES, || {
+    let in_lanes = least(data.len() * LANES, || {
         let mut sum = 0.0;
         let together = run.stream(one, others, segments, |errors, changes| {
             sum += errors[0] + changes[0][0];
@@ -144,5 +144,5 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
         sum
     });
     let listed = least(data.len() * LANES, || run.errors(&group, &segments));
-    [alone, abreast, listed]
+    [alone, in_lanes, listed]
 }
