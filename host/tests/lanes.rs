@@ -114,12 +114,12 @@ fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
             segments(data, candidate, &horizon, StartAngle::Free)
         };
         let batch = run.errors(&candidates, &segments);
-        for (candidate, abreast) in candidates.iter().zip(abreast) {
+        for (candidate, in_lanes) in candidates.iter().zip(batch) {
             let alone = Simulation::new(data, candidate, run.method)
                 .expect("a valid model")
                 .errors(mode, &segments(candidate));
-            let batch = abreast.expect("a valid model");
-            for (a, b) in alone.iter().zip(&abreast) {
+            let in_lanes = in_lanes.expect("a valid model");
+            for (a, b) in alone.iter().zip(&in_lanes) {
                 let off = (a - b).abs();
                 if off > furthest.0 || off.is_nan() {
                     furthest = (off, name);
