@@ -1,14 +1,14 @@
-//! The blocks of a recording: samples under one command.
+//! The blocks of a recording: consecutive samples under one command.
 
 use super::zero_order_hold::{LinearState, STRIDE, STRIDES};
 use crate::data::Data;
 use std::ops::Range;
 
-/// Fewest samples that a command must be held for, on average.
+/// Least average number of samples for which a command must stay constant.
 const MEAN_HOLD: usize = 2 * STRIDE;
-/// Samples of a block.
+/// Most samples in a block.
 pub(super) const BLOCK: usize = STRIDE * STRIDES;
-/// Rounding of a whole cost, as a part of it.
+/// Rounding error of a whole cost, relative to the cost.
 pub(super) const COST_ROUNDING: f64 = 1e-9;
 
 /// Samples under one command.
@@ -17,19 +17,19 @@ pub(super) struct Block {
     pub(super) range: Range<usize>,
     /// The command, per unit.
     pub(super) command: f64,
-    /// Sum of the readings.
+    /// Sum of the readings, counts.
     pub(super) readings: f64,
 }
 
-/// A block of a motor's course.
+/// A model at one block.
 pub(super) struct BlockPath {
-    /// Where it begins.
-    pub(super) motor: LinearState,
-    /// The block costs no less.
-    pub(super) least: f64,
+    /// State at the block's first sample.
+    pub(super) start: LinearState,
+    /// Lower bound of the block's cost.
+    pub(super) lower_bound: f64,
 }
 
-/// The blocks of data whose commands are held; `None` where they change too often.
+/// Splits the data into blocks; `None` where the command changes too often for that to pay.
 pub(super) fn blocks(data: &Data) -> Option<Vec<Block>> {
     let mut blocks = Vec::new();
     let (mut from, mut stretches) = (0, 0);

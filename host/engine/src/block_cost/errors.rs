@@ -3,7 +3,7 @@
 use super::zero_order_hold::{LinearState, STRIDE, Span, StrideAngles};
 use crate::lanes::with_vectors;
 
-/// A motor under a command.
+/// A motor's response to one command, over a stride.
 pub(super) struct Motion<'m> {
     /// What a stride adds.
     pub(super) stride: &'m Span,
@@ -13,7 +13,7 @@ pub(super) struct Motion<'m> {
     pub(super) command: f64,
 }
 
-/// Model minus reading at each of the samples of a block that begins at a motor, counts.
+/// Model minus reading at each sample of a block that starts in the state `motor`, counts.
 pub(super) fn errors(
     motion: &Motion<'_>,
     motor: LinearState,
@@ -39,14 +39,14 @@ fn of_block(motion: &Motion<'_>, mut motor: LinearState, readings: &[f64], error
     for (errors, readings) in strides.iter_mut().zip(read) {
         let LinearState { state, angle } = motor;
         for k in 0..STRIDE {
-            let turned = by_current[k] * state[0] + by_speed[k] * state[1];
-            errors[k] = ((driven[k] + angle) - readings[k]) + turned;
+            let transient = by_current[k] * state[0] + by_speed[k] * state[1];
+            errors[k] = ((driven[k] + angle) - readings[k]) + transient;
         }
         motor = motion.stride.advance(motor, command);
     }
     let LinearState { state, angle } = motor;
     for (k, (error, reading)) in rest.iter_mut().zip(last).enumerate() {
-        let turned = by_current[k] * state[0] + by_speed[k] * state[1];
-        *error = ((driven[k] + angle) - reading) + turned;
+        let transient = by_current[k] * state[0] + by_speed[k] * state[1];
+        *error = ((driven[k] + angle) - reading) + transient;
     }
 }

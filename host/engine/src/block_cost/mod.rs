@@ -1,9 +1,14 @@
-//! The cost of a linear motor whose commands are held for long: many samples at a time, and no more of them than
-//! show that the cost is above a limit.
+//! The cost of a linear motor in closed form, for recordings whose command is constant for long stretches.
 //!
-//! The angles of `held`'s strides come side by side in lanes. Where the transient has died away
-//! only a line is left. Before, a bound from sums alone: no block of samples costs less than its errors' sum, and
-//! that follows from where the block begins. Whoever only compares costs loses nothing by it.
+//! A *block* is up to 512 samples under one command. The zero-order-hold response (`zero_order_hold`) gives the
+//! motor's state at the start of each block and the sum of the angles in it, in some ten multiplications. Then:
+//!
+//! 1. A block costs at least the magnitude of the sum of its errors. The sum over the blocks is a lower bound of the
+//!    cost. A search that only compares costs rejects most candidates by it, with the same decisions.
+//! 2. Otherwise the errors of each block are summed, eight samples at a time in lanes (`sum`). Where the transient has
+//!    died away only a line is left (`settling`).
+//!
+//! The result equals the cost of [`FitProblem`] within rounding (`host/tests/quick_costs.rs`).
 
 mod blocks;
 mod errors;
@@ -24,20 +29,24 @@ use shared::model::Increments;
 use sum::{Floored, Plain, Squares, Sum};
 use zero_order_hold::{AngleSum, HoldResponse, LinearState, StrideAngles};
 
-/// Rounding of a sum of a block, as a part of what is added up.
+/// Rounding error of a block's sum, relative to the sum of the magnitudes of its terms.
 const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// Most that an angle which is summed may lack of a transient that has died away, counts, and what rounding loses of a line.
+/// Error of one angle, counts, from a transient that is left out once it has died away, and from rounding of the line.
 const TRUNCATION_COUNTS: f64 = 1e-9;
 
-/// A problem with a quicker cost.
+/// A fit problem whose cost is computed in blocks where that is possible, and sample by sample where it is not.
 pub struct BlockCost<'a> {
     problem: &'a FitProblem<'a>,
-    /// Where it can be had: on even samples, driven throughout by commands that are held.
+    /// The blocks; `None` where the cost must be computed sample by sample.
     blocks: Option<Vec<Block>>,
 }
 
 impl<'a> BlockCost<'a> {
-    /// Looks for commands that are held.
+    /// Splits the data into blocks.
+    ///
+    /// That needs a linear model, samples at equal intervals, a bridge that never opens, the whole recording as the
+    /// horizon, and commands that stay constant for 64 samples on average. Absolute costs need a known start angle;
+    /// the interval cost has no closed form.
     pub fn new(problem: &'a FitProblem<'a>) -> Self {
         let data = problem.data;
         let summed = match problem.cost {
@@ -51,12 +60,12 @@ impl<'a> BlockCost<'a> {
         BlockCost { problem, blocks }
     }
 
-    /// Whether costs are quicker here than sample by sample.
+    /// Whether costs are computed in blocks.
     pub fn helps(&self) -> bool {
         self.blocks.is_some()
     }
 
-    /// The cost of a model; infinite where it cannot run.
+    /// The cost of a model, in the unit of the problem's cost; infinite where the model cannot run.
     pub fn cost_of(&self, candidate: &Candidate) -> f64 {
         self.cost_of_within(candidate, f64::INFINITY)
     }
@@ -66,9 +75,10 @@ impl<'a> BlockCost<'a> {
             .unwrap_or_else(|| self.problem.cost_of(candidate))
     }
 
-    /// The motor and its course, as far as needed to see that the cost, without its weight, is above `limit`; and what it
-    /// costs at least. `None` where it must be run sample by sample.
-    // Inlined, as a motor is large to be handed on.
+    /// The motor's response, its state at the start of each block, and the lower bound of the cost (without its
+    /// weight). Stops at the block at which the bound exceeds `limit`. `None` where the model must be run sample by
+    /// sample.
+    // Inlined: the response is large, and a call would copy it.
     #[inline(always)]
     fn path(
         &self,
@@ -78,7 +88,7 @@ impl<'a> BlockCost<'a> {
         let blocks = self.blocks.as_ref()?;
         let problem = self.problem;
         let data = problem.data;
-        // A model that cannot run says so where it is summed sample by sample.
+        // A model that cannot run is reported by the sum sample by sample.
         let discretisation = problem.method.discretisation;
         let step = Increments::of(&candidate.machine, &data.units, discretisation).ok()?;
         let hold = HoldResponse::new(&step)?;
@@ -91,7 +101,8 @@ impl<'a> BlockCost<'a> {
         Some((hold, paths, least))
     }
 
-    /// The cost, or more than `limit` where that is less; `None` where it must be summed sample by sample.
+    /// The cost if it is at most `limit`, else a number above `limit`; `None` where it must be summed sample by
+    /// sample.
     fn closed_form_cost(&self, candidate: &Candidate, limit: f64) -> Option<f64> {
         let problem = self.problem;
         let data = problem.data;
@@ -128,7 +139,7 @@ impl<'a> BlockCost<'a> {
         sum.is_finite().then_some(sum * problem.weight)
     }
 
-    /// The paths of a motor's course, as far as needed to see that the cost is above `limit`, and the least cost.
+    /// The state at the start of each block, up to the block at which the lower bound exceeds `limit`; and that bound.
     fn paths(
         &self,
         blocks: &[Block],
@@ -142,7 +153,10 @@ impl<'a> BlockCost<'a> {
             let (to, angle_sum) = hold.advance(motor, block.command, block.range.len());
             let least = self.lower_bound(block, angle_sum);
             total += least;
-            paths.push(BlockPath { motor, least });
+            paths.push(BlockPath {
+                start: motor,
+                lower_bound: least,
+            });
             if total * (1.0 - COST_ROUNDING) > limit {
                 break;
             }
@@ -151,7 +165,7 @@ impl<'a> BlockCost<'a> {
         (paths, total)
     }
 
-    /// A block costs at least this: its errors' sum, however they are spread.
+    /// Lower bound of a block's cost: `|Σ error| ≤ Σ |error|`, less the rounding.
     fn lower_bound(&self, block: &Block, angles: AngleSum) -> f64 {
         let Cost::Absolute { model_floored } = self.problem.cost else {
             return 0.0;
@@ -160,7 +174,7 @@ impl<'a> BlockCost<'a> {
         let sum = angles.sum - block.readings;
         let lost =
             SUM_ROUNDING * (angles.terms + block.readings.abs()) + TRUNCATION_COUNTS * samples;
-        // Rounded down, an error is less by up to one.
+        // Rounding down makes an error smaller by less than one count.
         let above = if model_floored { sum - samples } else { sum };
         (above.max(-sum) - lost).max(0.0)
     }
@@ -203,7 +217,8 @@ impl BlockCost<'_> {
         structure.candidate(&structure.values(x))
     }
 
-    /// The tangent at a model; `None` where a model must be run sample by sample.
+    /// Residuals of the first candidate and changes to the others, as a triangle; `None` where one of them must be run
+    /// sample by sample.
     fn closed_form_tangent(&self, candidates: &[Candidate]) -> Option<Tangent> {
         let problem = self.problem;
         let motions: Vec<(HoldResponse, Vec<BlockPath>, f64)> = candidates
@@ -227,7 +242,7 @@ impl BlockCost<'_> {
                 };
                 errors(
                     &motion,
-                    paths[number].motor,
+                    paths[number].start,
                     readings,
                     &mut some[..readings.len()],
                 );

@@ -1,19 +1,19 @@
-//! What a linear motor that settles tends to while its command is held: its angle as a line and a transient that dies away.
+//! The angle of a settling motor under a held command: a line and a transient that dies away.
 //!
-//! The state less where it tends to, `d`, obeys `d(k+1) = (I + E)·d(k)`, so that `θ(k) = level + slope·k + z(k)` with
-//! `z = P·d` and `P = T·E⁻¹`, `T` being what a step's angle takes of the state.
+//! The deviation `d` of the state from its steady value obeys `d(k+1) = (I + E)·d(k)`. So `θ(k) = level + slope·k + z(k)`
+//! with `z = P·d` and `P = T·E⁻¹`, where `T` is what a step adds to the angle by the state.
 
 use super::zero_order_hold::{
     HoldResponse, LinearState, Matrix, Pair, StrideAngles, determinant, dot, row_times, times,
 };
 
-/// Error of an angle that is allowed, counts. Of a motor whose modes are so slow that line and transient are large numbers
-/// whose difference may have lost more, there is no path.
+/// Largest allowed rounding error of an angle, counts. Slow modes make line and transient large numbers of opposite
+/// sign; where their difference may have lost more than this, the split is not used.
 const ANGLE_ERROR_COUNTS: f64 = 1e-7;
-/// Roundings of line and transient, as parts of the transient.
+/// Rounding error of line and transient, relative to the transient.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
-/// A motor that settles.
+/// A motor whose transients die away.
 pub struct Settling {
     /// Inverse of a step's increments.
     inverse: Matrix,
@@ -27,19 +27,19 @@ pub struct Settling {
     most: Pair,
 }
 
-/// What a held command makes of a motor: its angle as a line and a transient.
+/// The angle under a held command as a line and a transient.
 #[derive(Clone, Copy, Debug)]
-pub struct Path {
-    /// Where the line begins, counts.
+pub struct LineAndTransient {
+    /// The line at the first sample, counts.
     pub level: f64,
-    /// How it rises with each sample, counts.
+    /// Rise of the line with each sample, counts.
     pub slope: f64,
-    /// The state less where it tends to, at the start.
-    pub off: Pair,
+    /// Deviation of the state from its steady value, at the start.
+    pub deviation: Pair,
 }
 
 impl Settling {
-    /// `None` for motors that do not settle.
+    /// `None` for a motor without a steady state.
     #[inline(always)]
     pub fn new(hold: &HoldResponse, ahead: &StrideAngles) -> Option<Self> {
         let step = hold.step();
@@ -76,24 +76,24 @@ impl Settling {
         Some(settling)
     }
 
-    /// The path from a motor under a command; `None` where rounding may tell.
+    /// Line and transient from a state under a command; `None` where rounding would show.
     #[inline(always)]
-    pub fn path(&self, from: &LinearState, command: f64) -> Option<Path> {
+    pub fn path(&self, from: &LinearState, command: f64) -> Option<LineAndTransient> {
         let (state_by, angle_by) = self.by_command;
         let rest = times(&self.inverse, state_by.map(|by| by * command)).map(|x| -x);
         let off = [from.state[0] - rest[0], from.state[1] - rest[1]];
         let terms = (self.transient[0] * off[0]).abs() + (self.transient[1] * off[1]).abs();
         // A NaN is not below it either.
-        (ROUNDINGS * terms < ANGLE_ERROR_COUNTS).then(|| Path {
+        (ROUNDINGS * terms < ANGLE_ERROR_COUNTS).then(|| LineAndTransient {
             level: from.angle - dot(self.transient, off),
             slope: dot(self.angle, rest) + angle_by * command,
-            off,
+            deviation: off,
         })
     }
 
-    /// Bound of the transients of a stride that begins in a state, counts.
+    /// Upper bound of the transient at any sample of a stride that starts with a deviation, counts.
     #[inline(always)]
-    pub fn largest(&self, off: Pair) -> f64 {
+    pub fn transient_bound(&self, off: Pair) -> f64 {
         (self.most[0] * off[0]).abs() + (self.most[1] * off[1]).abs()
     }
 }

@@ -1,33 +1,35 @@
-//! What a linear motor does while its command is hold, at any sample, without the samples before.
+//! Response of the linear motor to a command that is held constant (zero-order hold), at any later sample, without the
+//! samples between.
 //!
-//! With the state `x` at the first sample and the command `c`, the angle of the sample `k` behind it is
+//! With the state `x` (current, speed) at the first sample and the command `c`, all per unit, the angle `k` samples later is
 //!
 //! ```text
-//! θ(k) = θ(0) + a(k)·x + α(k)·c
+//! θ(k) = θ(0) + a(k)·x + α(k)·c        counts
 //! ```
 //!
-//! and what `n` samples add to the state, to the angle and to the sum of the angles is of the same form. From `n` samples
-//! follows what `2·n` do. Nothing is divided by and no large numbers cancel, however slow the modes are, equal and complex ones
-//! too. All of it comes from the increments of the model's own step.
+//! What `n` samples add to the state, to the angle and to the sum of the angles has the same form. Doubling `n`
+//! (`2·E + E²` for the state, where `E` is the matrix exponential less one) costs a few products. Nothing is divided and
+//! no large numbers cancel, so slow, equal and complex modes keep their digits. All of it comes from the increments of
+//! the model's own step ([`Increments`]).
 //!
-//! Where a motor settles (`settling.rs`), less will do.
+//! Where the motor settles, `settling` needs less.
 
 use shared::model::Increments;
 
-/// Samples whose angles follow from one state.
+/// Samples of a stride: their angles are computed from one state.
 pub const STRIDE: usize = 32;
-/// Strides of the longest span.
+/// Strides in the longest span.
 pub const STRIDES: usize = 16;
-/// Strides whose beginnings follow from one state.
+/// Strides of a group: their first states are computed from one state, one to a lane.
 pub const STARTS: usize = 8;
-/// Spans of 1, 2, 4 … samples.
+/// Number of spans: of 1, 2, 4 … samples.
 const SPANS: usize = (STRIDE * STRIDES).ilog2() as usize + 1;
-/// Which of them is a stride,
+/// Index of the span of a stride.
 const STRIDE_SPAN: usize = STRIDE.ilog2() as usize;
-/// and which as many as begin abreast.
+/// Index of the span of a group.
 const GROUP_SPAN: usize = STRIDE_SPAN + STARTS.ilog2() as usize;
 
-type Abreast = [f64; STARTS];
+type PerStart = [f64; STARTS];
 pub(super) type Pair = [f64; 2];
 pub(super) type Matrix = [Pair; 2];
 
@@ -59,10 +61,10 @@ pub(super) fn determinant(a: &Matrix) -> f64 {
     a[0][0] * a[1][1] - a[0][1] * a[1][0]
 }
 
-/// What so many samples under a held command add.
+/// What a number of samples under a held command adds.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// Their number.
+    /// Number of samples.
     pub samples: f64,
     /// To the state, by state and by command.
     pub state: Matrix,
@@ -90,7 +92,8 @@ impl Span {
         }
     }
 
-    /// Of twice as many samples. The second half starts where the first one ends: `2·E + E²` keeps the digits of slow modes.
+    /// The span of twice as many samples. The second half starts where the first one ends: `2·E + E²` keeps the digits
+    /// of slow modes.
     #[inline(always)]
     fn doubled(&self) -> Self {
         let e = &self.state;
@@ -116,10 +119,10 @@ impl Span {
         }
     }
 
-    /// Where a command leads in so many samples.
+    /// The state after the span.
     #[inline(always)]
     pub fn advance(&self, LinearState { state, angle }: LinearState, command: f64) -> LinearState {
-        // In this order, since the next span waits for it.
+        // In this order: the next span waits for the state.
         let by = self.state_by_command.map(|by| by * command);
         LinearState {
             state: plus(plus(state, by), times(&self.state, state)),
@@ -127,7 +130,7 @@ impl Span {
         }
     }
 
-    /// What their angles sum to.
+    /// Sum of the angles of the span's samples.
     #[inline(always)]
     fn angle_sum(&self, LinearState { state, angle }: LinearState, command: f64) -> AngleSum {
         let level = self.samples * angle;
@@ -145,12 +148,12 @@ impl Span {
     }
 }
 
-/// A linear motor, ready to be held.
+/// Response of a linear motor to a held command, over spans of 1, 2, 4 … samples.
 pub struct HoldResponse {
     spans: [Span; SPANS],
 }
 
-/// Where a motor is.
+/// State of the linear motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearState {
     /// Current and speed, per unit.
@@ -159,7 +162,7 @@ pub struct LinearState {
     pub angle: f64,
 }
 
-/// The sum of the angles of some samples, counts, and how large what was added up is.
+/// Sum of the angles of some samples, counts, and the sum of the magnitudes of its terms.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AngleSum {
     /// The sum.
@@ -177,16 +180,16 @@ pub struct StrideAngles {
     pub by_command: [f64; STRIDE],
 }
 
-/// What the first strides add, from none of them on: a motor's motor where each begins.
+/// The states at the first samples of the strides of a group, by the state at the start of the first.
 pub struct StrideStarts {
     /// To the state, by state and by command.
-    pub state: [[Abreast; 2]; 2],
+    pub state: [[PerStart; 2]; 2],
     /// See [`state`](Self::state).
-    pub state_by_command: [Abreast; 2],
+    pub state_by_command: [PerStart; 2],
     /// To the angle, counts.
-    pub angle: [Abreast; 2],
+    pub angle: [PerStart; 2],
     /// See [`angle`](Self::angle).
-    pub angle_by_command: Abreast,
+    pub angle_by_command: PerStart,
 }
 
 impl HoldResponse {
@@ -210,24 +213,24 @@ impl HoldResponse {
         settles.then_some(HoldResponse { spans })
     }
 
-    /// Of a step.
+    /// Span of one sample.
     pub fn step(&self) -> &Span {
         &self.spans[0]
     }
 
-    /// Of a stride.
+    /// Span of a stride.
     #[inline(always)]
     pub fn stride(&self) -> &Span {
         &self.spans[STRIDE_SPAN]
     }
 
-    /// Of as many strides as begin abreast.
+    /// Span of a group of strides.
     #[inline(always)]
     pub fn group(&self) -> &Span {
         &self.spans[GROUP_SPAN]
     }
 
-    /// Where a command leads in so many samples, and what their angles sum to.
+    /// The state after `samples` samples, and the sum of their angles.
     #[inline(always)]
     pub fn advance(
         &self,
@@ -254,7 +257,7 @@ impl HoldResponse {
         (motor, angle_sum)
     }
 
-    /// The angles of a stride.
+    /// The angles in a stride.
     #[inline(always)]
     pub fn stride_angles(&self) -> StrideAngles {
         let mut ahead = StrideAngles {
@@ -274,7 +277,7 @@ impl HoldResponse {
         ahead
     }
 
-    /// Where strides begin.
+    /// The states at which the strides of a group start.
     #[inline(always)]
     pub fn stride_starts(&self) -> StrideStarts {
         let none = [0.0; STARTS];

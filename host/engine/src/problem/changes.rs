@@ -1,22 +1,22 @@
-//! By how much the errors of models near one differ from its own, handed over as they come: of an hour's recording, a column
-//! for each of them would be larger than the recording.
+//! Changes of the errors from one model to others near it, passed on a range of samples at a time: for an hour's
+//! recording, a column for each of them would be larger than the recording.
 
 use super::fit_problem::FitProblem;
 use crate::simulation::{Candidate, segments};
 use shared::cost::Cost;
 
-/// What changes are counted from.
+/// Whether the changes already have the shift by the free start angle in them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Centring {
-    /// They are as they count.
+    /// They have, or the start angle is not free.
     Done,
-    /// The mean of each model's own is still to be taken away: the start angle is free.
+    /// The caller must still subtract each column's mean.
     Pending,
 }
 
 impl FitProblem<'_> {
-    /// Hands over, some samples at a time and in their order, by how much the errors of each of the `others` differ from those
-    /// of `here`, counts. `None` where one of them cannot run.
+    /// Calls `each` with the errors of each of the `others` less those of `here`, counts, a range of samples at a time in
+    /// their order. `None` where one of them cannot run.
     pub fn stream_changes(
         &self,
         here: &Candidate,
@@ -24,7 +24,7 @@ impl FitProblem<'_> {
         mut each: impl FnMut(&[&[f64]]),
     ) -> Option<Centring> {
         let centred = self.is_centred(here);
-        // The middle of absolute errors is their median, which takes all of them.
+        // Absolute errors are centred on their median, which needs all of them at once.
         let by_median = centred && matches!(self.cost, Cost::Absolute { .. });
         let segments =
             |model: &Candidate| segments(self.data, model, &self.horizon, self.start_angle);

@@ -1,4 +1,4 @@
-//! The cost of a point of the unit cube, and the residuals behind it.
+//! A recording and a model with unknowns as a cost over the unit cube, with its residuals.
 
 use super::moments::Moments;
 use super::residuals::{centre, errors, is_centred, reading_shift};
@@ -26,12 +26,12 @@ pub struct FitProblem<'a> {
     pub start_angle: StartAngle,
     /// How the model is run.
     pub method: Method,
-    /// A start from regression, in the unit cube.
+    /// A start from regression, a point of the unit cube.
     pub start: Option<Vec<f64>>,
 }
 
 impl<'a> FitProblem<'a> {
-    /// The same problem, begun at a model, or as near to it as its unknowns may come.
+    /// The same problem, started at a model, or at the nearest point of the cube.
     pub fn begun_at(&self, candidate: &Candidate) -> FitProblem<'a> {
         let x = self.structure.point(candidate);
         FitProblem {
@@ -48,8 +48,10 @@ impl<'a> FitProblem<'a> {
 }
 
 impl FitProblem<'_> {
-    /// Model minus measured angle in counts at every sample. Measured is the reading itself: a model
-    /// that is right lies half a count above a floored one.
+    /// Model minus reading, counts, one entry a sample. A correct model lies half a count above a floored reading.
+    ///
+    /// # Errors
+    /// Parameters from which no model can be made.
     pub fn errors(&self, candidate: &Candidate) -> Result<Vec<f64>, ModelError> {
         errors(
             self.data,
@@ -61,7 +63,7 @@ impl FitProblem<'_> {
         )
     }
 
-    /// The cost of a model; infinite where it cannot run.
+    /// The cost of a model: the weighted sum over the samples; infinite where the model cannot run.
     pub fn cost_of(&self, candidate: &Candidate) -> f64 {
         match self.errors(candidate) {
             Ok(errors) => self.sum(&errors),
@@ -69,14 +71,14 @@ impl FitProblem<'_> {
         }
     }
 
-    /// As [`errors`](Self::errors); `None` too once the sum of squares is seen to exceed `limit`.
+    /// As [`errors`](Self::errors); `None` where the model cannot run, and once the sum of squares exceeds `limit`.
     fn errors_within(&self, candidate: &Candidate, limit: f64) -> Option<Vec<f64>> {
         let (data, horizon, start_angle) = (self.data, &self.horizon, self.start_angle);
         let simulation = Simulation::new(data, candidate, self.method).ok()?;
         let segments = segments(data, candidate, horizon, start_angle);
         let centred = is_centred(data, candidate, horizon, start_angle);
         let zero = self.zero();
-        // About their mean, errors so far never have more squares than all of them.
+        // The sum of squares about the mean never falls as samples are added.
         let mut moments = Moments::default();
         let too_many = |errors: &[f64]| {
             moments.add(errors);
@@ -99,7 +101,7 @@ impl FitProblem<'_> {
         Some(errors)
     }
 
-    /// By how much the errors of each of the `others` differ from those of `here`; `None` for one that cannot run.
+    /// Errors of each of the `others` less those of `here`, counts; `None` for a model that cannot run.
     pub(super) fn changes_of(
         &self,
         here: &Candidate,
@@ -116,7 +118,7 @@ impl FitProblem<'_> {
         )
     }
 
-    /// How models are run side by side.
+    /// The problem's data and settings for runs in lanes.
     pub(super) fn batch(&self) -> Batch<'_> {
         Batch {
             data: self.data,
@@ -135,10 +137,10 @@ impl FitProblem<'_> {
         shared::encoder::FLOOR_OFFSET_COUNTS - reading_shift(self.data)
     }
 
-    /// Residuals and cost of a model's errors.
-    fn judged(&self, mut errors: Vec<f64>) -> Option<(Vec<f64>, f64)> {
+    /// Residuals and cost from a model's errors; `None` where one is not finite.
+    fn residuals_and_cost_of(&self, mut errors: Vec<f64>) -> Option<(Vec<f64>, f64)> {
         let cost = self.sum(&errors);
-        // What least squares must make small is what the cost is zero at.
+        // Residuals are zero where the cost is.
         let zero = match self.cost {
             Cost::Absolute {
                 model_floored: false,
@@ -169,7 +171,7 @@ impl FitProblem<'_> {
     }
 }
 
-/// Rounding of a sum of squares, as a part of it.
+/// Rounding error of a sum of squares, relative to it.
 const ROUNDING: f64 = 1e-9;
 
 impl Objective for FitProblem<'_> {
@@ -182,14 +184,14 @@ impl Objective for FitProblem<'_> {
     }
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
-        self.judged(self.errors(&self.candidate(x)).ok()?)
+        self.residuals_and_cost_of(self.errors(&self.candidate(x)).ok()?)
     }
 
     fn residuals_within(&self, x: &[f64], limit: f64) -> Option<(Vec<f64>, f64)> {
         if self.cost != Cost::Squared {
             return self.residuals_and_cost(x);
         }
-        self.judged(self.errors_within(&self.candidate(x), limit / self.weight)?)
+        self.residuals_and_cost_of(self.errors_within(&self.candidate(x), limit / self.weight)?)
     }
 
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {

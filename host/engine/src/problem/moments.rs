@@ -1,7 +1,7 @@
-//! Number, mean and squares about the mean of many numbers, some at a time, without the loss of digits that sums of squares
-//! far from the mean would have (T. F. Chan, G. H. Golub, R. J. LeVeque, *The American Statistician* 37, 242, 1983).
+//! Count, mean and sum of squares about the mean of many numbers, taken some at a time without the loss of digits of a
+//! plain sum of squares (T. F. Chan, G. H. Golub, R. J. LeVeque, *The American Statistician* 37, 242, 1983).
 
-/// Of the numbers so far.
+/// Moments of the numbers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     count: f64,
@@ -9,11 +9,11 @@ pub struct Moments {
     squares: f64,
 }
 
-/// Running sums, which the processor's lanes add side by side.
+/// Running sums, which the compiler keeps in vector registers.
 const SUMS: usize = 16;
 
 impl Moments {
-    /// Takes some more.
+    /// Takes more numbers.
     pub fn add(&mut self, some: &[f64]) {
         if some.is_empty() {
             return;

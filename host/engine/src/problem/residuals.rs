@@ -1,11 +1,12 @@
-//! Model minus reading over a horizon, and its root mean square.
+//! Residuals: model minus reading over a horizon, and their root mean square.
 
 use crate::data::Data;
 use crate::simulation::{Candidate, Horizon, Method, Simulation, StartAngle, segments};
 use shared::cost::Cost;
 use shared::error::ModelError;
 
-/// Costs take the distance above a floored reading; other readings are the angle itself.
+/// Offset that is added to an error before the cost, counts: costs expect the distance above a floored reading, and an
+/// analogue reading is the angle itself.
 pub(crate) fn reading_shift(data: &Data) -> f64 {
     if data.quantised {
         0.0
@@ -14,7 +15,10 @@ pub(crate) fn reading_shift(data: &Data) -> f64 {
     }
 }
 
-/// Runs a candidate over a horizon; see [`FitProblem::errors`](super::FitProblem::errors).
+/// Model minus reading of a candidate over a horizon, counts, one entry a sample; see [`FitProblem::errors`](super::FitProblem::errors).
+///
+/// # Errors
+/// Parameters from which no model can be made.
 pub fn errors(
     data: &Data,
     candidate: &Candidate,
@@ -30,7 +34,7 @@ pub fn errors(
     Ok(errors)
 }
 
-/// Whether the start angle of a whole run is free.
+/// Whether the errors are shifted by a free start angle.
 pub(super) fn is_centred(
     data: &Data,
     candidate: &Candidate,
@@ -42,7 +46,7 @@ pub(super) fn is_centred(
     *horizon == Horizon::Whole && start_angle == StartAngle::Free && !absolute
 }
 
-/// Takes the best start angle of a whole run where it is free.
+/// Shifts the errors to the best start angle where it is free: the median for absolute costs, else the mean.
 pub(super) fn centre(
     data: &Data,
     candidate: &Candidate,

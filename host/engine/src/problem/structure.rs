@@ -1,4 +1,4 @@
-//! Which numbers are searched for, in which coordinates, and what they mean.
+//! The unknowns of a model, their coordinates, and the model that their values make.
 //!
 //! The default coordinates are the identifiable ones. Searching in the six physical parameters
 //! instead, as the paper does, is searching along valleys whose floor is flat.
@@ -36,7 +36,7 @@ pub struct Structure {
     pub effects: Vec<Kind>,
     /// Whether the speed at the first sample is unknown (else the motor starts at rest).
     pub start_speed: bool,
-    /// Whether the place of the start within its cell is.
+    /// Whether the start angle within its encoder cell is.
     pub start_offset: bool,
     /// The unknowns.
     pub unknowns: Vec<Unknown>,
@@ -44,9 +44,9 @@ pub struct Structure {
 
 /// Name of the unknown speed at the first sample.
 pub const START_SPEED: &str = "start_speed";
-/// Name of the unknown place within the first cell.
+/// Name of the unknown start angle within the first cell.
 pub const START_OFFSET: &str = "start_offset";
-/// How far from the middle of its cell the start is looked for, counts: a little beyond its edges.
+/// Search range of the start angle about the middle of its cell, counts: a little beyond the edges.
 const FARTHEST_START: f64 = 0.7;
 
 impl Structure {
@@ -124,7 +124,7 @@ impl Structure {
             .collect()
     }
 
-    /// Those of the values that belong to effects, in the order of the effects.
+    /// The values that belong to effects, in the order of the effects.
     pub fn effect_values<'v>(&self, values: &'v [f64]) -> &'v [f64] {
         let nuisances = usize::from(self.start_speed) + usize::from(self.start_offset);
         &values[base_len(self.base)..values.len() - nuisances]

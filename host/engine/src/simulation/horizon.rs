@@ -4,14 +4,14 @@ use super::propagator::Mode;
 use crate::data::Data;
 use std::ops::Range;
 
-/// How far the model runs on its own before it is set back to the measurement.
+/// How long the model runs before it is set back to the measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Horizon {
-    /// From the first sample to the last: the open-loop error.
+    /// Never: from the first sample to the last, the open-loop error.
     Whole,
     /// In windows, each started from the measured angle and speed.
     Windows(Vec<Window>),
-    /// Pulled towards the measurement, so that an error is forgotten within so many seconds.
+    /// An observer pulls it towards the measurement; it forgets an error within so many seconds.
     Observer(f64),
 }
 
@@ -25,7 +25,7 @@ pub struct Window {
 }
 
 impl Horizon {
-    /// What moves a model along it.
+    /// How a model is propagated along it.
     pub(crate) fn mode(&self) -> Mode<'static> {
         match self {
             Horizon::Observer(memory_s) => Mode::Observer(*memory_s),
@@ -33,7 +33,7 @@ impl Horizon {
         }
     }
 
-    /// Windows of `seconds`, with the speed taken from `2·half + 1` samples.
+    /// Windows of `seconds`, s, each started at a speed that is measured over `2·half + 1` samples.
     pub fn windows(data: &Data, seconds: f64, half: usize) -> Self {
         let mut windows = Vec::new();
         let mut from = 0;
@@ -58,8 +58,8 @@ impl Horizon {
 /// What is known of the angle at the first sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartAngle {
-    /// The encoder started exactly at zero of its first cell, as in the paper.
+    /// The lower edge of the encoder's first cell, as in the paper.
     Known,
-    /// Somewhere in its cell: the best offset is taken for each candidate.
+    /// Anywhere in the first cell: each candidate takes its best offset.
     Free,
 }

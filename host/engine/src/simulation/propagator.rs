@@ -1,33 +1,33 @@
-//! Models run along the data: one candidate's, or those of several abreast.
+//! The loop over the samples: models run along the data, for one candidate's number or for several in lanes.
 
 use crate::data::Data;
 use shared::model::{Model, Seen, State};
 use shared::scalar::{Mask, Scalar};
 use std::ops::Range;
 
-/// What recordings are run with: the number of one candidate, or of several abreast.
+/// A number that models run with: `f64` for one candidate, [`Lanes`](crate::lanes::Lanes) for several.
 pub trait Number: Scalar<Coefficient = Self, Angle = Self> {}
 
 impl<S: Scalar<Coefficient = S, Angle = S>> Number for S {}
 
-/// What moves a model along.
+/// How a model is propagated.
 #[derive(Clone, Copy)]
 pub enum Mode<'a> {
-    /// It runs freely.
+    /// Parallel model: only the commands drive it (output error).
     Free,
-    /// It is pulled towards the readings like an observer that forgets an error within so many seconds: what
-    /// happens once, such as a slipped detent, does not stay for ever.
+    /// Observer: output injection pulls it towards the readings with both poles of the error at one over so many
+    /// seconds, so that a single event, such as a slipped detent, is forgotten.
     Observer(f64),
-    /// Its effects are led along a measured motion.
+    /// Series-parallel model: its effects see the measured motion (equation error).
     SeriesParallel {
-        /// One entry an interval.
+        /// The measured motion, one entry an interval.
         seen: &'a [Seen<f64>],
-        /// Position within the revolution, one entry a sample.
+        /// Measured angle within the revolution, turns, one entry a sample.
         turns: &'a [f64],
     },
 }
 
-/// The data, and a model for each length of interval in it.
+/// The data, and a model for each length of interval in them.
 pub struct Propagator<'a, S: Scalar> {
     /// The data.
     pub data: &'a Data,
@@ -36,8 +36,8 @@ pub struct Propagator<'a, S: Scalar> {
 }
 
 impl<S: Number> Propagator<'_, S> {
-    /// Runs from a state over the samples of `range`; calls `each` with the sample and what the model's encoder
-    /// sees there, counts. Gives the state behind them.
+    /// Runs from a state over the samples of `range`; calls `each` with the sample's index and the model's encoder angle
+    /// there, counts. Returns the state after the range.
     #[inline(always)]
     pub fn run(
         &self,
@@ -66,8 +66,8 @@ impl<S: Number> Propagator<'_, S> {
         S::from_f64(self.data.command[k])
     }
 
-    /// Runs freely, or pulled towards the readings with a memory.
-    // One loop for both, since all of the model is compiled into it.
+    /// Runs as a parallel model, or as an observer where there is a memory.
+    // One loop for both: the whole model is compiled into it.
     #[inline(always)]
     fn parallel(
         &self,
@@ -96,7 +96,8 @@ impl<S: Number> Propagator<'_, S> {
         state
     }
 
-    /// Runs as long as the shaft only slides on; gives the sample at which more must be looked at.
+    /// Runs on the fast path for as long as the forces on the shaft stay constant; returns the sample at which the full
+    /// step is needed.
     #[inline(always)]
     fn glide(
         &self,
@@ -110,7 +111,7 @@ impl<S: Number> Propagator<'_, S> {
         };
         let length = data.length_of[range.start];
         let mut motion = state.motion;
-        // No command equals it.
+        // NaN equals no command.
         let mut command = f64::NAN;
         let mut k = range.start;
         while k < range.end && data.length_of[k] == length && !data.is_open(k) {
@@ -131,7 +132,7 @@ impl<S: Number> Propagator<'_, S> {
         k
     }
 
-    /// Pulls a model that sees `sight` at sample `k` towards the reading.
+    /// Output injection at sample `k`, where the model's encoder angle is `sight` counts.
     #[inline(always)]
     fn pull(&self, state: &mut State<S>, k: usize, sight: S, memory_s: f64) {
         let data = self.data;
@@ -139,7 +140,7 @@ impl<S: Number> Propagator<'_, S> {
         let per_count = units.interval / (memory_s * units.counts_per_unit());
         let off =
             sight - S::from_f64(data.counts[k]) - S::from_f64(data.centre(k) - data.counts[k]);
-        // Both poles of the error at 1/memory.
+        // Both poles of the error at one over the memory.
         let share = (data.lengths[data.length_of[k] as usize] * units.interval / memory_s).min(0.5);
         let motion = &mut state.motion;
         motion.angle = motion.angle - S::from_f64(2.0 * share) * off;

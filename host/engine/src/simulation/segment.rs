@@ -1,22 +1,22 @@
-//! The parts of a recording that a model runs through on its own.
+//! The segments of a recording that a model runs through, each from a start of its own.
 
 use super::candidate::Candidate;
 use super::horizon::{Horizon, StartAngle, Window};
 use crate::data::Data;
 use std::ops::Range;
 
-/// A part of the recording that a model runs through on its own.
+/// Consecutive samples that a model runs through from a start of their own.
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// Its samples.
     pub range: Range<usize>,
-    /// What the encoder sees at its first one, counts.
+    /// Encoder angle at the first sample, counts.
     pub angle: f64,
-    /// Speed there, rad/s.
+    /// Speed at the first sample, rad/s.
     pub speed: f64,
 }
 
-/// The whole of the data for a candidate.
+/// The whole recording as one segment.
 pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Segment {
     let angle = match start_angle {
         StartAngle::Known => data.counts[0],
@@ -29,7 +29,7 @@ pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Seg
     }
 }
 
-/// The segments of a horizon for a candidate.
+/// The segments of a horizon, with the candidate's start.
 pub fn segments(
     data: &Data,
     candidate: &Candidate,

@@ -1,4 +1,4 @@
-//! One candidate, run along the data.
+//! One candidate run along the data.
 
 use super::candidate::{Candidate, Method};
 use super::propagator::{Mode, Propagator};
@@ -11,9 +11,9 @@ use shared::motor::Machine;
 use std::ops::Range;
 
 /// Samples that are run at a time.
-const SOME: usize = 1024;
-/// Intervals before a start that its current is taken from.
-const MEMORY: usize = 64;
+const CHUNK: usize = 1024;
+/// Sample intervals before a start over which its winding current is computed.
+const CURRENT_HISTORY: usize = 64;
 
 /// The models of one candidate, one for each length of interval in the data.
 pub struct Simulation<'a> {
@@ -23,7 +23,10 @@ pub struct Simulation<'a> {
 }
 
 impl<'a> Simulation<'a> {
-    /// Discretises the candidate for the data's intervals.
+    /// Discretises the candidate for each length of interval in the data.
+    ///
+    /// # Errors
+    /// Parameters from which no model can be made.
     pub fn new(data: &'a Data, candidate: &Candidate, method: Method) -> Result<Self, ModelError> {
         let models = data
             .lengths
@@ -46,13 +49,13 @@ impl<'a> Simulation<'a> {
         })
     }
 
-    /// Model minus reading over all segments, counts.
+    /// Model minus reading, counts, one entry a sample; zero outside the segments.
     pub fn errors(&self, mode: Mode<'_>, segments: &[Segment]) -> Vec<f64> {
         let errors = self.errors_unless(mode, segments, |_| false);
         errors.unwrap_or_default()
     }
 
-    /// The same, unless what has come so far, some samples at a time, is enough to `give_up`.
+    /// As [`errors`](Self::errors); `None` once `give_up`, which is called with each chunk of errors in turn, says so.
     pub fn errors_unless(
         &self,
         mode: Mode<'_>,
@@ -62,8 +65,8 @@ impl<'a> Simulation<'a> {
         let mut errors = vec![0.0; self.data.len()];
         for segment in segments {
             let mut state = self.begin(segment);
-            for from in segment.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(segment.range.end);
+            for from in segment.range.clone().step_by(CHUNK) {
+                let range = from..(from + CHUNK).min(segment.range.end);
                 let some = &mut errors[range.clone()];
                 state = self.errors_of(mode, state, range, some);
                 if give_up(some) {
@@ -74,13 +77,13 @@ impl<'a> Simulation<'a> {
         Some(errors)
     }
 
-    /// The same, only handed over, some samples at a time.
+    /// Calls `each` with the errors, a chunk of samples at a time.
     pub fn stream(&self, mode: Mode<'_>, segments: &[Segment], mut each: impl FnMut(&[f64])) {
-        let mut errors = [0.0; SOME];
+        let mut errors = [0.0; CHUNK];
         for segment in segments {
             let mut state = self.begin(segment);
-            for from in segment.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(segment.range.end);
+            for from in segment.range.clone().step_by(CHUNK) {
+                let range = from..(from + CHUNK).min(segment.range.end);
                 let some = &mut errors[..range.len()];
                 state = self.errors_of(mode, state, range, some);
                 each(some);
@@ -88,7 +91,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Model minus reading at some samples, from a state on; gives the state behind them.
+    /// Writes model minus reading over a range of samples from a state; returns the state after it.
     fn errors_of(
         &self,
         mode: Mode<'_>,
@@ -103,13 +106,13 @@ impl<'a> Simulation<'a> {
         state
     }
 
-    /// Runs over a segment; writes what the model's encoder sees at each of its samples, counts.
+    /// Runs over a segment and writes the model's encoder angle at each of its samples, counts.
     pub fn run(&self, mode: Mode<'_>, segment: &Segment, sights: &mut [f64]) {
         let sights = &mut sights[segment.range.clone()];
         self.go_on(mode, self.begin(segment), segment.range.clone(), sights);
     }
 
-    /// The same from a state over some samples, one sight each; gives the state behind them.
+    /// As [`run`](Self::run), from a state over a range of samples; returns the state after it.
     fn go_on(
         &self,
         mode: Mode<'_>,
@@ -142,7 +145,7 @@ impl<'a> Simulation<'a> {
         &self.models[self.data.length_of[k] as usize]
     }
 
-    /// State at sample `k`, where the encoder saw `angle` counts.
+    /// State at sample `k`, where the encoder angle is `angle` counts and the speed `speed` rad/s.
     fn start(&self, k: usize, angle: f64, speed: f64) -> State<f64> {
         let mut state = State::at(angle, speed / self.data.units.speed);
         let Some(last) = self.data.len().checked_sub(1) else {
@@ -151,7 +154,7 @@ impl<'a> Simulation<'a> {
         let error = self.model(k.min(last)).reading(&state) - angle;
         state.motion.angle = angle - error;
         state.motion.current = self.current_before(k, speed);
-        // Commands given before may be on their way still.
+        // Earlier commands may still be delayed.
         for k in k.saturating_sub(MAX_DELAY)..k {
             let (command, open) = (self.data.command[k], self.data.is_open(k));
             self.model(k).recall(&mut state, command, open);
@@ -159,13 +162,13 @@ impl<'a> Simulation<'a> {
         state
     }
 
-    /// Per-unit current at sample `k` that the commands before it leave in the winding at a speed in rad/s. In a
-    /// motor that was driven it is no more zero than the speed.
+    /// Per-unit winding current at sample `k` from the commands before it, at a constant speed in rad/s: a motor that was
+    /// driven starts with a current as it starts with a speed.
     fn current_before(&self, k: usize, speed: f64) -> f64 {
         let Machine { kb, electrical, .. } = self.machine;
         let volts = self.data.units.volts;
         let mut current = 0.0;
-        for j in k.saturating_sub(MEMORY)..k {
+        for j in k.saturating_sub(CURRENT_HISTORY)..k {
             if self.data.is_open(j) {
                 current = 0.0;
                 continue;
