@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// What all methods get.
+/// The same task for all methods.
 pub struct Contest<'a> {
     /// The problem.
     pub problem: &'a FitProblem<'a>,
@@ -19,7 +19,7 @@ pub struct Contest<'a> {
     pub seeds: Vec<u64>,
 }
 
-/// One method's runs.
+/// The runs of one method.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The method.

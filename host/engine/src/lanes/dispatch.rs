@@ -3,16 +3,16 @@
 use super::token::{self, Token};
 use core::marker::PhantomData;
 
-/// Something to be computed in lanes.
+/// A computation in lanes.
 pub trait Work {
-    /// What it gives.
+    /// Its result.
     type Output;
-    /// Does it, with `M` registers of the processor `T` to a number. Everything in it that is to be fast must be
-    /// inlined into it.
+    /// Computes with `M` registers of the processor `T` to a number. Everything hot must be inlined into it, since only
+    /// inlined code uses the instructions.
     fn run<T: Token, const M: usize>(self) -> Self::Output;
 }
 
-/// Does the work with the widest registers that this processor has; `None` where it has none.
+/// Runs `work` with the widest registers that the processor has; `None` where it has none.
 #[cfg(target_arch = "x86_64")]
 pub fn work<W: Work>(work: W) -> Option<W::Output> {
     use pulp::Simd;
@@ -30,13 +30,13 @@ pub fn work<W: Work>(work: W) -> Option<W::Output> {
     }
 }
 
-/// Does the work with the widest registers that this processor has; `None` where it has none.
+/// Runs `work` with the widest registers that the processor has; `None` where it has none.
 #[cfg(not(target_arch = "x86_64"))]
 pub fn work<W: Work>(_work: W) -> Option<W::Output> {
     None
 }
 
-/// Work on a processor that is known.
+/// Work with the processor fixed by its type.
 struct On<W, T, const M: usize>(W, PhantomData<T>);
 
 impl<W: Work, T: Token, const M: usize> pulp::WithSimd for On<W, T, M> {
@@ -48,8 +48,8 @@ impl<W: Work, T: Token, const M: usize> pulp::WithSimd for On<W, T, M> {
     }
 }
 
-/// Computes with the vector instructions of this processor where it has them: the same bits, with fewer moves
-/// between registers. What is to be faster must be inlined into it.
+/// Runs `body` with the processor's AVX2 instructions where it has them: the same bits, with fewer moves between
+/// registers. Everything hot must be inlined into it.
 #[cfg(target_arch = "x86_64")]
 pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
     match pulp::x86::V3::try_new() {
@@ -58,7 +58,7 @@ pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
     }
 }
 
-/// Computes with the vector instructions of this processor where it has them.
+/// Runs `body`; this processor has no such instructions.
 #[cfg(not(target_arch = "x86_64"))]
 pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
     body()

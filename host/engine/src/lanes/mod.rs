@@ -1,8 +1,16 @@
-//! Candidates side by side: one number for each of them in the lanes of the processor's vector registers, with
-//! which `shared`'s equations are computed as with any other number.
+//! Several candidates in the lanes of vector registers: a number that holds one value for each of them, with which
+//! `shared`'s equations are computed as with any other number.
 //!
-//! Which instructions there are is found out when the program runs. Where there are none, candidates are
-//! computed one by one.
+//! Which instructions the processor has is found out when the program runs. Where it has none, candidates are computed
+//! one by one.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `transpose` | eight rows of eight numbers into their columns, and the number of lanes |
+//! | `token` | the proof that the processor has the instructions |
+//! | `number` | the number in lanes |
+//! | `dispatch` | work given to the widest instructions |
+//! | `triangles` | least squares whose rows come one by one |
 
 mod dispatch;
 mod number;

@@ -1,15 +1,15 @@
-//! Eight rows of eight numbers transposed into their columns, in registers: what the lanes saw at eight samples becomes what
-//! each of them saw. By single loads and stores it took as long as half a step of the model.
+//! Transposition of eight rows of eight numbers in registers: the lanes' values at eight samples become eight samples of
+//! each lane. By single loads and stores it took as long as half a step of the model.
 
 use bytemuck::cast;
 
 /// Candidates that run side by side.
 pub const LANES: usize = 8;
 
-/// A row for each of eight samples, or of eight lanes.
+/// Eight rows of eight numbers.
 pub type Tile = [[f64; LANES]; LANES];
 
-/// Rows and columns exchanged.
+/// Instructions that transpose a [`Tile`].
 pub trait Transpose: Copy {
     /// The columns of these rows.
     #[inline(always)]
@@ -31,14 +31,14 @@ impl Transpose for pulp::x86::V4 {
     #[inline(always)]
     fn transposed(self, rows: Tile) -> Tile {
         use core::arch::x86_64::__m512d;
-        // Every other pair of two registers, from their first or their second.
+        // The even or the odd pairs of two registers.
         const FIRST: i32 = 0b10_00_10_00;
         const SECOND: i32 = 0b11_01_11_01;
         let vectors = self.avx512f;
         let r: [__m512d; LANES] = cast(rows);
         let mut columns = r;
         for odd in 0..2 {
-            // The pairs (row 2k, row 2k + 1) at the even places, or at the odd ones.
+            // The pairs (row 2k, row 2k + 1) of the even columns, or of the odd ones.
             let mut pairs = [r[0]; 4];
             for (k, pair) in pairs.iter_mut().enumerate() {
                 let (a, b) = (r[2 * k], r[2 * k + 1]);
@@ -76,7 +76,7 @@ impl Transpose for pulp::x86::V3 {
         let vectors = self.avx;
         let r: [[__m256d; 2]; LANES] = cast(rows);
         let mut columns = r;
-        // Four rows of four at a time; of two such squares beside the diagonal each goes to the other's place.
+        // Four rows of four at a time; the two off-diagonal quarters exchange places.
         for (row, half) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let from = 4 * row;
             let (a, b) = (r[from][half], r[from + 1][half]);
