@@ -1,4 +1,4 @@
-//! The error as effects are added one by one.
+//! The error ladder: the error as effects are added one by one.
 
 use super::options::Options;
 use super::report::{Fit, LadderEntry};
@@ -8,7 +8,7 @@ use servoid_engine::problem::Data;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Most evaluations of a model on the way.
+/// Most evaluations of one intermediate model.
 const BUDGET: usize = 2000;
 
 /// Errors from the linear motor up to `fit`, in the order in which `options` name the effects. Models on the way

@@ -1,11 +1,10 @@
-//! From what the data determine to the six physical parameters, with the help of known facts.
+//! The six physical parameters from what the data determine and from known facts.
 //!
 //! The machine in coordinates that the data and the facts can each speak about:
-//! `ln R`, `ln Kt`, `D = Kb + b`, `m`, `τe`, and the viscous part `p = b/D`. The data say something
-//! about `D`, `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact about one
-//! combination; what neither speaks
-//! about stays in the null space of the normal equations, and every physical parameter that leans
-//! on it is reported as undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
+//! `ln R`, `ln Kt`, `D = Kb + b`, `m`, `τe`, and the viscous part `p = b/D`. The data determine `D`,
+//! `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact one combination. What neither determines stays in
+//! the null space of the normal equations, and every physical parameter that depends on it is reported as
+//! undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use servoid_io::input::Known;
@@ -21,7 +20,7 @@ const CONSTANT: f64 = 1e-6;
 /// Singular values below this part of the largest are directions that nothing determines.
 const FLAT: f64 = 1e-11;
 
-/// Facts that pull the data's own values by more standard errors than this contradict them.
+/// Facts and data that stay further apart than this, in standard errors, contradict each other.
 pub const CONTRADICTION: f64 = 5.0;
 
 /// The six, in the order of `[known]`.
@@ -43,7 +42,7 @@ pub struct Estimate {
     pub std: f64,
 }
 
-/// What the data say: a machine, how well, and a resistance if the current was measured.
+/// What the data determine: a machine, its covariance, and a resistance if the current was measured.
 #[derive(Clone, Debug)]
 pub struct Evidence {
     /// The machine that was fitted.
@@ -85,13 +84,13 @@ fn physical(u: &Vector) -> [f64; N] {
     ]
 }
 
-/// What the data speak about, as a function of the coordinates.
+/// Combination `k` of those that the data determine, as a function of the coordinates.
 fn determined(u: &Vector, k: usize) -> f64 {
     let (total, m, lag, part) = (u[2], u[3], u[4], u[5]);
     [total, m + lag * part * total, lag * m, part][k]
 }
 
-/// The same of a machine.
+/// The combinations that the data determine, of a machine: `D` (V·s/rad), `a1·D`, `a2·D` and the viscous part.
 pub fn determined_by_data(machine: &Machine<f64>) -> [f64; 4] {
     let total = machine.kb + machine.damping;
     let part = if total > 0.0 {

@@ -107,7 +107,7 @@ pub struct EquationResidual {
     pub acceleration: f64,
 }
 
-/// The first and the last sample by which the speed at one is told.
+/// The first and the last sample that the speed at one is taken from.
 fn around(data: &Data, k: usize) -> (usize, usize) {
     let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
     (k.saturating_sub(SPEED_HALF_WIDTH), to)

@@ -1,5 +1,5 @@
-//! Sums over the Jacobian of the residuals, which is never there as a whole: of an hour's recording it would be larger than the
-//! recording.
+//! Sums over the Jacobian of the residuals, which is never held as a whole: for an hour's recording it would be larger
+//! than the recording.
 
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
@@ -8,25 +8,25 @@ use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
 pub(super) const SEGMENTS: usize = 24;
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
 const PROBE_COUNTS: f64 = 0.02;
-/// Part of a column's squares that rounding may leave of them about their mean.
+/// Rounding error of a column's sum of squares about its mean, relative to its plain sum of squares.
 const ROUNDING: f64 = 1e-12;
 
-/// What standard errors take of the Jacobian J (a row a sample, a column an unknown) and of the residuals r.
+/// Sums over the Jacobian J (a row a sample, a column an unknown) and the residuals r, counts.
 pub(super) struct Sensitivity {
-    /// Jᵀ·J.
+    /// Jᵀ·J, unknowns × unknowns.
     pub squares: DMatrix<f64>,
-    /// Jᵀ·r of each time segment.
+    /// Jᵀ·r of each time segment, a vector of unknowns each.
     pub gradients: Vec<DVector<f64>>,
 }
 
-/// An unknown's neighbours, and how far apart they are.
+/// The models to both sides of an unknown's value, and the distance between them in the unknown's unit.
 struct Pair {
     ahead: Candidate,
     behind: Candidate,
     width: f64,
 }
 
-/// By central differences at `values`. `None` where a model cannot run.
+/// Central differences at `values`. `None` where a model cannot run.
 pub(super) fn sensitivity(
     problem: &FitProblem<'_>,
     values: &[f64],
@@ -57,7 +57,7 @@ pub(super) fn sensitivity(
     (sensitivity.squares.iter().all(finite) && gradients().all(finite)).then_some(sensitivity)
 }
 
-/// The neighbours to both sides, so far away that the residuals change by about the wanted number of counts.
+/// The models to both sides of each unknown, so far away that the residuals change by about [`PROBE_COUNTS`].
 fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
     let unknowns = &problem.structure.unknowns;
     let here = problem.structure.candidate(values);
@@ -111,7 +111,7 @@ fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Vec<f64> {
 /// The sums so far.
 struct Sums<'r> {
     residuals: &'r [f64],
-    /// Samples that have come.
+    /// Samples so far.
     samples: usize,
     /// Σ J.
     sum: DVector<f64>,
@@ -137,7 +137,7 @@ impl<'r> Sums<'r> {
         self.residuals.len().div_ceil(SEGMENTS).max(1)
     }
 
-    /// Takes the next samples of each column.
+    /// Adds the next samples of each column.
     fn add(&mut self, columns: &[Vec<f64>]) {
         let count = columns.first().map_or(0, Vec::len);
         let mut from = 0;
@@ -165,7 +165,7 @@ impl<'r> Sums<'r> {
         }
     }
 
-    /// The sums, of columns about their mean if that is still to be taken.
+    /// The sums, with each column's mean subtracted if that is pending.
     fn centred(mut self, centring: Centring) -> Sensitivity {
         self.squares.fill_upper_triangle_with_lower_triangle();
         if centring == Centring::Pending {
@@ -173,7 +173,7 @@ impl<'r> Sums<'r> {
             let raw = self.squares.diagonal();
             self.squares -= &self.sum * mean.transpose();
             for k in 0..raw.len() {
-                // A change that is the same at every sample is none.
+                // A constant column has no slope left: what remains is rounding.
                 if self.squares[(k, k)] <= ROUNDING * raw[k] {
                     self.squares.row_mut(k).fill(0.0);
                     self.squares.column_mut(k).fill(0.0);

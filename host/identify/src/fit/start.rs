@@ -51,7 +51,7 @@ const FEWEST_SAMPLES: usize = 10;
 /// Fewest samples in a window.
 const FEWEST_IN_WINDOW: f64 = 8.0;
 
-/// Refuses what cannot end well, with the reason.
+/// Refuses recordings and options that cannot give a fit, with the reason.
 fn check(data: &Data, options: &Options) -> Result<(), Error> {
     if data.len() < FEWEST_SAMPLES {
         return Err(Error::Failed(format!(
@@ -70,7 +70,7 @@ fn check(data: &Data, options: &Options) -> Result<(), Error> {
     }
 }
 
-/// Whether the motor is one only with the sign of its angle turned.
+/// Whether only the negated angle gives a motor.
 pub fn is_reversed(data: &Data, options: &Options) -> bool {
     let mut reversed = data.clone();
     for count in &mut reversed.counts {
@@ -100,7 +100,7 @@ struct Starts<'a> {
     guesses: Vec<Guess>,
 }
 
-/// A place to begin at.
+/// A start of the search.
 struct Start {
     cost: f64,
     x: Vec<f64>,

@@ -1,5 +1,5 @@
-//! How well the data determine the unknowns: from the Jacobian of the residuals, with the *effective*
-//! number of independent samples.
+//! Covariance of the unknowns from the Jacobian of the residuals, and the *effective* number of independent
+//! samples.
 //!
 //! Quantisation errors of neighbouring samples are anything but independent (a motor at rest
 //! repeats the same one a thousand times), so the textbook `σ²·(JᵀJ)⁻¹` is far too hopeful. The
@@ -12,7 +12,7 @@ use super::sensitivity::sensitivity;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Data, FitProblem};
 
-/// Singular values of the column-scaled Jacobian below this are directions that the data do not hold.
+/// Singular values of the column-scaled Jacobian below this belong to directions that the data do not determine.
 const FLAT: f64 = 1e-6;
 
 /// Coordinates nearer than this to a wall of the cube lie on it.
@@ -20,7 +20,7 @@ const WALL: f64 = 1e-9;
 /// Part of the squared error that one more step would remove, above which the search has not converged.
 const UNCONVERGED: f64 = 0.2;
 
-/// Covariance of the unknowns, and how many samples are worth counting.
+/// Covariance of the unknowns, and the effective number of samples.
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
     /// Covariance in natural units; a row and a column for each unknown.
@@ -29,7 +29,7 @@ pub struct Uncertainty {
     pub flat: Vec<bool>,
     /// Whether the search ended near enough to a minimum for errors to mean anything.
     pub converged: bool,
-    /// Samples that the recording is worth, given how its residuals hang together.
+    /// Effective number of independent samples, from the residuals' autocorrelation.
     pub effective_samples: f64,
 }
 
@@ -42,7 +42,7 @@ impl Uncertainty {
     }
 }
 
-/// The sandwich covariance at `values`, where the residuals are `residuals`.
+/// The sandwich covariance at `values`, SI, where the residuals are `residuals`, counts. `None` where a model cannot run.
 pub fn uncertainty(
     problem: &FitProblem<'_>,
     values: &[f64],
@@ -76,9 +76,8 @@ pub fn uncertainty(
             }
         }
     }
-    // How far the minimum still is, by one Gauss-Newton step. Away from it a standard error would
-    // describe a place where nobody is: the distance counts as error too, and where most of the
-    // error could still be removed there is nothing to state. Unknowns on a wall stay there.
+    // Distance to the minimum, by one Gauss-Newton step. It counts as error too; where the step would remove
+    // much of the squared error, no standard error is stated. Unknowns on a wall stay there.
     let mut gradient = scaled(&found.gradients.iter().sum());
     for (k, x) in problem.structure.coordinates(values).iter().enumerate() {
         if !(WALL..=1.0 - WALL).contains(x) {
