@@ -1,10 +1,10 @@
 //! Nanoseconds a step of one candidate, with every effect: alone, and side by side with others.
 
 use super::{clock, euler};
-use servoid_engine::problem::abreast::Run;
-use servoid_engine::problem::course::{Leg, Manner, legs};
-use servoid_engine::problem::simulate::{Method, Simulation};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::simulation::Batch;
+use servoid_engine::simulation::{Method, Simulation};
+use servoid_engine::simulation::{Mode, Segment, segments};
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, commands};
@@ -81,16 +81,16 @@ pub fn rows() {
     println!("scalar Euler in f64: {baseline:.2} ns a step");
     println!(
         "{:16} {:>8} {:>8} {:>8} {:>10} {:>8}",
-        "", "alone", "abreast", "gain", "of Euler", "in lists"
+        "", "alone", "in lanes", "gain", "of Euler", "in lists"
     );
     let kinds = Kind::ALL.iter().map(std::slice::from_ref);
     for kinds in std::iter::once(&[][..]).chain(kinds) {
-        let [alone, abreast, listed] = steps(&data, kinds);
+        let [alone, in_lanes, listed] = steps(&data, kinds);
         println!(
-            "{:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x {listed:8.1}",
+            "{:16} {alone:8.1} {in_lanes:8.1} {:7.1}x {:9.2}x {listed:8.1}",
             kinds.first().map_or("linear", |kind| kind.name()),
-            alone / abreast,
-            abreast / baseline
+            alone / in_lanes,
+            in_lanes / baseline
         );
     }
     println!("\neffects in one model");
@@ -102,11 +102,11 @@ pub fn rows() {
         Kind::BrushDrop,
     ];
     for many in 0..=some.len() {
-        let [alone, abreast, listed] = steps(&data, &some[..many]);
+        let [alone, in_lanes, listed] = steps(&data, &some[..many]);
         println!(
-            "{many:16} {alone:8.1} {abreast:8.1} {:7.1}x {:9.2}x {listed:8.1}",
-            alone / abreast,
-            abreast / baseline
+            "{many:16} {alone:8.1} {in_lanes:8.1} {:7.1}x {:9.2}x {listed:8.1}",
+            alone / in_lanes,
+            in_lanes / baseline
         );
     }
 }
@@ -114,13 +114,13 @@ pub fn rows() {
 /// ns a step of a candidate: alone and side by side with others, errors handed over as they come; and the latter with lists
 /// of all errors made of them.
 fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
-    let run = Run {
+    let run = Batch {
         data,
         method: Method::default(),
-        manner: Manner::Free,
+        mode: Mode::Free,
     };
-    let legs = |candidate: &Candidate| -> Vec<Leg> {
-        legs(data, candidate, &Horizon::Whole, StartAngle::Known)
+    let segments = |candidate: &Candidate| -> Vec<Segment> {
+        segments(data, candidate, &Horizon::Whole, StartAngle::Known)
     };
     let group: Vec<Candidate> = (0..LANES)
         .map(|k| candidate(data, kinds, k as f64 * 1e-5))
@@ -129,20 +129,20 @@ fn steps(data: &Data, kinds: &[Kind]) -> [f64; 3] {
     let alone = least(data.len(), || {
         let simulation = Simulation::new(data, one, run.method).expect("a valid model");
         let mut sum = 0.0;
-        simulation.stream(run.manner, &legs(one), |errors| sum += errors[0]);
+        simulation.stream(run.mode, &segments(one), |errors| sum += errors[0]);
         sum
     });
-    let abreast = least(data.len() * LANES, || {
+    let in_lanes = least(data.len() * LANES, || {
         let mut sum = 0.0;
-        let together = run.stream(one, others, legs, |errors, changes| {
+        let together = run.stream(one, others, segments, |errors, changes| {
             sum += errors[0] + changes[0][0];
         });
         // Whole samples of a delay are no number: such candidates are run one by one.
         if !together {
-            sum += run.errors(&group, &legs).len() as f64;
+            sum += run.errors(&group, &segments).len() as f64;
         }
         sum
     });
-    let listed = least(data.len() * LANES, || run.errors(&group, &legs));
-    [alone, abreast, listed]
+    let listed = least(data.len() * LANES, || run.errors(&group, &segments));
+    [alone, in_lanes, listed]
 }

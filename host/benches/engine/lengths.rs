@@ -2,8 +2,9 @@
 
 use super::clock;
 use super::effects::{INTERVAL_S, candidate, data};
-use servoid_engine::problem::simulate::Method;
-use servoid_engine::problem::{Data, Horizon, Quick, StartAngle, cost};
+use servoid_engine::block_cost::BlockCost;
+use servoid_engine::problem::{self, Data, Horizon, StartAngle};
+use servoid_engine::simulation::Method;
 use servoid_engine::solve::{self, Objective};
 use servoid_identify::fit::{self, Options};
 use shared::cost::Cost;
@@ -28,7 +29,7 @@ fn most_megabytes() -> Option<f64> {
 fn of_motor(mut data: Data) -> Data {
     let motor = candidate(&data, &[], 0.0);
     let (horizon, start) = (Horizon::Whole, StartAngle::Free);
-    let errors = cost::errors(
+    let errors = problem::errors(
         &data,
         &motor,
         Method::default(),
@@ -55,12 +56,12 @@ pub fn rows() {
         let per_sample = |work: &dyn Fn() -> f64| clock::least(work) * 1e9 / samples as f64;
         let options = Options::default();
         let problem = fit::problem(&data, &options).expect("a start");
-        let quick = Quick::new(&problem);
+        let quick = BlockCost::new(&problem);
         let start = problem.start.clone().expect("a start");
         let coulomb = candidate(&data, &[Kind::Coulomb], 0.0);
         let friction = per_sample(&|| {
             let (horizon, start) = (&problem.horizon, problem.start_angle);
-            cost::errors(
+            problem::errors(
                 &data,
                 &coulomb,
                 Method::default(),

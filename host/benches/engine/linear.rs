@@ -1,8 +1,9 @@
 //! The linear motor on the paper's step of 10,000 samples: one cost, searches, and the paper's comparison.
 
 use super::{clock, euler};
+use servoid_engine::block_cost::BlockCost;
 use servoid_engine::compare::{self, Contest};
-use servoid_engine::problem::{FitProblem, Quick};
+use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::{self, Evaluator, Found, Objective, Solver, swarm::ParticleSwarm};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::paper::{self, BOX, Experiment, Variant};
@@ -36,7 +37,7 @@ pub fn rows() {
     let data = STEP.record().expect("the paper's step");
     let variant = Variant::all().next().expect("a variant");
     let problem = paper::paper_problem(&data, variant, BOX);
-    let quick = Quick::new(&problem);
+    let quick = BlockCost::new(&problem);
     let mut generator = rng::seeded(1);
     let points: Vec<Vec<f64>> = (0..CANDIDATES)
         .map(|_| {
@@ -70,17 +71,6 @@ pub fn rows() {
         reference,
     );
     row(
-        "bounds of the full cost in f32, five candidates by turns",
-        each(&|k| {
-            let structure = &problem.structure;
-            let bounds = quick.bounds_of(&structure.candidate(&structure.values(&points[k])));
-            bounds.map_or(f64::NAN, |bounds| *bounds.start())
-        }),
-        reference,
-    );
-    let apart = widest(&quick, &problem, &points);
-    println!("  the widest bounds are {apart:.1e} of the cost apart");
-    row(
         "refused by the bound",
         each(&|k| quick.cost_within(&points[k], 1e-3)),
         reference,
@@ -90,18 +80,8 @@ pub fn rows() {
     contest(&problem, reference);
 }
 
-/// The distance between the bounds of a cost, as a part of it; the greatest.
-fn widest(quick: &Quick<'_>, problem: &FitProblem<'_>, points: &[Vec<f64>]) -> f64 {
-    let structure = &problem.structure;
-    let width = |x: &Vec<f64>| {
-        let bounds = quick.bounds_of(&structure.candidate(&structure.values(x)));
-        bounds.map_or(f64::NAN, |b| (b.end() - b.start()) / b.end())
-    };
-    points.iter().map(width).fold(0.0, f64::max)
-}
-
 /// The same costs, always in full.
-struct Full<'a>(Quick<'a>);
+struct Full<'a>(BlockCost<'a>);
 
 impl Objective for Full<'_> {
     fn dim(&self) -> usize {
@@ -124,7 +104,7 @@ fn swarm(problem: &FitProblem<'_>, reference: f64) {
         swarm.search(&mut evaluator, 1);
         evaluator.finish()
     };
-    let (cut, full) = (Quick::new(problem), Full(Quick::new(problem)));
+    let (cut, full) = (BlockCost::new(problem), Full(BlockCost::new(problem)));
     let (found, other) = (search(&cut), search(&full));
     let same = found.x == other.x && found.curve == other.curve;
     let whole = reference * found.evaluations as f64;

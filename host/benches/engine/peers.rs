@@ -2,7 +2,7 @@
 
 use super::clock;
 use super::linear::STEP;
-use servoid_engine::problem::Quick;
+use servoid_engine::block_cost::BlockCost;
 use servoid_engine::solve::{Evaluator, Objective, Solver, cma_es, swarm::ParticleSwarm};
 use servoid_identify::paper::{BOX, PRINTED, Variant, paper_problem};
 use std::sync::atomic::AtomicBool;
@@ -18,7 +18,7 @@ pub fn rows() {
     let variant = Variant::all().next().expect("a variant");
     let problem = paper_problem(&data, variant, BOX);
     let truth = PRINTED[0].values();
-    let quick = Quick::new(&problem);
+    let quick = BlockCost::new(&problem);
     let target = WITHIN * quick.cost(&problem.structure.coordinates(&truth));
     let swarm = |population| ParticleSwarm {
         population,

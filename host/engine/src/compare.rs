@@ -2,13 +2,14 @@
 //! A single run proves nothing (the spread over seeds is often a factor of five), so every figure is
 //! a median with its spread.
 
-use crate::problem::{FitProblem, Quick};
+use crate::block_cost::BlockCost;
+use crate::problem::FitProblem;
 use crate::solve::{Evaluator, Found, Solver};
 use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// What all methods get.
+/// The same task for all methods.
 pub struct Contest<'a> {
     /// The problem.
     pub problem: &'a FitProblem<'a>,
@@ -18,7 +19,7 @@ pub struct Contest<'a> {
     pub seeds: Vec<u64>,
 }
 
-/// One method's runs.
+/// The runs of one method.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The method.
@@ -40,7 +41,7 @@ pub fn run(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Row> {
-    let quick = Quick::new(contest.problem);
+    let quick = BlockCost::new(contest.problem);
     solvers
         .iter()
         .map(|solver| {

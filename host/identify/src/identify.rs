@@ -83,7 +83,7 @@ pub fn identify_data(
         validation,
     )?;
     if options.error_ladder && !options.effects.is_empty() {
-        fit.ladder = fit::ladder(data, validation, &fit, options, progress.stop());
+        fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
     }
     Ok(fit)
 }

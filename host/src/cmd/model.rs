@@ -2,7 +2,7 @@
 
 use crate::cli::{CostName, Integrator, ModelArgs};
 use crate::error::Error;
-use servoid_engine::problem::simulate::Method;
+use servoid_engine::simulation::Method;
 use servoid_identify::fit::{Bound, Options};
 use servoid_io::input::Known;
 use shared::cost::Cost;

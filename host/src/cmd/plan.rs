@@ -3,7 +3,7 @@
 use crate::cli::{PlanArgs, SimulateArgs};
 use crate::error::Error;
 use crate::session::Session;
-use servoid_identify::plan::{Hypothesis, Limits, Setup, Work, rank, screened};
+use servoid_identify::plan::{Hypothesis, Limits, PlanTask, Setup, candidate_count, rank};
 use servoid_io::output::{CommandSequence, write_commands};
 use servoid_plant::Machine;
 use servoid_results::kept::hypotheses;
@@ -39,7 +39,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             bar.inc_length(1);
         }
     };
-    let work = Work {
+    let work = PlanTask {
         hypotheses: &hypotheses,
         setup,
         limits,
@@ -48,7 +48,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         stop: session.stop(),
         done: &done,
     };
-    bar.set_length(screened(&work) as u64);
+    bar.set_length(candidate_count(&work) as u64);
     let ranked = rank(&work);
     bar.finish_and_clear();
     let plan = Plan {

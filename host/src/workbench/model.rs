@@ -4,7 +4,7 @@ use super::loaded::Loaded;
 use crate::error::Error;
 use serde_json::Value;
 use servoid_engine::problem::Data;
-use servoid_engine::problem::cost::rms_counts;
+use servoid_engine::problem::rms_counts;
 use servoid_engine::solve::Found;
 use servoid_identify::diagnose::HeldOut;
 use servoid_identify::fit::scores::whole;

@@ -244,7 +244,7 @@ pub(super) fn race(
     let samples = data.len() as f64;
     solvers.par_iter().for_each(|solver| {
         let teller = Teller::new(bench);
-        let quick = servoid_engine::problem::Quick::new(&problem);
+        let quick = servoid_engine::block_cost::BlockCost::new(&problem);
         let mut observer = |count: usize, cost: f64| {
             let rms = finite((cost / samples).sqrt());
             let name = solver.name();

@@ -1,9 +1,10 @@
 //! Residuals compressed while they come say what all of them together say, and a search led by them ends at the same place.
 
+use host::block_cost::BlockCost;
 use host::fit::{self, Options};
-use host::problem::simulate::{Method, Simulation};
-use host::problem::{About, Candidate, Data, FitProblem, Horizon, Quick, StartAngle};
+use host::problem::{Candidate, Centring, Data, FitProblem, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
+use host::simulation::{Method, Simulation};
 use host::solve::{self, Compressed, Evaluator, Found, Objective};
 use nalgebra::DMatrix;
 use shared::cost::Cost;
@@ -80,12 +81,12 @@ fn data(seed: u64, commands: Commands) -> Data {
         start_offset: 0.0,
     };
     let simulation = Simulation::new(&bases, &motor, Method::default()).expect("a motor");
-    let leg = host::problem::course::Leg {
+    let segment = host::simulation::Segment {
         range: 0..samples,
         angle: 100.3,
         speed: 0.0,
     };
-    let errors = simulation.errors(host::problem::course::Manner::Free, &[leg]);
+    let errors = simulation.errors(host::simulation::Mode::Free, &[segment]);
     for (reading, error) in recording.counts.iter_mut().zip(errors) {
         *reading = (*reading + error).floor();
     }
@@ -159,7 +160,7 @@ fn check_stream(problem: &FitProblem<'_>, x: &[f64], label: &str) {
         let moved = moved(x);
         let models: Vec<Candidate> = moved.iter().map(|x| model(x)).collect();
         let mut columns = vec![Vec::new(); moved.len()];
-        let about = problem
+        let centring = problem
             .stream_changes(&model(x), &models, |some| {
                 for (column, some) in columns.iter_mut().zip(some) {
                     column.extend_from_slice(some);
@@ -169,9 +170,9 @@ fn check_stream(problem: &FitProblem<'_>, x: &[f64], label: &str) {
         for (k, (column, whole)) in columns.iter().zip(problem.changes(x, &moved)).enumerate() {
             let whole = whole.expect("changes");
             assert_eq!(column.len(), whole.len(), "{label}");
-            let mean = match about {
-                About::Mean => column.iter().sum::<f64>() / column.len() as f64,
-                About::Zero => 0.0,
+            let mean = match centring {
+                Centring::Pending => column.iter().sum::<f64>() / column.len() as f64,
+                Centring::Done => 0.0,
             };
             for (change, whole) in column.iter().zip(&whole) {
                 let off = (change - mean - whole).abs();
@@ -199,13 +200,13 @@ fn what_is_compressed_is_what_all_residuals_say() {
                 };
                 let x = problem.start.clone().expect("a start");
                 let windows = Horizon::windows(&data, 0.25, 4);
-                let manners = [
+                let modes = [
                     (Horizon::Whole, StartAngle::Free),
                     (Horizon::Whole, StartAngle::Known),
                     (windows, StartAngle::Free),
-                    (Horizon::Nudged(0.1), StartAngle::Free),
+                    (Horizon::Observer(0.1), StartAngle::Free),
                 ];
-                for (horizon, start_angle) in manners {
+                for (horizon, start_angle) in modes {
                     let label = format!("seed {seed}, {commands:?}, {effects:?}, {start_angle:?}");
                     problem.horizon = horizon;
                     problem.start_angle = start_angle;
@@ -213,7 +214,7 @@ fn what_is_compressed_is_what_all_residuals_say() {
                     check_stream(&problem, &x, &label);
                     check(
                         &problem,
-                        &Quick::new(&problem),
+                        &BlockCost::new(&problem),
                         &x,
                         &format!("{label}, quick"),
                     );
@@ -262,7 +263,7 @@ fn a_search_led_by_them_ends_at_the_same_place() {
                 };
                 let label = format!("seed {seed}, {commands:?}, {effects:?}");
                 let listed = search(&Listed(&problem));
-                let quick = search(&Quick::new(&problem));
+                let quick = search(&BlockCost::new(&problem));
                 let apart = quick.cost / listed.cost - 1.0;
                 assert!(apart < 1e-6, "{label}: {} and {}", quick.cost, listed.cost);
                 assert!(quick.evaluations <= listed.evaluations + 40, "{label}");

@@ -1,10 +1,10 @@
 //! Candidates computed side by side are the candidates computed one by one.
 
-use host::problem::abreast::Run;
-use host::problem::course::{Leg, Manner, legs};
-use host::problem::simulate::{Method, Simulation};
 use host::problem::{Candidate, Data, Horizon, StartAngle};
 use host::recording::{Drive, Recording};
+use host::simulation::Batch;
+use host::simulation::{Method, Simulation};
+use host::simulation::{Mode, Segment, segments};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING_COAST, commands};
 use shared::model::MeasuredInterval;
@@ -67,20 +67,28 @@ fn candidate(data: &Data, kind: Kind, change: f64) -> Candidate {
     }
 }
 
-fn manners<'a>(
+fn modes<'a>(
     seen: &'a [MeasuredInterval<f64>],
     turns: &'a [f64],
-) -> [(Manner<'a>, Horizon, &'static str); 4] {
+) -> [(Mode<'a>, Horizon, &'static str); 4] {
     let windows = |data: &Data| Horizon::windows(data, 0.5, 4);
     [
-        (Manner::Free, Horizon::Whole, "free"),
-        (Manner::Free, windows(&data()), "in windows"),
-        (Manner::Nudged(0.1), Horizon::Nudged(0.1), "nudged"),
-        (Manner::Led { seen, turns }, Horizon::Whole, "led"),
+        (Mode::Free, Horizon::Whole, "free"),
+        (Mode::Free, windows(&data()), "in windows"),
+        (
+            Mode::Observer(0.1),
+            Horizon::Observer(0.1),
+            "pulled by an observer",
+        ),
+        (
+            Mode::SeriesParallel { seen, turns },
+            Horizon::Whole,
+            "series-parallel",
+        ),
     ]
 }
 
-/// Largest difference between lanes and one by one over all manners, counts, with its place.
+/// Largest difference between lanes and one by one over all modes, counts, with its place.
 fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
     let turns: Vec<f64> = data
         .counts
@@ -98,22 +106,22 @@ fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
         .collect();
     let candidates: Vec<Candidate> = changes.iter().map(|&c| candidate(data, kind, c)).collect();
     let mut furthest = (0.0, "");
-    for (manner, horizon, name) in manners(&seen, &turns) {
-        let run = Run {
+    for (mode, horizon, name) in modes(&seen, &turns) {
+        let run = Batch {
             data,
             method: Method::default(),
-            manner,
+            mode,
         };
-        let legs = |candidate: &Candidate| -> Vec<Leg> {
-            legs(data, candidate, &horizon, StartAngle::Free)
+        let segments = |candidate: &Candidate| -> Vec<Segment> {
+            segments(data, candidate, &horizon, StartAngle::Free)
         };
-        let abreast = run.errors(&candidates, &legs);
-        for (candidate, abreast) in candidates.iter().zip(abreast) {
+        let batch = run.errors(&candidates, &segments);
+        for (candidate, in_lanes) in candidates.iter().zip(batch) {
             let alone = Simulation::new(data, candidate, run.method)
                 .expect("a valid model")
-                .errors(manner, &legs(candidate));
-            let abreast = abreast.expect("a valid model");
-            for (a, b) in alone.iter().zip(&abreast) {
+                .errors(mode, &segments(candidate));
+            let in_lanes = in_lanes.expect("a valid model");
+            for (a, b) in alone.iter().zip(&in_lanes) {
                 let off = (a - b).abs();
                 if off > furthest.0 || off.is_nan() {
                     furthest = (off, name);
@@ -124,13 +132,13 @@ fn furthest(data: &Data, kind: Kind, changes: &[f64]) -> (f64, &'static str) {
     furthest
 }
 
-/// Nothing is computed in another way than by [`f64`] itself: with every effect, along every manner of running.
+/// Nothing is computed in another way than by [`f64`] itself: with every effect, along every mode of running.
 #[test]
 fn equal_candidates_in_lanes_are_the_candidate_alone_to_the_bit() {
     let data = data();
     for &kind in Kind::ALL {
-        let (off, manner) = furthest(&data, kind, &[0.03; 8]);
-        assert_eq!(off, 0.0, "{} {manner}", kind.name());
+        let (off, mode) = furthest(&data, kind, &[0.03; 8]);
+        assert_eq!(off, 0.0, "{} {mode}", kind.name());
     }
 }
 
@@ -140,14 +148,10 @@ fn equal_candidates_in_lanes_are_the_candidate_alone_to_the_bit() {
 fn other_candidates_beside_it_change_no_more_than_finer_steps_would() {
     let data = data();
     for &kind in Kind::ALL {
-        let (off, manner) = furthest(&data, kind, &[0.0, 1e-5, -1e-5, 2e-5, 3e-5]);
-        assert!(off < 0.05, "{} {manner}: {off} counts", kind.name());
-        let (off, manner) = furthest(&data, kind, &[0.0, 0.05, -0.05, 0.1, 0.2, -0.2]);
-        assert!(
-            off < 2.0,
-            "{} {manner}: {off} counts, far apart",
-            kind.name()
-        );
+        let (off, mode) = furthest(&data, kind, &[0.0, 1e-5, -1e-5, 2e-5, 3e-5]);
+        assert!(off < 0.05, "{} {mode}: {off} counts", kind.name());
+        let (off, mode) = furthest(&data, kind, &[0.0, 0.05, -0.05, 0.1, 0.2, -0.2]);
+        assert!(off < 2.0, "{} {mode}: {off} counts, far apart", kind.name());
     }
 }
 
@@ -155,13 +159,13 @@ fn other_candidates_beside_it_change_no_more_than_finer_steps_would() {
 #[test]
 fn what_cannot_be_computed_in_lanes_is_computed_without() {
     let data = data();
-    let run = Run {
+    let run = Batch {
         data: &data,
         method: Method::default(),
-        manner: Manner::Free,
+        mode: Mode::Free,
     };
-    let legs = |candidate: &Candidate| -> Vec<Leg> {
-        legs(&data, candidate, &Horizon::Whole, StartAngle::Free)
+    let segments = |candidate: &Candidate| -> Vec<Segment> {
+        segments(&data, candidate, &Horizon::Whole, StartAngle::Free)
     };
     let mixed = [Kind::Windage, Kind::Cogging, Kind::Coulomb, Kind::Delay]
         .map(|k| candidate(&data, k, 0.0));
@@ -173,12 +177,12 @@ fn what_cannot_be_computed_in_lanes_is_computed_without() {
         ..mixed[0]
     };
     let group: Vec<Candidate> = mixed.into_iter().chain([impossible]).collect();
-    let errors = run.errors(&group, &legs);
+    let errors = run.errors(&group, &segments);
     for (candidate, errors) in mixed.iter().zip(&errors) {
         let alone = Simulation::new(&data, candidate, run.method).expect("a valid model");
         assert_eq!(
             errors.as_ref(),
-            Some(&alone.errors(run.manner, &legs(candidate)))
+            Some(&alone.errors(run.mode, &segments(candidate)))
         );
     }
     assert_eq!(errors[4], None);

@@ -2,9 +2,11 @@
 
 use host::bench::{Bench, DriveSample, Hidden, Machine};
 use host::fit::{self, Options};
-use host::plan::{Effort, Hypothesis, Limits, Ranked, Separation, Setup, Trial, Work, rank};
-use host::problem::cost::{errors, rms_counts};
+use host::plan::{
+    Hypothesis, Limits, PlanTask, Ranked, RefitBudget, Separation, Setup, Trial, rank,
+};
 use host::problem::{Data, Horizon, StartAngle};
+use host::problem::{errors, rms_counts};
 use host::recording::Recording;
 use host::solve::levenberg_marquardt::LevenbergMarquardt;
 use servoid_io::record::Record;
@@ -45,7 +47,7 @@ impl Desk {
     }
 
     fn plan(&self, limits: Limits, seconds: f64) -> Ranked {
-        let ranked = rank(&Work {
+        let ranked = rank(&PlanTask {
             hypotheses: &self.hypotheses,
             setup: self.setup,
             limits,
@@ -271,12 +273,12 @@ fn coasting_separates_a_load_from_an_offset_and_commissioning_alone_does_not() {
         drive: &drive,
         stop: &AtomicBool::new(false),
     };
-    let effort = Effort {
+    let budget = RefitBudget {
         steps: 25,
         regression: 10,
     };
     for pair in Separation::pairs(&desk.hypotheses) {
-        let closed = trial.refit(&pair, effort).expect("a refit").counts;
+        let closed = trial.refit(&pair, budget).expect("a refit").counts;
         assert!(closed < 1.0, "commissioning alone: {closed} counts");
         assert!(
             best.least() > 10.0 * closed.max(1.0),

@@ -1,7 +1,8 @@
 //! Quicker costs are the costs, and whoever only compares them decides the same.
 
+use host::block_cost::BlockCost;
 use host::paper::{BOX, Experiment, Variant, paper_problem};
-use host::problem::{Base, Data, FitProblem, Horizon, Quick, StartAngle, Structure};
+use host::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use host::recording::{Drive, Recording};
 use host::solve::{Evaluator, Found, Objective, Solver, swarm};
 use shared::cost::Cost;
@@ -15,11 +16,6 @@ const SEEDS: u64 = 6;
 
 /// Readings of a slow wander under commands that are held for some time each.
 fn data(seed: u64, quantised: bool) -> Data {
-    data_from(seed, quantised, 0.0)
-}
-
-/// The same, from a reading on.
-fn data_from(seed: u64, quantised: bool, first: f64) -> Data {
     let mut generator = rng::seeded(seed);
     let mut draw = || rng::uniform::<f64>(&mut generator);
     let mut command = Vec::new();
@@ -27,7 +23,7 @@ fn data_from(seed: u64, quantised: bool, first: f64) -> Data {
         let held = 1 + (600.0 * draw()) as usize;
         command.extend(std::iter::repeat_n(24.0 * draw() - 12.0, held));
     }
-    let mut angle = first + 100.0 * draw();
+    let mut angle = 100.0 * draw();
     let counts = command.iter().map(|volts| {
         angle += 3.0 * volts;
         if quantised { angle.floor() } else { angle }
@@ -127,7 +123,7 @@ fn same(a: f64, b: f64) -> bool {
 fn a_quick_cost_is_the_cost() {
     let (mut checked, mut most) = (0, 0.0f64);
     everywhere(|problem, x, label| {
-        let quick = Quick::new(problem);
+        let quick = BlockCost::new(problem);
         let (plain, quick) = (problem.cost(x), quick.cost(x));
         // A floored error of nearly a whole count may fall to either side.
         let floored = problem.cost == COSTS[1];
@@ -157,7 +153,7 @@ fn motors_in_the_corners_of_the_box_cost_the_same() {
     let mut finite = 0;
     for variant in Variant::all() {
         let problem = paper_problem(&data, variant, BOX);
-        let quick = Quick::new(&problem);
+        let quick = BlockCost::new(&problem);
         for corner in 0..1 << problem.dim() {
             let x: Vec<f64> = (0..problem.dim())
                 .map(|k| f64::from(corner >> k & 1))
@@ -180,53 +176,11 @@ fn motors_in_the_corners_of_the_box_cost_the_same() {
     assert!(finite > 100, "{finite}");
 }
 
-/// Far more than single precision has: readings of up to eight digits.
-const FAR: [f64; 3] = [0.0, 1e6, -5e7];
-/// Most that the bounds of a cost may lie apart, as a part of it: wider ones would decide too little.
-const APART: f64 = 1e-4;
-
-#[test]
-fn a_cost_lies_within_its_bounds() {
-    let magnitudes = COSTS[0];
-    let far: Vec<Data> = (0..SEEDS)
-        .flat_map(|seed| FAR.map(|first| data_from(seed, true, first)))
-        .collect();
-    let (mut checked, mut without, mut most) = (0, 0, 0.0f64);
-    let mut check = |problem: &FitProblem<'_>, x: &[f64], label: &str| {
-        let quick = Quick::new(problem);
-        let (structure, cost) = (&problem.structure, quick.cost(x));
-        let bounds = quick.bounds_of(&structure.candidate(&structure.values(x)));
-        let Some(bounds) = bounds else {
-            // Only sums of magnitudes have them; a motor that does not settle is run sample by sample.
-            without += usize::from(problem.cost == magnitudes && quick.helps());
-            return;
-        };
-        assert!(
-            bounds.contains(&cost),
-            "{label}: {cost} in {bounds:?} at {x:?}"
-        );
-        most = most.max((bounds.end() - bounds.start()) / cost);
-        checked += 1;
-    };
-    everywhere(&mut check);
-    for (number, data) in far.iter().enumerate() {
-        let problem = problem(data, magnitudes, StartAngle::Known, false);
-        let mut generator = rng::seeded(number as u64);
-        for _ in 0..20 {
-            let mut draw = || rng::uniform::<f64>(&mut generator);
-            let x: Vec<f64> = (0..problem.dim()).map(|_| draw()).collect();
-            check(&problem, &x, &format!("far, seed {number}"));
-        }
-    }
-    println!("{checked} costs, bounds at most {most:.1e} of them apart; {without} have none");
-    assert!(checked > 300 && without < checked / 10 && most < APART);
-}
-
 #[test]
 fn problems_with_held_commands_are_quick() {
     let data = data(1, true);
     for cost in COSTS {
-        assert!(Quick::new(&problem(&data, cost, StartAngle::Known, false)).helps());
+        assert!(BlockCost::new(&problem(&data, cost, StartAngle::Known, false)).helps());
     }
 }
 
@@ -234,7 +188,7 @@ fn problems_with_held_commands_are_quick() {
 #[test]
 fn a_limit_changes_nothing_below_it() {
     everywhere(|problem, x, label| {
-        let quick = Quick::new(problem);
+        let quick = BlockCost::new(problem);
         let cost = quick.cost(x);
         for part in [0.0, 0.3, 0.9, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.1, 1e3] {
             let limit = cost * part;
@@ -250,7 +204,7 @@ fn a_limit_changes_nothing_below_it() {
 }
 
 /// The same costs, always in full.
-struct Full<'a>(Quick<'a>);
+struct Full<'a>(BlockCost<'a>);
 
 impl Objective for Full<'_> {
     fn dim(&self) -> usize {
@@ -267,26 +221,6 @@ fn search(solver: &dyn Solver, objective: &dyn Objective, seed: u64) -> Found {
     let mut evaluator = Evaluator::new(objective, 1500, &stop, &mut nobody);
     solver.search(&mut evaluator, seed);
     evaluator.finish()
-}
-
-/// What the bounds do not refuse, in full.
-struct Bounded<'a>(&'a FitProblem<'a>, Quick<'a>);
-
-impl Objective for Bounded<'_> {
-    fn dim(&self) -> usize {
-        self.1.dim()
-    }
-    fn cost(&self, x: &[f64]) -> f64 {
-        self.1.cost(x)
-    }
-    fn cost_within(&self, x: &[f64], limit: f64) -> f64 {
-        let structure = &self.0.structure;
-        let bounds = self.1.bounds_of(&structure.candidate(&structure.values(x)));
-        match bounds {
-            Some(bounds) if *bounds.start() > limit => *bounds.start(),
-            _ => self.1.cost(x),
-        }
-    }
 }
 
 #[test]
@@ -313,19 +247,12 @@ fn whoever_only_compares_costs_decides_the_same() {
     for (number, problem) in problems.iter().enumerate() {
         for solver in &solvers {
             for seed in 0..SEEDS {
-                let cut = search(solver.as_ref(), &Quick::new(problem), seed);
-                let full = search(solver.as_ref(), &Full(Quick::new(problem)), seed);
-                // Other costs have no bounds.
-                let bounded = (problem.cost == COSTS[0]).then(|| {
-                    let bounded = Bounded(problem, Quick::new(problem));
-                    search(solver.as_ref(), &bounded, seed)
-                });
+                let cut = search(solver.as_ref(), &BlockCost::new(problem), seed);
+                let full = search(solver.as_ref(), &Full(BlockCost::new(problem)), seed);
                 let label = format!("problem {number}, {}, seed {seed}", solver.name());
-                for found in std::iter::once(&cut).chain(&bounded) {
-                    assert_eq!(found.x, full.x, "{label}");
-                    assert_eq!(found.curve, full.curve, "{label}");
-                    assert_eq!(found.evaluations, full.evaluations, "{label}");
-                }
+                assert_eq!(cut.x, full.x, "{label}");
+                assert_eq!(cut.curve, full.curve, "{label}");
+                assert_eq!(cut.evaluations, full.evaluations, "{label}");
             }
         }
     }

@@ -1,92 +1,25 @@
-//! Candidates side by side: one number for each of them in the lanes of the processor's vector registers, with
-//! which `shared`'s equations are computed as with any other number.
+//! Several candidates in the lanes of vector registers: a number that holds one value for each of them, with which
+//! `shared`'s equations are computed as with any other number.
 //!
-//! Which instructions there are is found out when the program runs. Where there are none, candidates are
-//! computed one by one.
+//! Which instructions the processor has is found out when the program runs. Where it has none, candidates are computed
+//! one by one.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `transpose` | eight rows of eight numbers into their columns, and the number of lanes |
+//! | `token` | the proof that the processor has the instructions |
+//! | `number` | the number in lanes |
+//! | `dispatch` | work given to the widest instructions |
+//! | `triangles` | least squares whose rows come one by one |
 
+mod dispatch;
 mod number;
-mod singles;
 mod token;
+mod transpose;
 mod triangles;
-mod turn;
 
-use core::marker::PhantomData;
-pub use number::{LANES, LaneMask, Lanes};
-pub use singles::{SINGLES, Singles};
+pub use dispatch::{Work, with_vectors, work};
+pub use number::{LaneMask, Lanes};
 pub use token::Token;
+pub use transpose::{LANES, Tile, Transpose};
 pub use triangles::Triangles;
-pub use turn::{Square, Turn};
-
-/// Something to be computed in lanes.
-pub trait Work {
-    /// What it gives.
-    type Output;
-    /// Does it, with `M` registers of the processor `T` to a number. Everything in it that is to be fast must be
-    /// inlined into it.
-    fn run<T: Token, const M: usize>(self) -> Self::Output;
-}
-
-/// Does the work with the widest registers that this processor has; `None` where it has none.
-#[cfg(target_arch = "x86_64")]
-pub fn work<W: Work>(work: W) -> Option<W::Output> {
-    use pulp::Simd;
-    use pulp::x86::{Arch, V3, V4};
-    match Arch::new() {
-        Arch::V4(v4) => {
-            token::V4.get_or_init(|| v4);
-            Some(Simd::vectorize(v4, On::<W, V4, 1>(work, PhantomData)))
-        }
-        Arch::V3(v3) => {
-            token::V3.get_or_init(|| v3);
-            Some(Simd::vectorize(v3, On::<W, V3, 2>(work, PhantomData)))
-        }
-        _ => None,
-    }
-}
-
-/// Does the work with the widest registers that this processor has; `None` where it has none.
-#[cfg(not(target_arch = "x86_64"))]
-pub fn work<W: Work>(_work: W) -> Option<W::Output> {
-    None
-}
-
-/// Work on a processor that is known.
-struct On<W, T, const M: usize>(W, PhantomData<T>);
-
-impl<W: Work, T: Token, const M: usize> pulp::WithSimd for On<W, T, M> {
-    type Output = W::Output;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> W::Output {
-        self.0.run::<T, M>()
-    }
-}
-
-/// Computes with the vector instructions of this processor where it has them: the same bits, with fewer moves
-/// between registers. What is to be faster must be inlined into it.
-#[cfg(target_arch = "x86_64")]
-pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
-    match pulp::x86::V3::try_new() {
-        Some(v3) => pulp::Simd::vectorize(v3, Body(body)),
-        None => body(),
-    }
-}
-
-/// Computes with the vector instructions of this processor where it has them.
-#[cfg(not(target_arch = "x86_64"))]
-pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
-    body()
-}
-
-#[cfg(target_arch = "x86_64")]
-struct Body<F>(F);
-
-#[cfg(target_arch = "x86_64")]
-impl<A, F: FnOnce() -> A> pulp::WithSimd for Body<F> {
-    type Output = A;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> A {
-        (self.0)()
-    }
-}

@@ -1,24 +1,21 @@
-//! The same number of several candidates, in the lanes of vector registers.
+//! One number of several candidates, in the lanes of vector registers.
 
 use super::token::Token;
-use super::turn::Square;
+use super::transpose::{LANES, Tile};
 use bytemuck::cast;
 use core::fmt::{self, Debug};
 use core::ops::{Add, Mul, Neg, Sub};
 use shared::scalar::{Angle, Mask, Scalar, curves};
 
-/// Candidates side by side.
-pub const LANES: usize = 8;
-
-/// The same number of [`LANES`] candidates, in `M` registers of the processor `T`. What is done to it is done
-/// to each as [`f64`] does it, to the bit.
+/// One number of each of [`LANES`] candidates, in `M` registers of the processor `T`. Every operation gives each lane
+/// the bits that [`f64`] gives.
 #[derive(Clone, Copy)]
 pub struct Lanes<T: Token, const M: usize> {
     registers: [T::f64s; M],
     token: T,
 }
 
-/// What holds for which of the candidates.
+/// A condition for each candidate.
 #[derive(Clone, Copy)]
 pub struct LaneMask<T: Token, const M: usize> {
     registers: [T::m64s; M],
@@ -26,13 +23,13 @@ pub struct LaneMask<T: Token, const M: usize> {
 }
 
 impl<T: Token, const M: usize> Lanes<T, M> {
-    /// The number of each candidate.
+    /// The candidates' numbers.
     #[inline(always)]
     pub fn each(self) -> [f64; LANES] {
         cast(self.registers)
     }
 
-    /// The number of each candidate, on the processor of `self`: in a loop, [`From`] looks for it each time.
+    /// The candidates' numbers in lanes, with the token of `self`: [`From`] reads the static token each time.
     #[inline(always)]
     pub fn each_like(self, each: [f64; LANES]) -> Self {
         Lanes {
@@ -41,7 +38,7 @@ impl<T: Token, const M: usize> Lanes<T, M> {
         }
     }
 
-    /// Magnitudes: as [`abs`](Scalar::abs), but a zero never has a sign.
+    /// Magnitudes; unlike [`abs`](Scalar::abs) the sign of zero is cleared too.
     #[inline(always)]
     pub fn magnitude(mut self) -> Self {
         for register in &mut self.registers {
@@ -50,7 +47,7 @@ impl<T: Token, const M: usize> Lanes<T, M> {
         self
     }
 
-    /// `self + a·b`, the product not rounded before it is added: as [`f64::mul_add`].
+    /// `self + a·b` with one rounding, as [`f64::mul_add`].
     #[inline(always)]
     pub fn plus_product(mut self, a: Self, b: Self) -> Self {
         for k in 0..M {
@@ -61,22 +58,22 @@ impl<T: Token, const M: usize> Lanes<T, M> {
         self
     }
 
-    /// Numbers of each candidate from one number each of all of them, and the other way round.
+    /// Rows with one number of each candidate into one row for each candidate, or back.
     #[inline(always)]
-    pub fn turned(rows: Square) -> [Self; LANES] {
-        let token = T::here();
-        let columns: [[T::f64s; M]; LANES] = cast(token.turned(rows));
-        let mut turned = [Lanes {
+    pub fn transposed(rows: Tile) -> [Self; LANES] {
+        let token = T::witness();
+        let columns: [[T::f64s; M]; LANES] = cast(token.transposed(rows));
+        let mut transposed = [Lanes {
             registers: columns[0],
             token,
         }; LANES];
-        for (turned, registers) in turned.iter_mut().zip(columns) {
-            turned.registers = registers;
+        for (transposed, registers) in transposed.iter_mut().zip(columns) {
+            transposed.registers = registers;
         }
-        turned
+        transposed
     }
 
-    /// Each rounded down.
+    /// Each lane rounded down.
     #[inline(always)]
     pub fn floor(self) -> Self {
         self.each_by(
@@ -108,7 +105,7 @@ impl<T: Token, const M: usize> From<[f64; LANES]> for Lanes<T, M> {
     fn from(each: [f64; LANES]) -> Self {
         Lanes {
             registers: cast(each),
-            token: T::here(),
+            token: T::witness(),
         }
     }
 }
@@ -217,7 +214,7 @@ impl<T: Token, const M: usize> Mask for LaneMask<T, M> {
     }
 }
 
-/// Work that is done with the vector instructions at hand.
+/// A closure run with the vector instructions at hand.
 struct Routine<F>(F);
 
 impl<A, F: FnMut() -> A> pulp::WithSimd for Routine<F> {
@@ -272,7 +269,7 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
         }
         a
     }
-    // As for any number, with constants that need no look at the processor.
+    // As the default, with constants from the token at hand.
     #[inline(always)]
     fn abs(self) -> Self {
         Self::select(self.less(self.like(0.0)), -self, self)
@@ -285,7 +282,7 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
     }
     #[inline(always)]
     fn routine<A>(body: impl FnMut() -> A) -> A {
-        T::here().vectorize(Routine(body))
+        T::witness().vectorize(Routine(body))
     }
     #[inline(always)]
     fn sin_cos_turns(self) -> (Self, Self) {
@@ -299,7 +296,7 @@ impl<T: Token, const M: usize> Scalar for Lanes<T, M> {
             #[inline(always)]
             |t, a, b| t.div_f64s(a, b),
         );
-        // In this order what is no number becomes nothing, as it does for f64.
+        // In this order a NaN becomes zero, as it does for f64.
         let part = Self::select(zero.less(part), part, zero);
         let part = Self::select(part.less(one), part, one);
         Self::select(zero.less(whole), part, zero)

@@ -1,29 +1,22 @@
-//! The proof that the processor at hand has the instructions that lanes are computed with.
+//! The proof that the processor has the instructions with which lanes are computed.
 
-use super::turn::Turn;
+use super::transpose::Transpose;
 use pulp::Simd;
 use std::sync::OnceLock;
 
-/// A processor's vector instructions, where it has them.
-pub trait Token: Simd + Turn {
-    /// The proof.
+/// Vector instructions of a processor that has them.
+pub trait Token: Simd + Transpose {
+    /// The proof that it has them.
     ///
     /// # Panics
-    /// On a processor without them; work in lanes is only begun where they were found.
-    fn here() -> Self;
-}
-
-impl Token for pulp::Scalar {
-    #[inline(always)]
-    fn here() -> Self {
-        pulp::Scalar::new()
-    }
+    /// On a processor without them. It cannot happen: only [`work`](super::work) starts work in lanes, once it found them.
+    fn witness() -> Self;
 }
 
 #[cfg(target_arch = "x86_64")]
 impl Token for pulp::x86::V3 {
     #[inline(always)]
-    fn here() -> Self {
+    fn witness() -> Self {
         *V3.get().expect("work in lanes begins with the proof")
     }
 }
@@ -31,13 +24,13 @@ impl Token for pulp::x86::V3 {
 #[cfg(target_arch = "x86_64")]
 impl Token for pulp::x86::V4 {
     #[inline(always)]
-    fn here() -> Self {
+    fn witness() -> Self {
         *V4.get().expect("work in lanes begins with the proof")
     }
 }
 
-// Looked at wherever a constant is made, in the hot loops too: a look that can lead to no work but a panic leaves
-// them straight; one that may have to find out first cost the bristles of LuGre two fifths of their time.
+// Read wherever a constant is made, in hot loops too. A read that can only succeed or panic costs nothing there;
+// detection at the first read took two fifths of LuGre's time.
 #[cfg(target_arch = "x86_64")]
 pub(super) static V3: OnceLock<pulp::x86::V3> = OnceLock::new();
 #[cfg(target_arch = "x86_64")]

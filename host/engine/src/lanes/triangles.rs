@@ -1,34 +1,33 @@
-//! Least squares whose rows come one by one: of each of several problems side by side only the triangle of its orthogonal
-//! decomposition is kept, which holds all that its many rows say.
+//! Least squares whose rows come one by one: of each of several problems side by side only the triangular factor R of
+//! its QR decomposition is kept, which holds all that its rows say.
 //!
-//! Some rows at a time are reflected onto the triangle (Householder; G. H. Golub, C. F. Van Loan, *Matrix
-//! Computations*, 5.2), so that nothing is lost of what a decomposition of the whole matrix would have: sums of products
-//! would lose half the digits.
+//! Rows are reflected onto the triangle 64 at a time (Householder; G. H. Golub, C. F. Van Loan, *Matrix Computations*,
+//! 5.2), so nothing is lost against a decomposition of the whole matrix. Sums of products would lose half the digits.
 
-use super::with_vectors;
+use super::dispatch::with_vectors;
 use nalgebra::DMatrix;
 
 /// Rows that are reflected at a time.
 const ROWS: usize = 64;
-/// Running sums of a product: one alone would wait for itself.
+/// Running sums of a product: a single one would wait for its own addition.
 const SUMS: usize = 4;
 
 type Column<const L: usize> = [[f64; L]; ROWS];
 
-/// The triangles of `L` problems with as many columns each.
+/// The triangles of `L` problems with the same number of columns.
 #[derive(Clone, Debug)]
 pub struct Triangles<const L: usize> {
     width: usize,
     /// Column by column, with zeros below.
     triangle: Vec<[f64; L]>,
-    /// The rows that are not in it yet,
+    /// Rows that are not in the triangle yet, column by column.
     waiting: Vec<Column<L>>,
-    /// so many of them.
+    /// Number of these rows.
     filled: usize,
 }
 
 impl<const L: usize> Triangles<L> {
-    /// Of problems with `width` columns, and no rows so far.
+    /// Problems with `width` columns and no rows yet.
     pub fn new(width: usize) -> Self {
         Triangles {
             width,
@@ -38,7 +37,7 @@ impl<const L: usize> Triangles<L> {
         }
     }
 
-    /// Takes a row of each of the problems.
+    /// Takes a row of each problem: for each column, one entry a problem.
     #[inline(always)]
     pub fn push(&mut self, entries: impl IntoIterator<Item = [f64; L]>) {
         for (column, entry) in self.waiting.iter_mut().zip(entries) {
@@ -50,7 +49,7 @@ impl<const L: usize> Triangles<L> {
         }
     }
 
-    /// The triangle of each problem.
+    /// The triangle of each problem, `width × width`.
     pub fn each(mut self) -> [DMatrix<f64>; L] {
         self.reflect();
         std::array::from_fn(|lane| {
@@ -60,7 +59,7 @@ impl<const L: usize> Triangles<L> {
         })
     }
 
-    /// The triangle of all of them, where they are parts of one problem.
+    /// The triangle of all rows together, where the problems are parts of one.
     pub fn together(self) -> DMatrix<f64> {
         let width = self.width;
         let each = self.each();
@@ -85,7 +84,7 @@ impl<const L: usize> Triangles<L> {
         self.filled = 0;
     }
 
-    /// Reflects so that nothing is left below the triangle in the column of a pivot.
+    /// Reflects the waiting rows of the pivot's column onto the triangle.
     #[inline(always)]
     fn reflect_column(&mut self, pivot: usize) {
         let (done, others) = self.waiting.split_at_mut(pivot + 1);
@@ -97,7 +96,7 @@ impl<const L: usize> Triangles<L> {
             let length = (corner[lane] * corner[lane] + below[lane]).sqrt();
             let signed = length.copysign(corner[lane]);
             top[lane] = corner[lane] + signed;
-            // Nothing below: nothing to reflect.
+            // A column of zeros needs no reflection.
             if below[lane] != 0.0 {
                 scale[lane] = 1.0 / (length * (length + corner[lane].abs()));
                 corner[lane] = -signed;

@@ -1,27 +1,28 @@
 //! A recording and a model with unknowns, as a cost over the unit cube.
 //!
-//! [`data`] lowers a recording to what the model takes; [`unknowns`] says which numbers are
-//! searched for and what they mean; [`simulate`] makes a candidate's models, [`course`] runs them along the
-//! data, [`abreast`] several candidates at a time; [`cost`] sums, [`quick`] many samples at a time where commands are
-//! [`held`].
+//! | file | holds |
+//! |---|---|
+//! | `unknown` | one number that is searched for |
+//! | `structure` | all of them, and the model that their values make |
+//! | `residuals` | model minus reading over a horizon |
+//! | `fit_problem` | the cost of a point of the cube, and the residuals behind it |
+//! | `changes` | by how much the residuals of models near one differ from its own |
+//! | `tangent` | residuals and changes as a triangle, which is all that a least-squares step needs |
+//! | `moments` | mean and squares of many numbers, some at a time |
 
-pub mod abreast;
-mod compress;
-pub mod cost;
-pub mod course;
-pub mod data;
-pub mod held;
-mod nearby;
-pub mod quick;
-mod settling;
-pub mod simulate;
-mod spread;
-pub mod unknowns;
+mod changes;
+mod fit_problem;
+mod moments;
+pub(crate) mod residuals;
+mod structure;
+pub(crate) mod tangent;
+mod unknown;
 
-pub use cost::{FitProblem, Horizon, StartAngle};
-pub use data::Data;
-pub use nearby::About;
-pub use quick::Quick;
-pub use simulate::Candidate;
-pub use spread::Spread;
-pub use unknowns::{Base, Structure, Unknown};
+pub use crate::data::Data;
+pub use crate::simulation::{Candidate, Horizon, StartAngle};
+pub use changes::Centring;
+pub use fit_problem::FitProblem;
+pub use moments::Moments;
+pub use residuals::{errors, rms_counts};
+pub use structure::{Base, START_OFFSET, START_SPEED, Structure};
+pub use unknown::{Scale, Unknown};

@@ -1,23 +1,23 @@
-//! Least squares without lists of residuals: what a step of the search needs of a million of them are a few numbers.
+//! Least squares without a list of residuals: a step of the search needs only a few numbers of a million of them.
 
 use nalgebra::DMatrix;
 
-/// An objective whose residuals can be had compressed.
+/// An objective with its residuals in compressed form.
 pub trait Compressed {
-    /// Sum of squares of the residuals at a point, and the cost, from one and the same evaluation; `None` where there is
-    /// none.
+    /// Sum of squares of the residuals at a point, and the cost, from one evaluation; `None` where the model cannot run.
     fn squares_and_cost(&self, x: &[f64]) -> Option<(f64, f64)>;
 
-    /// What the residuals do about a point; `None` where there are none at the point itself.
+    /// Residuals at a point and their changes to the `moved` points; `None` where the model cannot run at the point.
     fn tangent(&self, x: &[f64], moved: &[Vec<f64>]) -> Option<Tangent>;
 }
 
-/// The residuals at a point, and by how much they differ at others.
+/// Residuals at a point and their changes to other points, up to a rotation of the residual space.
 #[derive(Clone, Debug)]
 pub struct Tangent {
-    /// The triangle of the orthogonal decomposition of a matrix with a row a residual: its first column are the residuals
-    /// at the point, each further one the changes to another. A column of zeros where there is no model.
+    /// Factor R of the QR decomposition, `(1 + m) × (1 + m)` for `m` other points, of the matrix with a row a residual: the
+    /// residuals at the point in the first column, the changes to each other point in the next; zeros where that point
+    /// has no model.
     pub triangle: DMatrix<f64>,
-    /// Whether there is a model at each of the others.
+    /// Whether each of the other points has a model.
     pub possible: Vec<bool>,
 }

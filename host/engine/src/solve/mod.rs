@@ -1,4 +1,4 @@
-//! Search methods behind one door: each minimises a cost over the unit cube, and every single model
+//! Search methods behind one trait: each minimises a cost over the unit cube, and every single model
 //! evaluation is counted by the [`Evaluator`], whichever crate the method comes from.
 
 pub mod cma_es;
@@ -39,13 +39,13 @@ pub trait Objective: Sync {
     fn residuals_and_cost(&self, _x: &[f64]) -> Option<(Vec<f64>, f64)> {
         None
     }
-    /// The same where the cost is at most `limit`; else `None`, for which less may be computed, or the same.
+    /// As [`residuals_and_cost`](Self::residuals_and_cost) where the cost is at most `limit`; may stop early and return
+    /// `None` where it is more.
     fn residuals_within(&self, x: &[f64], _limit: f64) -> Option<(Vec<f64>, f64)> {
         self.residuals_and_cost(x)
     }
-    /// By how much the residuals at each `moved` point differ from those at `x`: the stuff of finite differences.
-    /// `None` where there are none. All may be computed side by side, so that what the arithmetic does to all of
-    /// them alike cancels; that is why `x` is computed again.
+    /// Residuals at each `moved` point less those at `x`, for finite differences; `None` for a point without residuals.
+    /// An implementation may run all points together, so that rounding that they share cancels; so `x` runs again.
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
         let here = self.residuals_and_cost(x);
         let change = |x: &Vec<f64>| {
@@ -54,8 +54,8 @@ pub trait Objective: Sync {
         };
         moved.iter().map(change).collect()
     }
-    /// The same residuals compressed, if they can be had: where there are many, or where their squares are quicker than
-    /// they are.
+    /// The same residuals in compressed form, if the problem has one: for many residuals, or where their sum of squares is
+    /// faster than a list.
     fn compressed(&self) -> Option<&dyn Compressed> {
         None
     }

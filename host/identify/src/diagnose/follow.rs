@@ -11,8 +11,8 @@ use super::polish::FINEST;
 use super::refit::Refit;
 use super::workshop::Workshop;
 use crate::fit::{START_OFFSETS, departure, scores};
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon, Structure};
+use servoid_engine::simulation::Method;
 
 /// Of each stretch.
 const STRETCH: Settings = Settings {

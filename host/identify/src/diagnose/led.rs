@@ -1,10 +1,10 @@
 //! A fit of the led model: cheap, smooth, and for that a start only.
 
 use super::motion::Motion;
-use servoid_engine::problem::abreast::Run;
-use servoid_engine::problem::course::{Leg, Manner, legs};
-use servoid_engine::problem::simulate::{Candidate, Method, Simulation};
 use servoid_engine::problem::{Data, Horizon, StartAngle, Structure};
+use servoid_engine::simulation::Batch;
+use servoid_engine::simulation::{Candidate, Method, Simulation};
+use servoid_engine::simulation::{Mode, Segment, segments};
 use servoid_engine::solve::Objective;
 use shared::effects::Kind;
 
@@ -32,7 +32,7 @@ impl Led<'_> {
     /// Model minus measurement in counts, with the best start angle. `None` where the model cannot run.
     pub fn errors(&self, candidate: &Candidate) -> Option<Vec<f64>> {
         let simulation = Simulation::new(self.data, candidate, self.coarse()).ok()?;
-        let mut errors = simulation.errors(self.manner(), &self.legs(candidate));
+        let mut errors = simulation.errors(self.mode(), &self.segments(candidate));
         self.centre(&mut errors);
         errors.iter().all(|e| e.is_finite()).then_some(errors)
     }
@@ -45,15 +45,15 @@ impl Led<'_> {
         }
     }
 
-    fn manner(&self) -> Manner<'_> {
-        Manner::Led {
+    fn mode(&self) -> Mode<'_> {
+        Mode::SeriesParallel {
             seen: &self.motion.seen,
             turns: &self.motion.turns,
         }
     }
 
-    fn legs(&self, candidate: &Candidate) -> Vec<Leg> {
-        legs(self.data, candidate, self.horizon, StartAngle::Free)
+    fn segments(&self, candidate: &Candidate) -> Vec<Segment> {
+        segments(self.data, candidate, self.horizon, StartAngle::Free)
     }
 
     /// Takes the best start angle of a whole run; in windows the measured one stands.
@@ -87,15 +87,15 @@ impl Objective for Led<'_> {
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
         let candidate = |x: &[f64]| self.structure.candidate(&self.structure.values(x));
         let candidates: Vec<Candidate> = moved.iter().map(|x| candidate(x)).collect();
-        let run = Run {
+        let run = Batch {
             data: self.data,
             method: self.coarse(),
-            manner: self.manner(),
+            mode: self.mode(),
         };
         run.changes(
             &candidate(x),
             &candidates,
-            |candidate| self.legs(candidate),
+            |candidate| self.segments(candidate),
             |_, errors| self.centre(errors),
         )
     }

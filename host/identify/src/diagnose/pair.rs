@@ -4,7 +4,7 @@ use super::{Diagnosis, HeldOut, NOISE_COUNTS, Remark};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, scores};
 use servoid_engine::problem::Data;
-use servoid_engine::problem::cost::rms_counts;
+use servoid_engine::problem::rms_counts;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;

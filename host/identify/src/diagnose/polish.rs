@@ -4,8 +4,8 @@ use super::descent::{PROBE, Settings};
 use super::refit::Refit;
 use super::workshop::Workshop;
 use crate::error::Error;
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon};
+use servoid_engine::simulation::Method;
 
 /// Of one that must converge.
 const LAST: Settings = Settings {
@@ -73,7 +73,7 @@ impl Workshop<'_> {
             let method = best.method;
             let problem = FitProblem {
                 horizon: match best.tracked {
-                    Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
+                    Some(tracked) => Horizon::Observer(POLISHED * tracked.memory_s),
                     None => self.fitted_horizon.clone(),
                 },
                 ..self.problem(&best.structure, method)

@@ -9,9 +9,9 @@ use super::track::Tracked;
 use super::workshop::Workshop;
 use crate::error::Error;
 use crate::fit::{scores, validate, validate_roughly};
-use servoid_engine::problem::cost::{errors, rms_counts};
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data, FitProblem, Horizon, StartAngle, Structure};
+use servoid_engine::problem::{errors, rms_counts};
+use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -219,7 +219,7 @@ impl Workshop<'_> {
         let mut last = f64::INFINITY;
         for memory_s in MEMORIES_S {
             let problem = FitProblem {
-                horizon: Horizon::Nudged(memory_s),
+                horizon: Horizon::Observer(memory_s),
                 ..self.problem(structure, self.method)
             };
             let Some(found) = self.descended(&problem, &x, FADE, self.method) else {

@@ -10,7 +10,7 @@ use super::spectrum::spectrum;
 use super::starts::starts;
 use super::workshop::Workshop;
 use crate::fit::base_for;
-use servoid_engine::problem::unknowns::Scale;
+use servoid_engine::problem::Scale;
 use servoid_engine::problem::{Candidate, Structure};
 use servoid_engine::solve::Objective;
 use shared::effects::{Kind, MAX_EFFECTS, Starts};

@@ -4,7 +4,7 @@
 
 use super::refit::Refit;
 use crate::fit::{Options, SPEED_HALF_WIDTH};
-use servoid_engine::problem::data::local_parabola;
+use servoid_engine::data::local_parabola;
 use servoid_engine::problem::{Data, Horizon};
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;

@@ -9,8 +9,8 @@ use super::errors::Errors;
 use super::refit::Refit;
 use super::workshop::Workshop;
 use crate::error::Error;
-use servoid_engine::problem::cost::{errors, rms_counts};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::problem::{errors, rms_counts};
 use shared::cost::Cost;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -54,7 +54,7 @@ impl Workshop<'_> {
                     ..refit.candidate
                 },
                 refit.method,
-                &Horizon::Nudged(memory_s),
+                &Horizon::Observer(memory_s),
                 StartAngle::Free,
                 Cost::Squared,
             )

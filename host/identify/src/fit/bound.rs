@@ -1,8 +1,7 @@
 //! Bounds that a user sets on an unknown.
 
 use crate::error::Error;
-use servoid_engine::problem::Structure;
-use servoid_engine::problem::unknowns::Scale;
+use servoid_engine::problem::{Scale, Structure};
 use servoid_io::input::suggest::did_you_mean;
 
 /// The range of one unknown.

@@ -1,303 +1,48 @@
 //! Fitting a model to a recording: start from regression, search, and say what was learnt.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `options`, `bound` | what to fit, and how; a range that the user set |
+//! | `filter` | state variable filters of measured signals |
+//! | `regression` | a first guess at the model, without a simulation |
+//! | `start` | the problem that recording and options state, started at the best guess |
+//! | `search` | its search by one method |
+//! | `correlation_time` | for how long an error is correlated with itself |
+//! | `sensitivity` | sums over the Jacobian of the residuals |
+//! | `uncertainty` | the covariance of the unknowns |
+//! | `resistance` | the resistance from a measured current |
+//! | `physical` | the six physical parameters from data and known facts |
+//! | `margins` | stability margins of the position loop |
+//! | `scores` | errors over windows and of the equation, where the open loop drifts |
+//! | `validate` | the error on another recording |
+//! | `remarks` | what a user should know before believing a fit |
+//! | `report` | the fitted model with all of these |
+//! | `error_ladder` | the error as effects are added one by one |
 
 mod bound;
+mod correlation_time;
+mod error_ladder;
 pub(crate) mod filter;
-mod ladder;
 pub mod margins;
-pub mod memory;
+mod options;
 pub mod physical;
 pub mod regression;
 mod remarks;
 pub mod report;
 mod resistance;
 pub mod scores;
+mod search;
 mod sensitivity;
+mod start;
 pub mod uncertainty;
 mod validate;
 
-use crate::error::Error;
-use crate::identify::LEAST_SQUARES;
-use regression::Guess;
-use servoid_engine::problem::cost::Horizon;
-use servoid_engine::problem::simulate::Method;
-use servoid_engine::problem::{Base, Candidate, Data, FitProblem, Quick, StartAngle, Structure};
-use servoid_engine::solve::nelder_mead::NelderMead;
-use servoid_engine::solve::{Evaluator, Found, Solver};
-use servoid_io::input::Known;
-use servoid_io::recording::Drive;
-use shared::cost::Cost;
-use shared::discretise::Discretisation;
-use shared::effects::{Kind, Place};
-use shared::motor::Machine;
-use std::sync::atomic::AtomicBool;
-
 pub use bound::Bound;
-pub use ladder::ladder;
-pub use report::{Fit, Parameter, Rung};
+pub use correlation_time::correlation_sum;
+pub use error_ladder::error_ladder;
+pub use options::Options;
+pub use report::{Fit, LadderEntry, Parameter};
+pub use search::search;
+pub(crate) use start::may_start_moving;
+pub use start::{SPEED_HALF_WIDTH, base_for, is_reversed, problem};
 pub use validate::{START_OFFSETS, departure, validate, validate_roughly, validation_errors};
-
-/// What to fit, and how.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Effects beside the linear machine.
-    pub effects: Vec<Kind>,
-    /// What is minimised.
-    pub cost: Cost,
-    /// Seed of the search.
-    pub seed: u64,
-    /// Largest number of model evaluations.
-    pub budget: usize,
-    /// Length of the windows in which the model runs on its own; the whole recording if `None`.
-    pub window_s: Option<f64>,
-    /// How the model is run.
-    pub method: Method,
-    /// Facts about the motor.
-    pub known: Known,
-    /// Name of the search method, see [`servoid_engine::solve::all`].
-    pub algorithm: String,
-    /// Ranges of unknowns that the user set.
-    pub bounds: Vec<Bound>,
-    /// A model near the solution, if the caller knows one: where least squares starts once more if it ends elsewhere.
-    pub start: Option<Candidate>,
-    /// Whether the result has the errors of the models that lead to it, effect by effect.
-    pub error_ladder: bool,
-}
-
-impl Options {
-    /// Name of the cost in results.
-    pub fn cost_name(&self) -> &'static str {
-        match self.cost {
-            Cost::Squared => "squared",
-            Cost::Absolute {
-                model_floored: false,
-            } => "iae",
-            Cost::Absolute {
-                model_floored: true,
-            } => "iae_floored",
-            Cost::Interval { .. } => "interval",
-        }
-    }
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            effects: Vec::new(),
-            cost: Cost::Squared,
-            seed: 1,
-            budget: 20_000,
-            window_s: None,
-            method: Method {
-                substeps: 2,
-                ..Method::default()
-            },
-            known: Known::default(),
-            algorithm: LEAST_SQUARES.to_owned(),
-            bounds: Vec::new(),
-            start: None,
-            error_ladder: false,
-        }
-    }
-}
-
-/// Samples to each side from which the speed at a window's start is taken.
-pub const SPEED_HALF_WIDTH: usize = 4;
-
-/// The problem that `options` state, with its start from regression.
-///
-/// # Errors
-/// [`Error::Failed`] where no regression gives a machine: the recording does not excite the motor.
-pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
-    check(data, options)?;
-    let starts = starts(data, options);
-    let still = starts.best(false);
-    let moving = if may_start_moving(data) && options.window_s.is_none() {
-        starts.best(true)
-    } else {
-        None
-    };
-    let best = match (still, moving) {
-        // A start in motion must earn its unknown.
-        (Some(still), Some(moving)) => {
-            if moving.cost < EARNED * still.cost {
-                moving
-            } else {
-                still
-            }
-        }
-        (Some(only), None) | (None, Some(only)) => only,
-        (None, None) => return Err(no_motor(data, options)),
-    };
-    let mut problem = starts.problem;
-    problem.structure = best.structure;
-    problem.start = Some(best.x);
-    Ok(problem)
-}
-
-/// A speed at the first sample is searched for if it lowers the cost of the start at least to this part.
-const EARNED: f64 = 0.8;
-/// Fewest samples that say anything about a motor.
-const FEWEST_SAMPLES: usize = 10;
-/// Fewest samples in a window.
-const FEWEST_IN_WINDOW: f64 = 8.0;
-
-/// Refuses what cannot end well, with the reason.
-fn check(data: &Data, options: &Options) -> Result<(), Error> {
-    if data.len() < FEWEST_SAMPLES {
-        return Err(Error::Failed(format!(
-            "{}: {} samples are too few for a motor; record at least {FEWEST_SAMPLES}, better some thousand",
-            data.source,
-            data.len()
-        )));
-    }
-    let least = FEWEST_IN_WINDOW * data.units.interval;
-    match options.window_s {
-        Some(seconds) if seconds < least => Err(Error::Usage(format!(
-            "--window {seconds}: shorter than {FEWEST_IN_WINDOW} samples of {:.6} s; take at least {least:.6}",
-            data.units.interval
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// Whether the motor is one only with the sign of its angle turned.
-pub fn is_reversed(data: &Data, options: &Options) -> bool {
-    let mut reversed = data.clone();
-    for count in &mut reversed.counts {
-        *count = -*count;
-    }
-    starts(data, options).best(false).is_none() && starts(&reversed, options).best(false).is_some()
-}
-
-/// Why no regression gave a machine.
-fn no_motor(data: &Data, options: &Options) -> Error {
-    let reason = if is_reversed(data, options) {
-        "the angle falls where the voltage should raise it: the sign of the angle (or of the voltage) is \
-         reversed; swap the encoder's channels or negate the column"
-    } else if options.method.discretisation == Discretisation::Euler {
-        "no motor fits it even roughly with the Euler step, which is unstable where the sample interval is \
-         longer than about twice the shortest time constant; use --integrator exact"
-    } else {
-        "no motor fits this recording even roughly: the speed does not follow the command. Check the columns \
-         and units, the sign of the angle (positive voltage must raise it), and that the motor was driven"
-    };
-    Error::Failed(format!("{}: {reason}", data.source))
-}
-
-/// A problem, and what regression guesses at.
-struct Starts<'a> {
-    problem: FitProblem<'a>,
-    guesses: Vec<Guess>,
-}
-
-/// A place to begin at.
-struct Start {
-    cost: f64,
-    x: Vec<f64>,
-    structure: Structure,
-}
-
-/// The problem, without a start, and the guesses for one.
-fn starts<'a>(data: &'a Data, options: &Options) -> Starts<'a> {
-    let base = base_for(data, &options.effects);
-    let unit = Machine {
-        kb: 1.0,
-        damping: 0.0,
-        inertia: 1.0,
-        electrical: 0.0,
-    };
-    let structure = Structure::around(data, base, &options.effects, &unit, false);
-    let guesses = regression::guesses(data, &structure);
-    let problem = FitProblem {
-        data,
-        structure,
-        cost: options.cost,
-        weight: 1.0,
-        horizon: match options.window_s {
-            Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
-            None => Horizon::Whole,
-        },
-        start_angle: StartAngle::Free,
-        method: options.method,
-        start: None,
-    };
-    Starts { problem, guesses }
-}
-
-impl Starts<'_> {
-    /// The guess that costs least, at rest or in motion at the first sample; `None` where no guess is a motor.
-    fn best(&self, start_speed: bool) -> Option<Start> {
-        let FitProblem {
-            data, structure, ..
-        } = &self.problem;
-        let quick = Quick::new(&self.problem);
-        let speed_now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
-            * core::f64::consts::TAU;
-        let start = |guess: &Guess| {
-            let Guess { machine, effects } = guess;
-            let (base, kinds) = (structure.base, &structure.effects);
-            let structure = Structure::around(data, base, kinds, machine, start_speed);
-            let x = structure.coordinates(&structure.values_of(machine, effects, speed_now));
-            Start {
-                cost: quick.cost_of(&structure.candidate(&structure.values(&x))),
-                x,
-                structure,
-            }
-        };
-        let starts = self.guesses.iter().map(start);
-        starts
-            .filter(|start| start.cost.is_finite())
-            .min_by(|a, b| a.cost.total_cmp(&b.cost))
-    }
-}
-
-/// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
-/// coasting with the bridge open, a torque that passes only the one of them, or an effect of the
-/// current, since the current that a speed takes depends on how much of the damping is friction.
-pub fn base_for(data: &Data, effects: &[Kind]) -> Base {
-    let separates = |kind: &Kind| {
-        let mechanical = matches!(
-            kind.description().place,
-            Place::Friction | Place::Torque | Place::Load
-        );
-        mechanical || kind.needs().winding || kind.needs().current
-    };
-    match data.drive {
-        Drive::Current => Base::CurrentDriven,
-        Drive::Voltage => Base::Response {
-            damping: data.coasts() || effects.iter().any(separates),
-        },
-    }
-}
-
-/// Whether the first samples show any motion at all.
-pub(crate) fn may_start_moving(data: &Data) -> bool {
-    let per_interval = data.speed_counts_s(0, SPEED_HALF_WIDTH).abs() * data.units.interval;
-    per_interval * SPEED_HALF_WIDTH as f64 > 1.0
-}
-
-/// Part of the budget, at most, for the polish after least squares.
-const POLISH: usize = 600;
-
-/// Searches with one method. Least squares minimises squares, whatever the cost is: where the cost
-/// is another, a simplex search polishes its result.
-pub fn search(
-    problem: &FitProblem<'_>,
-    solver: &dyn Solver,
-    options: &Options,
-    stop: &AtomicBool,
-    observer: &mut dyn FnMut(usize, f64),
-) -> Found {
-    let quick = Quick::new(problem);
-    let mut evaluator = Evaluator::new(&quick, options.budget, stop, observer);
-    solver.search(&mut evaluator, options.seed);
-    if solver.name() == "lm" && problem.cost != Cost::Squared {
-        evaluator.limit(POLISH);
-        let polish = NelderMead {
-            edge: 1e-3,
-            ..NelderMead::default()
-        };
-        polish.search(&mut evaluator, options.seed);
-    }
-    evaluator.finish()
-}

@@ -1,11 +1,10 @@
-//! From what the data determine to the six physical parameters, with the help of known facts.
+//! The six physical parameters from what the data determine and from known facts.
 //!
 //! The machine in coordinates that the data and the facts can each speak about:
-//! `ln R`, `ln Kt`, `D = Kb + b`, `m`, `τe`, and the viscous part `p = b/D`. The data say something
-//! about `D`, `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact about one
-//! combination; what neither speaks
-//! about stays in the null space of the normal equations, and every physical parameter that leans
-//! on it is reported as undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
+//! `ln R`, `ln Kt`, `D = Kb + b`, `m`, `τe`, and the viscous part `p = b/D`. The data determine `D`,
+//! `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact one combination. What neither determines stays in
+//! the null space of the normal equations, and every physical parameter that depends on it is reported as
+//! undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use servoid_io::input::Known;
@@ -21,7 +20,7 @@ const CONSTANT: f64 = 1e-6;
 /// Singular values below this part of the largest are directions that nothing determines.
 const FLAT: f64 = 1e-11;
 
-/// Facts that pull the data's own values by more standard errors than this contradict them.
+/// Facts and data that stay further apart than this, in standard errors, contradict each other.
 pub const CONTRADICTION: f64 = 5.0;
 
 /// The six, in the order of `[known]`.
@@ -43,7 +42,7 @@ pub struct Estimate {
     pub std: f64,
 }
 
-/// What the data say: a machine, how well, and a resistance if the current was measured.
+/// What the data determine: a machine, its covariance, and a resistance if the current was measured.
 #[derive(Clone, Debug)]
 pub struct Evidence {
     /// The machine that was fitted.
@@ -85,14 +84,14 @@ fn physical(u: &Vector) -> [f64; N] {
     ]
 }
 
-/// What the data speak about, as a function of the coordinates.
-fn seen(u: &Vector, k: usize) -> f64 {
+/// Combination `k` of those that the data determine, as a function of the coordinates.
+fn determined(u: &Vector, k: usize) -> f64 {
     let (total, m, lag, part) = (u[2], u[3], u[4], u[5]);
     [total, m + lag * part * total, lag * m, part][k]
 }
 
-/// The same of a machine.
-pub fn seen_of(machine: &Machine<f64>) -> [f64; 4] {
+/// The combinations that the data determine, of a machine: `D` (V·s/rad), `a1·D`, `a2·D` and the viscous part.
+pub fn determined_by_data(machine: &Machine<f64>) -> [f64; 4] {
     let total = machine.kb + machine.damping;
     let part = if total > 0.0 {
         machine.damping / total
@@ -100,7 +99,7 @@ pub fn seen_of(machine: &Machine<f64>) -> [f64; 4] {
         0.0
     };
     let u = Vector::from([0.0, 0.0, total, machine.inertia, machine.electrical, part]);
-    std::array::from_fn(|k| seen(&u, k))
+    std::array::from_fn(|k| determined(&u, k))
 }
 
 /// Typical size of each coordinate, so that information is relative.
@@ -188,7 +187,7 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         part,
     ]);
     let sizes = sizes(&start);
-    let measured = seen_of(machine);
+    let measured = determined_by_data(machine);
     let whitening = whitening(&evidence.covariance, &measured);
     let statements = facts(known, evidence.resistance, &start);
     // All that is stated, as rows of unit variance: slope, and what is still missing.
@@ -203,8 +202,8 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         for weights in &whitening {
             let mut row = (Vector::zeros(), 0.0);
             for (k, weight) in weights.iter().enumerate() {
-                row.0 += gradient(&|u| seen(u, k), u, &sizes) * *weight;
-                row.1 += (measured[k] - seen(u, k)) * weight;
+                row.0 += gradient(&|u| determined(u, k), u, &sizes) * *weight;
+                row.1 += (measured[k] - determined(u, k)) * weight;
             }
             rows.push(row);
         }
@@ -359,9 +358,13 @@ mod tests {
             electrical: 0.0,
         };
         let relative = [1e-4, 1e-3, 1e-2, 1e-2];
-        let seen = seen_of(&machine);
+        let values = determined_by_data(&machine);
         let covariance = DMatrix::from_fn(4, 4, |i, k| {
-            let size = if i == 3 { 1.0 } else { seen[i].abs().max(1e-6) };
+            let size = if i == 3 {
+                1.0
+            } else {
+                values[i].abs().max(1e-6)
+            };
             if i == k {
                 (relative[i] * size).powi(2)
             } else {

@@ -1,6 +1,6 @@
 //! What a user should be told about a fit before believing it.
 
-use super::Options;
+use super::options::Options;
 use super::uncertainty::Uncertainty;
 use servoid_engine::problem::{Base, FitProblem};
 use servoid_engine::solve::Found;

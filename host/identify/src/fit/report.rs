@@ -1,15 +1,20 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
 use super::margins::{Loop, Margins};
-use super::physical::{CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, reconcile, seen_of};
+use super::options::Options;
+use super::physical::{
+    CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, determined_by_data, reconcile,
+};
+use super::remarks;
+use super::resistance::resistance;
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
-use super::{Options, remarks, resistance::resistance, validate};
+use super::validate::validate;
 use crate::error::Error;
 use nalgebra::DMatrix;
-use servoid_engine::problem::cost::rms_counts;
-use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::rms_counts;
 use servoid_engine::problem::{Base, Candidate, Data, FitProblem};
+use servoid_engine::simulation::Method;
 use servoid_engine::solve::Found;
 use servoid_io::input::Known;
 use servoid_io::recording::Drive;
@@ -33,7 +38,7 @@ pub struct Parameter {
 
 /// The error of a model with some of the effects.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rung {
+pub struct LadderEntry {
     /// The effect that was added last; `None` for the linear motor.
     pub added: Option<&'static str>,
     /// RMS error on the fitted recording, counts.
@@ -89,7 +94,7 @@ pub struct Fit {
     /// Whether the search was stopped by the user.
     pub interrupted: bool,
     /// Errors of the models that lead to this one, effect by effect; empty where nobody asked.
-    pub ladder: Vec<Rung>,
+    pub error_ladder: Vec<LadderEntry>,
 }
 
 impl Fit {
@@ -173,7 +178,7 @@ impl Fit {
             notes,
             curve: found.curve.clone(),
             interrupted: found.interrupted,
-            ladder: Vec::new(),
+            error_ladder: Vec::new(),
         })
     }
 }
@@ -184,7 +189,7 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     let count = values.len().min(spread.covariance.nrows());
     let with_part = matches!(problem.structure.base, Base::Response { damping: true })
         && !spread.flat[..count].iter().any(|&flat| flat);
-    let wanted = |candidate: &Candidate| seen_of(&candidate.machine);
+    let wanted = |candidate: &Candidate| determined_by_data(&candidate.machine);
     let rows = if with_part { 4 } else { 3 };
     let mut full = values.clone();
     full.resize(problem.structure.dim(), 0.0);

@@ -1,9 +1,9 @@
 //! The resistance from a measured current.
 
 use super::physical::Estimate;
-use super::uncertainty::SEGMENTS;
-use servoid_engine::problem::simulate::{Method, Simulation};
+use super::sensitivity::SEGMENTS;
 use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::{Method, Simulation};
 use servoid_io::recording::Drive;
 
 /// A reading at an end of all readings is the sensor's end, and no measurement, where the model has by this part more current.

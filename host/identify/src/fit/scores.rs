@@ -1,11 +1,12 @@
 //! Errors of a fitted model, in the several ways that people measure them.
 
 use super::filter::{Passing, filtered};
-use super::{Options, SPEED_HALF_WIDTH};
+use super::options::Options;
+use super::start::SPEED_HALF_WIDTH;
 use crate::error::Error;
-use servoid_engine::problem::cost::{Horizon, errors};
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
+use servoid_engine::problem::{Horizon, errors};
+use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 use shared::effects::{Lowered, Place, Shaft};
 
@@ -106,7 +107,7 @@ pub struct EquationResidual {
     pub acceleration: f64,
 }
 
-/// The first and the last sample by which the speed at one is told.
+/// The first and the last sample that the speed at one is taken from.
 fn around(data: &Data, k: usize) -> (usize, usize) {
     let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
     (k.saturating_sub(SPEED_HALF_WIDTH), to)

@@ -1,31 +1,32 @@
-//! Sums over the Jacobian of the residuals, which is never there as a whole: of an hour's recording it would be larger than the
-//! recording.
+//! Sums over the Jacobian of the residuals, which is never held as a whole: for an hour's recording it would be larger
+//! than the recording.
 
-use super::uncertainty::SEGMENTS;
 use nalgebra::{DMatrix, DVector};
-use servoid_engine::problem::{About, Candidate, FitProblem, Spread};
+use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
 
+/// Time segments that count as independent.
+pub(super) const SEGMENTS: usize = 24;
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
 const PROBE_COUNTS: f64 = 0.02;
-/// Part of a column's squares that rounding may leave of them about their mean.
+/// Rounding error of a column's sum of squares about its mean, relative to its plain sum of squares.
 const ROUNDING: f64 = 1e-12;
 
-/// What standard errors take of the Jacobian J (a row a sample, a column an unknown) and of the residuals r.
+/// Sums over the Jacobian J (a row a sample, a column an unknown) and the residuals r, counts.
 pub(super) struct Sensitivity {
-    /// Jᵀ·J.
+    /// Jᵀ·J, unknowns × unknowns.
     pub squares: DMatrix<f64>,
-    /// Jᵀ·r of each time segment.
+    /// Jᵀ·r of each time segment, a vector of unknowns each.
     pub gradients: Vec<DVector<f64>>,
 }
 
-/// An unknown's neighbours, and how far apart they are.
+/// The models to both sides of an unknown's value, and the distance between them in the unknown's unit.
 struct Pair {
     ahead: Candidate,
     behind: Candidate,
     width: f64,
 }
 
-/// By central differences at `values`. `None` where a model cannot run.
+/// Central differences at `values`. `None` where a model cannot run.
 pub(super) fn sensitivity(
     problem: &FitProblem<'_>,
     values: &[f64],
@@ -39,7 +40,7 @@ pub(super) fn sensitivity(
     let mut sums = Sums::new(pairs.len(), residuals);
     let mut columns = vec![Vec::new(); pairs.len()];
     let here = problem.structure.candidate(values);
-    let about = problem.stream_changes(&here, &models, |changes| {
+    let centring = problem.stream_changes(&here, &models, |changes| {
         for ((column, pair), change) in columns.iter_mut().zip(&pairs).zip(changes.chunks(2)) {
             let quotient = |(up, down): (&f64, &f64)| match pair.width {
                 0.0 => 0.0,
@@ -50,13 +51,13 @@ pub(super) fn sensitivity(
         }
         sums.add(&columns);
     })?;
-    let sensitivity = sums.about(about);
+    let sensitivity = sums.centred(centring);
     let finite = |x: &f64| x.is_finite();
     let gradients = || sensitivity.gradients.iter().flat_map(DVector::iter);
     (sensitivity.squares.iter().all(finite) && gradients().all(finite)).then_some(sensitivity)
 }
 
-/// The neighbours to both sides, so far away that the residuals change by about the wanted number of counts.
+/// The models to both sides of each unknown, so far away that the residuals change by about [`PROBE_COUNTS`].
 fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
     let unknowns = &problem.structure.unknowns;
     let here = problem.structure.candidate(values);
@@ -66,16 +67,16 @@ fn pairs(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<Pair>> {
     let probes: Vec<Candidate> = (0..values.len())
         .map(|k| model(&moved(values, k, first(k), unknowns[k].range.1)))
         .collect();
-    let mut changes = vec![Spread::default(); probes.len()];
-    let about = problem.stream_changes(&here, &probes, |some| {
-        for (spread, change) in changes.iter_mut().zip(some) {
-            spread.add(change);
+    let mut changes = vec![Moments::default(); probes.len()];
+    let centring = problem.stream_changes(&here, &probes, |some| {
+        for (moments, change) in changes.iter_mut().zip(some) {
+            moments.add(change);
         }
     })?;
-    let pair = |(k, spread): (usize, &Spread)| {
-        let squares = match about {
-            About::Mean => spread.about_mean(),
-            About::Zero => spread.about(0.0),
+    let pair = |(k, moments): (usize, &Moments)| {
+        let squares = match centring {
+            Centring::Pending => moments.squares_about_mean(),
+            Centring::Done => moments.squares_about(0.0),
         };
         let change = (squares / problem.data.len() as f64).sqrt();
         let mut step = first(k);
@@ -110,7 +111,7 @@ fn moved(values: &[f64], k: usize, step: f64, limit: f64) -> Vec<f64> {
 /// The sums so far.
 struct Sums<'r> {
     residuals: &'r [f64],
-    /// Samples that have come.
+    /// Samples so far.
     samples: usize,
     /// Σ J.
     sum: DVector<f64>,
@@ -136,7 +137,7 @@ impl<'r> Sums<'r> {
         self.residuals.len().div_ceil(SEGMENTS).max(1)
     }
 
-    /// Takes the next samples of each column.
+    /// Adds the next samples of each column.
     fn add(&mut self, columns: &[Vec<f64>]) {
         let count = columns.first().map_or(0, Vec::len);
         let mut from = 0;
@@ -164,15 +165,15 @@ impl<'r> Sums<'r> {
         }
     }
 
-    /// The sums, of columns about their mean if that is still to be taken.
-    fn about(mut self, about: About) -> Sensitivity {
+    /// The sums, with each column's mean subtracted if that is pending.
+    fn centred(mut self, centring: Centring) -> Sensitivity {
         self.squares.fill_upper_triangle_with_lower_triangle();
-        if about == About::Mean {
+        if centring == Centring::Pending {
             let mean = &self.sum / self.samples.max(1) as f64;
             let raw = self.squares.diagonal();
             self.squares -= &self.sum * mean.transpose();
             for k in 0..raw.len() {
-                // A change that is the same at every sample is none.
+                // A constant column has no slope left: what remains is rounding.
                 if self.squares[(k, k)] <= ROUNDING * raw[k] {
                     self.squares.row_mut(k).fill(0.0);
                     self.squares.column_mut(k).fill(0.0);
@@ -210,7 +211,7 @@ mod tests {
             let parts: Vec<usize> = (0..rows)
                 .map(|_| 1 + (draw().abs() * 40.0) as usize)
                 .collect();
-            for about in [About::Zero, About::Mean] {
+            for centring in [Centring::Done, Centring::Pending] {
                 let mut sums = Sums::new(columns, &residuals);
                 let mut from = 0;
                 for part in &parts {
@@ -226,8 +227,8 @@ mod tests {
                     sums.add(&(0..columns).map(some).collect::<Vec<Vec<f64>>>());
                     from = to;
                 }
-                let found = sums.about(about);
-                if about == About::Mean {
+                let found = sums.centred(centring);
+                if centring == Centring::Pending {
                     for mut column in matrix.column_iter_mut() {
                         let mean = column.mean();
                         column.add_scalar_mut(-mean);
@@ -258,7 +259,7 @@ mod tests {
         let residuals = [0.3; 1000];
         let mut sums = Sums::new(2, &residuals);
         sums.add(&[vec![0.1; 1000], (0..1000).map(f64::from).collect()]);
-        let found = sums.about(About::Mean);
+        let found = sums.centred(Centring::Pending);
         assert_eq!(found.squares[(0, 0)], 0.0);
         assert!(found.squares[(1, 1)] > 0.0);
     }

@@ -1,5 +1,5 @@
-//! How well the data determine the unknowns: from the Jacobian of the residuals, with the *effective*
-//! number of independent samples.
+//! Covariance of the unknowns from the Jacobian of the residuals, and the *effective* number of independent
+//! samples.
 //!
 //! Quantisation errors of neighbouring samples are anything but independent (a motor at rest
 //! repeats the same one a thousand times), so the textbook `σ²·(JᵀJ)⁻¹` is far too hopeful. The
@@ -7,14 +7,12 @@
 //! Liang, Zeger, 1986), where `gₛ` is a segment's part of the gradient: whatever the correlation
 //! within a segment, it is counted once.
 
-use super::memory::memory;
+use super::correlation_time::correlation_sum;
 use super::sensitivity::sensitivity;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Data, FitProblem};
 
-/// Time segments that count as independent.
-pub(super) const SEGMENTS: usize = 24;
-/// Singular values of the column-scaled Jacobian below this are directions that the data do not hold.
+/// Singular values of the column-scaled Jacobian below this belong to directions that the data do not determine.
 const FLAT: f64 = 1e-6;
 
 /// Coordinates nearer than this to a wall of the cube lie on it.
@@ -22,7 +20,7 @@ const WALL: f64 = 1e-9;
 /// Part of the squared error that one more step would remove, above which the search has not converged.
 const UNCONVERGED: f64 = 0.2;
 
-/// Covariance of the unknowns, and how many samples are worth counting.
+/// Covariance of the unknowns, and the effective number of samples.
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
     /// Covariance in natural units; a row and a column for each unknown.
@@ -31,7 +29,7 @@ pub struct Uncertainty {
     pub flat: Vec<bool>,
     /// Whether the search ended near enough to a minimum for errors to mean anything.
     pub converged: bool,
-    /// Samples that the recording is worth, given how its residuals hang together.
+    /// Effective number of independent samples, from the residuals' autocorrelation.
     pub effective_samples: f64,
 }
 
@@ -44,7 +42,7 @@ impl Uncertainty {
     }
 }
 
-/// The sandwich covariance at `values`, where the residuals are `residuals`.
+/// The sandwich covariance at `values`, SI, where the residuals are `residuals`, counts. `None` where a model cannot run.
 pub fn uncertainty(
     problem: &FitProblem<'_>,
     values: &[f64],
@@ -78,9 +76,8 @@ pub fn uncertainty(
             }
         }
     }
-    // How far the minimum still is, by one Gauss-Newton step. Away from it a standard error would
-    // describe a place where nobody is: the distance counts as error too, and where most of the
-    // error could still be removed there is nothing to state. Unknowns on a wall stay there.
+    // Distance to the minimum, by one Gauss-Newton step. It counts as error too; where the step would remove
+    // much of the squared error, no standard error is stated. Unknowns on a wall stay there.
     let mut gradient = scaled(&found.gradients.iter().sum());
     for (k, x) in problem.structure.coordinates(values).iter().enumerate() {
         if !(WALL..=1.0 - WALL).contains(x) {
@@ -118,7 +115,7 @@ pub fn uncertainty(
     })
 }
 
-/// Samples divided by the sum of the residuals' autocorrelation ([`memory`]), and never more than the changes of the reading.
+/// Samples divided by the sum of the residuals' autocorrelation ([`correlation_sum`]), and never more than the changes of the reading.
 pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     let n = residuals.len();
     let mean = residuals.iter().sum::<f64>() / n.max(1) as f64;
@@ -133,7 +130,7 @@ pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
     if n < 2 || variance <= 0.0 {
         return n as f64;
     }
-    let sum = memory(n / 2, |lag| product(lag) / variance);
+    let sum = correlation_sum(n / 2, |lag| product(lag) / variance);
     let independent = n as f64 / (1.0 + 2.0 * sum);
     if data.quantised {
         independent.min(data.transitions().max(1) as f64)

@@ -1,29 +1,29 @@
-//! A fitted model on another recording, whose start is its own.
+//! The error of a fitted model on another recording, which has a start of its own.
 
-use super::{SPEED_HALF_WIDTH, may_start_moving, scores};
+use super::scores;
+use super::start::{SPEED_HALF_WIDTH, may_start_moving};
 use crate::error::Error;
-use servoid_engine::problem::cost::{Horizon, errors, rms_counts};
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
+use servoid_engine::problem::{Horizon, errors, rms_counts};
+use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 
-/// Step of the start speed by which its effect is measured, as a part of the fastest.
+/// Step of the start speed for its difference quotient, relative to the fastest speed.
 const SPEED_STEP: f64 = 0.01;
-/// Errors below this many counts need no better start.
+/// RMS error below which no better start is searched for, counts.
 const START_UNNOTICED: f64 = 0.3;
-/// Places within the first cell that are tried, counts from its middle.
+/// Start angles within the first encoder cell that are tried, counts from its middle.
 pub const START_OFFSETS: [f64; 8] = [-0.4, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.4];
 
-/// Error at which a run has departed from the readings, counts: no slope tells what follows.
+/// Error at which a run has departed from the readings, counts: slopes say nothing about what follows.
 const DEPARTED_COUNTS: f64 = 4.0;
-/// Where the readings are followed over such a part of the recording, where a run departs may be a matter of where in the cell it
-/// began.
-const FOLLOWED: f64 = 0.05;
-/// First step of the start offset by which its effect is measured, counts, and the wanted RMS of that effect, counts: far along
-/// a chaotic run a larger one slips a detent.
+/// Least part of the recording that a run must follow: then its departure may depend on where in the cell it started.
+const LEAST_FOLLOWED: f64 = 0.05;
+/// First step of the start offset for its difference quotient, counts.
 const OFFSET_STEP: f64 = 1e-5;
+/// Wanted RMS change of the errors by that step, counts: far along a chaotic run a larger one slips a detent.
 const NOTICED: f64 = 0.01;
-/// Steps that carry a run no further before that is the end of it.
+/// Steps without progress after which the refinement ends.
 const STALLED: usize = 3;
 
 /// The first sample at which a run has departed from the readings; their number if it has not.
@@ -45,17 +45,17 @@ pub fn validate(data: &Data, candidate: &Candidate, method: Method) -> Result<f6
     Ok(rms_counts(data, &errors))
 }
 
-/// The same for one of many models: quicker, and more where the run is chaotic.
+/// As [`validate`], for one of many models: faster, without the refined start, so larger where the run is chaotic.
 ///
 /// # Errors
 /// Where the model cannot run.
 pub fn validate_roughly(data: &Data, candidate: &Candidate, method: Method) -> Result<f64, Error> {
-    let errors = errors_from(data, candidate, method, Start::Tried)?;
+    let errors = errors_from(data, candidate, method, Start::Grid)?;
     Ok(rms_counts(data, &errors))
 }
 
-/// Model minus reading on another recording, as in [`validate`]: from the start that the recording agrees with
-/// best.
+/// Model minus reading on another recording, counts, one entry a sample, as in [`validate`]: from the start with the
+/// least error.
 ///
 /// # Errors
 /// Where the model cannot run.
@@ -64,16 +64,16 @@ pub fn validation_errors(
     candidate: &Candidate,
     method: Method,
 ) -> Result<Vec<f64>, Error> {
-    errors_from(data, candidate, method, Start::Followed)
+    errors_from(data, candidate, method, Start::Refined)
 }
 
-/// How the place within the first cell is found at which another recording began.
+/// How the start angle within the first cell is found.
 #[derive(Clone, Copy, PartialEq)]
 enum Start {
-    /// Some are tried.
-    Tried,
-    /// The one of them that is followed furthest leads on to a better one.
-    Followed,
+    /// From a grid.
+    Grid,
+    /// From the grid's angle that follows the readings furthest, refined by least squares.
+    Refined,
 }
 
 fn errors_from(
@@ -99,7 +99,7 @@ fn errors_from(
         )?)
     };
     let rms = |errors: &[f64]| rms_counts(data, errors);
-    // At rest or in motion, whichever the recording agrees with better.
+    // At rest or in motion, whichever has the smaller error.
     let (mut best, mut start_speed) = (run(0.0, 0.0)?, 0.0);
     if may_start_moving(data) {
         for speed in moving_starts(data, &|speed| run(speed, 0.0))? {
@@ -122,25 +122,26 @@ fn errors_from(
                 }
             }
         }
-        if start == Start::Followed
+        if start == Start::Refined
             && rms(&best) >= START_UNNOTICED
-            && let Some(followed) = follow(data, longest.1, &|offset| run(start_speed, offset))?
-            && rms(&followed) < rms(&best)
+            && let Some(refined) =
+                refined_offset(data, longest.1, &|offset| run(start_speed, offset))?
+            && rms(&refined) < rms(&best)
         {
-            best = followed;
+            best = refined;
         }
     }
-    if let Some(led) = led(data, candidate, method)
-        && rms(&led) < rms(&best)
+    if let Some(continued) = continued_from_whole(data, candidate, method)
+        && rms(&continued) < rms(&best)
     {
-        best = led;
+        best = continued;
     }
     Ok(best)
 }
 
-/// The run from the place within the first cell from which the readings are followed furthest: by least squares over the stretch
-/// that is followed already, which carries it further. `None` where none is followed for long.
-fn follow(
+/// Errors from a refined start angle: Gauss-Newton over the stretch that the run already follows, which extends the
+/// stretch. `None` where no run follows the readings for long.
+fn refined_offset(
     data: &Data,
     mut offset: f64,
     run: &dyn Fn(f64) -> Result<Vec<f64>, Error>,
@@ -153,7 +154,7 @@ fn follow(
     while stalled < STALLED {
         let errors = run(offset)?;
         let to = departure(data, &errors);
-        if to < reached || (to as f64) < FOLLOWED * data.len() as f64 {
+        if to < reached || (to as f64) < LEAST_FOLLOWED * data.len() as f64 {
             break;
         }
         stalled = if to > reached { 0 } else { stalled + 1 };
@@ -177,8 +178,8 @@ fn follow(
     Ok(best)
 }
 
-/// Step to the least sum of squares of errors about `centre`, which are nearly linear in what was moved by `step`; zero where
-/// there is none.
+/// Gauss-Newton step of one parameter for errors about `centre`, from the errors `here` and `ahead` by `step`; zero where it
+/// is not finite.
 fn slope_step(here: &[f64], ahead: &[f64], step: f64, centre: f64) -> f64 {
     let (mut pull, mut square) = (0.0, 0.0);
     for (here, ahead) in here.iter().zip(ahead) {
@@ -191,15 +192,14 @@ fn slope_step(here: &[f64], ahead: &[f64], step: f64, centre: f64) -> f64 {
 }
 
 /// Model minus reading at the end of a whole recording, for a model that ran along it from its begin.
-fn led(data: &Data, candidate: &Candidate, method: Method) -> Option<Vec<f64>> {
+fn continued_from_whole(data: &Data, candidate: &Candidate, method: Method) -> Option<Vec<f64>> {
     let whole = data.end_of.as_ref()?;
     let mut errors = scores::whole(whole, candidate, method).ok()?;
     let before = errors.len().checked_sub(data.len())?;
     Some(errors.split_off(before))
 }
 
-/// Speeds at the first sample, rad/s: a few readings tell it roughly; the whole recording tells it by least
-/// squares, since errors are nearly linear in it.
+/// Speeds at the first sample, rad/s: one from a few readings, and one by a Gauss-Newton step over the whole recording.
 fn moving_starts(
     data: &Data,
     run: &dyn Fn(f64) -> Result<Vec<f64>, Error>,

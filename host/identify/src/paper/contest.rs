@@ -7,8 +7,8 @@
 use super::table::PRINTED;
 use crate::error::Error;
 use crate::fit::regression;
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
+use servoid_engine::simulation::Method;
 use servoid_engine::solve::Solver;
 use servoid_engine::solve::ga::Ga;
 use servoid_engine::solve::swarm::{Fireflies, ParticleSwarm};

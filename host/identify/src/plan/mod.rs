@@ -29,6 +29,6 @@ mod separation;
 pub use excitation::Excitation;
 pub use hypothesis::{Hypothesis, Setup};
 pub use limits::{Limits, Usage};
-pub use ranking::{Ranked, Work, rank, screened};
+pub use ranking::{PlanTask, Ranked, candidate_count, rank};
 pub use reasons::{remedy, why};
-pub use separation::{Effort, SEPARABLE_COUNTS, Separation, Trial};
+pub use separation::{RefitBudget, SEPARABLE_COUNTS, Separation, Trial};

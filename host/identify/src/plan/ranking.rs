@@ -3,14 +3,14 @@
 //! First each hypothesis learns to imitate each other one on a common recording, as it would have in
 //! the recording that both explain: from there a refit has not far to go. A refit that is cut short
 //! leaves too much, never too little: its separation is an upper bound. So all candidates are screened
-//! with a single step, and then only those whose bound is among the best are refitted with more effort,
+//! with a single step, and then only those whose bound is among the best are refitted with more steps,
 //! until the best three stand with all of it. Nothing that was passed over can be better than they are.
 
 use super::candidates::{Frame, all};
 use super::excitation::Excitation;
 use super::hypothesis::{Hypothesis, Setup};
 use super::limits::{Limits, Usage};
-use super::separation::{Effort, Separation, Trial};
+use super::separation::{RefitBudget, Separation, Trial};
 use crate::error::Error;
 use rayon::prelude::*;
 use shared::error::ModelError;
@@ -18,35 +18,35 @@ use shared::excite::{COMMISSIONING, Command};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many are ranked.
-const PLACES: usize = 3;
-/// Efforts in turn; the first screens.
-const EFFORTS: [Effort; 4] = [
-    Effort {
+const RANKED: usize = 3;
+/// Budgets in turn; the first screens.
+const BUDGETS: [RefitBudget; 4] = [
+    RefitBudget {
         steps: 1,
         regression: 0,
     },
-    Effort {
+    RefitBudget {
         steps: 4,
         regression: 0,
     },
-    Effort {
+    RefitBudget {
         steps: 12,
         regression: 0,
     },
-    Effort {
+    RefitBudget {
         steps: 15,
         regression: 8,
     },
 ];
-/// Effort of learning to imitate.
-const LEARNING: Effort = Effort {
+/// Steps by which one hypothesis learns to imitate another.
+const LEARNING: RefitBudget = RefitBudget {
     steps: 25,
     regression: 10,
 };
 /// Longest recording to learn from, s.
-const LESSON_SECONDS: f64 = 8.0;
+const IMITATION_SECONDS: f64 = 8.0;
 /// What the ranking is to work with.
-pub struct Work<'a> {
+pub struct PlanTask<'a> {
     /// What may be the truth; at least two.
     pub hypotheses: &'a [Hypothesis],
     /// Drive, encoder and motor.
@@ -72,8 +72,8 @@ pub struct Ranked {
     pub usage: Usage,
     /// Of each ordered pair that can be told apart.
     pub separations: Vec<Separation>,
-    /// How many of the efforts were made.
-    efforts: usize,
+    /// How many of the budgets were spent.
+    rounds: usize,
 }
 
 impl Ranked {
@@ -85,8 +85,8 @@ impl Ranked {
 }
 
 /// How many candidates there are to screen.
-pub fn screened(work: &Work<'_>) -> usize {
-    all(&frame(work)).len()
+pub fn candidate_count(task: &PlanTask<'_>) -> usize {
+    all(&frame(task)).len()
 }
 
 /// The best candidates within the limits, best first.
@@ -94,18 +94,18 @@ pub fn screened(work: &Work<'_>) -> usize {
 /// # Errors
 /// [`Error::Failed`] where no candidate keeps to the limits, or the user stopped before one was
 /// ranked; a hypothesis that is no possible model.
-pub fn rank(work: &Work<'_>) -> Result<Vec<Ranked>, Error> {
-    let candidates = all(&frame(work));
-    let pairs = imitations(work)?;
+pub fn rank(task: &PlanTask<'_>) -> Result<Vec<Ranked>, Error> {
+    let candidates = all(&frame(task));
+    let pairs = imitations(task)?;
     let admitted: Vec<Option<Ranked>> = candidates
         .par_iter()
-        .map(|candidate| admitted(work, candidate, &pairs))
+        .map(|candidate| admitted(task, candidate, &pairs))
         .collect::<Result<_, ModelError>>()?;
     let mut ranked: Vec<Ranked> = admitted.into_iter().flatten().collect();
     if ranked.is_empty() {
-        return Err(Error::Failed(beyond_limits(work)));
+        return Err(Error::Failed(beyond_limits(task)));
     }
-    while !stopped(work) {
+    while !stopped(task) {
         sort(&mut ranked);
         let next = next(&ranked);
         if next.is_empty() {
@@ -113,15 +113,15 @@ pub fn rank(work: &Work<'_>) -> Result<Vec<Ranked>, Error> {
         }
         let refitted: Vec<(usize, Ranked)> = next
             .into_par_iter()
-            .map(|k| refitted(work, &ranked[k]).map(|refitted| (k, refitted)))
+            .map(|k| refitted(task, &ranked[k]).map(|refitted| (k, refitted)))
             .collect::<Result<_, ModelError>>()?;
         for (k, better) in refitted {
             ranked[k] = better;
         }
     }
     sort(&mut ranked);
-    ranked.retain(|candidate| candidate.efforts == EFFORTS.len());
-    ranked.truncate(PLACES);
+    ranked.retain(|candidate| candidate.rounds == BUDGETS.len());
+    ranked.truncate(RANKED);
     if ranked.is_empty() {
         return Err(Error::Failed(
             "stopped by the user before any excitation was ranked; nothing was written".to_owned(),
@@ -130,91 +130,91 @@ pub fn rank(work: &Work<'_>) -> Result<Vec<Ranked>, Error> {
     Ok(ranked)
 }
 
-fn frame(work: &Work<'_>) -> Frame {
+fn frame(task: &PlanTask<'_>) -> Frame {
     let slowest = |h: &Hypothesis| h.machine.response().a1;
-    let response_s = work.hypotheses.iter().map(slowest).fold(0.0, f64::max);
+    let response_s = task.hypotheses.iter().map(slowest).fold(0.0, f64::max);
     Frame {
-        seconds: work.seconds,
-        sample_s: work.setup.sample_s,
+        seconds: task.seconds,
+        sample_s: task.setup.sample_s,
         response_s,
-        largest: work.limits.largest_command(work.setup.supply_v),
+        largest: task.limits.largest_command(task.setup.supply_v),
     }
 }
 
 /// The pairs, each with the values by which one imitates the other while the bridge is closed.
-fn imitations(work: &Work<'_>) -> Result<Vec<Separation>, ModelError> {
-    let lesson = Frame {
-        seconds: work.seconds.min(LESSON_SECONDS),
-        ..frame(work)
+fn imitations(task: &PlanTask<'_>) -> Result<Vec<Separation>, ModelError> {
+    let imitation = Frame {
+        seconds: task.seconds.min(IMITATION_SECONDS),
+        ..frame(task)
     };
-    let drive = lesson
+    let drive = imitation
         .stretched(&COMMISSIONING, 1.0)
-        .drive(work.setup.sample_s, work.seed);
-    refitted_pairs(work, &drive, &Separation::pairs(work.hypotheses), LEARNING)
+        .drive(task.setup.sample_s, task.seed);
+    refitted_pairs(task, &drive, &Separation::pairs(task.hypotheses), LEARNING)
 }
 
-fn stopped(work: &Work<'_>) -> bool {
-    work.stop.load(Ordering::Relaxed)
+fn stopped(task: &PlanTask<'_>) -> bool {
+    task.stop.load(Ordering::Relaxed)
 }
 
 /// Screens a candidate, if it can be brought within the limits.
 fn admitted(
-    work: &Work<'_>,
+    task: &PlanTask<'_>,
     candidate: &Excitation,
     pairs: &[Separation],
 ) -> Result<Option<Ranked>, ModelError> {
-    if stopped(work) {
+    if stopped(task) {
         return Ok(None);
     }
-    let admitted = (work.limits).admit(candidate, work.hypotheses, &work.setup, work.seed)?;
+    let admitted = (task.limits).admit(candidate, task.hypotheses, &task.setup, task.seed)?;
     let Some((excitation, usage)) = admitted else {
-        (work.done)();
+        (task.done)();
         return Ok(None);
     };
     let unknown = Ranked {
         excitation,
         usage,
         separations: pairs.to_vec(),
-        efforts: 0,
+        rounds: 0,
     };
-    refitted(work, &unknown).map(Some)
+    refitted(task, &unknown).map(Some)
 }
 
-/// The candidate after its next effort; as it was where the user stopped that.
-fn refitted(work: &Work<'_>, candidate: &Ranked) -> Result<Ranked, ModelError> {
+/// The candidate refitted with its next budget; as it was where the user stopped that.
+fn refitted(task: &PlanTask<'_>, candidate: &Ranked) -> Result<Ranked, ModelError> {
     let mut candidate = candidate.clone();
-    let effort = EFFORTS[candidate.efforts.min(EFFORTS.len() - 1)];
-    let drive = (candidate.excitation).drive(work.setup.sample_s, work.seed);
-    let separations = refitted_pairs(work, &drive, &candidate.separations, effort)?;
-    if stopped(work) {
+    let budget = BUDGETS[candidate.rounds.min(BUDGETS.len() - 1)];
+    let drive = (candidate.excitation).drive(task.setup.sample_s, task.seed);
+    let separations = refitted_pairs(task, &drive, &candidate.separations, budget)?;
+    if stopped(task) {
         return Ok(candidate);
     }
     candidate.separations = separations;
-    candidate.efforts += 1;
-    (work.done)();
+    candidate.rounds += 1;
+    (task.done)();
     Ok(candidate)
 }
 
 fn refitted_pairs(
-    work: &Work<'_>,
+    task: &PlanTask<'_>,
     drive: &[Command<f64>],
     pairs: &[Separation],
-    effort: Effort,
+    budget: RefitBudget,
 ) -> Result<Vec<Separation>, ModelError> {
     let trial = Trial {
-        hypotheses: work.hypotheses,
-        setup: &work.setup,
+        hypotheses: task.hypotheses,
+        setup: &task.setup,
         drive,
-        stop: work.stop,
+        stop: task.stop,
     };
-    let refit = |pair: &Separation| trial.refit(pair, effort);
+    let refit = |pair: &Separation| trial.refit(pair, budget);
     pairs.par_iter().map(refit).collect()
 }
 
-/// The candidates that lack an effort while they stand among the first places.
+/// The candidates among the best that have a budget left.
 fn next(sorted: &[Ranked]) -> Vec<usize> {
-    (0..sorted.len().min(PLACES))
-        .filter(|&k| sorted[k].efforts < EFFORTS.len())
+    (0..sorted.len().min(RANKED))
+        .filter(|&k| sorted[k].rounds < BUDGETS.len())
         .collect()
 }
 
@@ -223,12 +223,12 @@ fn sort(ranked: &mut [Ranked]) {
     ranked.sort_by(|a, b| b.least().total_cmp(&a.least()));
 }
 
-fn beyond_limits(work: &Work<'_>) -> String {
-    if stopped(work) {
+fn beyond_limits(task: &PlanTask<'_>) -> String {
+    if stopped(task) {
         return "stopped by the user before any excitation was tried; nothing was written"
             .to_owned();
     }
-    let names: Vec<String> = work.hypotheses.iter().map(Hypothesis::name).collect();
+    let names: Vec<String> = task.hypotheses.iter().map(Hypothesis::name).collect();
     format!(
         "no excitation keeps to the limits under each of {}, at any amplitude: the shaft drifts by itself, or the \
          limits leave no room; raise --travel or --max-current, or shorten --seconds",

@@ -3,7 +3,7 @@
 use super::hypothesis::{Hypothesis, Setup};
 use super::playback::record;
 use crate::fit::{self, Options};
-use servoid_engine::problem::cost::rms_counts;
+use servoid_engine::problem::rms_counts;
 use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use servoid_engine::solve::Objective;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
@@ -58,7 +58,7 @@ impl Separation {
 
 /// How hard a refit tries.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effort {
+pub struct RefitBudget {
     /// Steps of the search, each with its own Jacobian.
     pub steps: usize,
     /// Steps of a second search, which starts from regression on the recording; 0 for none.
@@ -84,7 +84,7 @@ impl Trial<'_> {
     ///
     /// # Errors
     /// A hypothesis that is no possible model.
-    pub fn refit(&self, pair: &Separation, effort: Effort) -> Result<Separation, ModelError> {
+    pub fn refit(&self, pair: &Separation, budget: RefitBudget) -> Result<Separation, ModelError> {
         let (truth, own) = (&self.hypotheses[pair.truth], &self.hypotheses[pair.fitted]);
         let data = record(truth, self.setup, self.drive)?;
         let options = Options {
@@ -100,11 +100,11 @@ impl Trial<'_> {
                 problem.start = Some(near);
             }
         }
-        let mut best = self.search(&problem, &options, effort.steps, pair)?;
-        if effort.regression > 0
+        let mut best = self.search(&problem, &options, budget.steps, pair)?;
+        if budget.regression > 0
             && let Ok(regressed) = fit::problem(&data, &options)
         {
-            let other = self.search(&regressed, &options, effort.regression, pair)?;
+            let other = self.search(&regressed, &options, budget.regression, pair)?;
             if other.counts < best.counts {
                 best = other;
             }

@@ -2,7 +2,7 @@
 
 use super::{Side, Subject};
 use crate::kept::{KeptEstimate, KeptModel, KeptResult};
-use servoid_engine::problem::simulate::Method;
+use servoid_engine::simulation::Method;
 use servoid_identify::plan::Hypothesis;
 use servoid_io::recording::Drive;
 use servoid_plant as bench;

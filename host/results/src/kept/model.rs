@@ -4,7 +4,7 @@
 use super::fault::{ModelFault, number};
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Candidate;
-use servoid_engine::problem::simulate::Method;
+use servoid_engine::simulation::Method;
 use servoid_io::input::suggest::did_you_mean;
 use shared::discretise::Discretisation;
 use shared::effects::{EffectSet, Kind, MAX_EFFECTS};

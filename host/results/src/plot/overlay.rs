@@ -3,8 +3,8 @@
 use super::{COLOURS, FONT, failed, legend, thinned};
 use crate::error::Error;
 use plotters::prelude::*;
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
 use servoid_identify::fit::scores;
 
 const SIZE: (u32, u32) = (960, 560);

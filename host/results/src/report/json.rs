@@ -144,7 +144,7 @@ impl FitJson {
             converged: fit.converged,
             effective_samples: fit.effective_samples,
             notes: fit.notes.clone(),
-            ladder: (fit.ladder.iter())
+            ladder: (fit.error_ladder.iter())
                 .map(|rung| RungJson {
                     added: rung.added,
                     rms_counts: finite(rung.rms_counts),

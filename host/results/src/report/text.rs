@@ -5,7 +5,7 @@ use super::json::least_cost;
 use super::paint::{GOOD, HEADING, painted};
 use servoid_engine::compare::{Row, quantile};
 use servoid_engine::problem::Data;
-use servoid_identify::fit::{Fit, Parameter, Rung};
+use servoid_identify::fit::{Fit, LadderEntry, Parameter};
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
@@ -109,8 +109,8 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
             painted(HEADING, "held-out error")
         )?;
     }
-    if !fit.ladder.is_empty() {
-        write!(out, "\n{}\n", ladder(&fit.ladder))?;
+    if !fit.error_ladder.is_empty() {
+        write!(out, "\n{}\n", ladder(&fit.error_ladder))?;
     }
     // Beside a good open-loop error, windows would only show how roughly their starts are known.
     let worth_showing = fit.window_asked || fit.rms_counts > WINDOWS_ABOVE_COUNTS;
@@ -164,12 +164,12 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
 }
 
 /// Errors as effects were added, and the encoder's own.
-fn ladder(rungs: &[Rung]) -> String {
-    let name = |rung: &Rung| match rung.added {
+fn ladder(rungs: &[LadderEntry]) -> String {
+    let name = |rung: &LadderEntry| match rung.added {
         Some(effect) => format!("+ {effect}"),
         None => "linear motor".to_owned(),
     };
-    let held_out = |rung: &Rung| rung.validate_rms_counts.unwrap_or(f64::NAN);
+    let held_out = |rung: &LadderEntry| rung.validate_rms_counts.unwrap_or(f64::NAN);
     let mut lines: Vec<_> = (rungs.iter())
         .map(|rung| (name(rung), rung.rms_counts, held_out(rung)))
         .collect();

@@ -1,7 +1,7 @@
-//! The same least-squares problem where the residuals can be had compressed: as many rows as there are unknowns, and one.
+//! The same least-squares problem with compressed residuals: one row more than there are unknowns.
 //!
-//! A rotation of all residuals changes no step, so the residuals at a point may as well be `(‖r‖, 0, 0, …)`, which is known
-//! before the Jacobian is asked for; the tangent's triangle is the Jacobian in that very frame.
+//! A rotation of the residual space changes no step. So the residuals at a point may as well be `(‖r‖, 0, 0, …)`, which
+//! is known before the Jacobian is asked for; the tangent's triangle is the Jacobian in that frame.
 
 use super::super::{Compressed, Evaluator, Stop, Tangent};
 use super::residuals::{Descended, IMPOSSIBLE};
@@ -36,7 +36,7 @@ impl<'s, 'a> Compact<'s, 'a> {
         }
     }
 
-    /// The tangent at `x`, where each coordinate goes by its own step, of which so many are new.
+    /// The tangent at `x` with one step for each coordinate; the `new` ones are booked as evaluations.
     fn tangent(
         &self,
         x: &DVector<f64>,
@@ -58,7 +58,7 @@ impl<'s, 'a> Compact<'s, 'a> {
         }
         let tangent = self.compressed.tangent(x.as_slice(), &moved);
         for &axis in new {
-            // A probe is an evaluation, but its cost is not told apart from that at `x` well enough to be the best.
+            // A probe counts as an evaluation; its cost is too close to that at `x` to compete for the best.
             evaluator.record(&moved[axis], f64::INFINITY);
         }
         Ok(tangent)
@@ -79,16 +79,16 @@ impl<'s, 'a> Compact<'s, 'a> {
             return Ok(None);
         };
         // Where there is no model on one side there may be one on the other.
-        let turned: Vec<usize> = all
+        let reversed: Vec<usize> = all
             .into_iter()
             .filter(|&axis| !tangent.possible[axis])
             .filter(|&axis| (0.0..=1.0).contains(&(x[axis] - steps[axis])))
             .collect();
-        if !turned.is_empty() {
-            for &axis in &turned {
+        if !reversed.is_empty() {
+            for &axis in &reversed {
                 steps[axis] = -steps[axis];
             }
-            match self.tangent(&x, &steps, &turned)? {
+            match self.tangent(&x, &steps, &reversed)? {
                 Some(other) => tangent = other,
                 None => return Ok(None),
             }
@@ -101,7 +101,7 @@ impl<'s, 'a> Compact<'s, 'a> {
         let mut jacobian = DMatrix::zeros(triangle.nrows(), steps.len());
         for (axis, step) in steps.iter().enumerate() {
             let column = triangle.column(axis + 1) * (sign / step);
-            // What the residuals' own row says is the gradient. It is held where the cost falls out of the cube.
+            // The first row is the gradient. A coordinate at a wall is held where the cost falls outwards.
             let gradient = column[0];
             let at = self.x[axis];
             if (at <= 0.0 && gradient > 0.0) || (at >= 1.0 && gradient < 0.0) {

@@ -11,9 +11,9 @@ pub use whiteness::{Correlations, Whiteness, correlations, whiteness};
 
 use crate::error::Error;
 use crate::fit::scores::{EquationResidual, equation_residuals, whole};
-use servoid_engine::problem::course::{Manner, legs};
-use servoid_engine::problem::simulate::{Method, Simulation};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::simulation::{Method, Simulation};
+use servoid_engine::simulation::{Mode, segments};
 
 /// Filter time of the residual, sample intervals: long enough that the encoder's steps do not drown it, short
 /// against a motor's time constants.
@@ -122,8 +122,8 @@ fn perfect_volts(
     }
     let mut own = data.clone();
     let simulation = Simulation::new(data, complete, method)?;
-    for leg in legs(data, complete, &Horizon::Whole, StartAngle::Free) {
-        simulation.run(Manner::Free, &leg, &mut own.counts);
+    for segment in segments(data, complete, &Horizon::Whole, StartAngle::Free) {
+        simulation.run(Mode::Free, &segment, &mut own.counts);
     }
     for sight in &mut own.counts {
         *sight = sight.floor();

@@ -5,7 +5,7 @@
 //! times. Even so the errors of a counter at steady speed are a sawtooth and no noise, so that textbook limits
 //! would be far too narrow: see [`AUTOCORRELATION_LIMIT`].
 
-use crate::fit::memory::memory;
+use crate::fit::correlation_sum;
 use servoid_engine::problem::Data;
 
 /// Lags, in picked samples, over which the autocorrelation is averaged: a sawtooth is as often against itself
@@ -85,7 +85,7 @@ pub fn correlations(data: &Data, errors: &[f64]) -> Option<Correlations> {
         return None;
     }
     let at = |lag: usize| dot(&error, &error[lag..]) / square;
-    let remembered = memory(n / 2, at);
+    let remembered = correlation_sum(n / 2, at);
     let scale = (square * input_square).sqrt().max(f64::MIN_POSITIVE);
     let behind = (1..=INPUT_LAGS).rev().map(|lag| dot(&input[lag..], &error));
     let ahead = (0..=INPUT_LAGS).map(|lag| dot(&input, &error[lag..]));

@@ -6,7 +6,7 @@ mod text;
 pub use json::PlanJson;
 
 use servoid_identify::plan::{
-    Hypothesis, Limits, Ranked, SEPARABLE_COUNTS, Usage, Work, remedy, why,
+    Hypothesis, Limits, PlanTask, Ranked, SEPARABLE_COUNTS, Usage, remedy, why,
 };
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub struct Plan<'a> {
     /// The best candidates, best first; never empty.
     pub ranked: Vec<Ranked>,
     /// What it was asked.
-    pub work: &'a Work<'a>,
+    pub work: &'a PlanTask<'a>,
     /// Armature resistance, Ω, where the user told it.
     pub resistance_ohm: Option<f64>,
     /// Where the commands go.

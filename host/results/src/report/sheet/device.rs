@@ -8,7 +8,7 @@ use crate::page::{Block, Page, Section};
 use crate::picture::{self, Estimates};
 use crate::report::diagnosis::bars::counts;
 use servoid_engine::problem::Candidate;
-use servoid_engine::problem::simulate::Method;
+use servoid_engine::simulation::Method;
 use servoid_identify::fit::margins::Loop;
 use shared::effects::{EffectSet, Kind};
 use shared::motor::Machine;

@@ -5,8 +5,8 @@ use super::waves::waves;
 use crate::error::Error;
 use crate::page::{Block, Section};
 use crate::picture;
-use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
 use servoid_identify::diagnose::whereabouts::{
     Correlations, Whereabouts, correlations, whereabouts,
 };

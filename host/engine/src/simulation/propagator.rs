@@ -1,107 +1,59 @@
-//! Models run along the data: one candidate's, or those of several abreast.
+//! The loop over the samples: models run along the data, for one candidate's number or for several in lanes.
 
-use super::cost::{Horizon, StartAngle};
-use super::data::Data;
-use super::simulate::Candidate;
+use crate::data::Data;
 use shared::model::{MeasuredInterval, Model, State};
 use shared::scalar::{Mask, Scalar};
 use std::ops::Range;
 
-/// What recordings are run with: the number of one candidate, or of several abreast.
+/// A number that models run with: `f64` for one candidate, [`Lanes`](crate::lanes::Lanes) for several.
 pub trait Number: Scalar<Coefficient = Self, Angle = Self> {}
 
 impl<S: Scalar<Coefficient = S, Angle = S>> Number for S {}
 
-/// What moves a model along.
+/// How a model is propagated.
 #[derive(Clone, Copy)]
-pub enum Manner<'a> {
-    /// It runs freely.
+pub enum Mode<'a> {
+    /// Parallel model: only the commands drive it (output error).
     Free,
-    /// It is pulled towards the readings like an observer that forgets an error within so many seconds: what
-    /// happens once, such as a slipped detent, does not stay for ever.
-    Nudged(f64),
-    /// Its effects are led along a measured motion.
-    Led {
-        /// One entry an interval.
+    /// Observer: output injection pulls it towards the readings with both poles of the error at one over so many
+    /// seconds, so that a single event, such as a slipped detent, is forgotten.
+    Observer(f64),
+    /// Series-parallel model: its effects see the measured motion (equation error).
+    SeriesParallel {
+        /// The measured motion, one entry an interval.
         seen: &'a [MeasuredInterval<f64>],
-        /// Position within the revolution, one entry a sample.
+        /// Measured angle within the revolution, turns, one entry a sample.
         turns: &'a [f64],
     },
 }
 
-/// A part of the recording that a model runs through on its own.
-#[derive(Clone, Debug)]
-pub struct Leg {
-    /// Its samples.
-    pub range: Range<usize>,
-    /// What the encoder sees at its first one, counts.
-    pub angle: f64,
-    /// Speed there, rad/s.
-    pub speed: f64,
-}
-
-/// The whole of the data for a candidate.
-pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Leg {
-    let angle = match start_angle {
-        StartAngle::Known => data.counts[0],
-        StartAngle::Free => data.centre(0) + candidate.start_offset,
-    };
-    Leg {
-        range: 0..data.len(),
-        angle,
-        speed: candidate.start_speed,
-    }
-}
-
-/// The legs of a horizon for a candidate.
-pub fn legs(
-    data: &Data,
-    candidate: &Candidate,
-    horizon: &Horizon,
-    start_angle: StartAngle,
-) -> Vec<Leg> {
-    match horizon {
-        Horizon::Whole => vec![whole(data, candidate, start_angle)],
-        Horizon::Nudged(_) => vec![Leg {
-            angle: data.centre(0),
-            ..whole(data, candidate, start_angle)
-        }],
-        Horizon::Windows(windows) => {
-            let leg = |window: &super::cost::Window| Leg {
-                range: window.range.clone(),
-                angle: data.centre(window.range.start),
-                speed: window.speed,
-            };
-            windows.iter().map(leg).collect()
-        }
-    }
-}
-
-/// The data, and a model for each length of interval in it.
-pub struct Course<'a, S: Scalar> {
+/// The data, and a model for each length of interval in them.
+pub struct Propagator<'a, S: Scalar> {
     /// The data.
     pub data: &'a Data,
     /// The models.
     pub models: &'a [Model<S>],
 }
 
-impl<S: Number> Course<'_, S> {
-    /// Runs from a state over the samples of `range`; calls `each` with the sample and what the model's encoder
-    /// sees there, counts. Gives the state behind them.
+impl<S: Number> Propagator<'_, S> {
+    /// Runs from a state over the samples of `range`; calls `each` with the sample's index and the model's encoder angle
+    /// there, counts. Returns the state after the range.
     #[inline(always)]
     pub fn run(
         &self,
-        manner: Manner<'_>,
+        mode: Mode<'_>,
         state: State<S>,
         range: Range<usize>,
         each: impl FnMut(usize, S),
     ) -> State<S> {
-        let memory_s = match manner {
-            Manner::Free => None,
-            Manner::Nudged(memory_s) => Some(memory_s),
-            Manner::Led { seen, turns } => return self.led(state, range, seen, turns, each),
+        let memory_s = match mode {
+            Mode::Free => None,
+            Mode::Observer(memory_s) => Some(memory_s),
+            Mode::SeriesParallel { seen, turns } => {
+                return self.series_parallel(state, range, seen, turns, each);
+            }
         };
-        self.alone(state, range, memory_s, each)
+        self.parallel(state, range, memory_s, each)
     }
 
     #[inline(always)]
@@ -114,10 +66,10 @@ impl<S: Number> Course<'_, S> {
         S::from_f64(self.data.command[k])
     }
 
-    /// Runs freely, or pulled towards the readings with a memory.
-    // One loop for both, since all of the model is compiled into it.
+    /// Runs as a parallel model, or as an observer where there is a memory.
+    // One loop for both: the whole model is compiled into it.
     #[inline(always)]
-    fn alone(
+    fn parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,
@@ -144,7 +96,8 @@ impl<S: Number> Course<'_, S> {
         state
     }
 
-    /// Runs as long as the shaft only slides on; gives the sample at which more must be looked at.
+    /// Runs on the fast path for as long as the forces on the shaft stay constant; returns the sample at which the full
+    /// step is needed.
     #[inline(always)]
     fn glide(
         &self,
@@ -158,7 +111,7 @@ impl<S: Number> Course<'_, S> {
         };
         let length = data.length_of[range.start];
         let mut motion = state.motion;
-        // No command equals it.
+        // NaN equals no command.
         let mut command = f64::NAN;
         let mut k = range.start;
         while k < range.end && data.length_of[k] == length && !data.is_open(k) {
@@ -179,7 +132,7 @@ impl<S: Number> Course<'_, S> {
         k
     }
 
-    /// Pulls a model that sees `sight` at sample `k` towards the reading.
+    /// Output injection at sample `k`, where the model's encoder angle is `sight` counts.
     #[inline(always)]
     fn pull(&self, state: &mut State<S>, k: usize, sight: S, memory_s: f64) {
         let data = self.data;
@@ -187,7 +140,7 @@ impl<S: Number> Course<'_, S> {
         let per_count = units.interval / (memory_s * units.counts_per_unit());
         let off =
             sight - S::from_f64(data.counts[k]) - S::from_f64(data.centre(k) - data.counts[k]);
-        // Both poles of the error at 1/memory.
+        // Both poles of the error at one over the memory.
         let share = (data.lengths[data.length_of[k] as usize] * units.interval / memory_s).min(0.5);
         let motion = &mut state.motion;
         motion.angle = motion.angle - S::from_f64(2.0 * share) * off;
@@ -199,7 +152,7 @@ impl<S: Number> Course<'_, S> {
     }
 
     #[inline(always)]
-    fn led(
+    fn series_parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,

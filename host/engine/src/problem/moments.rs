@@ -1,19 +1,19 @@
-//! Number, mean and squares about the mean of many numbers, some at a time, without the loss of digits that sums of squares
-//! far from the mean would have (T. F. Chan, G. H. Golub, R. J. LeVeque, *The American Statistician* 37, 242, 1983).
+//! Count, mean and sum of squares about the mean of many numbers, taken some at a time without the loss of digits of a
+//! plain sum of squares (T. F. Chan, G. H. Golub, R. J. LeVeque, *The American Statistician* 37, 242, 1983).
 
-/// Of the numbers so far.
+/// Moments of the numbers so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spread {
+pub struct Moments {
     count: f64,
     mean: f64,
     squares: f64,
 }
 
-/// Running sums, which the processor's lanes add side by side.
+/// Running sums, which the compiler keeps in vector registers.
 const SUMS: usize = 16;
 
-impl Spread {
-    /// Takes some more.
+impl Moments {
+    /// Takes more numbers.
     pub fn add(&mut self, some: &[f64]) {
         if some.is_empty() {
             return;
@@ -29,12 +29,12 @@ impl Spread {
     }
 
     /// Sum of the squares about the mean.
-    pub fn about_mean(&self) -> f64 {
+    pub fn squares_about_mean(&self) -> f64 {
         self.squares
     }
 
     /// Sum of the squares about a number.
-    pub fn about(&self, middle: f64) -> f64 {
+    pub fn squares_about(&self, middle: f64) -> f64 {
         let apart = self.mean - middle;
         self.squares + apart * apart * self.count
     }
@@ -65,10 +65,13 @@ mod tests {
                 let values: Vec<f64> = (0..5000)
                     .map(|_| far + rng::uniform::<f64>(&mut generator))
                     .collect();
-                let mut spread = Spread::default();
-                values.chunks(parts).for_each(|some| spread.add(some));
+                let mut moments = Moments::default();
+                values.chunks(parts).for_each(|some| moments.add(some));
                 let mean = values.iter().map(|x| x - far).sum::<f64>() / 5000.0 + far;
-                for (own, middle) in [(spread.about_mean(), mean), (spread.about(0.5), 0.5)] {
+                for (own, middle) in [
+                    (moments.squares_about_mean(), mean),
+                    (moments.squares_about(0.5), 0.5),
+                ] {
                     let squares: f64 = values.iter().map(|x| (x - middle).powi(2)).sum();
                     let off = (own / squares - 1.0).abs();
                     assert!(off < 1e-9, "{far} far, {parts} at a time: {off:e}");

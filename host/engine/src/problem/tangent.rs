@@ -1,34 +1,35 @@
-//! Errors of a model and of others near it, as they come, compressed to what a least-squares step needs.
+//! Residuals of a model and changes to models near it, taken a range of samples at a time and compressed to the triangle
+//! of a least-squares step ([`Tangent`]).
 
 use crate::lanes::{LANES, Triangles};
 use crate::solve::Tangent;
 
-/// The compression so far.
-pub(super) struct Compress {
+/// The triangles of the samples so far.
+pub(crate) struct TangentBuilder {
     triangles: Triangles<LANES>,
-    /// What residuals are counted from; `None` for their own mean.
+    /// Value that residuals are counted from, counts; `None` for their own mean.
     zero: Option<f64>,
     others: usize,
 }
 
-impl Compress {
-    /// Of a model and so many others, with residuals about `zero`, or about the mean of each model's own.
-    pub(super) fn new(others: usize, zero: Option<f64>) -> Self {
-        // To count from the mean is to be orthogonal to a constant: that is a column before the others.
+impl TangentBuilder {
+    /// For a model and `others` more, with residuals about `zero` counts, or about each model's own mean.
+    pub(crate) fn new(others: usize, zero: Option<f64>) -> Self {
+        // Subtracting the mean is projecting out a constant column, which comes before the others.
         let constant = usize::from(zero.is_none());
-        Compress {
+        TangentBuilder {
             triangles: Triangles::new(constant + 1 + others),
             zero,
             others,
         }
     }
 
-    /// Takes some samples' errors of the model, and by how much those of the others differ.
-    pub(super) fn add(&mut self, here: &[f64], changes: &[&[f64]]) {
+    /// Takes the model's errors at some samples, counts, and the changes to the others there.
+    pub(crate) fn add(&mut self, here: &[f64], changes: &[&[f64]]) {
         let zero = self.zero.unwrap_or(0.0);
         for from in (0..here.len()).step_by(LANES) {
             let count = LANES.min(here.len() - from);
-            // What is left of the last lanes says nothing.
+            // Unused lanes hold zeros.
             let mut ones = [0.0; LANES];
             ones[..count].fill(1.0);
             let constant = self.zero.is_none().then_some(ones);
@@ -47,8 +48,8 @@ impl Compress {
         }
     }
 
-    /// The tangent; `None` where a number is none.
-    pub(super) fn tangent(self) -> Option<Tangent> {
+    /// The tangent; `None` where an entry is not finite.
+    pub(crate) fn finish(self) -> Option<Tangent> {
         let constant = usize::from(self.zero.is_none());
         let width = 1 + self.others;
         let whole = self.triangles.together();

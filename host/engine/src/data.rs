@@ -1,12 +1,11 @@
-//! A recording lowered to what the model takes: per-unit commands, counts, and the lengths of the
-//! sample intervals.
+//! A recording in the model's units: per-unit commands, counts, and the lengths of the sample intervals.
 
 use servoid_io::recording::{Drive, Recording};
 use shared::error::ModelError;
 use shared::units::PerUnit;
 use std::sync::Arc;
 
-/// Sample times are rounded so that the fastest motion moves less than this many counts by it.
+/// Rounding of the sample times: the fastest motion moves less than this in it, counts.
 const TIME_ERROR_COUNTS: f64 = 0.01;
 /// Finest grid of sample times, parts of the nominal interval.
 const FINEST_GRID: f64 = 65_536.0;
@@ -24,7 +23,7 @@ pub struct Data {
     pub command: Vec<f64>,
     /// Reading in counts.
     pub counts: Vec<f64>,
-    /// Where the bridge is open.
+    /// Whether the bridge is open after each sample; `None` where the recording does not say.
     pub open: Option<Vec<bool>>,
     /// Measured current, A.
     pub current_a: Option<Vec<f64>>,
@@ -38,13 +37,13 @@ pub struct Data {
     pub lengths: Vec<f64>,
     /// Index into `lengths` of the interval that begins at each sample.
     pub length_of: Vec<u32>,
-    /// The whole recording, where this is its end: a model that runs along it from its begin comes here in a state
-    /// that a few readings could not tell.
+    /// The whole recording, where this is its end: a model that runs from its start arrives here in a state that a few
+    /// readings could not tell.
     pub end_of: Option<Arc<Data>>,
 }
 
 impl Data {
-    /// Lowers a recording.
+    /// Converts a recording.
     ///
     /// # Errors
     /// Bases that are not positive: no command, no motion, no samples.
@@ -52,7 +51,7 @@ impl Data {
         Data::taken(recording.clone())
     }
 
-    /// Lowers a recording where it is: one of an hour is as large as what it is lowered to.
+    /// Converts a recording in place: one of an hour is as large as the result.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -110,7 +109,7 @@ impl Data {
         self.counts.len()
     }
 
-    /// Its first samples only.
+    /// The first `samples` samples.
     pub fn first(&self, samples: usize) -> Data {
         let some = |values: &[f64]| values[..samples.min(values.len())].to_vec();
         Data {
@@ -130,13 +129,13 @@ impl Data {
         }
     }
 
-    /// As the end of a whole recording.
+    /// Marks the data as the end of a whole recording.
     pub fn at_end_of(mut self, whole: Arc<Data>) -> Self {
         self.end_of = Some(whole);
         self
     }
 
-    /// Whether there is none.
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.counts.is_empty()
     }
@@ -156,14 +155,14 @@ impl Data {
         self.open.as_ref().is_some_and(|open| open[k])
     }
 
-    /// Whether it is ever open.
+    /// Whether the bridge is ever open.
     pub fn coasts(&self) -> bool {
         self.open
             .as_ref()
             .is_some_and(|open| open.iter().any(|&open| open))
     }
 
-    /// Least and greatest reading, as a distance in counts.
+    /// Greatest less least reading, counts.
     pub fn travel_counts(&self) -> f64 {
         let (low, high) = self
             .counts

@@ -1,68 +1,13 @@
-//! Which numbers are searched for, in which coordinates, and what they mean.
+//! The unknowns of a model, their coordinates, and the model that their values make.
 //!
 //! The default coordinates are the identifiable ones. Searching in the six physical parameters
 //! instead, as the paper does, is searching along valleys whose floor is flat.
 
-use super::data::Data;
-use super::simulate::Candidate;
+use super::unknown::{Scale, Unknown};
+use crate::data::Data;
+use crate::simulation::Candidate;
 use shared::effects::{EffectSet, Kind};
 use shared::motor::{Machine, Physical, Response};
-
-/// How a unit-cube coordinate is stretched to a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
-    /// Evenly.
-    Linear,
-    /// Evenly in the logarithm.
-    Log,
-}
-
-/// One unknown.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unknown {
-    /// Name, with the effect's name before a point for an effect's parameter.
-    pub name: String,
-    /// Unit symbol.
-    pub unit: &'static str,
-    /// Search range in that unit.
-    pub range: (f64, f64),
-    /// How the range is searched.
-    pub scale: Scale,
-}
-
-impl Unknown {
-    fn new(name: &str, unit: &'static str, range: (f64, f64), scale: Scale) -> Self {
-        Unknown {
-            name: name.to_owned(),
-            unit,
-            range,
-            scale,
-        }
-    }
-
-    /// Value at the coordinate `x` in `[0, 1]`.
-    pub fn value(&self, x: f64) -> f64 {
-        let (low, high) = self.range;
-        match self.scale {
-            Scale::Linear => low + (high - low) * x,
-            Scale::Log => low * (high / low).powf(x),
-        }
-    }
-
-    /// Coordinate of a value, clamped to `[0, 1]`.
-    pub fn coordinate(&self, value: f64) -> f64 {
-        let (low, high) = self.range;
-        let x = match self.scale {
-            Scale::Linear => (value - low) / (high - low),
-            Scale::Log => (value.max(low) / low).ln() / (high / low).ln(),
-        };
-        if x.is_finite() {
-            x.clamp(0.0, 1.0)
-        } else {
-            0.5
-        }
-    }
-}
 
 /// The coordinates of the linear machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +36,7 @@ pub struct Structure {
     pub effects: Vec<Kind>,
     /// Whether the speed at the first sample is unknown (else the motor starts at rest).
     pub start_speed: bool,
-    /// Whether the place of the start within its cell is.
+    /// Whether the start angle within its encoder cell is.
     pub start_offset: bool,
     /// The unknowns.
     pub unknowns: Vec<Unknown>,
@@ -99,9 +44,9 @@ pub struct Structure {
 
 /// Name of the unknown speed at the first sample.
 pub const START_SPEED: &str = "start_speed";
-/// Name of the unknown place within the first cell.
+/// Name of the unknown start angle within the first cell.
 pub const START_OFFSET: &str = "start_offset";
-/// How far from the middle of its cell the start is looked for, counts: a little beyond its edges.
+/// Search range of the start angle about the middle of its cell, counts: a little beyond the edges.
 const FARTHEST_START: f64 = 0.7;
 
 impl Structure {
@@ -179,7 +124,7 @@ impl Structure {
             .collect()
     }
 
-    /// Those of the values that belong to effects, in the order of the effects.
+    /// The values that belong to effects, in the order of the effects.
     pub fn effect_values<'v>(&self, values: &'v [f64]) -> &'v [f64] {
         let nuisances = usize::from(self.start_speed) + usize::from(self.start_offset);
         &values[base_len(self.base)..values.len() - nuisances]

@@ -1,17 +1,19 @@
-//! Eight rows of eight numbers turned into their columns, in registers: what the lanes saw at eight samples becomes what
-//! each of them saw. By single loads and stores it took as long as half a step of the model.
+//! Transposition of eight rows of eight numbers in registers: the lanes' values at eight samples become eight samples of
+//! each lane. By single loads and stores it took as long as half a step of the model.
 
-use super::number::LANES;
 use bytemuck::cast;
 
-/// A row for each of eight samples, or of eight lanes.
-pub type Square = [[f64; LANES]; LANES];
+/// Candidates that run side by side.
+pub const LANES: usize = 8;
 
-/// Rows and columns exchanged.
-pub trait Turn: Copy {
+/// Eight rows of eight numbers.
+pub type Tile = [[f64; LANES]; LANES];
+
+/// Instructions that transpose a [`Tile`].
+pub trait Transpose: Copy {
     /// The columns of these rows.
     #[inline(always)]
-    fn turned(self, rows: Square) -> Square {
+    fn transposed(self, rows: Tile) -> Tile {
         let mut columns = [[0.0; LANES]; LANES];
         for (k, row) in rows.iter().enumerate() {
             for (column, x) in columns.iter_mut().zip(row) {
@@ -22,21 +24,21 @@ pub trait Turn: Copy {
     }
 }
 
-impl Turn for pulp::Scalar {}
+impl Transpose for pulp::Scalar {}
 
 #[cfg(target_arch = "x86_64")]
-impl Turn for pulp::x86::V4 {
+impl Transpose for pulp::x86::V4 {
     #[inline(always)]
-    fn turned(self, rows: Square) -> Square {
+    fn transposed(self, rows: Tile) -> Tile {
         use core::arch::x86_64::__m512d;
-        // Every other pair of two registers, from their first or their second.
+        // The even or the odd pairs of two registers.
         const FIRST: i32 = 0b10_00_10_00;
         const SECOND: i32 = 0b11_01_11_01;
         let vectors = self.avx512f;
         let r: [__m512d; LANES] = cast(rows);
         let mut columns = r;
         for odd in 0..2 {
-            // The pairs (row 2k, row 2k + 1) at the even places, or at the odd ones.
+            // The pairs (row 2k, row 2k + 1) of the even columns, or of the odd ones.
             let mut pairs = [r[0]; 4];
             for (k, pair) in pairs.iter_mut().enumerate() {
                 let (a, b) = (r[2 * k], r[2 * k + 1]);
@@ -65,16 +67,16 @@ impl Turn for pulp::x86::V4 {
 }
 
 #[cfg(target_arch = "x86_64")]
-impl Turn for pulp::x86::V3 {
+impl Transpose for pulp::x86::V3 {
     #[inline(always)]
-    fn turned(self, rows: Square) -> Square {
+    fn transposed(self, rows: Tile) -> Tile {
         use core::arch::x86_64::__m256d;
         const LOW: i32 = 0x20;
         const HIGH: i32 = 0x31;
         let vectors = self.avx;
         let r: [[__m256d; 2]; LANES] = cast(rows);
         let mut columns = r;
-        // Four rows of four at a time; of two such squares beside the diagonal each goes to the other's place.
+        // Four rows of four at a time; the two off-diagonal quarters exchange places.
         for (row, half) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let from = 4 * row;
             let (a, b) = (r[from][half], r[from + 1][half]);
@@ -101,31 +103,31 @@ impl Turn for pulp::x86::V3 {
 mod tests {
     use super::*;
 
-    fn squares() -> Square {
+    fn tile() -> Tile {
         std::array::from_fn(|row| std::array::from_fn(|column| (10 * row + column) as f64))
     }
 
-    fn turns(processor: impl Turn) {
-        let rows = squares();
-        let columns = processor.turned(rows);
+    fn transposes(processor: impl Transpose) {
+        let rows = tile();
+        let columns = processor.transposed(rows);
         for row in 0..LANES {
             for column in 0..LANES {
                 assert_eq!(columns[column][row], rows[row][column]);
             }
         }
-        assert_eq!(processor.turned(columns), rows);
+        assert_eq!(processor.transposed(columns), rows);
     }
 
     #[test]
     fn rows_become_columns_with_every_kind_of_register() {
-        turns(pulp::Scalar::new());
+        transposes(pulp::Scalar::new());
         #[cfg(target_arch = "x86_64")]
         {
             if let Some(v3) = pulp::x86::V3::try_new() {
-                turns(v3);
+                transposes(v3);
             }
             if let Some(v4) = pulp::x86::V4::try_new() {
-                turns(v4);
+                transposes(v4);
             }
         }
     }

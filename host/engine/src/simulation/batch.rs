@@ -1,50 +1,52 @@
-//! Several candidates run along the data at a time, in the lanes of vector registers.
+//! Several candidates run along the data at once, in the lanes of vector registers.
 //!
-//! Candidates of one group share every choice of the arithmetic: where a part of a step must be halved for one of
-//! them it is halved for all. So a lane may be a little finer than the same candidate run alone; bitwise the same
-//! where no such choice arises.
+//! Candidates of one batch take every numerical decision together: where a substep must be halved for one of them, it is
+//! halved for all. So a lane may be a little finer than the same candidate run alone; where no such decision arises, the
+//! bits are the same.
 
-use super::course::{Course, Leg, Manner};
-use super::data::Data;
-use super::simulate::{Candidate, Method, Simulation};
+use super::candidate::{Candidate, Method};
+use super::propagator::{Mode, Propagator};
+use super::segment::Segment;
+use super::single::Simulation;
+use crate::data::Data;
 use crate::lanes::{LANES, Lanes, Token, Work, work};
 use shared::effects::Kind;
 use shared::model::{Model, State};
 use shared::scalar::FromLanes;
 use std::ops::Range;
 
-/// Fewest candidates that are worth lanes of their own.
+/// Fewest candidates for which lanes are faster than single runs.
 const FEWEST: usize = 3;
-/// Most lengths of sample intervals, each of which wants a model of its own.
+/// Most lengths of sample intervals: each needs a model of its own.
 const MOST_LENGTHS: usize = 32;
 
-/// How candidates are run.
-pub struct Run<'a> {
+/// Data and settings that the candidates share.
+pub struct Batch<'a> {
     /// The data.
     pub data: &'a Data,
-    /// Discretisation and parts.
+    /// Discretisation and substeps.
     pub method: Method,
-    /// What moves them.
-    pub manner: Manner<'a>,
+    /// How they are propagated.
+    pub mode: Mode<'a>,
 }
 
-impl Run<'_> {
-    /// By how much the errors of each of the `others` differ from those of `here`, all run over their `legs` and
-    /// `centred`. `None` where a model cannot run.
+impl Batch<'_> {
+    /// Errors of each of the `others` less those of `here`, counts, one entry a sample. Each candidate runs over its
+    /// `segments`; `centred` is applied to its errors first. `None` for a model that cannot run.
     pub fn changes(
         &self,
         here: &Candidate,
         others: &[Candidate],
-        legs: impl Fn(&Candidate) -> Vec<Leg>,
+        segments: impl Fn(&Candidate) -> Vec<Segment>,
         centred: impl Fn(&Candidate, &mut [f64]),
     ) -> Vec<Option<Vec<f64>>> {
         let mut changes: Vec<Option<Vec<f64>>> = vec![None; others.len()];
-        // Each group has a lane for what it is compared with.
+        // Each group needs a lane for `here`.
         for group in groups(others, LANES - 1) {
             let candidates: Vec<Candidate> = std::iter::once(*here)
                 .chain(group.iter().map(|&k| others[k]))
                 .collect();
-            let mut errors = self.errors(&candidates, &legs);
+            let mut errors = self.errors(&candidates, &segments);
             for (candidate, errors) in candidates.iter().zip(&mut errors) {
                 if let Some(errors) = errors {
                     centred(candidate, errors);
@@ -69,21 +71,21 @@ impl Run<'_> {
         changes
     }
 
-    /// Model minus reading of at most [`LANES`] candidates at every sample, counts; abreast if that can be.
+    /// Model minus reading of at most [`LANES`] candidates at every sample, counts; in lanes where possible.
     pub fn errors(
         &self,
         candidates: &[Candidate],
-        legs: &impl Fn(&Candidate) -> Vec<Leg>,
+        segments: &impl Fn(&Candidate) -> Vec<Segment>,
     ) -> Vec<Option<Vec<f64>>> {
-        let ready: Vec<Option<(Simulation<'_>, Vec<Leg>)>> = candidates
+        let ready: Vec<Option<(Simulation<'_>, Vec<Segment>)>> = candidates
             .iter()
             .map(|candidate| {
                 let simulation = Simulation::new(self.data, candidate, self.method).ok()?;
-                Some((simulation, legs(candidate)))
+                Some((simulation, segments(candidate)))
             })
             .collect();
-        let able: Vec<&(Simulation<'_>, Vec<Leg>)> = ready.iter().flatten().collect();
-        if let Some(mut errors) = self.abreast(&able) {
+        let able: Vec<&(Simulation<'_>, Vec<Segment>)> = ready.iter().flatten().collect();
+        if let Some(mut errors) = self.in_lanes(&able) {
             let mut errors = errors.drain(..);
             return ready
                 .iter()
@@ -93,24 +95,24 @@ impl Run<'_> {
         ready
             .iter()
             .map(|ready| {
-                let (simulation, legs) = ready.as_ref()?;
-                Some(simulation.errors(self.manner, legs))
+                let (simulation, segments) = ready.as_ref()?;
+                Some(simulation.errors(self.mode, segments))
             })
             .collect()
     }
 
-    /// The same changes, and the errors of `here` that they are changes of, only handed over, some samples at a time, and not
-    /// centred. False, and nothing is called, where they cannot be run abreast.
+    /// Calls `each` with the errors of `here` and the changes of all `others`, a range of samples at a time, not centred.
+    /// Returns false without a call where they cannot run in lanes.
     pub fn stream(
         &self,
         here: &Candidate,
         others: &[Candidate],
-        legs: impl Fn(&Candidate) -> Vec<Leg>,
+        segments: impl Fn(&Candidate) -> Vec<Segment>,
         mut each: impl FnMut(&[f64], &[&[f64]]),
     ) -> bool {
         let ready = |candidate: &Candidate| {
             let simulation = Simulation::new(self.data, candidate, self.method).ok()?;
-            Some((simulation, legs(candidate)))
+            Some((simulation, segments(candidate)))
         };
         let Some(own) = ready(here) else {
             return false;
@@ -127,37 +129,37 @@ impl Run<'_> {
             .map(|places| std::iter::once(&own).chain(places.iter().map(|&k| &ready[k])))
             .map(Iterator::collect)
             .collect();
-        // Where each one's changes are: its group and its lane there.
-        let mut seats = vec![(0, 0); others.len()];
+        // Group and lane of each candidate.
+        let mut lane_of = vec![(0, 0); others.len()];
         for (group, places) in places.iter().enumerate() {
             for (lane, &k) in places.iter().enumerate() {
-                seats[k] = (group, 1 + lane);
+                lane_of[k] = (group, 1 + lane);
             }
         }
         let mut sink = |range: Range<usize>, rows: &[Rows]| {
             let samples = range.len();
-            let changes: Vec<&[f64]> = seats
+            let changes: Vec<&[f64]> = lane_of
                 .iter()
                 .map(|&(group, lane)| &rows[group][lane][..samples])
                 .collect();
             each(&rows[0][0][..samples], &changes);
         };
-        let run = Together {
+        let run = LaneRun {
             run: self,
             groups: &groups,
-            less: Less::OfFirst,
+            subtract: Subtract::OfFirst,
             sink: &mut sink,
         };
         work(run).flatten().is_some()
     }
 
-    /// Whether so many are worth running abreast.
+    /// Whether so many candidates are faster in lanes.
     fn suits(&self, candidates: usize) -> bool {
         candidates >= FEWEST && self.data.lengths.len() <= MOST_LENGTHS
     }
 
-    /// `None` where they cannot be run abreast, or had better not.
-    fn abreast(&self, able: &[&(Simulation<'_>, Vec<Leg>)]) -> Option<Vec<Vec<f64>>> {
+    /// `None` where they cannot run in lanes, or are faster alone.
+    fn in_lanes(&self, able: &[&(Simulation<'_>, Vec<Segment>)]) -> Option<Vec<Vec<f64>>> {
         if !self.suits(able.len()) || able.len() > LANES {
             return None;
         }
@@ -168,10 +170,10 @@ impl Run<'_> {
                 errors[range.clone()].copy_from_slice(&row[..range.len()]);
             }
         };
-        let run = Together {
+        let run = LaneRun {
             run: self,
             groups: &[able.to_vec()],
-            less: Less::Reading,
+            subtract: Subtract::Reading,
             sink: &mut sink,
         };
         work(run).flatten()?;
@@ -179,7 +181,7 @@ impl Run<'_> {
     }
 }
 
-/// Places of the candidates in groups of at most `most` that have the same effects.
+/// Indices of the candidates in groups of at most `most` that have the same effects.
 fn groups(candidates: &[Candidate], most: usize) -> Vec<Vec<usize>> {
     let mut groups: Vec<(Vec<Kind>, Vec<usize>)> = Vec::new();
     for (k, candidate) in candidates.iter().enumerate() {
@@ -195,42 +197,42 @@ fn groups(candidates: &[Candidate], most: usize) -> Vec<Vec<usize>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Samples that are handed over at a time: one by one, eight places would be written to by turns.
-const SOME: usize = 128;
+/// Samples that are passed on at a time: one by one, the stores would alternate between eight rows.
+const CHUNK: usize = 128;
 
-/// What the encoders of the candidates in the lanes see at some samples, counts.
-type Sights = [[f64; LANES]; SOME];
+/// Encoder angle of each lane at a chunk of samples, counts.
+type Angles = [[f64; LANES]; CHUNK];
 
-/// A row of differences for each candidate in the lanes, counts.
-type Rows = [[f64; SOME]; LANES];
+/// A row of differences for each lane, counts.
+type Rows = [[f64; CHUNK]; LANES];
 
-/// What is taken from what a lane sees.
+/// What is subtracted from a lane's encoder angle.
 #[derive(Clone, Copy, PartialEq)]
-enum Less {
+enum Subtract {
     /// The reading.
     Reading,
-    /// The reading in the first lane; what the first lane sees in the others.
+    /// The reading in the first lane; the first lane's angle in the others.
     OfFirst,
 }
 
-impl Less {
-    /// Turns what the lanes saw at some samples into a row for each of them.
+impl Subtract {
+    /// Transposes the angles into a row of differences for each lane.
     #[inline(always)]
-    fn rows<T: Token, const M: usize>(self, sights: &Sights, readings: &[f64], rows: &mut Rows) {
-        let mut read = [0.0; SOME];
+    fn rows<T: Token, const M: usize>(self, angles: &Angles, readings: &[f64], rows: &mut Rows) {
+        let mut read = [0.0; CHUNK];
         read[..readings.len()].copy_from_slice(readings);
-        // What is left over of the last square is of no sample.
-        for square in 0..readings.len().div_ceil(LANES) {
-            let at = square * LANES;
+        // The last tile may reach beyond the last sample.
+        for tile in 0..readings.len().div_ceil(LANES) {
+            let at = tile * LANES;
             let mut some = [[0.0; LANES]; LANES];
-            some.copy_from_slice(&sights[at..at + LANES]);
-            let mut seen = Lanes::<T, M>::turned(some);
+            some.copy_from_slice(&angles[at..at + LANES]);
+            let mut seen = Lanes::<T, M>::transposed(some);
             let mut reading = [0.0; LANES];
             reading.copy_from_slice(&read[at..at + LANES]);
             let reading = Lanes::from(reading);
             let less = match self {
-                Less::Reading => reading,
-                Less::OfFirst => seen[0],
+                Subtract::Reading => reading,
+                Subtract::OfFirst => seen[0],
             };
             seen[0] = seen[0] - reading;
             for seen in &mut seen[1..] {
@@ -243,25 +245,25 @@ impl Less {
     }
 }
 
-/// Candidates to be run abreast in groups; lanes that are left over repeat a group's first one.
-struct Together<'t, 'a> {
-    run: &'t Run<'a>,
-    groups: &'t [Vec<&'t (Simulation<'a>, Vec<Leg>)>],
-    less: Less,
-    /// Takes the rows of each group's lanes at a range of samples. All of the model is compiled in around it: once.
+/// Groups of candidates to be run in lanes; unused lanes repeat a group's first candidate.
+struct LaneRun<'t, 'a> {
+    run: &'t Batch<'a>,
+    groups: &'t [Vec<&'t (Simulation<'a>, Vec<Segment>)>],
+    subtract: Subtract,
+    /// Receives the rows of each group's lanes at a range of samples. Behind a pointer, so that the model is compiled once.
     sink: &'t mut dyn FnMut(Range<usize>, &[Rows]),
 }
 
-/// One of something for each lane of a group.
+/// One value for each lane of a group.
 fn each<'s, 't, 'a, A>(
-    group: &'s [&'t (Simulation<'a>, Vec<Leg>)],
-    of: impl Fn(&'t (Simulation<'a>, Vec<Leg>)) -> A,
+    group: &'s [&'t (Simulation<'a>, Vec<Segment>)],
+    of: impl Fn(&'t (Simulation<'a>, Vec<Segment>)) -> A,
 ) -> [A; LANES] {
     std::array::from_fn(|lane| of(group.get(lane).unwrap_or(&group[0])))
 }
 
-impl Work for Together<'_, '_> {
-    /// `None` where they are too different.
+impl Work for LaneRun<'_, '_> {
+    /// `None` where the candidates' models are too different to share lanes.
     type Output = Option<()>;
 
     #[inline(always)]
@@ -273,29 +275,32 @@ impl Work for Together<'_, '_> {
                 .collect()
         };
         let models: Vec<_> = self.groups.iter().map(models).collect::<Option<_>>()?;
-        let mut sights: Sights = [[0.0; LANES]; SOME];
-        let mut rows: Vec<Rows> = vec![[[0.0; SOME]; LANES]; self.groups.len()];
-        for (index, leg) in self.groups[0][0].1.iter().enumerate() {
+        let mut angles: Angles = [[0.0; LANES]; CHUNK];
+        let mut rows: Vec<Rows> = vec![[[0.0; CHUNK]; LANES]; self.groups.len()];
+        for (index, segment) in self.groups[0][0].1.iter().enumerate() {
             let begin = |group: &Vec<_>| {
-                let states = each(group, |(simulation, legs): &(Simulation<'_>, Vec<Leg>)| {
-                    simulation.begin(&legs[index])
-                });
+                let states = each(
+                    group,
+                    |(simulation, segments): &(Simulation<'_>, Vec<Segment>)| {
+                        simulation.begin(&segments[index])
+                    },
+                );
                 State::<Lanes<T, M>>::from_lanes(states.each_ref())
             };
             let mut states: Vec<_> = self.groups.iter().map(begin).collect::<Option<_>>()?;
-            for from in leg.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(leg.range.end);
+            for from in segment.range.clone().step_by(CHUNK) {
+                let range = from..(from + CHUNK).min(segment.range.end);
                 let readings = &data.counts[range.clone()];
                 for ((state, models), rows) in states.iter_mut().zip(&models).zip(&mut rows) {
-                    let course = Course { data, models };
-                    *state = course.run(
-                        self.run.manner,
+                    let propagator = Propagator { data, models };
+                    *state = propagator.run(
+                        self.run.mode,
                         *state,
                         range.clone(),
                         #[inline(always)]
-                        |k, sight| sights[k - from] = sight.each(),
+                        |k, angle| angles[k - from] = angle.each(),
                     );
-                    self.less.rows::<T, M>(&sights, readings, rows);
+                    self.subtract.rows::<T, M>(&angles, readings, rows);
                 }
                 (self.sink)(range, &rows);
             }

@@ -1,58 +1,19 @@
-//! One candidate, run along the data.
+//! One candidate run along the data.
 
-use super::course::{Course, Leg, Manner};
-use super::data::Data;
+use super::candidate::{Candidate, Method};
+use super::propagator::{Mode, Propagator};
+use super::segment::Segment;
+use crate::data::Data;
 use crate::lanes::with_vectors;
-use shared::discretise::Discretisation;
-use shared::effects::EffectSet;
 use shared::error::ModelError;
 use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
 use std::ops::Range;
 
-/// A model with all its numbers, in SI.
-#[derive(Clone, Copy, Debug)]
-pub struct Candidate {
-    /// The linear machine.
-    pub machine: Machine<f64>,
-    /// Effects with their parameters.
-    pub effects: EffectSet<f64>,
-    /// Speed at the first sample, rad/s.
-    pub start_speed: f64,
-    /// Angle at the first sample from the middle of its cell, counts. It matters where effects depend on
-    /// the angle; elsewhere the best shift of the whole run does the same.
-    pub start_offset: f64,
-}
-
-impl Candidate {
-    /// Whether an effect depends on the absolute angle.
-    pub fn needs_angle(&self) -> bool {
-        self.effects.iter().any(|(kind, _)| kind.needs().angle)
-    }
-}
-
-/// How a candidate is run.
-#[derive(Clone, Copy, Debug)]
-pub struct Method {
-    /// Exact, or the paper's Euler step.
-    pub discretisation: Discretisation,
-    /// Steps to a sample interval where there are effects.
-    pub substeps: u16,
-}
-
-impl Default for Method {
-    fn default() -> Self {
-        Method {
-            discretisation: Discretisation::Exact,
-            substeps: 1,
-        }
-    }
-}
-
 /// Samples that are run at a time.
-const SOME: usize = 1024;
-/// Intervals before a start that its current is taken from.
-const MEMORY: usize = 64;
+const CHUNK: usize = 1024;
+/// Sample intervals before a start over which its winding current is computed.
+const CURRENT_HISTORY: usize = 64;
 
 /// The models of one candidate, one for each length of interval in the data.
 pub struct Simulation<'a> {
@@ -62,7 +23,10 @@ pub struct Simulation<'a> {
 }
 
 impl<'a> Simulation<'a> {
-    /// Discretises the candidate for the data's intervals.
+    /// Discretises the candidate for each length of interval in the data.
+    ///
+    /// # Errors
+    /// Parameters from which no model can be made.
     pub fn new(data: &'a Data, candidate: &Candidate, method: Method) -> Result<Self, ModelError> {
         let models = data
             .lengths
@@ -85,26 +49,26 @@ impl<'a> Simulation<'a> {
         })
     }
 
-    /// Model minus reading over all legs, counts.
-    pub fn errors(&self, manner: Manner<'_>, legs: &[Leg]) -> Vec<f64> {
-        let errors = self.errors_unless(manner, legs, |_| false);
+    /// Model minus reading, counts, one entry a sample; zero outside the segments.
+    pub fn errors(&self, mode: Mode<'_>, segments: &[Segment]) -> Vec<f64> {
+        let errors = self.errors_unless(mode, segments, |_| false);
         errors.unwrap_or_default()
     }
 
-    /// The same, unless what has come so far, some samples at a time, is enough to `give_up`.
+    /// As [`errors`](Self::errors); `None` once `give_up`, which is called with each chunk of errors in turn, says so.
     pub fn errors_unless(
         &self,
-        manner: Manner<'_>,
-        legs: &[Leg],
+        mode: Mode<'_>,
+        segments: &[Segment],
         mut give_up: impl FnMut(&[f64]) -> bool,
     ) -> Option<Vec<f64>> {
         let mut errors = vec![0.0; self.data.len()];
-        for leg in legs {
-            let mut state = self.begin(leg);
-            for from in leg.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(leg.range.end);
+        for segment in segments {
+            let mut state = self.begin(segment);
+            for from in segment.range.clone().step_by(CHUNK) {
+                let range = from..(from + CHUNK).min(segment.range.end);
                 let some = &mut errors[range.clone()];
-                state = self.errors_of(manner, state, range, some);
+                state = self.errors_of(mode, state, range, some);
                 if give_up(some) {
                     return None;
                 }
@@ -113,63 +77,63 @@ impl<'a> Simulation<'a> {
         Some(errors)
     }
 
-    /// The same, only handed over, some samples at a time.
-    pub fn stream(&self, manner: Manner<'_>, legs: &[Leg], mut each: impl FnMut(&[f64])) {
-        let mut errors = [0.0; SOME];
-        for leg in legs {
-            let mut state = self.begin(leg);
-            for from in leg.range.clone().step_by(SOME) {
-                let range = from..(from + SOME).min(leg.range.end);
+    /// Calls `each` with the errors, a chunk of samples at a time.
+    pub fn stream(&self, mode: Mode<'_>, segments: &[Segment], mut each: impl FnMut(&[f64])) {
+        let mut errors = [0.0; CHUNK];
+        for segment in segments {
+            let mut state = self.begin(segment);
+            for from in segment.range.clone().step_by(CHUNK) {
+                let range = from..(from + CHUNK).min(segment.range.end);
                 let some = &mut errors[..range.len()];
-                state = self.errors_of(manner, state, range, some);
+                state = self.errors_of(mode, state, range, some);
                 each(some);
             }
         }
     }
 
-    /// Model minus reading at some samples, from a state on; gives the state behind them.
+    /// Writes model minus reading over a range of samples from a state; returns the state after it.
     fn errors_of(
         &self,
-        manner: Manner<'_>,
+        mode: Mode<'_>,
         state: State<f64>,
         range: Range<usize>,
         errors: &mut [f64],
     ) -> State<f64> {
-        let state = self.go_on(manner, state, range.clone(), errors);
+        let state = self.go_on(mode, state, range.clone(), errors);
         for (error, reading) in errors.iter_mut().zip(&self.data.counts[range]) {
             *error -= reading;
         }
         state
     }
 
-    /// Runs over a leg; writes what the model's encoder sees at each of its samples, counts.
-    pub fn run(&self, manner: Manner<'_>, leg: &Leg, sights: &mut [f64]) {
-        let sights = &mut sights[leg.range.clone()];
-        self.go_on(manner, self.begin(leg), leg.range.clone(), sights);
+    /// Runs over a segment and writes the model's encoder angle at each of its samples, counts.
+    pub fn run(&self, mode: Mode<'_>, segment: &Segment, sights: &mut [f64]) {
+        let sights = &mut sights[segment.range.clone()];
+        self.go_on(mode, self.begin(segment), segment.range.clone(), sights);
     }
 
-    /// The same from a state over some samples, one sight each; gives the state behind them.
+    /// As [`run`](Self::run), from a state over a range of samples; returns the state after it.
     fn go_on(
         &self,
-        manner: Manner<'_>,
+        mode: Mode<'_>,
         state: State<f64>,
         range: Range<usize>,
         sights: &mut [f64],
     ) -> State<f64> {
         let from = range.start;
-        let course = Course {
+        let propagator = Propagator {
             data: self.data,
             models: &self.models,
         };
         with_vectors(
             #[inline(always)]
-            || course.run(manner, state, range, |k, sight| sights[k - from] = sight),
+            || propagator.run(mode, state, range, |k, sight| sights[k - from] = sight),
         )
     }
 
-    /// State at the first sample of a leg.
-    pub fn begin(&self, leg: &Leg) -> State<f64> {
-        self.start(leg.range.start, leg.angle, leg.speed)
+    /// State at the first sample of a segment.
+    pub fn begin(&self, segment: &Segment) -> State<f64> {
+        self.start(segment.range.start, segment.angle, segment.speed)
     }
 
     /// One model for each length of interval in the data.
@@ -181,7 +145,7 @@ impl<'a> Simulation<'a> {
         &self.models[self.data.length_of[k] as usize]
     }
 
-    /// State at sample `k`, where the encoder saw `angle` counts.
+    /// State at sample `k`, where the encoder angle is `angle` counts and the speed `speed` rad/s.
     fn start(&self, k: usize, angle: f64, speed: f64) -> State<f64> {
         let mut state = State::at(angle, speed / self.data.units.speed);
         let Some(last) = self.data.len().checked_sub(1) else {
@@ -190,7 +154,7 @@ impl<'a> Simulation<'a> {
         let error = self.model(k.min(last)).reading(&state) - angle;
         state.motion.angle = angle - error;
         state.motion.current = self.current_before(k, speed);
-        // Commands given before may be on their way still.
+        // Earlier commands may still be delayed.
         for k in k.saturating_sub(MAX_DELAY)..k {
             let (command, open) = (self.data.command[k], self.data.is_open(k));
             self.model(k).recall(&mut state, command, open);
@@ -198,13 +162,13 @@ impl<'a> Simulation<'a> {
         state
     }
 
-    /// Per-unit current at sample `k` that the commands before it leave in the winding at a speed in rad/s. In a
-    /// motor that was driven it is no more zero than the speed.
+    /// Per-unit winding current at sample `k` from the commands before it, at a constant speed in rad/s: a motor that was
+    /// driven starts with a current as it starts with a speed.
     fn current_before(&self, k: usize, speed: f64) -> f64 {
         let Machine { kb, electrical, .. } = self.machine;
         let volts = self.data.units.volts;
         let mut current = 0.0;
-        for j in k.saturating_sub(MEMORY)..k {
+        for j in k.saturating_sub(CURRENT_HISTORY)..k {
             if self.data.is_open(j) {
                 current = 0.0;
                 continue;

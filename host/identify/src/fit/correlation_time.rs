@@ -1,15 +1,16 @@
-//! How long an error remembers itself: the sum of its autocorrelation as far as it is positive (Geyer, *Statistical
-//! Science* 7(4), 1992).
+//! Sum of an error's autocorrelation over the lags at which it is positive (C. J. Geyer, *Statistical Science* 7(4), 473,
+//! 1992): for how long the error is correlated with itself.
 
-/// Correlations below this count as none.
+/// Correlations up to this count as zero.
 const NONE: f64 = 0.05;
-/// Lags that are each looked at; beyond them every one in so many of the lag itself, with straight lines between: what is
-/// remembered for long changes slowly, and an hour's error would else take an hour.
+/// Lags that are all evaluated. Beyond them the step grows with the lag, with straight lines between: a long correlation
+/// changes slowly, and an hour's error would take an hour.
 const EACH: usize = 400;
+/// Steps to the length of a lag beyond [`EACH`].
 const PART: usize = 32;
 
-/// Sum of `correlation` over the lags from 1 to below `most`, up to the first that is none.
-pub fn memory(most: usize, correlation: impl Fn(usize) -> f64) -> f64 {
+/// Sum of `correlation(lag)` over the lags, samples, from 1 to below `most`, up to the first that counts as zero.
+pub fn correlation_sum(most: usize, correlation: impl Fn(usize) -> f64) -> f64 {
     let mut sum = 0.0;
     let (mut lag, mut last) = (1, 1.0);
     let mut step = 1;
@@ -40,13 +41,13 @@ mod tests {
                 .map(correlation)
                 .take_while(|r| *r > NONE)
                 .sum();
-            let found = memory(200_000, correlation);
+            let found = correlation_sum(200_000, correlation);
             assert!(
                 (found - each).abs() <= 0.01 * each,
                 "{decay}: {found} for {each}"
             );
         }
-        assert_eq!(memory(1, |_| 1.0), 0.0);
-        assert_eq!(memory(300, |_| 1.0), 299.0);
+        assert_eq!(correlation_sum(1, |_| 1.0), 0.0);
+        assert_eq!(correlation_sum(300, |_| 1.0), 299.0);
     }
 }

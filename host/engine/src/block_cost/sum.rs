@@ -1,15 +1,15 @@
-//! Sums over the samples of a path, side by side in lanes.
+//! Sums of the errors over all blocks, eight samples at a time in lanes.
 
-use super::{Block, Piece, SLACK};
+use super::blocks::{Block, BlockPath, COST_ROUNDING};
+use super::settling::Settling;
+use super::zero_order_hold::{HoldResponse, LinearState, STARTS, STRIDE, StrideStarts};
+use crate::data::Data;
 use crate::lanes::{LANES, Lanes, Token, Work, work};
-use crate::problem::data::Data;
-use crate::problem::held::{BEGINS, Begins, Held, Place, STRIDE};
-use crate::problem::settling::Settling;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::scalar::Scalar;
 
-/// A transient below this many counts is none.
-pub(super) const SETTLED_COUNTS: f64 = 1e-10;
+/// A transient below this is left out, counts.
+const SETTLED_COUNTS: f64 = 1e-10;
 /// Lanes to a stride.
 const ROWS: usize = STRIDE / LANES;
 
@@ -57,19 +57,19 @@ impl Summand for Squares {
     }
 }
 
-/// A path to be summed over.
+/// The errors of one candidate, to be summed over all blocks.
 pub(super) struct Sum<'s> {
     /// The data.
     pub(super) data: &'s Data,
-    /// The motor.
-    pub(super) held: &'s Held,
-    /// Where commands are held,
+    /// The motor's response.
+    pub(super) hold: &'s HoldResponse,
+    /// The blocks of the data.
     pub(super) blocks: &'s [Block],
-    /// and the motor's path there.
-    pub(super) pieces: &'s [Piece],
-    /// All blocks together cost no less.
+    /// The motor's state at each of them.
+    pub(super) paths: &'s [BlockPath],
+    /// Lower bound of the whole sum.
     pub(super) least: f64,
-    /// More than this is as good as any.
+    /// The sum stops where it is known to exceed this.
     pub(super) limit: f64,
 }
 
@@ -90,23 +90,23 @@ impl<C: Summand> Work for Summing<'_, '_, C> {
         let run = self.0;
         let zero = Lanes::<T, M>::default();
         let mut sums = [[zero; 2]; ROWS];
-        let ahead = run.held.ahead();
+        let ahead = run.hold.stride_angles();
         let motion = Motion {
             zero,
             by_current: rows(zero, &ahead.by_state[0]),
             by_speed: rows(zero, &ahead.by_state[1]),
             by_command: rows(zero, &ahead.by_command),
-            begins: Abreast::new(zero, &run.held.begins()),
-            settling: Settling::new(run.held, &ahead),
+            begins: GroupStarts::new(zero, &run.hold.stride_starts()),
+            settling: Settling::new(run.hold, &ahead),
         };
         let mut rest = run.least;
-        for (block, piece) in run.blocks.iter().zip(run.pieces) {
+        for (block, path) in run.blocks.iter().zip(run.paths) {
             let readings = &run.data.counts[block.range.clone()];
-            run.block::<T, M, C>(&motion, piece.place, block.command, readings, &mut sums);
-            rest -= piece.least;
+            run.block::<T, M, C>(&motion, path.start, block.command, readings, &mut sums);
+            rest -= path.lower_bound;
             if C::SUMS == 1 {
                 let sum = total(&sums, 0);
-                if (sum + rest) * (1.0 - SLACK) > run.limit {
+                if (sum + rest) * (1.0 - COST_ROUNDING) > run.limit {
                     return [sum + rest, 0.0];
                 }
             }
@@ -124,7 +124,7 @@ fn total<T: Token, const M: usize>(sums: &[[Lanes<T, M>; 2]; ROWS], which: usize
 
 type Stride<T, const M: usize> = [Lanes<T, M>; ROWS];
 
-/// A stride in lanes like others.
+/// A stride in lanes.
 #[inline(always)]
 fn rows<T: Token, const M: usize>(like: Lanes<T, M>, stride: &[f64; STRIDE]) -> Stride<T, M> {
     let (rows, _) = stride.as_chunks::<LANES>();
@@ -142,23 +142,23 @@ struct Motion<T: Token, const M: usize> {
     by_current: Stride<T, M>,
     by_speed: Stride<T, M>,
     by_command: Stride<T, M>,
-    begins: Abreast<T, M>,
+    begins: GroupStarts<T, M>,
     settling: Option<Settling>,
 }
 
-/// Where strides begin, one to a lane.
-struct Abreast<T: Token, const M: usize> {
+/// The states at which strides start, one to a lane.
+struct GroupStarts<T: Token, const M: usize> {
     state: [[Lanes<T, M>; 2]; 2],
     state_by_command: [Lanes<T, M>; 2],
     angle: [Lanes<T, M>; 2],
     angle_by_command: Lanes<T, M>,
 }
 
-impl<T: Token, const M: usize> Abreast<T, M> {
+impl<T: Token, const M: usize> GroupStarts<T, M> {
     #[inline(always)]
-    fn new(like: Lanes<T, M>, begins: &Begins) -> Self {
+    fn new(like: Lanes<T, M>, begins: &StrideStarts) -> Self {
         let two = |[a, b]: [[f64; LANES]; 2]| [like.each_like(a), like.each_like(b)];
-        Abreast {
+        GroupStarts {
             state: [two(begins.state[0]), two(begins.state[1])],
             state_by_command: two(begins.state_by_command),
             angle: two(begins.angle),
@@ -166,9 +166,9 @@ impl<T: Token, const M: usize> Abreast<T, M> {
         }
     }
 
-    /// The places of a motor: currents, speeds and angles.
+    /// Currents, speeds and angles at the starts of the strides.
     #[inline(always)]
-    fn places(&self, Place { state, angle }: Place, command: f64) -> [[f64; LANES]; 3] {
+    fn states(&self, LinearState { state, angle }: LinearState, command: f64) -> [[f64; LANES]; 3] {
         let like = self.angle_by_command;
         let (current, speed, command) =
             (like.like(state[0]), like.like(state[1]), like.like(command));
@@ -184,15 +184,15 @@ impl<T: Token, const M: usize> Abreast<T, M> {
     }
 }
 
-const _: () = assert!(BEGINS == LANES);
+const _: () = assert!(STARTS == LANES);
 
 impl<T: Token, const M: usize> Motion<T, M> {
-    /// What a stride from a state would cost in `sums`, `driven` being its angles by the command.
+    /// Adds the errors of a stride from a state to `sums`; `driven` is its angles by the command.
     #[inline(always)]
     fn add<C: Summand>(
         &self,
         driven: &Stride<T, M>,
-        Place { state, angle }: Place,
+        LinearState { state, angle }: LinearState,
         readings: &[f64; STRIDE],
         sums: &mut [[Lanes<T, M>; 2]; ROWS],
     ) {
@@ -210,12 +210,13 @@ impl<T: Token, const M: usize> Motion<T, M> {
         }
     }
 
-    /// The line that a motor without a transient goes along: its angle, and how it rises with each sample.
+    /// Level and slope of the angle, counts and counts a sample, where the transient has died away.
     #[inline(always)]
-    fn line(&self, place: &Place, command: f64) -> Option<[f64; 2]> {
+    fn line(&self, motor: &LinearState, command: f64) -> Option<[f64; 2]> {
         let settling = self.settling.as_ref()?;
-        let path = settling.path(place, command)?;
-        (settling.largest(path.off) < SETTLED_COUNTS).then_some([path.level, path.slope])
+        let path = settling.path(motor, command)?;
+        (settling.transient_bound(path.deviation) < SETTLED_COUNTS)
+            .then_some([path.level, path.slope])
     }
 }
 
@@ -224,7 +225,7 @@ impl Sum<'_> {
     fn block<T: Token, const M: usize, C: Summand>(
         &self,
         motion: &Motion<T, M>,
-        mut place: Place,
+        mut motor: LinearState,
         command: f64,
         readings: &[f64],
         sums: &mut [[Lanes<T, M>; 2]; ROWS],
@@ -232,7 +233,7 @@ impl Sum<'_> {
         let zero = motion.zero;
         let (strides, rest) = readings.as_chunks::<STRIDE>();
         let mut driven = motion.by_command;
-        if let Some([level, slope]) = motion.line(&place, command) {
+        if let Some([level, slope]) = motion.line(&motor, command) {
             let mut line = [0.0; STRIDE];
             for (k, line) in line.iter_mut().enumerate() {
                 *line = slope * k as f64;
@@ -246,7 +247,7 @@ impl Sum<'_> {
                     C::add((driven[row] + angle) - readings[row], &mut sums[row]);
                 }
             }
-            place = Place {
+            motor = LinearState {
                 state: [0.0; 2],
                 angle: level + rise * strides.len() as f64,
             };
@@ -255,20 +256,20 @@ impl Sum<'_> {
             for driven in &mut driven {
                 *driven = *driven * command_in_lanes;
             }
-            for strides in strides.chunks(BEGINS) {
-                let [currents, speeds, angles] = motion.begins.places(place, command);
-                for (k, stride) in strides.iter().take(BEGINS).enumerate() {
-                    let place = Place {
+            for strides in strides.chunks(STARTS) {
+                let [currents, speeds, angles] = motion.begins.states(motor, command);
+                for (k, stride) in strides.iter().take(STARTS).enumerate() {
+                    let motor = LinearState {
                         state: [currents[k], speeds[k]],
                         angle: angles[k],
                     };
-                    motion.add::<C>(&driven, place, stride, sums);
+                    motion.add::<C>(&driven, motor, stride, sums);
                 }
-                if strides.len() == BEGINS {
-                    place = self.held.abreast().on(place, command);
+                if strides.len() == STARTS {
+                    motor = self.hold.group().advance(motor, command);
                 } else {
                     let k = strides.len();
-                    place = Place {
+                    motor = LinearState {
                         state: [currents[k], speeds[k]],
                         angle: angles[k],
                     };
@@ -276,13 +277,13 @@ impl Sum<'_> {
             }
         }
         if !rest.is_empty() {
-            // Less than a stride: what is behind it does not count.
+            // Less than a stride: the padding does not count.
             let (mut padded, mut counts) = ([0.0; STRIDE], [0.0; STRIDE]);
             padded[..rest.len()].copy_from_slice(rest);
             counts[..rest.len()].fill(1.0);
             let counts = rows(zero, &counts);
             let mut some = [[zero; 2]; ROWS];
-            motion.add::<C>(&driven, place, &padded, &mut some);
+            motion.add::<C>(&driven, motor, &padded, &mut some);
             for row in 0..ROWS {
                 for which in 0..C::SUMS {
                     sums[row][which] = sums[row][which] + some[row][which] * counts[row];

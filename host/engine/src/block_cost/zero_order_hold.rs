@@ -1,33 +1,35 @@
-//! What a linear motor does while its command is held, at any sample, without the samples before.
+//! Response of the linear motor to a command that is held constant (zero-order hold), at any later sample, without the
+//! samples between.
 //!
-//! With the state `x` at the first sample and the command `c`, the angle of the sample `k` behind it is
+//! With the state `x` (current, speed) at the first sample and the command `c`, all per unit, the angle `k` samples later is
 //!
 //! ```text
-//! θ(k) = θ(0) + a(k)·x + α(k)·c
+//! θ(k) = θ(0) + a(k)·x + α(k)·c        counts
 //! ```
 //!
-//! and what `n` samples add to the state, to the angle and to the sum of the angles is of the same form. From `n` samples
-//! follows what `2·n` do. Nothing is divided by and no large numbers cancel, however slow the modes are, equal and complex ones
-//! too. All of it comes from the increments of the model's own step.
+//! What `n` samples add to the state, to the angle and to the sum of the angles has the same form. Doubling `n`
+//! (`2·E + E²` for the state, where `E` is the matrix exponential less one) costs a few products. Nothing is divided and
+//! no large numbers cancel, so slow, equal and complex modes keep their digits. All of it comes from the increments of
+//! the model's own step ([`Increments`]).
 //!
-//! Where a motor settles (`settling.rs`), less will do.
+//! Where the motor settles, `settling` needs less.
 
 use shared::model::Increments;
 
-/// Samples whose angles follow from one state.
+/// Samples of a stride: their angles are computed from one state.
 pub const STRIDE: usize = 32;
-/// Strides of the longest span.
+/// Strides in the longest span.
 pub const STRIDES: usize = 16;
-/// Strides whose beginnings follow from one state.
-pub const BEGINS: usize = 8;
-/// Spans of 1, 2, 4 … samples.
+/// Strides of a group: their first states are computed from one state, one to a lane.
+pub const STARTS: usize = 8;
+/// Number of spans: of 1, 2, 4 … samples.
 const SPANS: usize = (STRIDE * STRIDES).ilog2() as usize + 1;
-/// Which of them is a stride,
-const OF_STRIDE: usize = STRIDE.ilog2() as usize;
-/// and which as many as begin abreast.
-const OF_BEGINS: usize = OF_STRIDE + BEGINS.ilog2() as usize;
+/// Index of the span of a stride.
+const STRIDE_SPAN: usize = STRIDE.ilog2() as usize;
+/// Index of the span of a group.
+const GROUP_SPAN: usize = STRIDE_SPAN + STARTS.ilog2() as usize;
 
-type Abreast = [f64; BEGINS];
+type PerStart = [f64; STARTS];
 pub(super) type Pair = [f64; 2];
 pub(super) type Matrix = [Pair; 2];
 
@@ -43,7 +45,7 @@ pub(super) fn times(a: &Matrix, x: Pair) -> Pair {
 
 /// Row by matrix.
 #[inline(always)]
-pub(super) fn across(x: Pair, a: &Matrix) -> Pair {
+pub(super) fn row_times(x: Pair, a: &Matrix) -> Pair {
     [
         x[0] * a[0][0] + x[1] * a[1][0],
         x[0] * a[0][1] + x[1] * a[1][1],
@@ -59,10 +61,10 @@ pub(super) fn determinant(a: &Matrix) -> f64 {
     a[0][0] * a[1][1] - a[0][1] * a[1][0]
 }
 
-/// What so many samples under a held command add.
+/// What a number of samples under a held command adds.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// Their number.
+    /// Number of samples.
     pub samples: f64,
     /// To the state, by state and by command.
     pub state: Matrix,
@@ -90,12 +92,13 @@ impl Span {
         }
     }
 
-    /// Of twice as many samples. The second half starts where the first one ends: `2·E + E²` keeps the digits of slow modes.
+    /// The span of twice as many samples. The second half starts where the first one ends: `2·E + E²` keeps the digits
+    /// of slow modes.
     #[inline(always)]
-    fn twice(&self) -> Self {
+    fn doubled(&self) -> Self {
         let e = &self.state;
         let doubled = |row: Pair| {
-            let further = across(row, e);
+            let further = row_times(row, e);
             [2.0 * row[0] + further[0], 2.0 * row[1] + further[1]]
         };
         let by = self.state_by_command;
@@ -116,20 +119,20 @@ impl Span {
         }
     }
 
-    /// Where a command leads in so many samples.
+    /// The state after the span.
     #[inline(always)]
-    pub fn on(&self, Place { state, angle }: Place, command: f64) -> Place {
-        // In this order, since the next span waits for it.
+    pub fn advance(&self, LinearState { state, angle }: LinearState, command: f64) -> LinearState {
+        // In this order: the next span waits for the state.
         let by = self.state_by_command.map(|by| by * command);
-        Place {
+        LinearState {
             state: plus(plus(state, by), times(&self.state, state)),
             angle: angle + (dot(self.angle, state) + self.angle_by_command * command),
         }
     }
 
-    /// What their angles sum to.
+    /// Sum of the angles of the span's samples.
     #[inline(always)]
-    fn summed(&self, Place { state, angle }: Place, command: f64) -> Summed {
+    fn angle_sum(&self, LinearState { state, angle }: LinearState, command: f64) -> AngleSum {
         let level = self.samples * angle;
         let [by_current, by_speed] = self.sum;
         let rises = [
@@ -138,30 +141,30 @@ impl Span {
             self.sum_by_command * command,
         ];
         let [current, speed, driven] = rises.map(f64::abs);
-        Summed {
+        AngleSum {
             sum: level + ((rises[0] + rises[1]) + rises[2]),
             terms: level.abs() + ((current + speed) + driven),
         }
     }
 }
 
-/// A linear motor, ready to be held.
-pub struct Held {
+/// Response of a linear motor to a held command, over spans of 1, 2, 4 … samples.
+pub struct HoldResponse {
     spans: [Span; SPANS],
 }
 
-/// Where a motor is.
+/// State of the linear motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct LinearState {
     /// Current and speed, per unit.
     pub state: Pair,
     /// Angle, counts.
     pub angle: f64,
 }
 
-/// The sum of the angles of some samples, counts, and how large what was added up is.
+/// Sum of the angles of some samples, counts, and the sum of the magnitudes of its terms.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Summed {
+pub struct AngleSum {
     /// The sum.
     pub sum: f64,
     /// Magnitudes of its terms.
@@ -170,26 +173,26 @@ pub struct Summed {
 
 /// Angles of the samples of a stride above that of the first, counts.
 #[derive(Clone, Copy)]
-pub struct Ahead {
+pub struct StrideAngles {
     /// By current and by speed at the first.
     pub by_state: [[f64; STRIDE]; 2],
     /// By the command.
     pub by_command: [f64; STRIDE],
 }
 
-/// What the first strides add, from none of them on: a motor's place where each begins.
-pub struct Begins {
+/// The states at the first samples of the strides of a group, by the state at the start of the first.
+pub struct StrideStarts {
     /// To the state, by state and by command.
-    pub state: [[Abreast; 2]; 2],
+    pub state: [[PerStart; 2]; 2],
     /// See [`state`](Self::state).
-    pub state_by_command: [Abreast; 2],
+    pub state_by_command: [PerStart; 2],
     /// To the angle, counts.
-    pub angle: [Abreast; 2],
+    pub angle: [PerStart; 2],
     /// See [`angle`](Self::angle).
-    pub angle_by_command: Abreast,
+    pub angle_by_command: PerStart,
 }
 
-impl Held {
+impl HoldResponse {
     /// `None` for motors whose modes grow.
     // Inlined, as what it makes is large to be handed on.
     #[inline(always)]
@@ -197,50 +200,50 @@ impl Held {
         let mut span = Span::of_step(step);
         let spans: [Span; SPANS] = std::array::from_fn(|doubling| {
             if doubling > 0 {
-                span = span.twice();
+                span = span.doubled();
             }
             span
         });
-        let stride = &spans[OF_STRIDE].state;
+        let stride = &spans[STRIDE_SPAN].state;
         let by_trace = stride[0][0] + stride[1][1];
         let gap = determinant(stride);
         let determinant = 1.0 + by_trace + gap;
         // Both modes within the unit circle; infinities and NaN are not.
         let settles = gap > 0.0 && determinant < 1.0 && 2.0 + by_trace + determinant > -1.0;
-        settles.then_some(Held { spans })
+        settles.then_some(HoldResponse { spans })
     }
 
-    /// Of a step.
+    /// Span of one sample.
     pub fn step(&self) -> &Span {
         &self.spans[0]
     }
 
-    /// Of a stride.
+    /// Span of a stride.
     #[inline(always)]
     pub fn stride(&self) -> &Span {
-        &self.spans[OF_STRIDE]
+        &self.spans[STRIDE_SPAN]
     }
 
-    /// Of as many strides as begin abreast.
+    /// Span of a group of strides.
     #[inline(always)]
-    pub fn abreast(&self) -> &Span {
-        &self.spans[OF_BEGINS]
+    pub fn group(&self) -> &Span {
+        &self.spans[GROUP_SPAN]
     }
 
-    /// The spans from a stride on.
-    pub fn strides(&self) -> &[Span] {
-        &self.spans[OF_STRIDE..]
-    }
-
-    /// Where a command leads in so many samples, and what their angles sum to.
+    /// The state after `samples` samples, and the sum of their angles.
     #[inline(always)]
-    pub fn lead(&self, from: Place, command: f64, samples: usize) -> (Place, Summed) {
-        let (mut place, mut summed) = (from, Summed::default());
+    pub fn advance(
+        &self,
+        from: LinearState,
+        command: f64,
+        samples: usize,
+    ) -> (LinearState, AngleSum) {
+        let (mut motor, mut angle_sum) = (from, AngleSum::default());
         let mut go = |span: &Span| {
-            let some = span.summed(place, command);
-            summed.sum += some.sum;
-            summed.terms += some.terms;
-            place = span.on(place, command);
+            let some = span.angle_sum(motor, command);
+            angle_sum.sum += some.sum;
+            angle_sum.terms += some.terms;
+            motor = span.advance(motor, command);
         };
         let longest = SPANS - 1;
         for _ in 0..samples >> longest {
@@ -251,18 +254,18 @@ impl Held {
             go(&self.spans[rest.trailing_zeros() as usize]);
             rest &= rest - 1;
         }
-        (place, summed)
+        (motor, angle_sum)
     }
 
-    /// The angles of a stride.
+    /// The angles in a stride.
     #[inline(always)]
-    pub fn ahead(&self) -> Ahead {
-        let mut ahead = Ahead {
+    pub fn stride_angles(&self) -> StrideAngles {
+        let mut ahead = StrideAngles {
             by_state: [[0.0; STRIDE]; 2],
             by_command: [0.0; STRIDE],
         };
-        for (doubling, span) in self.spans[..OF_STRIDE].iter().enumerate() {
-            further(
+        for (doubling, span) in self.spans[..STRIDE_SPAN].iter().enumerate() {
+            double_table(
                 span,
                 1 << doubling,
                 &mut ahead.by_state,
@@ -274,21 +277,21 @@ impl Held {
         ahead
     }
 
-    /// Where strides begin.
+    /// The states at which the strides of a group start.
     #[inline(always)]
-    pub fn begins(&self) -> Begins {
-        let none = [0.0; BEGINS];
-        let mut begins = Begins {
+    pub fn stride_starts(&self) -> StrideStarts {
+        let none = [0.0; STARTS];
+        let mut begins = StrideStarts {
             state: [[none; 2]; 2],
             state_by_command: [none; 2],
             angle: [none; 2],
             angle_by_command: none,
         };
-        for (doubling, span) in self.spans[OF_STRIDE..OF_BEGINS].iter().enumerate() {
+        for (doubling, span) in self.spans[STRIDE_SPAN..GROUP_SPAN].iter().enumerate() {
             let known = 1 << doubling;
             for k in 0..2 {
                 let (rows, by) = (&mut begins.state[k], &mut begins.state_by_command[k]);
-                further(
+                double_table(
                     span,
                     known,
                     rows,
@@ -298,7 +301,7 @@ impl Held {
                 );
             }
             let (rows, by) = (&mut begins.angle, &mut begins.angle_by_command);
-            further(span, known, rows, by, span.angle, span.angle_by_command);
+            double_table(span, known, rows, by, span.angle, span.angle_by_command);
         }
         begins
     }
@@ -307,7 +310,7 @@ impl Held {
 /// Doubles a table of what so many spans of a length add to something, `added` by state and `driven` by command being what
 /// as many of them add as are known: those, and then the others.
 #[inline(always)]
-fn further<const N: usize>(
+fn double_table<const N: usize>(
     span: &Span,
     known: usize,
     [by_current, by_speed]: &mut [[f64; N]; 2],
@@ -320,7 +323,7 @@ fn further<const N: usize>(
     let (command, command_on) = by_command.split_at_mut(known);
     for k in 0..known {
         let row = [current[k], speed[k]];
-        let more = across(row, &span.state);
+        let more = row_times(row, &span.state);
         current_on[k] = added[0] + (row[0] + more[0]);
         speed_on[k] = added[1] + (row[1] + more[1]);
         command_on[k] = driven + (command[k] + dot(row, span.state_by_command));

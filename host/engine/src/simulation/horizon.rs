@@ -1,0 +1,65 @@
+//! How far a model runs on its own, and what is known of where it starts.
+
+use super::propagator::Mode;
+use crate::data::Data;
+use std::ops::Range;
+
+/// How long the model runs before it is set back to the measurement.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Horizon {
+    /// Never: from the first sample to the last, the open-loop error.
+    Whole,
+    /// In windows, each started from the measured angle and speed.
+    Windows(Vec<Window>),
+    /// An observer pulls it towards the measurement; it forgets an error within so many seconds.
+    Observer(f64),
+}
+
+/// One window of a [`Horizon`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Window {
+    /// Its samples.
+    pub range: Range<usize>,
+    /// Measured speed at its first sample, rad/s.
+    pub speed: f64,
+}
+
+impl Horizon {
+    /// How a model is propagated along it.
+    pub(crate) fn mode(&self) -> Mode<'static> {
+        match self {
+            Horizon::Observer(memory_s) => Mode::Observer(*memory_s),
+            Horizon::Whole | Horizon::Windows(_) => Mode::Free,
+        }
+    }
+
+    /// Windows of `seconds`, s, each started at a speed that is measured over `2·half + 1` samples.
+    pub fn windows(data: &Data, seconds: f64, half: usize) -> Self {
+        let mut windows = Vec::new();
+        let mut from = 0;
+        while from + 1 < data.len() {
+            let end = data.time_s[from] + seconds;
+            let to = from + data.time_s[from..].partition_point(|&t| t < end);
+            let to = to.max(from + 2);
+            // A last sample alone would be in no window.
+            let to = if to + 1 < data.len() { to } else { data.len() };
+            let counts_s = data.speed_counts_s(from, half);
+            let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
+            windows.push(Window {
+                range: from..to,
+                speed,
+            });
+            from = to;
+        }
+        Horizon::Windows(windows)
+    }
+}
+
+/// What is known of the angle at the first sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartAngle {
+    /// The lower edge of the encoder's first cell, as in the paper.
+    Known,
+    /// Anywhere in the first cell: each candidate takes its best offset.
+    Free,
+}

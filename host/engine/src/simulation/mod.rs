@@ -1,0 +1,24 @@
+//! A model run along a recording: one candidate, or several at a time in the lanes of vector registers.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `candidate` | a model with all its numbers, and how it is stepped |
+//! | `horizon` | how far it runs on its own, and what is known of its start |
+//! | `segment` | the parts of the recording that a horizon makes |
+//! | `propagator` | the loop over the samples, for one number or for lanes |
+//! | `single` | one candidate |
+//! | `batch` | several candidates |
+
+mod batch;
+mod candidate;
+mod horizon;
+mod propagator;
+mod segment;
+mod single;
+
+pub use batch::Batch;
+pub use candidate::{Candidate, Method};
+pub use horizon::{Horizon, StartAngle, Window};
+pub use propagator::{Mode, Number, Propagator};
+pub use segment::{Segment, segments, whole};
+pub use single::Simulation;

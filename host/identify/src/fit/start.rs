@@ -1,0 +1,187 @@
+//! The problem that a recording and options state, and its start from regression.
+
+use super::options::Options;
+use super::regression::{self, Guess};
+use crate::error::Error;
+use servoid_engine::block_cost::BlockCost;
+use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
+use servoid_io::recording::Drive;
+use shared::discretise::Discretisation;
+use shared::effects::{Kind, Place};
+use shared::motor::Machine;
+
+/// Samples to each side from which the speed at a window's start is taken.
+pub const SPEED_HALF_WIDTH: usize = 4;
+
+/// The problem that `options` state, with its start from regression.
+///
+/// # Errors
+/// [`Error::Failed`] where no regression gives a machine: the recording does not excite the motor.
+pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
+    check(data, options)?;
+    let starts = starts(data, options);
+    let still = starts.best(false);
+    let moving = if may_start_moving(data) && options.window_s.is_none() {
+        starts.best(true)
+    } else {
+        None
+    };
+    let best = match (still, moving) {
+        // A start in motion must earn its unknown.
+        (Some(still), Some(moving)) => {
+            if moving.cost < EARNED * still.cost {
+                moving
+            } else {
+                still
+            }
+        }
+        (Some(only), None) | (None, Some(only)) => only,
+        (None, None) => return Err(no_motor(data, options)),
+    };
+    let mut problem = starts.problem;
+    problem.structure = best.structure;
+    problem.start = Some(best.x);
+    Ok(problem)
+}
+
+/// A speed at the first sample is searched for if it lowers the cost of the start at least to this part.
+const EARNED: f64 = 0.8;
+/// Fewest samples that say anything about a motor.
+const FEWEST_SAMPLES: usize = 10;
+/// Fewest samples in a window.
+const FEWEST_IN_WINDOW: f64 = 8.0;
+
+/// Refuses recordings and options that cannot give a fit, with the reason.
+fn check(data: &Data, options: &Options) -> Result<(), Error> {
+    if data.len() < FEWEST_SAMPLES {
+        return Err(Error::Failed(format!(
+            "{}: {} samples are too few for a motor; record at least {FEWEST_SAMPLES}, better some thousand",
+            data.source,
+            data.len()
+        )));
+    }
+    let least = FEWEST_IN_WINDOW * data.units.interval;
+    match options.window_s {
+        Some(seconds) if seconds < least => Err(Error::Usage(format!(
+            "--window {seconds}: shorter than {FEWEST_IN_WINDOW} samples of {:.6} s; take at least {least:.6}",
+            data.units.interval
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Whether only the negated angle gives a motor.
+pub fn is_reversed(data: &Data, options: &Options) -> bool {
+    let mut reversed = data.clone();
+    for count in &mut reversed.counts {
+        *count = -*count;
+    }
+    starts(data, options).best(false).is_none() && starts(&reversed, options).best(false).is_some()
+}
+
+/// Why no regression gave a machine.
+fn no_motor(data: &Data, options: &Options) -> Error {
+    let reason = if is_reversed(data, options) {
+        "the angle falls where the voltage should raise it: the sign of the angle (or of the voltage) is \
+         reversed; swap the encoder's channels or negate the column"
+    } else if options.method.discretisation == Discretisation::Euler {
+        "no motor fits it even roughly with the Euler step, which is unstable where the sample interval is \
+         longer than about twice the shortest time constant; use --integrator exact"
+    } else {
+        "no motor fits this recording even roughly: the speed does not follow the command. Check the columns \
+         and units, the sign of the angle (positive voltage must raise it), and that the motor was driven"
+    };
+    Error::Failed(format!("{}: {reason}", data.source))
+}
+
+/// A problem, and what regression guesses at.
+struct Starts<'a> {
+    problem: FitProblem<'a>,
+    guesses: Vec<Guess>,
+}
+
+/// A start of the search.
+struct Start {
+    cost: f64,
+    x: Vec<f64>,
+    structure: Structure,
+}
+
+/// The problem, without a start, and the guesses for one.
+fn starts<'a>(data: &'a Data, options: &Options) -> Starts<'a> {
+    let base = base_for(data, &options.effects);
+    let unit = Machine {
+        kb: 1.0,
+        damping: 0.0,
+        inertia: 1.0,
+        electrical: 0.0,
+    };
+    let structure = Structure::around(data, base, &options.effects, &unit, false);
+    let guesses = regression::guesses(data, &structure);
+    let problem = FitProblem {
+        data,
+        structure,
+        cost: options.cost,
+        weight: 1.0,
+        horizon: match options.window_s {
+            Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
+            None => Horizon::Whole,
+        },
+        start_angle: StartAngle::Free,
+        method: options.method,
+        start: None,
+    };
+    Starts { problem, guesses }
+}
+
+impl Starts<'_> {
+    /// The guess that costs least, at rest or in motion at the first sample; `None` where no guess is a motor.
+    fn best(&self, start_speed: bool) -> Option<Start> {
+        let FitProblem {
+            data, structure, ..
+        } = &self.problem;
+        let quick = BlockCost::new(&self.problem);
+        let speed_now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
+            * core::f64::consts::TAU;
+        let start = |guess: &Guess| {
+            let Guess { machine, effects } = guess;
+            let (base, kinds) = (structure.base, &structure.effects);
+            let structure = Structure::around(data, base, kinds, machine, start_speed);
+            let x = structure.coordinates(&structure.values_of(machine, effects, speed_now));
+            Start {
+                cost: quick.cost_of(&structure.candidate(&structure.values(&x))),
+                x,
+                structure,
+            }
+        };
+        let starts = self.guesses.iter().map(start);
+        starts
+            .filter(|start| start.cost.is_finite())
+            .min_by(|a, b| a.cost.total_cmp(&b.cost))
+    }
+}
+
+/// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
+/// coasting with the bridge open, a torque that passes only the one of them, or an effect of the
+/// current, since the current that a speed takes depends on how much of the damping is friction.
+pub fn base_for(data: &Data, effects: &[Kind]) -> Base {
+    let separates = |kind: &Kind| {
+        let mechanical = matches!(
+            kind.description().place,
+            Place::Friction | Place::Torque | Place::Load
+        );
+        mechanical || kind.needs().winding || kind.needs().current
+    };
+    match data.drive {
+        Drive::Current => Base::CurrentDriven,
+        Drive::Voltage => Base::Response {
+            damping: data.coasts() || effects.iter().any(separates),
+        },
+    }
+}
+
+/// Whether the first samples show any motion at all.
+pub(crate) fn may_start_moving(data: &Data) -> bool {
+    let per_interval = data.speed_counts_s(0, SPEED_HALF_WIDTH).abs() * data.units.interval;
+    per_interval * SPEED_HALF_WIDTH as f64 > 1.0
+}
