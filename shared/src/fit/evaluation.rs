@@ -250,13 +250,13 @@ impl<S: Arithmetic> Evaluation<S> {
                 // No compiler that minds the size sees that the loop in the loop is none.
                 let turns = duties.as_flattened().iter().zip(steps.as_flattened());
                 for (&duty, &step) in turns {
-                    at = S::step_row::<false>(&rows, at, duty, step);
+                    at = S::step_row(&rows, at, duty, step);
                     S::collect(&mut sums, at.2);
                 }
             } else {
                 for (duties, steps) in duties.iter().zip(steps) {
                     for (&duty, &step) in duties.iter().zip(steps) {
-                        at = S::step_row::<false>(&rows, at, duty, step);
+                        at = S::step_row(&rows, at, duty, step);
                         S::collect(&mut sums, at.2);
                     }
                 }
@@ -269,7 +269,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let mut periods = (duties.len() - left) * N;
         if N > 1 && left == 0 {
             for (&duty, &step) in rest.iter().zip(rest_steps) {
-                at = S::step_row::<true>(&rows, at, duty, step);
+                at = S::step_row(&rows, at, duty, step);
                 S::collect(&mut sums, at.2);
             }
             periods += rest.len();
@@ -288,7 +288,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let (mut at, mut sums) = ((self.pull, self.speed, self.error), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
-            let mut to = S::step_row::<true>(&rows, at, duty, step);
+            let mut to = S::step_row(&rows, at, duty, step);
             (to.0, to.1) = S::add_sliding((to.0, to.1), &sliding);
             if !S::along(to.1, sliding.sense) {
                 break;

@@ -37,25 +37,17 @@ lanes!(StepMap {
 #[derive(Clone, Copy)]
 pub struct RealMaps<R> {
     driven: LinearMap<R, 2, 2>,
-    coast: LinearMap<R, ALONE, ALONE>,
-    held: LinearMap<R, ALONE, ALONE>,
+    coast: LinearMap<R, 1, 1>,
+    held: LinearMap<R, 1, 1>,
 }
 
-/// States and inputs of a system that has one of each. On a small core another of each, that stays zero: so its maps are made
-/// by the code for two, to the same bits.
-const ALONE: usize = if cfg!(short_multiplier) { 2 } else { 1 };
-
 /// A system of one state and one input.
-fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, ALONE, ALONE> {
-    let none = [[R::zero(); ALONE]; ALONE];
-    let mut system = LinearSystem {
-        states: none,
-        inputs: none,
+fn alone<R: Real>(state: R, input: R) -> LinearSystem<R, 1, 1> {
+    LinearSystem {
+        states: [[state]],
+        inputs: [[input]],
         speed: 0,
-    };
-    system.states[0][0] = state;
-    system.inputs[0][0] = input;
-    system
+    }
 }
 
 /// The motor with the bridge closed: states current and speed, inputs voltage and torque against positive rotation,
@@ -206,9 +198,8 @@ impl<S: Scalar> StepMap<S> {
     }
 
     /// Increments of a substep in which the shaft turns freely, under a held voltage and a held torque against positive
-    /// rotation. A routine where each product is one already: three places call it.
-    #[cfg_attr(short_multiplier, inline(never))]
-    #[cfg_attr(not(short_multiplier), inline(always))]
+    /// rotation.
+    #[inline(always)]
     pub fn step_free(&self, from: &Motion<S>, volts: S, torque: S, open: bool) -> Increment<S> {
         let speed = self.free_speed(from, volts, torque, open);
         let (current, angle) = self.free_current_and_angle(from, volts, torque, open);
@@ -269,19 +260,10 @@ impl<S: Scalar> StepMap<S> {
 
 /// `Σ numbers[k] · by[k]`, from the left.
 #[inline(always)]
-#[cfg(not(short_multiplier))]
 pub fn weighted_sum<S: Scalar, const K: usize>(numbers: &[S; K], by: &[S::Coefficient; K]) -> S {
     let mut sum = numbers[0].times(by[0]);
     for k in 1..K {
         sum = sum + numbers[k].times(by[k]);
     }
     sum
-}
-
-/// The same as a loop and a routine, where each product is one already.
-#[inline(never)]
-#[cfg(short_multiplier)]
-pub fn weighted_sum<S: Scalar>(numbers: &[S], by: &[S::Coefficient]) -> S {
-    let products = numbers.iter().zip(by).map(|(x, &k)| x.times(k));
-    products.reduce(S::add).unwrap_or(S::zero())
 }

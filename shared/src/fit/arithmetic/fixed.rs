@@ -24,81 +24,21 @@ const TRAVEL_POINT: i32 = 18;
 /// Left shift that makes a duty in Q15 an upper word, which has 28 bits below the point.
 const DUTY_SHIFT: i32 = 28 - 15;
 
-/// A row times current, speed and duty, with the bits below the point of all of them.
+/// A row times current, speed and duty; the bits below the point add up.
 #[inline(always)]
-#[cfg(not(short_multiplier))]
-fn inlined(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+fn weighted_sum(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
     let duty = i32::from(duty) << DUTY_SHIFT;
     product(row[0], current) + product(row[1], speed) + product(row[2], duty)
 }
 
-/// The same of halves: those of one weight are summed first, and moved to their place together. The product with a duty is
-/// half the bits, and half the work.
-#[inline(always)]
-#[cfg(short_multiplier)]
-fn inlined(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
-    let halves = |x: i32| (x & 0xffff, x >> 16);
-    let ((c_low, c_high), (s_low, s_high)) = (halves(current), halves(speed));
-    let ((a_low, a_high), (b_low, b_high)) = (halves(row[0]), halves(row[1]));
-    let (d_low, d_high) = halves(row[2]);
-    let times = |a: i32, b: i32| i64::from(a.wrapping_mul(b));
-    let high = (a_high.wrapping_mul(c_high)).wrapping_add(b_high.wrapping_mul(s_high));
-    let cross =
-        times(a_high, c_low) + times(a_low, c_high) + times(b_high, s_low) + times(b_low, s_high);
-    let low =
-        i64::from(a_low.wrapping_mul(c_low) as u32) + i64::from(b_low.wrapping_mul(s_low) as u32);
-    let duty = i32::from(duty);
-    // In all 45 bits: shifted as one.
-    let by_duty = (times(d_high, duty) << 16) + times(d_low, duty);
-    (i64::from(high) << 32)
-        .wrapping_add(cross << 16)
-        .wrapping_add(low)
-        .wrapping_add(raised(by_duty, DUTY_SHIFT))
-}
-
-/// The same as a routine.
-#[cfg_attr(short_multiplier, inline(never))]
-#[cfg_attr(not(short_multiplier), inline(always))]
-fn apart(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
-    inlined(row, current, speed, duty)
-}
-
-/// The same, `APART` if speed matters less than length.
-#[inline(always)]
-fn weighed<const APART: bool>(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
-    if APART {
-        apart(row, current, speed, duty)
-    } else {
-        inlined(row, current, speed, duty)
-    }
-}
-
-/// Where leads saturate, in 1024ths of a count: beyond 65,536 counts. One of more than two million wraps, but it gets there through
-/// dozens of periods with leads that rule the model out.
+/// Where errors saturate, in 1024ths of a count: beyond 65,536 counts. One of more than two million wraps, but it gets there
+/// through dozens of periods whose errors rule the model out.
 const MOST: i32 = 1 << 26;
 
-/// A lead as far as it counts: an instruction where there is one for it.
-#[cfg(not(short_multiplier))]
+/// An error, saturated.
 #[inline(always)]
-fn limited(lead: i32) -> i32 {
-    saturated(lead)
-}
-
-/// The same where a choice in place would cost each period three times as much as a look: few saturate.
-#[cfg(short_multiplier)]
-#[inline(always)]
-fn limited(lead: i32) -> i32 {
-    if (-MOST..MOST).contains(&lead) {
-        lead
-    } else {
-        saturated(lead)
-    }
-}
-
-#[cfg_attr(short_multiplier, cold, inline(never))]
-#[cfg_attr(not(short_multiplier), inline(always))]
-fn saturated(lead: i32) -> i32 {
-    lead.clamp(-MOST, MOST - 1)
+fn limited(error: i32) -> i32 {
+    error.clamp(-MOST, MOST - 1)
 }
 
 /// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
@@ -175,7 +115,7 @@ impl Arithmetic for Fixed {
     }
 
     #[inline(always)]
-    fn step_row<const APART: bool>(
+    fn step_row(
         rows: &FixedRows,
         (current, speed, error): (Fixed, Fixed, i64),
         duty: i16,
@@ -183,18 +123,14 @@ impl Arithmetic for Fixed {
     ) -> (Fixed, Fixed, i64) {
         let (c, s) = (current.word(), speed.word());
         // Upper words have 28 bits below the point, errors 32.
-        let travel = weighed::<APART>(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
+        let travel = weighted_sum(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
         (
             current
                 + Fixed::from_bits(raised(
-                    weighed::<APART>(&rows.current, c, s, duty),
+                    weighted_sum(&rows.current, c, s, duty),
                     CURRENT_SHIFT,
                 )),
-            speed
-                + Fixed::from_bits(raised(
-                    weighed::<APART>(&rows.speed, c, s, duty),
-                    SPEED_SHIFT,
-                )),
+            speed + Fixed::from_bits(raised(weighted_sum(&rows.speed, c, s, duty), SPEED_SHIFT)),
             error
                 .wrapping_add(travel)
                 .wrapping_sub(i64::from(step) << 32),

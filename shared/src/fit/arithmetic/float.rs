@@ -62,7 +62,7 @@ impl Arithmetic for f32 {
     }
 
     #[inline(always)]
-    fn step_row<const APART: bool>(
+    fn step_row(
         &[[a, b, c], [_, _, r], [u, v, w]]: &Self::Rows,
         (pull, speed, error): (f32, f32, f32),
         duty: i16,

@@ -63,9 +63,8 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     -> Sliding<Self>;
     /// Adds these increments to pull and speed.
     fn add_sliding(to: (Self, Self), by: &Sliding<Self>) -> (Self, Self);
-    /// One period without torque on the shaft: pull, speed and error at its end. `APART` chooses shorter code where that is
-    /// slower.
-    fn step_row<const APART: bool>(
+    /// One period without torque on the shaft: pull, speed and error at its end.
+    fn step_row(
         rows: &Self::Rows,
         from: (Self, Self, Self::AngleError),
         duty: i16,
