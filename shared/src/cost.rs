@@ -1,11 +1,11 @@
-//! How far the model is from the recording.
+//! The cost of a model: its distance from the recording.
 
 use crate::encoder::{FLOOR_OFFSET_COUNTS, FLOOR_RMS_COUNTS};
 use crate::model::{Model, State};
 use crate::recording::Recording;
 use crate::scalar::{ErrorValue, Readable, Scalar};
 
-/// What is summed over the samples.
+/// What a sample costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cost {
     /// Integral of the absolute error, as the paper's IAE. The reading is floored; the model is
@@ -18,7 +18,7 @@ pub enum Cost {
     /// Squared distance from the centre of the count's cell.
     Squared,
     /// Negative log likelihood that the angle, with normal noise of this many counts, lies in the
-    /// cell of the count that was read. Uses every bit of information in a quantised reading.
+    /// cell of the count that was read: the likelihood of a quantised reading.
     Interval {
         /// Standard deviation of the noise before quantisation, counts.
         noise_counts: f64,
@@ -66,7 +66,7 @@ fn interval_surprise(error: f64, noise: f64) -> f64 {
     }
 }
 
-/// A cost, or as much of it as was needed to see that it is too high.
+/// A cost, or the partial sum that exceeded the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sum<E> {
     /// Sum over the samples that were run.

@@ -88,7 +88,7 @@ impl<R: Real, const N: usize, const M: usize> LinearSystem<R, N, M> {
         Ok(map)
     }
 
-    /// The map of the part `scale` of the step: `Σ aᵏ/(k+1)!` and `Σ aᵏ/(k+2)!` give all of it.
+    /// The map of the fraction `scale` of the step: `Σ aᵏ/(k+1)!` and `Σ aᵏ/(k+2)!` give all of it.
     fn taylor(&self, length: R, scale: R) -> LinearMap<R, N, M> {
         let one = R::from_f64(1.0);
         let (mut a, mut g) = (self.states, self.inputs);
@@ -163,7 +163,7 @@ fn all_finite<R: Real>(numbers: &[R]) -> bool {
     numbers.iter().all(|x| x.is_finite())
 }
 
-/// All of them times a factor. Of slices, and not by `map`, which a compiler that minds the size makes anew for each shape.
+/// Multiplies all numbers by a factor. On slices: a compiler that optimises for size would copy a `map` for each shape.
 fn multiply<R: Real>(numbers: &mut [R], factor: R) {
     for number in numbers {
         *number = *number * factor;
@@ -174,7 +174,7 @@ fn multiply<R: Real>(numbers: &mut [R], factor: R) {
 ///
 /// # Errors
 /// [`ModelError::Range`] for one that is beyond a quarter of the format's limit.
-// Inlined, and only what it asks is a routine: who does not look at the error is spared its making and its name.
+// Inlined around a routine: a caller that ignores the error is spared the code that makes it.
 #[inline(always)]
 pub fn lower<S: Scalar, R: Real>(
     name: &'static str,
@@ -191,7 +191,7 @@ pub fn lower<S: Scalar, R: Real>(
     }
 }
 
-/// Lowers up to the first number that is beyond a quarter of the limit, and gives that.
+/// Lowers the numbers up to the first one beyond a quarter of the limit, and returns that one.
 fn lower_within<S: Scalar, R: Real>(lowered: &mut [S::Coefficient], row: &[R]) -> Option<R> {
     let limit = R::from_f64(S::LIMIT / 4.0);
     for (lowered, &k) in lowered.iter_mut().zip(row) {
@@ -203,11 +203,11 @@ fn lower_within<S: Scalar, R: Real>(lowered: &mut [S::Coefficient], row: &[R]) -
     None
 }
 
-/// Multipliers, as by [`lower`], of numbers that are kept in other measures: the result of the row times
-/// `row_scale`, and each factor times its entry of `column_scales`.
+/// Multipliers, as by [`lower`], in other measures: the row times `row_scale`, and each entry times its own of
+/// `column_scales`.
 ///
 /// # Errors
-/// As [`lower`], before the scaling: what is large then multiplies what is small.
+/// As [`lower`], before the scaling: a large multiplier then meets a small factor.
 pub fn scaled<S: Scalar, R: Real, const K: usize>(
     name: &'static str,
     row: [R; K],

@@ -1,4 +1,4 @@
-//! A recording as the model sees it: per-unit commands, encoder counts, and nothing else.
+//! A recording in the model's units: per-unit commands and encoder counts.
 
 /// One stretch of samples at a constant interval. `command[k]` is held from the reading of
 /// `counts[k]` until that of `counts[k + 1]`.

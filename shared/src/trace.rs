@@ -3,8 +3,8 @@
 /// The duty that stands for an open bridge. Drives stop one short of it.
 pub const OPEN: i16 = i16::MIN;
 
-/// What one step of a duty is worth to a model, whose unit of voltage is a duty of 32,768: the whole supply, or more if
-/// the board says that a smaller duty is the whole supply.
+/// Voltage of a duty of one, per unit. The unit of voltage is a duty of 32,768: the whole supply, or more if the board says
+/// that a smaller duty is the whole supply.
 pub const DUTY: f64 = 1.0 / 32_768.0;
 
 /// A run from standstill: `duties[k]` is held from one reading to the next, which is `steps[k]` counts further.
@@ -14,7 +14,7 @@ pub struct Trace<'a> {
     pub duties: &'a [i16],
     /// Counts travelled in each period.
     pub steps: &'a [i16],
-    /// Periods from the start in which the bridge is closed throughout; fewer are no error, but cost time.
+    /// Periods from the start in which the bridge is closed throughout; a smaller number is no error, but costs time.
     pub closed: usize,
 }
 

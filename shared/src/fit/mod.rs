@@ -1,11 +1,11 @@
-//! The fit on the device: swarm or fireflies, then Newton's steps, a slice at a time.
+//! The fit on the device, a slice at a time: swarm or fireflies, then Levenberg and Marquardt's method.
 //!
 //! ```text
 //! trace → space (what is searched, and where) → search → polish → outcome
 //!              └── candidate → rigid motor → evaluation, so many samples a slice
 //! ```
 //!
-//! It searches in what voltage and angle determine: gain and the two time constants, in logarithms, and friction and
+//! It searches over what voltage and angle determine: gain and the two time constants, in logarithms, and friction and
 //! load if asked for. All is per supply, per period and in counts: a device need not know its supply voltage nor its
 //! encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
 //! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
@@ -60,7 +60,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// What suits most motors.
+    /// Settings that suit most motors.
     pub const USUAL: Settings = Settings {
         method: Method::Firefly,
         population: 20,
@@ -85,7 +85,7 @@ const SWARM: PsoSettings = PsoSettings {
     fastest: 1.0,
 };
 
-/// Where the fit is; one stage after another in the same room.
+/// The stage of the fit; all stages share the same memory.
 // The first is a zero at the front, see `Room`.
 #[allow(
     clippy::large_enum_variant,
@@ -125,7 +125,7 @@ impl Stage {
         }
     }
 
-    /// The search, while there is one.
+    /// The search, while it runs.
     fn searching(&mut self) -> Option<&mut dyn Optimiser<f32, MOST>> {
         match self {
             Stage::Pso(pso) => Some(pso),
@@ -151,8 +151,8 @@ pub struct Fit<S: Arithmetic> {
 }
 
 impl<S: Arithmetic> Fit<S> {
-    /// Not begun. A fit is begun where it stays: it is larger than what a device has for a stack. All of it is zero, as what a
-    /// static of it begins with.
+    /// Not begun. A fit begins where it stays, because it is larger than a device's stack. All of it is zero, so a static of it
+    /// needs no image.
     pub const fn idle() -> Self {
         Fit {
             settings: Settings {
@@ -174,7 +174,7 @@ impl<S: Arithmetic> Fit<S> {
         }
     }
 
-    /// Begins; says whether there is anything to fit: none if the shaft did not move with the drive.
+    /// Begins a fit. Returns false if the shaft did not move with the drive: there is nothing to fit.
     pub fn begin(&mut self, trace: &Trace<'_>, settings: Settings) -> bool {
         let Some(space) = Space::around(trace, &settings) else {
             return false;
@@ -291,18 +291,17 @@ impl<S: Arithmetic> Fit<S> {
         )
     }
 
-    /// Gets the best motor so far ready to predict with, where the search had its models: the fit is over. Says whether there
-    /// is one.
+    /// Builds the best motor so far, to predict with it; the fit is over. Returns false if there is none.
     pub fn predict(&mut self) -> bool {
         self.asked = false;
         build(&mut self.runs[0], &self.space, &self.best, f32::INFINITY)
     }
 
-    /// The motor that [`predict`](Self::predict) got ready.
+    /// The motor that [`predict`](Self::predict) built.
     pub fn prediction(&mut self) -> Option<&mut Evaluation<S>> {
         self.runs[0].model()
     }
 }
 
-/// Samples that building a model is worth: with friction there are eight maps to make.
+/// Cost of building a model, in samples: with friction there are eight maps to make.
 const BUILD: u32 = 100;

@@ -1,4 +1,4 @@
-//! What is searched, and where.
+//! The search space: unknowns and their ranges.
 //!
 //! The first coordinate is the acceleration from standstill, gain over mechanical time constant: a slow motor's recording
 //! shows that well and either of the two badly, so gain itself would lie along a narrow slanted valley (a swarm of 20 missed

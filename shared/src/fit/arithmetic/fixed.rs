@@ -24,21 +24,21 @@ const TRAVEL_POINT: i32 = 18;
 /// Left shift that makes a duty in Q15 an upper word, which has 28 bits below the point.
 const DUTY_SHIFT: i32 = 28 - 15;
 
-/// A row times current, speed and duty, with the bits below the point of all of them.
+/// A row times current, speed and duty; the bits below the point add up.
 #[inline(always)]
-fn weighted(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
+fn weighted_sum(row: &Row<i32>, current: i32, speed: i32, duty: i16) -> i64 {
     let duty = i32::from(duty) << DUTY_SHIFT;
     product(row[0], current) + product(row[1], speed) + product(row[2], duty)
 }
 
-/// Where leads saturate, in 1024ths of a count: beyond 65,536 counts. One of more than two million wraps, but it gets there through
-/// dozens of periods with leads that rule the model out.
+/// Where errors saturate, in 1024ths of a count: beyond 65,536 counts. One of more than two million wraps, but it gets there
+/// through dozens of periods whose errors rule the model out.
 const MOST: i32 = 1 << 26;
 
-/// A lead as far as it counts.
+/// An error, saturated.
 #[inline(always)]
-fn limited(lead: i32) -> i32 {
-    lead.clamp(-MOST, MOST - 1)
+fn limited(error: i32) -> i32 {
+    error.clamp(-MOST, MOST - 1)
 }
 
 /// `x · 2ⁿ`, word by word: as one shift the compiler would put it into the multipliers, which then had 64 bits.
@@ -123,10 +123,14 @@ impl Arithmetic for Fixed {
     ) -> (Fixed, Fixed, i64) {
         let (c, s) = (current.word(), speed.word());
         // Upper words have 28 bits below the point, errors 32.
-        let travel = weighted(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
+        let travel = weighted_sum(&rows.travel, c, s, duty) >> (TRAVEL_POINT - 4);
         (
-            current + Fixed::from_bits(raised(weighted(&rows.current, c, s, duty), CURRENT_SHIFT)),
-            speed + Fixed::from_bits(raised(weighted(&rows.speed, c, s, duty), SPEED_SHIFT)),
+            current
+                + Fixed::from_bits(raised(
+                    weighted_sum(&rows.current, c, s, duty),
+                    CURRENT_SHIFT,
+                )),
+            speed + Fixed::from_bits(raised(weighted_sum(&rows.speed, c, s, duty), SPEED_SHIFT)),
             error
                 .wrapping_add(travel)
                 .wrapping_sub(i64::from(step) << 32),
