@@ -1,10 +1,12 @@
 //! A start for a fit with given effects: they are added one by one, as a diagnosis adds them. Regression knows nothing of
 //! most effects, and where runs are chaotic a search that begins there ends in the wrong valley.
 
-use super::effort::Effort;
-use super::refit::Refit;
-use super::sketch::Sketch;
-use super::workshop::Workshop;
+use super::candidate::fit::fit_screened;
+use super::candidate::polish::polish;
+use super::context::{Effort, Workshop};
+use super::linear::fit_linear;
+use super::models::{Refit, Sketch};
+use super::screening::screen;
 use crate::fit::Options;
 use servoid_engine::problem::{Candidate, Data};
 use shared::effects::Kind;
@@ -29,8 +31,8 @@ pub fn built_up(
     if effects.is_empty() {
         return None;
     }
-    let mut workshop = Workshop::new(data, data, options, effort);
-    let mut model = workshop.base(options).ok()?;
+    let workshop = Workshop::new(data, data, options, effort);
+    let (workshop, mut model) = fit_linear(workshop, options).ok()?;
     for &kind in effects {
         model = added(&workshop, &model, kind)?;
     }
@@ -39,12 +41,12 @@ pub fn built_up(
 
 fn added(workshop: &Workshop<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
     // Bristles start from dry friction.
-    let dry = (kind == Kind::Lugre).then(|| workshop.sketch(model, Kind::Coulomb, &[]));
+    let dry = (kind == Kind::Lugre).then(|| screen(workshop, model, Kind::Coulomb, &[]));
     let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
-    let sketch = workshop.sketch(model, kind, &dry)?;
-    let refit = workshop.refit(&sketch).ok()?;
+    let sketch = screen(workshop, model, kind, &dry)?;
+    let refit = fit_screened(workshop, &sketch).ok()?;
     if refit.judged().at_floor() {
         return Some(refit);
     }
-    workshop.polish(&refit).ok()
+    polish(workshop, &refit).ok()
 }

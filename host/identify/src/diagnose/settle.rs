@@ -1,6 +1,7 @@
 //! The model that a diagnosis ends with, fitted to its end: parameters with intervals.
 
-use super::{Diagnosis, NOISE_COUNTS, Refit};
+use super::models::{NOISE_COUNTS, Refit};
+use super::outcome::Diagnosis;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, Parameter};
 use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle};

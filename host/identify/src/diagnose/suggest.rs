@@ -1,13 +1,14 @@
 //! One step of a diagnosis on its own: which effects would explain more than a given model does.
 
-use super::descent::Descent;
-use super::evidence;
-use super::extend::extend;
-use super::judge;
-use super::refit::Refit;
-use super::whereabouts::whereabouts;
-use super::workshop::Workshop;
-use super::{Effort, Verdict};
+use super::candidate::descent::Descent;
+use super::candidate::score::score_candidate;
+use super::candidate::search::fit_problem;
+use super::context::{Effort, Workshop};
+use super::explain::evidence;
+use super::models::Refit;
+use super::outcome::Verdict;
+use super::residual_analysis::whereabouts;
+use super::selection::{extend, judge};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
 use servoid_engine::problem::{Candidate, Data, Structure};
@@ -70,7 +71,7 @@ pub fn suggest(
         };
         let without = evidence::without(&refit.candidate, effect);
         let missing = whereabouts(data, &without, &refit.candidate, refit.method)?;
-        let values = evidence::values(&refit, effect);
+        let values = refit.values_of(effect);
         list.push(Suggestion {
             effect,
             evidence: evidence::sentence(effect, &values, &missing),
@@ -101,12 +102,12 @@ fn standing(workshop: &Workshop<'_>, candidate: &Candidate) -> Result<Refit, Err
     );
     let x = structure.values_of(&candidate.machine, &values, candidate.start_speed);
     let x = structure.coordinates(&x);
-    let squares = workshop.problem(&structure, workshop.method).cost(&x);
+    let squares = fit_problem(workshop, &structure, workshop.method).cost(&x);
     let found = Descent {
         x,
         squares,
         evaluations: 1,
     };
     let foreseen = (squares / data.len() as f64).sqrt();
-    workshop.conclude(structure, &found, foreseen, workshop.method)
+    score_candidate(workshop, structure, &found, foreseen, workshop.method)
 }

@@ -4,7 +4,7 @@ use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::report::text::short;
 use plotly::common::{ErrorData, ErrorType, Line, Marker, Mode};
 use plotly::{Plot, Scatter, Trace};
-use servoid_identify::diagnose::whereabouts::{Against, Bin, Map, Whereabouts};
+use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, Whereabouts};
 
 /// Half the width of a drawn interval, standard errors.
 const WIDE: f64 = 2.0;

@@ -4,8 +4,8 @@ use super::json::finite;
 use serde::Serialize;
 use servoid_identify::diagnose::Findings;
 use servoid_identify::diagnose::evidence::plain;
-use servoid_identify::diagnose::whereabouts::whiteness::{AUTOCORRELATION_LIMIT, INPUT_LIMIT};
-use servoid_identify::diagnose::whereabouts::{Bin, Line, Map, Whereabouts, Whiteness};
+use servoid_identify::diagnose::residual_analysis::whiteness::{AUTOCORRELATION_LIMIT, INPUT_LIMIT};
+use servoid_identify::diagnose::residual_analysis::{Bin, Line, Map, Whereabouts, Whiteness};
 
 /// What the linear motor and the last model leave.
 #[derive(Debug, Serialize)]

@@ -7,7 +7,7 @@ use crate::page::{Block, Section};
 use crate::picture;
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Data};
-use servoid_identify::diagnose::whereabouts::{
+use servoid_identify::diagnose::residual_analysis::{
     Correlations, Whereabouts, correlations, whereabouts,
 };
 use shared::effects::{EffectSet, Kind};

@@ -1,0 +1,146 @@
+//! The fit of a screened model by full simulation.
+
+use super::descent::{Descent, PROBE, Settings};
+use super::observer::observe_all;
+use super::score::score_candidate;
+use super::search::{fit_problem, search};
+use crate::diagnose::context::Workshop;
+use crate::diagnose::models::{NOISE_COUNTS, ROOM, Refit, Sketch};
+use crate::error::Error;
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{FitProblem, Horizon, Structure};
+
+/// Of a fit by full simulation.
+const FULL: Settings = Settings {
+    evaluations: 80,
+    tolerance: 1e-3,
+    stride: 2,
+    enough: 0.0,
+    damping: 1e-6,
+    secant: true,
+    probe: PROBE,
+    probed: None,
+    again: true,
+};
+/// Of a stage with a short memory.
+const FADE: Settings = Settings {
+    evaluations: 40,
+    tolerance: 1e-2,
+    stride: 4,
+    enough: f64::INFINITY,
+    damping: 1e-4,
+    secant: true,
+    probe: PROBE,
+    probed: None,
+    again: true,
+};
+/// How long errors are remembered, stage by stage.
+const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
+/// A stage that leaves so many times the error of the one before has lost its way.
+const ASTRAY: f64 = 2.0;
+/// A simulation whose error is so many times the led one's has lost its way.
+pub const LOST: f64 = 3.0;
+/// Tracked scores this near are as good as each other.
+const AS_GOOD: f64 = 0.04;
+
+/// Fits a sketched model by full simulation.
+///
+/// # Errors
+/// [`Error::Failed`] where the model cannot run from there.
+pub fn fit_screened(workshop: &Workshop<'_>, sketch: &Sketch) -> Result<Refit, Error> {
+    let settings = Settings {
+        enough: (workshop.floor * ROOM).powi(2) * workshop.data.len() as f64,
+        ..FULL
+    };
+    let foreseen = sketch.foreseen();
+    let fit = |start: &[f64]| {
+        let found = search_or_fail(
+            workshop,
+            &sketch.structure,
+            start,
+            settings,
+            workshop.method,
+        )?;
+        score_candidate(
+            workshop,
+            sketch.structure.clone(),
+            &found,
+            foreseen,
+            workshop.method,
+        )
+    };
+    // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
+    if workshop.span.window_s.is_some() || sketch.simulated <= LOST * sketch.led.max(NOISE_COUNTS) {
+        return fit(&sketch.x);
+    }
+    let faded = fit_with_growing_memory(workshop, &sketch.structure, &sketch.x);
+    let free = fit(&faded)?;
+    if free.ran().at_floor() {
+        return Ok(free);
+    }
+    // A free run that is chaotic leads the search astray; then what the observer learnt stands.
+    let stand = Descent {
+        squares: 0.0,
+        evaluations: free.evaluations,
+        x: faded,
+    };
+    let faded = score_candidate(
+        workshop,
+        sketch.structure.clone(),
+        &stand,
+        foreseen,
+        workshop.method,
+    )?;
+    let mut both = [free, faded];
+    observe_all(workshop, &mut both);
+    let score = |refit: &Refit| {
+        let errors = refit.tracked.map(|tracked| tracked.errors);
+        errors.map_or(f64::INFINITY, |errors| errors.score())
+    };
+    let [free, faded] = both;
+    Ok(if score(&free) < score(&faded) + AS_GOOD {
+        free
+    } else {
+        faded
+    })
+}
+
+/// Descends with a memory that grows from stage to stage, so that the search meets the rough cost of the
+/// free run only when it is near.
+fn fit_with_growing_memory(workshop: &Workshop<'_>, structure: &Structure, x: &[f64]) -> Vec<f64> {
+    let mut x = x.to_vec();
+    let mut last = f64::INFINITY;
+    for memory_s in MEMORIES_S {
+        let problem = FitProblem {
+            horizon: Horizon::Nudged(memory_s),
+            ..fit_problem(workshop, structure, workshop.method)
+        };
+        let Some(found) = search(workshop, &problem, &x, FADE, workshop.method) else {
+            break;
+        };
+        let rms = (found.squares / workshop.data.len() as f64).sqrt();
+        if rms > ASTRAY * last.max(NOISE_COUNTS) {
+            break;
+        }
+        last = rms;
+        x = found.x;
+    }
+    x
+}
+
+fn search_or_fail(
+    workshop: &Workshop<'_>,
+    structure: &Structure,
+    start: &[f64],
+    settings: Settings,
+    method: Method,
+) -> Result<Descent, Error> {
+    search(
+        workshop,
+        &fit_problem(workshop, structure, method),
+        start,
+        settings,
+        method,
+    )
+    .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", workshop.data.source)))
+}

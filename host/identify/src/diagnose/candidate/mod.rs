@@ -1,0 +1,9 @@
+//! One model with given effects: searched for, scored, and brought to its end.
+
+pub mod continuation;
+pub mod descent;
+pub mod fit;
+pub mod observer;
+pub mod polish;
+pub mod score;
+pub mod search;

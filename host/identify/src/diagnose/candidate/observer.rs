@@ -1,0 +1,83 @@
+//! Errors that are soon forgotten: what models are judged by where their free runs are chaotic.
+//!
+//! The run is held to the readings, so that an error dies away within some time. The longer that is, the less is missed; but
+//! where a shaft slips over detents within it, all models look alike. So models that are compared are held as loosely as the
+//! best of them can follow.
+
+use crate::diagnose::context::Workshop;
+use crate::diagnose::models::{Errors, MEMORIES_S, NOISE_COUNTS, Refit, Tracked};
+use crate::error::Error;
+use servoid_engine::problem::cost::{errors, rms_counts};
+use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use shared::cost::Cost;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// A model follows the readings if it errs by no more than this, counts RMS.
+const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
+
+/// Adds the errors that are forgotten within `memory_s`.
+///
+/// # Errors
+/// As .
+fn observe(workshop: &Workshop<'_>, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
+    if let Some(known) = refit.tracks.iter().find(|known| known.memory_s == memory_s) {
+        refit.tracked = Some(*known);
+        return Ok(());
+    }
+    let tracked = |data: &Data| {
+        errors(
+            data,
+            &Candidate {
+                start_speed: 0.0,
+                start_offset: 0.0,
+                ..refit.candidate
+            },
+            refit.method,
+            &Horizon::Nudged(memory_s),
+            StartAngle::Free,
+            Cost::Squared,
+        )
+        .map(|errors| rms_counts(data, &errors))
+    };
+    let errors = Errors {
+        fitted: tracked(workshop.data)?,
+        held_out: tracked(workshop.held_out)?,
+        floor: FLOOR_RMS_COUNTS,
+    };
+    let tracked = Tracked { errors, memory_s };
+    refit.tracked = Some(tracked);
+    refit.tracks.push(tracked);
+    Ok(())
+}
+
+/// Tracks a model as another one is, which it is to be compared with; not at all if that is not.
+///
+/// # Errors
+/// As .
+pub fn observe_like(
+    workshop: &Workshop<'_>,
+    refit: &mut Refit,
+    other: &Refit,
+) -> Result<(), Error> {
+    match (refit.tracked, other.tracked) {
+        (_, None) => Ok(()),
+        (Some(own), Some(other)) if own.memory_s == other.memory_s => Ok(()),
+        (_, Some(other)) => observe(workshop, refit, other.memory_s),
+    }
+}
+
+/// Tracks all of some models in the same way.
+pub fn observe_all(workshop: &Workshop<'_>, refits: &mut [Refit]) {
+    for memory_s in MEMORIES_S {
+        for refit in refits.iter_mut() {
+            if refit.tracked.is_none_or(|own| own.memory_s != memory_s) {
+                // A model that cannot be tracked keeps the errors of its free runs.
+                let _ = observe(workshop, refit, memory_s);
+            }
+        }
+        let errors = refits.iter().filter_map(|refit| refit.tracked);
+        if errors.into_iter().any(|t| t.errors.fitted < FOLLOWS) {
+            break;
+        }
+    }
+}

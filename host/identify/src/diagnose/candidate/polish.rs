@@ -1,0 +1,117 @@
+//! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
+
+use super::continuation::follow_by_continuation;
+use super::descent::{FINEST, PROBE, Settings};
+use super::observer::observe_like;
+use super::score::{refine_held_out_start, run_errors, score_candidate};
+use super::search::{fit_problem, search};
+use crate::diagnose::context::Workshop;
+use crate::diagnose::models::Refit;
+use crate::error::Error;
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{FitProblem, Horizon};
+
+/// Of one that must converge.
+const LAST: Settings = Settings {
+    evaluations: 120,
+    tolerance: 1e-4,
+    stride: 1,
+    enough: 0.0,
+    damping: 1e-9,
+    secant: false,
+    probe: PROBE,
+    probed: None,
+    again: false,
+};
+/// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
+/// polished.
+const POLISHED: f64 = 5.0;
+/// Factor between step sizes that are compared.
+const FINER: u16 = 4;
+/// A finer step that changes the RMS error by less is not worth its time: counts.
+const STEP_ERROR: f64 = 0.02;
+/// The same as a part of what an error is above a count: such a model lacks something else.
+const STEP_PART: f64 = 0.1;
+
+/// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
+/// converged: what is left then is not the arithmetic's.
+///
+/// # Errors
+/// Where the model cannot run, which it could before.
+pub fn polish(workshop: &Workshop<'_>, refit: &Refit) -> Result<Refit, Error> {
+    if refit.followed > 0.0 {
+        return Ok(refit.clone());
+    }
+    let polished = converge(workshop, refit)?;
+    if polished.tracked.is_none() || polished.ran().at_floor() {
+        return Ok(polished);
+    }
+    // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.
+    if polished.candidate.needs_angle()
+        && let Some(mut followed) = follow_by_continuation(workshop, &polished)
+    {
+        observe_like(workshop, &mut followed, &polished)?;
+        refine_held_out_start(workshop, &mut followed);
+        return Ok(followed);
+    }
+    let free = converge(
+        workshop,
+        &Refit {
+            tracked: None,
+            ..polished.clone()
+        },
+    )?;
+    Ok(if free.ran().at_floor() {
+        Refit {
+            tracked: polished.tracked,
+            ..free
+        }
+    } else {
+        polished
+    })
+}
+
+fn converge(workshop: &Workshop<'_>, refit: &Refit) -> Result<Refit, Error> {
+    let mut best = refit.clone();
+    loop {
+        let method = best.method;
+        let problem = FitProblem {
+            horizon: match best.tracked {
+                Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
+                None => workshop.fitted_horizon.clone(),
+            },
+            ..fit_problem(workshop, &best.structure, method)
+        };
+        let Some(found) = search(workshop, &problem, &best.x, LAST, method) else {
+            return Ok(best);
+        };
+        let polished = score_candidate(
+            workshop,
+            best.structure.clone(),
+            &found,
+            best.foreseen_rms_counts,
+            method,
+        )?;
+        let mut polished = Refit {
+            evaluations: best.evaluations + polished.evaluations,
+            ..polished
+        };
+        observe_like(workshop, &mut polished, &best)?;
+        best = polished;
+        let finer = Method {
+            substeps: method.substeps * FINER,
+            ..method
+        };
+        let (again, ran) = (run_errors(workshop, &best.candidate, finer)?, best.ran());
+        let change = (again.fitted - ran.fitted)
+            .abs()
+            .max((again.held_out - ran.held_out).abs());
+        if best.judged().at_floor()
+            || change < STEP_ERROR.max(STEP_PART * (ran.fitted - 1.0))
+            || finer.substeps > FINEST
+        {
+            return Ok(best);
+        }
+        best.method = finer;
+    }
+}

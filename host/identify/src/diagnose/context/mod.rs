@@ -1,0 +1,83 @@
+//! The recordings and how models are run: what every fit of a diagnosis needs.
+
+mod budget;
+mod motion;
+mod span;
+
+pub use budget::{Effort, USUAL_STEPS};
+pub use motion::Motion;
+pub use span::{Span, floor_counts, moves_both_ways};
+
+use crate::fit::{Options, SPEED_HALF_WIDTH};
+use servoid_engine::problem::simulate::Method;
+use servoid_engine::problem::{Data, Horizon};
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// The recordings and how models are run.
+pub struct Workshop<'a> {
+    /// Fitted.
+    pub data: &'a Data,
+    /// Never fitted.
+    pub held_out: &'a Data,
+    /// The fitted recording's motion.
+    pub motion: Motion,
+    /// How far models run on their own.
+    pub span: Span,
+    /// The same for the fitted recording,
+    pub fitted_horizon: Horizon,
+    /// and for the other.
+    pub held_out_horizon: Horizon,
+    /// RMS error that the reading's own noise makes of a right model, counts.
+    pub floor: f64,
+    /// How models are run at first.
+    pub method: Method,
+    /// How much may be computed.
+    pub effort: &'a Effort<'a>,
+}
+
+impl<'a> Workshop<'a> {
+    /// Prepares. Models are run with one part to a sample, which polishing refines where it
+    /// matters.
+    pub fn new(
+        data: &'a Data,
+        held_out: &'a Data,
+        options: &Options,
+        effort: &'a Effort<'a>,
+    ) -> Self {
+        let span = Span::of(data, options);
+        Workshop {
+            fitted_horizon: horizon(&span, data),
+            held_out_horizon: horizon(&span, held_out),
+            span,
+            floor: FLOOR_RMS_COUNTS,
+            data,
+            held_out,
+            motion: Motion::measured(data),
+            method: Method {
+                substeps: 1,
+                ..options.method
+            },
+            effort,
+        }
+    }
+
+    /// The same for runs over another span.
+    #[must_use]
+    pub fn over(self, span: Span) -> Self {
+        Workshop {
+            fitted_horizon: horizon(&span, self.data),
+            held_out_horizon: horizon(&span, self.held_out),
+            span,
+            floor: FLOOR_RMS_COUNTS,
+            ..self
+        }
+    }
+}
+
+/// How far models run along data on their own.
+fn horizon(span: &Span, data: &Data) -> Horizon {
+    match span.window_s {
+        Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
+        None => Horizon::Whole,
+    }
+}

@@ -1,0 +1,124 @@
+//! Stage 5: the steps from the linear motor to the model that was confirmed. An effect is named only where not too many
+//! others do as well in its place.
+
+use super::candidate::observer::observe_like;
+use super::candidate::score::refine_held_out_start;
+use super::confirmation::Confirmed;
+use super::context::{Workshop, moves_both_ways};
+use super::models::{Refit, same};
+use super::outcome::Step;
+use super::selection::{Level, backward_elimination, judge};
+use super::spectrum::spectrum;
+use shared::effects::Kind;
+
+/// The effects that are named, and the models that they lead to.
+pub struct Named<'a> {
+    /// The recordings.
+    pub context: Workshop<'a>,
+    /// The linear motor.
+    pub base: Refit,
+    /// The effects, in the order in which they were added.
+    pub steps: Vec<Step>,
+    /// The model with all of them.
+    pub last: Refit,
+    /// Models with as many effects as the one that was confirmed, and those in which one of its effects is another.
+    pub rivals: Vec<Refit>,
+    /// The best candidate that was not believed.
+    pub not_named: Option<Kind>,
+}
+
+/// Writes down the steps to the model that was confirmed, up to the first effect that may not be named.
+pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
+    let Confirmed {
+        context,
+        base,
+        levels,
+        chosen,
+        known,
+        not_named,
+    } = confirmed;
+    let (steps, last) = match &chosen {
+        Some(chosen) => steps_to(&context, &base, &levels, chosen, &known),
+        None => (Vec::new(), base.clone()),
+    };
+    Named {
+        context,
+        base,
+        steps,
+        last,
+        rivals: known,
+        not_named,
+    }
+}
+
+/// The steps from `base` to `chosen`, and the model after the last of them.
+fn steps_to(
+    workshop: &Workshop<'_>,
+    base: &Refit,
+    levels: &[Level],
+    chosen: &Refit,
+    known: &[Refit],
+) -> (Vec<Step>, Refit) {
+    let mut observed_base = base.clone();
+    // A motor that cannot be tracked keeps the errors of its free run.
+    let _ = observe_like(workshop, &mut observed_base, chosen);
+    let explained = judge::explained(&observed_base, chosen);
+    // A motor that never reverses cannot tell any of them apart: they are named as one.
+    let as_one = workshop.span.window_s.is_some() && !moves_both_ways(workshop.data);
+    let (mut steps, mut before) = (Vec::new(), base.clone());
+    for (depth, &added) in chosen.effects.iter().enumerate() {
+        let company = judge::company(chosen, added, known);
+        if !as_one && !company.allows(added) {
+            break;
+        }
+        let list = levels
+            .get(depth)
+            .map(|level| &level.models[..])
+            .unwrap_or_default();
+        let Some(after) = model_at(workshop, chosen, depth, list, known) else {
+            break;
+        };
+        let mut candidates = vec![after.clone()];
+        candidates.extend(
+            list.iter()
+                .filter(|m| !same(&m.effects, &after.effects))
+                .cloned(),
+        );
+        let p_values = candidates
+            .iter()
+            .map(|c| judge::p_value(workshop.data, &before, c))
+            .collect();
+        steps.push(Step {
+            added,
+            confidence: explained * company.confidence(),
+            indistinguishable_from: company.alike,
+            candidates,
+            p_values,
+            spectrum: (added == Kind::Cogging).then(|| spectrum(workshop.data, &before.candidate)),
+        });
+        before = after;
+    }
+    (steps, before)
+}
+
+/// The model with the first effects of `chosen` up to that at `depth`: from those that are `known` or in the `list` of
+/// this depth, or fitted now.
+fn model_at(
+    workshop: &Workshop<'_>,
+    chosen: &Refit,
+    depth: usize,
+    list: &[Refit],
+    known: &[Refit],
+) -> Option<Refit> {
+    let prefix = &chosen.effects[..=depth];
+    let after = if depth + 1 == chosen.effects.len() {
+        Some(chosen.clone())
+    } else {
+        let fitted = |model: &&Refit| same(&model.effects, prefix);
+        let made = list.iter().chain(known).find(fitted).cloned();
+        made.or_else(|| backward_elimination::begun(workshop, chosen, depth + 1))
+    };
+    let mut after = after.or(list.first().cloned())?;
+    refine_held_out_start(workshop, &mut after);
+    Some(after)
+}

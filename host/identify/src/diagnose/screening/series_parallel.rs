@@ -1,0 +1,106 @@
+//! A fit of the led model: cheap, smooth, and for that a start only.
+
+use crate::diagnose::context::Motion;
+use servoid_engine::problem::abreast::Run;
+use servoid_engine::problem::course::{Leg, Manner, legs};
+use servoid_engine::problem::simulate::{Candidate, Method, Simulation};
+use servoid_engine::problem::{Data, Horizon, StartAngle, Structure};
+use servoid_engine::solve::Objective;
+use shared::effects::Kind;
+
+/// The led model's error as a function of the unknowns.
+pub struct Led<'a> {
+    /// The recording.
+    pub data: &'a Data,
+    /// Its motion.
+    pub motion: &'a Motion,
+    /// How far the model is led before it is set back to the measured state.
+    pub horizon: &'a Horizon,
+    /// The unknowns.
+    pub structure: Structure,
+    /// How the model is run.
+    pub method: Method,
+}
+
+/// Whether a led model follows this effect: not where motor and load part ways, where commands are
+/// late, or where bristles bend, or the current rises,
+/// within a sample. Those cost little to simulate in full, or are not helped by being led.
+pub fn follows(kind: Kind) -> bool {
+    !matches!(
+        kind,
+        Kind::Compliance | Kind::Backlash | Kind::Delay | Kind::Lugre | Kind::LSat
+    )
+}
+
+impl Led<'_> {
+    /// Model minus measurement in counts, with the best start angle. `None` where the model cannot run.
+    pub fn errors(&self, candidate: &Candidate) -> Option<Vec<f64>> {
+        let simulation = Simulation::new(self.data, candidate, self.coarse()).ok()?;
+        let mut errors = simulation.errors(self.manner(), &self.legs(candidate));
+        self.centre(&mut errors);
+        errors.iter().all(|e| e.is_finite()).then_some(errors)
+    }
+
+    /// One part a sample: what is held at the measured mean needs no more.
+    fn coarse(&self) -> Method {
+        Method {
+            substeps: 1,
+            ..self.method
+        }
+    }
+
+    fn manner(&self) -> Manner<'_> {
+        Manner::Led {
+            seen: &self.motion.seen,
+            turns: &self.motion.turns,
+        }
+    }
+
+    fn legs(&self, candidate: &Candidate) -> Vec<Leg> {
+        legs(self.data, candidate, self.horizon, StartAngle::Free)
+    }
+
+    /// Takes the best start angle of a whole run; in windows the measured one stands.
+    fn centre(&self, errors: &mut [f64]) {
+        let middle = match self.horizon {
+            Horizon::Windows(_) => self.data.centre(0) - self.data.counts[0],
+            _ => errors.iter().sum::<f64>() / errors.len().max(1) as f64,
+        };
+        for error in errors {
+            *error -= middle;
+        }
+    }
+}
+
+impl Objective for Led<'_> {
+    fn dim(&self) -> usize {
+        self.structure.dim()
+    }
+
+    fn cost(&self, x: &[f64]) -> f64 {
+        self.residuals_and_cost(x)
+            .map_or(f64::INFINITY, |(_, cost)| cost)
+    }
+
+    fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let errors = self.errors(&self.structure.candidate(&self.structure.values(x)))?;
+        let cost = errors.iter().map(|e| e * e).sum();
+        Some((errors, cost))
+    }
+
+    fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        let candidate = |x: &[f64]| self.structure.candidate(&self.structure.values(x));
+        let candidates: Vec<Candidate> = moved.iter().map(|x| candidate(x)).collect();
+        let run = Run {
+            data: self.data,
+            method: self.coarse(),
+            manner: self.manner(),
+        };
+        run.changes(
+            &candidate(x),
+            &candidates,
+            |candidate| self.legs(candidate),
+            |_, errors| self.centre(errors),
+        )
+    }
+}

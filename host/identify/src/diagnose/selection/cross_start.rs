@@ -1,0 +1,71 @@
+//! A search that ended early looks like missing physics. So near winners are each begun once more from where
+//! the other one stands, before one of them is believed.
+
+use super::judge::look_alikes;
+use crate::diagnose::candidate::fit::fit_screened;
+use crate::diagnose::candidate::observer::observe_like;
+use crate::diagnose::context::Workshop;
+use crate::diagnose::models::{Refit, Sketch};
+use crate::diagnose::screening::{Found, carried};
+use rayon::prelude::*;
+
+/// A rival whose score is so far behind the best is begun once more.
+const NEAR: f64 = 1.2;
+/// One that gained more than this by it is taken.
+const GAINED: f64 = 0.01;
+/// Rivals that are begun once more.
+const RIVALS: usize = 2;
+
+/// Lets the look-alikes among the first of some models, sorted by score, start from each other's machine and
+/// common parameters, and sorts again.
+pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
+    let Some(best) = models.first().cloned() else {
+        return;
+    };
+    let near = |model: &Refit| model.judged().score() - best.judged().score() < NEAR;
+    let alike = |model: &Refit| match (model.effects.split_last(), best.effects.split_last()) {
+        (Some((&own, rest)), Some((&other, others))) => rest == others && look_alikes(own, other),
+        _ => false,
+    };
+    let places: Vec<usize> = (1..models.len())
+        .filter(|&i| near(&models[i]) && alike(&models[i]))
+        .take(RIVALS)
+        .collect();
+    let Some(&first) = places.first() else {
+        return;
+    };
+    let mut pairs: Vec<(usize, usize)> = places.iter().map(|&i| (i, 0)).collect();
+    if !best.judged().at_floor() {
+        pairs.push((0, first));
+    }
+    let again: Vec<(usize, Refit)> = pairs
+        .par_iter()
+        .filter_map(|&(own, other)| {
+            let refit = from_there(workshop, &models[own], &models[other])?;
+            let gained = models[own].judged().score() - refit.judged().score();
+            (gained > GAINED).then_some((own, refit))
+        })
+        .collect();
+    for (place, refit) in again {
+        models[place] = refit;
+    }
+    models.sort_by(Refit::by_score);
+}
+
+fn found(refit: &Refit) -> Found<'_> {
+    Found {
+        effects: &refit.structure.effects,
+        values: &refit.parameters,
+    }
+}
+
+/// `model`, fitted again from the machine of `other` and those parameters that both know.
+fn from_there(workshop: &Workshop<'_>, model: &Refit, other: &Refit) -> Option<Refit> {
+    let parameters = carried(found(model), found(other));
+    let start = Sketch::standing(model.structure.clone(), &other.candidate, &parameters);
+    let mut refit = fit_screened(workshop, &start).ok()?;
+    refit.foreseen_rms_counts = model.foreseen_rms_counts;
+    observe_like(workshop, &mut refit, model).ok()?;
+    refit.evaluations += model.evaluations;
+    Some(refit)
+}

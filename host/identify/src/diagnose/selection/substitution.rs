@@ -1,0 +1,65 @@
+//! Trying earlier terms against their look-alikes: what was named first was judged without the rest.
+
+use super::judge::{best, is_exact};
+use crate::diagnose::candidate::fit::fit_screened;
+use crate::diagnose::candidate::observer::observe_like;
+use crate::diagnose::context::Workshop;
+use crate::diagnose::models::{Refit, Sketch, same};
+use crate::diagnose::screening::screen;
+use rayon::prelude::*;
+use shared::effects::Kind;
+
+/// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
+/// except those that are in `known` already.
+pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refit]) -> Vec<Refit> {
+    place
+        .description()
+        .look_alikes
+        .par_iter()
+        .filter_map(|name| Kind::by_name(name))
+        .filter(|&kind| kind != Kind::MissedCounts)
+        .filter_map(|kind| swapped(workshop, chosen, place, kind, known))
+        .collect()
+}
+
+/// The model in which `place` is replaced by `kind`; `None` where it is no rival, or known.
+pub fn swapped(
+    workshop: &Workshop<'_>,
+    chosen: &Refit,
+    place: Kind,
+    kind: Kind,
+    known: &[Refit],
+) -> Option<Refit> {
+    if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
+        return None;
+    }
+    if kind == Kind::Lugre && is_exact(chosen, workshop.floor) {
+        return None;
+    }
+    let without = chosen.without(place);
+    let mut set = without.effects.clone();
+    set.push(kind);
+    if known.iter().any(|model| same(&model.effects, &set)) {
+        return None;
+    }
+    // Bristles start from dry friction.
+    let dry = (kind == Kind::Lugre).then(|| screen(workshop, &without, Kind::Coulomb, &[]));
+    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
+    let sketch = screen(workshop, &without, kind, &dry)?;
+    if !sketch.rivals(chosen) {
+        return None;
+    }
+    let mut refit = fit_screened(workshop, &sketch).ok()?;
+    observe_like(workshop, &mut refit, chosen).ok()?;
+    Some(refit)
+}
+
+/// The best of `chosen` and `others`.
+pub fn better(chosen: &Refit, others: &[Refit]) -> Option<Refit> {
+    let mut all: Vec<Refit> = others.to_vec();
+    all.push(chosen.clone());
+    all.sort_by(Refit::by_score);
+    best(&all)
+        .filter(|model| !same(&model.effects, &chosen.effects))
+        .cloned()
+}
