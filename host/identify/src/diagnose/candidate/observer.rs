@@ -18,7 +18,7 @@ const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
 /// Adds the errors that are forgotten within `memory_s`.
 ///
 /// # Errors
-/// As .
+/// Where the model cannot run.
 fn observe(workshop: &Workshop<'_>, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
     if let Some(known) = refit.tracks.iter().find(|known| known.memory_s == memory_s) {
         refit.tracked = Some(*known);
@@ -53,7 +53,7 @@ fn observe(workshop: &Workshop<'_>, refit: &mut Refit, memory_s: f64) -> Result<
 /// Tracks a model as another one is, which it is to be compared with; not at all if that is not.
 ///
 /// # Errors
-/// As .
+/// Where the model cannot run.
 pub fn observe_like(
     workshop: &Workshop<'_>,
     refit: &mut Refit,

@@ -13,7 +13,7 @@ use shared::cost::Cost;
 /// Scores a model where a search ended.
 ///
 /// # Errors
-/// As .
+/// Where the model cannot run.
 pub fn score_candidate(
     workshop: &Workshop<'_>,
     structure: Structure,
@@ -57,7 +57,7 @@ pub fn score_candidate(
 /// Errors of a model over the span that was chosen.
 ///
 /// # Errors
-/// As .
+/// Where the model cannot run.
 pub fn run_errors(
     workshop: &Workshop<'_>,
     candidate: &Candidate,

@@ -23,9 +23,9 @@ pub struct Workshop<'a> {
     pub motion: Motion,
     /// How far models run on their own.
     pub span: Span,
-    /// The same for the fitted recording,
+    /// How far models run along the fitted recording.
     pub fitted_horizon: Horizon,
-    /// and for the other.
+    /// How far models run along the held-out recording.
     pub held_out_horizon: Horizon,
     /// RMS error that the reading's own noise makes of a right model, counts.
     pub floor: f64,
@@ -70,6 +70,24 @@ impl<'a> Workshop<'a> {
             span,
             floor: FLOOR_RMS_COUNTS,
             ..self
+        }
+    }
+
+    /// The same for two other recordings with the same times.
+    pub fn with_recordings<'b>(&self, data: &'b Data, held_out: &'b Data) -> Workshop<'b>
+    where
+        'a: 'b,
+    {
+        Workshop {
+            data,
+            held_out,
+            motion: Motion::measured(data),
+            span: self.span.clone(),
+            fitted_horizon: self.fitted_horizon.clone(),
+            held_out_horizon: self.held_out_horizon.clone(),
+            floor: self.floor,
+            method: self.method,
+            effort: self.effort,
         }
     }
 }

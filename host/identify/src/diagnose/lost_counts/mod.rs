@@ -16,16 +16,18 @@ mod jump_sizes;
 mod laws;
 mod levels;
 mod rate;
+mod repaired;
 mod step;
 
 use crate::diagnose::candidate::descent::{PROBE, Settings};
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::search;
-use crate::diagnose::context::{Motion, Workshop};
+use crate::diagnose::context::Workshop;
 use crate::diagnose::models::{Loss, Losses, Refit};
 use crate::fit::{SPEED_HALF_WIDTH, may_start_moving};
 use detect::Depth;
 use fit_influence::Bent;
+use repaired::{Repaired, lost, repaired};
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle, Structure};
 use servoid_engine::solve::Objective;
@@ -292,59 +294,6 @@ fn problem<'d>(data: &'d Data, structure: &Structure, method: Method) -> FitProb
         start_angle: StartAngle::Free,
         method,
         start: None,
-    }
-}
-
-/// Counts lost up to each sample.
-fn lost(losses: &[Loss], samples: usize) -> Vec<f64> {
-    let mut lost = vec![0.0; samples];
-    for loss in losses {
-        lost[loss.sample] += loss.counts;
-    }
-    let mut sum = 0.0;
-    for value in &mut lost {
-        sum += *value;
-        *value = sum;
-    }
-    lost
-}
-
-/// The recording with the lost counts put back.
-fn repaired(data: &Data, losses: &[Loss]) -> Data {
-    let mut data = data.clone();
-    let lost = lost(losses, data.len());
-    for (count, lost) in data.counts.iter_mut().zip(lost) {
-        *count += lost;
-    }
-    data
-}
-
-/// Both recordings with the lost counts put back.
-struct Repaired {
-    data: Data,
-    held_out: Data,
-}
-
-impl Repaired {
-    fn new(workshop: &Workshop<'_>, losses: &Losses) -> Self {
-        Repaired {
-            data: repaired(workshop.data, &losses.fitted),
-            held_out: repaired(workshop.held_out, &losses.held_out),
-        }
-    }
-
-    fn workshop<'a>(&'a self, of: &Workshop<'a>) -> Workshop<'a> {
-        Workshop {
-            data: &self.data,
-            held_out: &self.held_out,
-            motion: Motion::measured(&self.data),
-            span: of.span.clone(),
-            fitted_horizon: of.fitted_horizon.clone(),
-            held_out_horizon: of.held_out_horizon.clone(),
-            floor: of.floor,
-            method: of.method,
-            effort: of.effort,
-        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! All that a diagnosis found.
 
-use super::{Step, Verdict};
+use super::step::Step;
+use super::verdict::Verdict;
 use crate::diagnose::context::Span;
 use crate::diagnose::models::{NOISE_COUNTS, Refit};
 use shared::effects::Kind;

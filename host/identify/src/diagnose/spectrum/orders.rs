@@ -4,13 +4,11 @@
 //! so a descent must start in the right one. Each order's cosine and sine, as the residual's filter leaves them, are
 //! regressed on by themselves, beside friction each way and corrections of damping and inertia.
 
-use super::waves::{ABREAST, ROWS, Row, each_sample};
+use super::waves::{ABREAST, HIGHEST, ROWS, Row, each_sample};
 use crate::fit::scores::{EquationResidual, equation_residuals};
 use nalgebra::{Matrix2, Matrix4, Matrix4x2, Vector2, Vector4};
 use servoid_engine::problem::{Candidate, Data};
 
-/// Highest order that is looked for.
-pub const HIGHEST: usize = 128;
 /// Filter time of the equation's residual, sample intervals.
 pub const FILTER_SAMPLES: f64 = 3.0;
 /// Fewest samples that must show a line for it to count.

@@ -3,13 +3,14 @@
 //! A torque that repeats with the angle acts on the shaft with its mean over each interval, `(sin kθ₁ − sin kθ₀)/(k(θ₁ − θ₀))`
 //! for a cosine; and what is left of a quick wave, late and worn away, is what the same filter makes of that mean.
 
-use super::orders::HIGHEST;
 use crate::fit::filter::{Behind, Filter};
 use core::array::from_fn;
 use core::f64::consts::TAU;
 use servoid_engine::lanes::with_vectors;
 use servoid_engine::problem::Data;
 
+/// Highest order that is looked for.
+pub const HIGHEST: usize = 128;
 /// Orders side by side.
 pub const ABREAST: usize = 8;
 /// Such rows of orders.
