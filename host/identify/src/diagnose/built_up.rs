@@ -3,9 +3,9 @@
 
 use super::candidate::fit::fit_screened;
 use super::candidate::polish::polish;
-use super::context::{Effort, Workshop};
+use super::context::{Context, Effort};
 use super::linear::fit_linear;
-use super::models::{Refit, Sketch};
+use super::models::{Refit, ScreenedModel};
 use super::screening::screen;
 use crate::fit::Options;
 use servoid_engine::problem::{Candidate, Data};
@@ -31,22 +31,22 @@ pub fn built_up(
     if effects.is_empty() {
         return None;
     }
-    let workshop = Workshop::new(data, data, options, effort);
-    let (workshop, mut model) = fit_linear(workshop, options).ok()?;
+    let context = Context::new(data, data, options, effort);
+    let (context, mut model) = fit_linear(context, options).ok()?;
     for &kind in effects {
-        model = added(&workshop, &model, kind)?;
+        model = added(&context, &model, kind)?;
     }
     Some(model.candidate)
 }
 
-fn added(workshop: &Workshop<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
+fn added(context: &Context<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
     // Bristles start from dry friction.
-    let dry = (kind == Kind::Lugre).then(|| screen(workshop, model, Kind::Coulomb, &[]));
-    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
-    let sketch = screen(workshop, model, kind, &dry)?;
-    let refit = fit_screened(workshop, &sketch).ok()?;
+    let dry = (kind == Kind::Lugre).then(|| screen(context, model, Kind::Coulomb, &[]));
+    let dry: Vec<ScreenedModel> = dry.flatten().into_iter().collect();
+    let screened = screen(context, model, kind, &dry)?;
+    let refit = fit_screened(context, &screened).ok()?;
     if refit.judged().at_floor() {
         return Some(refit);
     }
-    polish(workshop, &refit).ok()
+    polish(context, &refit).ok()
 }

@@ -1,7 +1,7 @@
 //! Stage 4: every effect that was selected must still hold beside the others, against its look-alikes, and against
 //! plainer effects in its place. What was selected first was judged without the rest.
 
-use super::context::Workshop;
+use super::context::Context;
 use super::lost_counts;
 use super::models::Refit;
 use super::selection::{Level, Selected, backward_elimination, nested_models, substitution};
@@ -10,7 +10,7 @@ use shared::effects::Kind;
 /// The model that holds, and what it was tried against.
 pub struct Confirmed<'a> {
     /// The recordings.
-    pub context: Workshop<'a>,
+    pub context: Context<'a>,
     /// The linear motor.
     pub base: Refit,
     /// The levels of the selection up to the one that was believed.
@@ -58,29 +58,29 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
 /// `chosen` or what stands against it better, `several` effects having been selected. Every model that was fitted goes
 /// to `known`.
 fn held_against_others(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     chosen: Refit,
     several: bool,
     known: &mut Vec<Refit>,
 ) -> Refit {
     if !several {
-        return nested_models::plainer(workshop, chosen, known);
+        return nested_models::simplify(context, chosen, known);
     }
-    let mut chosen = backward_elimination::spared(workshop, chosen, known);
+    let mut chosen = backward_elimination::eliminate(context, chosen, known);
     for place in chosen.effects.clone() {
-        workshop.effort.take_stock();
-        let swapped = if chosen.losses.is_some() {
-            lost_counts::beside(workshop, &chosen, |workshop, bare| {
-                substitution::swaps(workshop, bare, place, &[])
+        context.effort.take_stock();
+        let substitutes = if chosen.losses.is_some() {
+            lost_counts::beside(context, &chosen, |context, bare| {
+                substitution::substitutes(context, bare, place, &[])
             })
         } else {
-            substitution::swaps(workshop, &chosen, place, known)
+            substitution::substitutes(context, &chosen, place, known)
         };
-        if let Some(better) = substitution::better(&chosen, &swapped) {
+        if let Some(better) = substitution::better(&chosen, &substitutes) {
             chosen = better;
         }
-        known.extend(swapped);
+        known.extend(substitutes);
     }
-    let chosen = nested_models::plainer(workshop, chosen, known);
-    backward_elimination::spared(workshop, chosen, known)
+    let chosen = nested_models::simplify(context, chosen, known);
+    backward_elimination::eliminate(context, chosen, known)
 }

@@ -67,7 +67,7 @@ use crate::error::Error;
 use crate::fit::Options;
 use conclude::conclude;
 use confirmation::confirm;
-use context::Workshop;
+use context::Context;
 use linear::fit_linear_motor;
 use naming::name_effects;
 use selection::select_effects;
@@ -84,7 +84,7 @@ pub fn diagnose(
     effort: &Effort<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let prepared = Workshop::new(data, held_out, options, effort);
+    let prepared = Context::new(data, held_out, options, effort);
     let linear = fit_linear_motor(prepared, options)?;
     let selected = select_effects(linear, done);
     let confirmed = confirm(selected);

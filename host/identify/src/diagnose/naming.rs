@@ -4,7 +4,7 @@
 use super::candidate::observer::observe_like;
 use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
-use super::context::{Workshop, moves_both_ways};
+use super::context::{Context, moves_both_ways};
 use super::models::{Refit, same};
 use super::outcome::Step;
 use super::selection::{Level, backward_elimination, judge};
@@ -14,7 +14,7 @@ use shared::effects::Kind;
 /// The effects that are named, and the models that they lead to.
 pub struct Named<'a> {
     /// The recordings.
-    pub context: Workshop<'a>,
+    pub context: Context<'a>,
     /// The linear motor.
     pub base: Refit,
     /// The effects, in the order in which they were added.
@@ -53,7 +53,7 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
 
 /// The steps from `base` to `chosen`, and the model after the last of them.
 fn steps_to(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     base: &Refit,
     levels: &[Level],
     chosen: &Refit,
@@ -61,21 +61,21 @@ fn steps_to(
 ) -> (Vec<Step>, Refit) {
     let mut observed_base = base.clone();
     // A motor that cannot be tracked keeps the errors of its free run.
-    let _ = observe_like(workshop, &mut observed_base, chosen);
+    let _ = observe_like(context, &mut observed_base, chosen);
     let explained = judge::explained(&observed_base, chosen);
     // A motor that never reverses cannot tell any of them apart: they are named as one.
-    let as_one = workshop.span.window_s.is_some() && !moves_both_ways(workshop.data);
+    let as_one = context.span.window_s.is_some() && !moves_both_ways(context.data);
     let (mut steps, mut before) = (Vec::new(), base.clone());
     for (depth, &added) in chosen.effects.iter().enumerate() {
-        let company = judge::company(chosen, added, known);
-        if !as_one && !company.allows(added) {
+        let rivals = judge::rivals(chosen, added, known);
+        if !as_one && !rivals.allows(added) {
             break;
         }
         let list = levels
             .get(depth)
             .map(|level| &level.models[..])
             .unwrap_or_default();
-        let Some(after) = model_at(workshop, chosen, depth, list, known) else {
+        let Some(after) = model_at(context, chosen, depth, list, known) else {
             break;
         };
         let mut candidates = vec![after.clone()];
@@ -86,15 +86,15 @@ fn steps_to(
         );
         let p_values = candidates
             .iter()
-            .map(|c| judge::p_value(workshop.data, &before, c))
+            .map(|c| judge::p_value(context.data, &before, c))
             .collect();
         steps.push(Step {
             added,
-            confidence: explained * company.confidence(),
-            indistinguishable_from: company.alike,
+            confidence: explained * rivals.confidence(),
+            indistinguishable_from: rivals.equivalent,
             candidates,
             p_values,
-            spectrum: (added == Kind::Cogging).then(|| spectrum(workshop.data, &before.candidate)),
+            spectrum: (added == Kind::Cogging).then(|| spectrum(context.data, &before.candidate)),
         });
         before = after;
     }
@@ -104,7 +104,7 @@ fn steps_to(
 /// The model with the first effects of `chosen` up to that at `depth`: from those that are `known` or in the `list` of
 /// this depth, or fitted now.
 fn model_at(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     chosen: &Refit,
     depth: usize,
     list: &[Refit],
@@ -116,9 +116,9 @@ fn model_at(
     } else {
         let fitted = |model: &&Refit| same(&model.effects, prefix);
         let made = list.iter().chain(known).find(fitted).cloned();
-        made.or_else(|| backward_elimination::begun(workshop, chosen, depth + 1))
+        made.or_else(|| backward_elimination::with_first(context, chosen, depth + 1))
     };
     let mut after = after.or(list.first().cloned())?;
-    refine_held_out_start(workshop, &mut after);
+    refine_held_out_start(context, &mut after);
     Some(after)
 }

@@ -3,12 +3,12 @@
 use super::candidate::descent::Descent;
 use super::candidate::score::score_candidate;
 use super::candidate::search::fit_problem;
-use super::context::{Effort, Workshop};
+use super::context::{Context, Effort};
 use super::explain::evidence;
 use super::models::Refit;
 use super::outcome::Verdict;
 use super::residual_analysis::whereabouts;
-use super::selection::{extend, judge};
+use super::selection::{extensions, judge};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
 use servoid_engine::problem::{Candidate, Data, Structure};
@@ -51,8 +51,8 @@ pub fn suggest(
     effort: &Effort<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Suggestions, Error> {
-    let workshop = Workshop::new(data, held_out, options, effort);
-    let parent = standing(&workshop, candidate)?;
+    let context = Context::new(data, held_out, options, effort);
+    let parent = standing(&context, candidate)?;
     if parent.judged().at_floor() {
         let verdict = if parent.effects.is_empty() {
             Verdict::Complete
@@ -65,7 +65,7 @@ pub fn suggest(
         });
     }
     let mut list = Vec::new();
-    for refit in extend(&workshop, &[&parent], done) {
+    for refit in extensions(&context, &[&parent], done) {
         let Some(&effect) = refit.effects.last() else {
             continue;
         };
@@ -87,12 +87,12 @@ pub fn suggest(
 }
 
 /// A model as it stands, in the terms of a diagnosis.
-fn standing(workshop: &Workshop<'_>, candidate: &Candidate) -> Result<Refit, Error> {
+fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<Refit, Error> {
     let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
     let values: Vec<f64> = (candidate.effects.iter())
         .flat_map(|(_, values)| values.to_vec())
         .collect();
-    let data = workshop.data;
+    let data = context.data;
     let structure = Structure::around(
         data,
         base_for(data, &effects),
@@ -102,12 +102,12 @@ fn standing(workshop: &Workshop<'_>, candidate: &Candidate) -> Result<Refit, Err
     );
     let x = structure.values_of(&candidate.machine, &values, candidate.start_speed);
     let x = structure.coordinates(&x);
-    let squares = fit_problem(workshop, &structure, workshop.method).cost(&x);
+    let squares = fit_problem(context, &structure, context.method).cost(&x);
     let found = Descent {
         x,
         squares,
         evaluations: 1,
     };
-    let foreseen = (squares / data.len() as f64).sqrt();
-    score_candidate(workshop, structure, &found, foreseen, workshop.method)
+    let predicted = (squares / data.len() as f64).sqrt();
+    score_candidate(context, structure, &found, predicted, context.method)
 }

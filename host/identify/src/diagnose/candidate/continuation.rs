@@ -8,7 +8,7 @@
 use super::descent::{Descent, FINEST, Settings, descend};
 use super::score::score_candidate;
 use super::search::fit_problem;
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::models::{ROOM, Refit};
 use crate::fit::{START_OFFSETS, departure, scores};
 use servoid_engine::problem::simulate::Method;
@@ -38,7 +38,7 @@ const FAR: f64 = 0.1;
 
 /// A model that follows the readings to their end, or as far as can be, from one that does not; `None` where they are lost
 /// early.
-pub fn follow_by_continuation(workshop: &Workshop<'_>, refit: &Refit) -> Option<Refit> {
+pub fn follow_by_continuation(context: &Context<'_>, refit: &Refit) -> Option<Refit> {
     let structure = &refit.structure;
     // What the arithmetic leaves would grow along the run like any other error.
     let method = Method {
@@ -46,15 +46,15 @@ pub fn follow_by_continuation(workshop: &Workshop<'_>, refit: &Refit) -> Option<
         ..refit.method
     };
     let book = |samples: usize, runs: usize| {
-        workshop
+        context
             .effort
             .book((samples * usize::from(method.substeps) * runs) as u64);
     };
     let departs = |x: &[f64]| {
-        book(workshop.data.len(), 1);
+        book(context.data.len(), 1);
         let candidate = structure.candidate(&structure.values(x));
-        let errors = scores::whole(workshop.data, &candidate, method).ok()?;
-        Some(departure(workshop.data, &errors))
+        let errors = scores::whole(context.data, &candidate, method).ok()?;
+        Some(departure(context.data, &errors))
     };
     // Where it began in its cell an observer has forgotten.
     let starts = starts(structure, &refit.x);
@@ -65,21 +65,21 @@ pub fn follow_by_continuation(workshop: &Workshop<'_>, refit: &Refit) -> Option<
         squares: f64::INFINITY,
         evaluations,
     };
-    let noise = workshop.floor * ROOM;
+    let noise = context.floor * ROOM;
     let (mut reached, mut tries) = (0, 0);
     let mut to = departs(&here.x)?;
-    while tries < MOST && to >= FEWEST && to > reached + workshop.data.len() / SHORTEST {
-        if workshop.effort.halted() {
+    while tries < MOST && to >= FEWEST && to > reached + context.data.len() / SHORTEST {
+        if context.effort.halted() {
             break;
         }
         tries += 1;
-        let stretch = workshop.data.first(to);
+        let stretch = context.data.first(to);
         let problem = FitProblem {
             data: &stretch,
             horizon: Horizon::Whole,
-            ..fit_problem(workshop, structure, method)
+            ..fit_problem(context, structure, method)
         };
-        let found = descend(&problem, &here.x, STRETCH, workshop.effort)?;
+        let found = descend(&problem, &here.x, STRETCH, context.effort)?;
         book(to, found.evaluations);
         let evaluations = here.evaluations + found.evaluations;
         if found.squares <= noise * noise * to as f64 {
@@ -95,12 +95,12 @@ pub fn follow_by_continuation(workshop: &Workshop<'_>, refit: &Refit) -> Option<
             to = reached + (to - reached) / 2;
         }
     }
-    let part = reached as f64 / workshop.data.len() as f64;
+    let part = reached as f64 / context.data.len() as f64;
     if part < FAR {
         return None;
     }
-    let foreseen = refit.foreseen_rms_counts;
-    let followed = score_candidate(workshop, structure.clone(), &here, foreseen, method).ok()?;
+    let predicted = refit.foreseen_rms_counts;
+    let followed = score_candidate(context, structure.clone(), &here, predicted, method).ok()?;
     Some(Refit {
         followed: part,
         ..followed

@@ -15,7 +15,7 @@ use servoid_engine::solve::Objective;
 pub struct Settings {
     /// Most evaluations.
     pub evaluations: usize,
-    /// Relative fall of the sum of squares, foreseen or made, at which the search has converged.
+    /// Relative fall of the sum of squares, predicted or made, at which the search has converged.
     pub tolerance: f64,
     /// Only every so manyeth residual enters the Jacobian's products.
     pub stride: usize,
@@ -141,9 +141,9 @@ impl<'a> Search<'a> {
             loop {
                 let before = self.squares;
                 match self.step() {
-                    Outcome::Taken { foreseen } => {
+                    Outcome::Taken { predicted } => {
                         let fall = (before - self.squares) / before;
-                        if fall < self.settings.tolerance && foreseen < self.settings.tolerance {
+                        if fall < self.settings.tolerance && predicted < self.settings.tolerance {
                             if self.fresh {
                                 return;
                             }
@@ -249,7 +249,7 @@ impl<'a> Search<'a> {
         for (&i, step) in free.iter().zip(moved.iter()) {
             to[i] = (to[i] + step).clamp(0.0, 1.0);
         }
-        let foreseen = 2.0 * moved.dot(&pull) - moved.dot(&(&normal * &moved));
+        let predicted = 2.0 * moved.dot(&pull) - moved.dot(&(&normal * &moved));
         let whole = dot(&self.residuals, &self.residuals).max(f64::MIN_POSITIVE);
         if moved.iter().all(|m| *m == 0.0) {
             return Outcome::Nowhere;
@@ -272,8 +272,8 @@ impl<'a> Search<'a> {
             return Outcome::Refused;
         }
         let made = 1.0 - squares / self.squares;
-        let foreseen = foreseen / whole;
-        self.damping = if made > 0.5 * foreseen {
+        let predicted = predicted / whole;
+        self.damping = if made > 0.5 * predicted {
             (self.damping * 0.1).max(DAMPING.0)
         } else {
             self.damping
@@ -281,10 +281,10 @@ impl<'a> Search<'a> {
         self.x = to;
         self.residuals = residuals;
         self.squares = squares;
-        Outcome::Taken { foreseen }
+        Outcome::Taken { predicted }
     }
 
-    /// Broyden's update: the least change of the Jacobian that foresees what was seen, measured in the
+    /// Broyden's update: the least change of the Jacobian that predicts what was seen, measured in the
     /// unknowns' own scales.
     fn update(&mut self, free: &[usize], moved: &DVector<f64>, scale: &[f64], there: &[f64]) {
         let weight: f64 = moved.iter().zip(scale).map(|(m, s)| m * m * s).sum();
@@ -311,8 +311,8 @@ impl<'a> Search<'a> {
 }
 
 enum Outcome {
-    /// The step led down; by how much, relatively, it was foreseen to.
-    Taken { foreseen: f64 },
+    /// The step led down; by how much, relatively, it was predicted to.
+    Taken { predicted: f64 },
     /// It did not.
     Refused,
     /// There is no step.

@@ -4,8 +4,8 @@ use super::descent::{Descent, PROBE, Settings};
 use super::observer::observe_all;
 use super::score::score_candidate;
 use super::search::{fit_problem, search};
-use crate::diagnose::context::Workshop;
-use crate::diagnose::models::{NOISE_COUNTS, ROOM, Refit, Sketch};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{NOISE_COUNTS, ROOM, Refit, ScreenedModel};
 use crate::error::Error;
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon, Structure};
@@ -38,42 +38,44 @@ const FADE: Settings = Settings {
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 /// A stage that leaves so many times the error of the one before has lost its way.
 const ASTRAY: f64 = 2.0;
-/// A simulation whose error is so many times the led one's has lost its way.
+/// A simulation whose error is so many times the series-parallel one's has lost its way.
 pub const LOST: f64 = 3.0;
 /// Tracked scores this near are as good as each other.
 const AS_GOOD: f64 = 0.04;
 
-/// Fits a sketched model by full simulation.
+/// Fits a screened model by full simulation.
 ///
 /// # Errors
 /// [`Error::Failed`] where the model cannot run from there.
-pub fn fit_screened(workshop: &Workshop<'_>, sketch: &Sketch) -> Result<Refit, Error> {
+pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<Refit, Error> {
     let settings = Settings {
-        enough: (workshop.floor * ROOM).powi(2) * workshop.data.len() as f64,
+        enough: (context.floor * ROOM).powi(2) * context.data.len() as f64,
         ..FULL
     };
-    let foreseen = sketch.foreseen();
+    let predicted = screened.predicted();
     let fit = |start: &[f64]| {
         let found = search_or_fail(
-            workshop,
-            &sketch.structure,
+            context,
+            &screened.structure,
             start,
             settings,
-            workshop.method,
+            context.method,
         )?;
         score_candidate(
-            workshop,
-            sketch.structure.clone(),
+            context,
+            screened.structure.clone(),
             &found,
-            foreseen,
-            workshop.method,
+            predicted,
+            context.method,
         )
     };
-    // Where the simulation is far worse than the led model foresaw, the free run has lost its way.
-    if workshop.span.window_s.is_some() || sketch.simulated <= LOST * sketch.led.max(NOISE_COUNTS) {
-        return fit(&sketch.x);
+    // Where the simulation is far worse than the series-parallel model predicted, the free run has lost its way.
+    if context.span.window_s.is_some()
+        || screened.simulated <= LOST * screened.series_parallel.max(NOISE_COUNTS)
+    {
+        return fit(&screened.x);
     }
-    let faded = fit_with_growing_memory(workshop, &sketch.structure, &sketch.x);
+    let faded = fit_with_growing_memory(context, &screened.structure, &screened.x);
     let free = fit(&faded)?;
     if free.ran().at_floor() {
         return Ok(free);
@@ -85,14 +87,14 @@ pub fn fit_screened(workshop: &Workshop<'_>, sketch: &Sketch) -> Result<Refit, E
         x: faded,
     };
     let faded = score_candidate(
-        workshop,
-        sketch.structure.clone(),
+        context,
+        screened.structure.clone(),
         &stand,
-        foreseen,
-        workshop.method,
+        predicted,
+        context.method,
     )?;
     let mut both = [free, faded];
-    observe_all(workshop, &mut both);
+    observe_all(context, &mut both);
     let score = |refit: &Refit| {
         let errors = refit.tracked.map(|tracked| tracked.errors);
         errors.map_or(f64::INFINITY, |errors| errors.score())
@@ -107,18 +109,18 @@ pub fn fit_screened(workshop: &Workshop<'_>, sketch: &Sketch) -> Result<Refit, E
 
 /// Descends with a memory that grows from stage to stage, so that the search meets the rough cost of the
 /// free run only when it is near.
-fn fit_with_growing_memory(workshop: &Workshop<'_>, structure: &Structure, x: &[f64]) -> Vec<f64> {
+fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f64]) -> Vec<f64> {
     let mut x = x.to_vec();
     let mut last = f64::INFINITY;
     for memory_s in MEMORIES_S {
         let problem = FitProblem {
             horizon: Horizon::Nudged(memory_s),
-            ..fit_problem(workshop, structure, workshop.method)
+            ..fit_problem(context, structure, context.method)
         };
-        let Some(found) = search(workshop, &problem, &x, FADE, workshop.method) else {
+        let Some(found) = search(context, &problem, &x, FADE, context.method) else {
             break;
         };
-        let rms = (found.squares / workshop.data.len() as f64).sqrt();
+        let rms = (found.squares / context.data.len() as f64).sqrt();
         if rms > ASTRAY * last.max(NOISE_COUNTS) {
             break;
         }
@@ -129,18 +131,18 @@ fn fit_with_growing_memory(workshop: &Workshop<'_>, structure: &Structure, x: &[
 }
 
 fn search_or_fail(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     structure: &Structure,
     start: &[f64],
     settings: Settings,
     method: Method,
 ) -> Result<Descent, Error> {
     search(
-        workshop,
-        &fit_problem(workshop, structure, method),
+        context,
+        &fit_problem(context, structure, method),
         start,
         settings,
         method,
     )
-    .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", workshop.data.source)))
+    .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", context.data.source)))
 }

@@ -4,7 +4,7 @@
 //! where a shaft slips over detents within it, all models look alike. So models that are compared are held as loosely as the
 //! best of them can follow.
 
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::models::{Errors, MEMORIES_S, NOISE_COUNTS, Refit, Tracked};
 use crate::error::Error;
 use servoid_engine::problem::cost::{errors, rms_counts};
@@ -19,7 +19,7 @@ const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
 ///
 /// # Errors
 /// Where the model cannot run.
-fn observe(workshop: &Workshop<'_>, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
+fn observe(context: &Context<'_>, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
     if let Some(known) = refit.tracks.iter().find(|known| known.memory_s == memory_s) {
         refit.tracked = Some(*known);
         return Ok(());
@@ -40,8 +40,8 @@ fn observe(workshop: &Workshop<'_>, refit: &mut Refit, memory_s: f64) -> Result<
         .map(|errors| rms_counts(data, &errors))
     };
     let errors = Errors {
-        fitted: tracked(workshop.data)?,
-        held_out: tracked(workshop.held_out)?,
+        fitted: tracked(context.data)?,
+        held_out: tracked(context.held_out)?,
         floor: FLOOR_RMS_COUNTS,
     };
     let tracked = Tracked { errors, memory_s };
@@ -54,25 +54,21 @@ fn observe(workshop: &Workshop<'_>, refit: &mut Refit, memory_s: f64) -> Result<
 ///
 /// # Errors
 /// Where the model cannot run.
-pub fn observe_like(
-    workshop: &Workshop<'_>,
-    refit: &mut Refit,
-    other: &Refit,
-) -> Result<(), Error> {
+pub fn observe_like(context: &Context<'_>, refit: &mut Refit, other: &Refit) -> Result<(), Error> {
     match (refit.tracked, other.tracked) {
         (_, None) => Ok(()),
         (Some(own), Some(other)) if own.memory_s == other.memory_s => Ok(()),
-        (_, Some(other)) => observe(workshop, refit, other.memory_s),
+        (_, Some(other)) => observe(context, refit, other.memory_s),
     }
 }
 
 /// Tracks all of some models in the same way.
-pub fn observe_all(workshop: &Workshop<'_>, refits: &mut [Refit]) {
+pub fn observe_all(context: &Context<'_>, refits: &mut [Refit]) {
     for memory_s in MEMORIES_S {
         for refit in refits.iter_mut() {
             if refit.tracked.is_none_or(|own| own.memory_s != memory_s) {
                 // A model that cannot be tracked keeps the errors of its free runs.
-                let _ = observe(workshop, refit, memory_s);
+                let _ = observe(context, refit, memory_s);
             }
         }
         let errors = refits.iter().filter_map(|refit| refit.tracked);

@@ -5,7 +5,7 @@ use super::descent::{FINEST, PROBE, Settings};
 use super::observer::observe_like;
 use super::score::{refine_held_out_start, run_errors, score_candidate};
 use super::search::{fit_problem, search};
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::models::Refit;
 use crate::error::Error;
 use servoid_engine::problem::simulate::Method;
@@ -38,24 +38,24 @@ const STEP_PART: f64 = 0.1;
 ///
 /// # Errors
 /// Where the model cannot run, which it could before.
-pub fn polish(workshop: &Workshop<'_>, refit: &Refit) -> Result<Refit, Error> {
+pub fn polish(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
     if refit.followed > 0.0 {
         return Ok(refit.clone());
     }
-    let polished = converge(workshop, refit)?;
+    let polished = converge(context, refit)?;
     if polished.tracked.is_none() || polished.ran().at_floor() {
         return Ok(polished);
     }
     // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.
     if polished.candidate.needs_angle()
-        && let Some(mut followed) = follow_by_continuation(workshop, &polished)
+        && let Some(mut followed) = follow_by_continuation(context, &polished)
     {
-        observe_like(workshop, &mut followed, &polished)?;
-        refine_held_out_start(workshop, &mut followed);
+        observe_like(context, &mut followed, &polished)?;
+        refine_held_out_start(context, &mut followed);
         return Ok(followed);
     }
     let free = converge(
-        workshop,
+        context,
         &Refit {
             tracked: None,
             ..polished.clone()
@@ -71,22 +71,22 @@ pub fn polish(workshop: &Workshop<'_>, refit: &Refit) -> Result<Refit, Error> {
     })
 }
 
-fn converge(workshop: &Workshop<'_>, refit: &Refit) -> Result<Refit, Error> {
+fn converge(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
     let mut best = refit.clone();
     loop {
         let method = best.method;
         let problem = FitProblem {
             horizon: match best.tracked {
                 Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
-                None => workshop.fitted_horizon.clone(),
+                None => context.fitted_horizon.clone(),
             },
-            ..fit_problem(workshop, &best.structure, method)
+            ..fit_problem(context, &best.structure, method)
         };
-        let Some(found) = search(workshop, &problem, &best.x, LAST, method) else {
+        let Some(found) = search(context, &problem, &best.x, LAST, method) else {
             return Ok(best);
         };
         let polished = score_candidate(
-            workshop,
+            context,
             best.structure.clone(),
             &found,
             best.foreseen_rms_counts,
@@ -96,13 +96,13 @@ fn converge(workshop: &Workshop<'_>, refit: &Refit) -> Result<Refit, Error> {
             evaluations: best.evaluations + polished.evaluations,
             ..polished
         };
-        observe_like(workshop, &mut polished, &best)?;
+        observe_like(context, &mut polished, &best)?;
         best = polished;
         let finer = Method {
             substeps: method.substeps * FINER,
             ..method
         };
-        let (again, ran) = (run_errors(workshop, &best.candidate, finer)?, best.ran());
+        let (again, ran) = (run_errors(context, &best.candidate, finer)?, best.ran());
         let change = (again.fitted - ran.fitted)
             .abs()
             .max((again.held_out - ran.held_out).abs());

@@ -1,7 +1,7 @@
 //! The least-squares problem of a model, and the search for its parameters within the budget.
 
 use super::descent::{Descent, Settings, descend};
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, StartAngle, Structure};
 use servoid_engine::solve::Objective;
@@ -9,16 +9,16 @@ use shared::cost::Cost;
 
 /// The recording, run over the span that was chosen.
 pub fn fit_problem<'a>(
-    workshop: &'a Workshop<'_>,
+    context: &'a Context<'_>,
     structure: &Structure,
     method: Method,
 ) -> FitProblem<'a> {
     FitProblem {
-        data: workshop.data,
+        data: context.data,
         structure: structure.clone(),
         cost: Cost::Squared,
         weight: 1.0,
-        horizon: workshop.fitted_horizon.clone(),
+        horizon: context.fitted_horizon.clone(),
         start_angle: StartAngle::Free,
         method,
         start: None,
@@ -27,14 +27,14 @@ pub fn fit_problem<'a>(
 
 /// Descends, and books what it took. `None` where the model cannot run at the start.
 pub fn search(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     problem: &dyn Objective,
     start: &[f64],
     settings: Settings,
     method: Method,
 ) -> Option<Descent> {
-    let found = descend(problem, start, settings, workshop.effort)?;
-    let steps = workshop.data.len() * usize::from(method.substeps.max(1)) * found.evaluations;
-    workshop.effort.book(steps as u64);
+    let found = descend(problem, start, settings, context.effort)?;
+    let steps = context.data.len() * usize::from(method.substeps.max(1)) * found.evaluations;
+    context.effort.book(steps as u64);
     Some(found)
 }

@@ -14,7 +14,7 @@ use servoid_engine::problem::{Data, Horizon};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// The recordings and how models are run.
-pub struct Workshop<'a> {
+pub struct Context<'a> {
     /// Fitted.
     pub data: &'a Data,
     /// Never fitted.
@@ -35,7 +35,7 @@ pub struct Workshop<'a> {
     pub effort: &'a Effort<'a>,
 }
 
-impl<'a> Workshop<'a> {
+impl<'a> Context<'a> {
     /// Prepares. Models are run with one part to a sample, which polishing refines where it
     /// matters.
     pub fn new(
@@ -45,7 +45,7 @@ impl<'a> Workshop<'a> {
         effort: &'a Effort<'a>,
     ) -> Self {
         let span = Span::of(data, options);
-        Workshop {
+        Context {
             fitted_horizon: horizon(&span, data),
             held_out_horizon: horizon(&span, held_out),
             span,
@@ -64,7 +64,7 @@ impl<'a> Workshop<'a> {
     /// The same for runs over another span.
     #[must_use]
     pub fn over(self, span: Span) -> Self {
-        Workshop {
+        Context {
             fitted_horizon: horizon(&span, self.data),
             held_out_horizon: horizon(&span, self.held_out),
             span,
@@ -74,11 +74,11 @@ impl<'a> Workshop<'a> {
     }
 
     /// The same for two other recordings with the same times.
-    pub fn with_recordings<'b>(&self, data: &'b Data, held_out: &'b Data) -> Workshop<'b>
+    pub fn with_recordings<'b>(&self, data: &'b Data, held_out: &'b Data) -> Context<'b>
     where
         'a: 'b,
     {
-        Workshop {
+        Context {
             data,
             held_out,
             motion: Motion::measured(data),

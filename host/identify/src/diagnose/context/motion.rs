@@ -1,4 +1,4 @@
-//! The motion that was measured, as the effects of a led model want it.
+//! The motion that was measured, as the effects of a series-parallel model want it.
 
 use servoid_engine::problem::Data;
 use shared::model::Seen;

@@ -4,7 +4,7 @@ use super::offset_regressor::{candidate_of, with_offset_regressor};
 use crate::diagnose::candidate::descent::{Descent, PROBE, Settings};
 use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::{fit_problem, search};
-use crate::diagnose::context::{Workshop, floor_counts};
+use crate::diagnose::context::{Context, floor_counts};
 use crate::diagnose::models::Refit;
 use crate::error::Error;
 use crate::fit::{self, Options, base_for};
@@ -29,73 +29,73 @@ const BASE: Settings = Settings {
 /// # Errors
 /// [`Error::Failed`] where no motor fits even roughly.
 pub fn fit_linear<'a>(
-    mut workshop: Workshop<'a>,
+    mut context: Context<'a>,
     options: &Options,
-) -> Result<(Workshop<'a>, Refit), Error> {
+) -> Result<(Context<'a>, Refit), Error> {
     let options = Options {
         effects: Vec::new(),
-        window_s: workshop.span.window_s,
-        method: workshop.method,
+        window_s: context.span.window_s,
+        method: context.method,
         ..options.clone()
     };
-    let problem = started_problem(&workshop, &options)?;
+    let problem = started_problem(&context, &options)?;
     let start = problem.start.clone().unwrap_or_default();
-    let found = search(&workshop, &problem, &start, BASE, workshop.method)
-        .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", workshop.data.source)))?;
+    let found = search(&context, &problem, &start, BASE, context.method)
+        .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", context.data.source)))?;
     let structure = problem.structure;
-    let mut base = scored(&workshop, structure, &found)?;
+    let mut base = scored(&context, structure, &found)?;
     let machine = &base.candidate.machine;
-    let fitted = floor_counts(workshop.data, &workshop.fitted_horizon, machine);
-    let held_out = floor_counts(workshop.held_out, &workshop.held_out_horizon, machine);
-    workshop.floor = fitted.max(held_out);
+    let fitted = floor_counts(context.data, &context.fitted_horizon, machine);
+    let held_out = floor_counts(context.held_out, &context.held_out_horizon, machine);
+    context.floor = fitted.max(held_out);
     if let Some(windowed) = &mut base.windowed {
-        windowed.floor = workshop.floor;
+        windowed.floor = context.floor;
     }
-    Ok((workshop, base))
+    Ok((context, base))
 }
 
 /// The linear motor, fitted again from `machine`, if that explains the recording down to the encoder after all.
 pub fn fit_linear_again(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     base: &Refit,
     machine: &Machine<f64>,
 ) -> Option<Refit> {
     let (kind, speed) = (base.structure.base, base.structure.start_speed);
-    let structure = Structure::around(workshop.data, kind, &[], machine, speed);
+    let structure = Structure::around(context.data, kind, &[], machine, speed);
     let start = structure.values_of(machine, &[], base.candidate.start_speed);
     let start = structure.coordinates(&start);
-    let problem = fit_problem(workshop, &structure, workshop.method);
-    let found = search(workshop, &problem, &start, BASE, workshop.method)?;
-    let again = scored(workshop, structure, &found).ok()?;
+    let problem = fit_problem(context, &structure, context.method);
+    let found = search(context, &problem, &start, BASE, context.method)?;
+    let again = scored(context, structure, &found).ok()?;
     again.judged().at_floor().then_some(again)
 }
 
-fn scored(workshop: &Workshop<'_>, structure: Structure, found: &Descent) -> Result<Refit, Error> {
-    let foreseen = (found.squares / workshop.data.len() as f64).sqrt();
-    score_candidate(workshop, structure, found, foreseen, workshop.method)
+fn scored(context: &Context<'_>, structure: Structure, found: &Descent) -> Result<Refit, Error> {
+    let predicted = (found.squares / context.data.len() as f64).sqrt();
+    score_candidate(context, structure, found, predicted, context.method)
 }
 
 /// The linear motor with a start. A strong offset hides the motor from regression: then it is found beside
 /// one.
 fn started_problem<'a>(
-    workshop: &'a Workshop<'_>,
+    context: &'a Context<'_>,
     options: &Options,
 ) -> Result<FitProblem<'a>, Error> {
-    let plain = fit::problem(workshop.data, options);
+    let plain = fit::problem(context.data, options);
     let Err(error) = plain else { return plain };
-    let Ok(with_offset) = with_offset_regressor(workshop.data, options) else {
+    let Ok(with_offset) = with_offset_regressor(context.data, options) else {
         return Err(error);
     };
     let candidate = candidate_of(&with_offset);
     let speed = with_offset.structure.start_speed;
     let structure = Structure::around(
-        workshop.data,
-        base_for(workshop.data, &[]),
+        context.data,
+        base_for(context.data, &[]),
         &[],
         &candidate.machine,
         speed,
     );
-    let mut problem = fit_problem(workshop, &structure, workshop.method);
+    let mut problem = fit_problem(context, &structure, context.method);
     let values = structure.values_of(&candidate.machine, &[], candidate.start_speed);
     problem.start = Some(structure.coordinates(&values));
     Ok(problem)

@@ -5,7 +5,7 @@ mod offset_regressor;
 
 pub use fit::{fit_linear, fit_linear_again};
 
-use super::context::Workshop;
+use super::context::Context;
 use super::models::Refit;
 use crate::error::Error;
 use crate::fit::Options;
@@ -17,7 +17,7 @@ const OTHER_MOTOR: f64 = 0.2;
 /// The linear motor and what follows from it.
 pub struct Linear<'a> {
     /// The recordings, over the span that the linear motor allows.
-    pub context: Workshop<'a>,
+    pub context: Context<'a>,
     /// The linear motor.
     pub base: Refit,
     /// The same where the search for effects starts: with another gain where a constant beside the motor shows one.
@@ -28,10 +28,7 @@ pub struct Linear<'a> {
 ///
 /// # Errors
 /// [`Error::Failed`] where no motor fits even roughly.
-pub fn fit_linear_motor<'a>(
-    prepared: Workshop<'a>,
-    options: &Options,
-) -> Result<Linear<'a>, Error> {
+pub fn fit_linear_motor<'a>(prepared: Context<'a>, options: &Options) -> Result<Linear<'a>, Error> {
     let (mut context, mut base) = fit_linear(prepared, options)?;
     let beside_offset = (!base.free().at_floor())
         .then(|| regressed_beside_offset(&context, options))

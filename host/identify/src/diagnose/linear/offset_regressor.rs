@@ -1,7 +1,7 @@
 //! The linear motor by regression with a constant voltage beside it: a strong load or offset hides the motor from a
 //! regression without one.
 
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::error::Error;
 use crate::fit::{self, Options, scores};
 use servoid_engine::problem::cost::rms_counts;
@@ -27,17 +27,17 @@ pub fn with_offset_regressor<'a>(
 /// The linear motor as regression sees it beside a constant that drives it, and its RMS error over the
 /// whole recording, counts. A strong load bends a fit without it by orders of magnitude.
 pub fn regressed_beside_offset(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     options: &Options,
 ) -> Option<(Machine<f64>, f64)> {
     let options = Options {
         window_s: None,
-        method: workshop.method,
+        method: context.method,
         ..options.clone()
     };
-    let candidate = candidate_of(&with_offset_regressor(workshop.data, &options).ok()?);
-    let errors = scores::whole(workshop.data, &candidate, workshop.method).ok()?;
-    Some((candidate.machine, rms_counts(workshop.data, &errors)))
+    let candidate = candidate_of(&with_offset_regressor(context.data, &options).ok()?);
+    let errors = scores::whole(context.data, &candidate, context.method).ok()?;
+    Some((candidate.machine, rms_counts(context.data, &errors)))
 }
 
 /// The model that a problem starts from.

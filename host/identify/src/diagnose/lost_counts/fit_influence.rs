@@ -18,24 +18,24 @@ const QUANTUM: f64 = 0.4;
 const DAMPING: f64 = 1e-9;
 
 /// Model minus reading, and how the parameters change it.
-pub struct Bent {
+pub struct FitInfluence {
     /// Model minus reading at each sample, counts.
     pub residual: Vec<f64>,
     /// Columns of its Jacobian, each of unit size from sample to sample; those that do nothing left out.
     pub columns: Vec<Vec<f64>>,
 }
 
-impl Bent {
+impl FitInfluence {
     /// At `x`; `None` where the model cannot run.
     pub fn at(problem: &FitProblem<'_>, x: &[f64]) -> Option<Self> {
         let (residual, _) = problem.residuals_and_cost(x)?;
         let columns = columns(problem, x, &residual);
-        Some(Bent { residual, columns })
+        Some(FitInfluence { residual, columns })
     }
 
-    /// The residual straightened by differences over `lag` samples: few where losses are many, many where
+    /// The residual less what a shift of the parameters does, by differences over `lag` samples: few where losses are many, many where
     /// few are left, since long ones see a small drift.
-    pub fn straightened(&self, lag: usize) -> Vec<f64> {
+    pub fn without_influence(&self, lag: usize) -> Vec<f64> {
         let mut residual = self.residual.clone();
         let shift = shift(&residual, &self.columns, lag);
         for (shift, column) in shift.iter().zip(&self.columns) {

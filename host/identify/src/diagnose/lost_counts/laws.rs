@@ -2,7 +2,7 @@
 //! a counter that loses and one that does not.
 
 use super::found;
-use crate::diagnose::context::{Effort, Workshop};
+use crate::diagnose::context::{Context, Effort};
 use crate::diagnose::linear::fit_linear;
 use crate::diagnose::models::{Loss, Losses};
 use crate::fit::Options;
@@ -51,12 +51,12 @@ fn losses(data: &Data, held_out: &Data) -> Option<(Losses, f64)> {
     let options = Options::default();
     let stop = AtomicBool::new(false);
     let effort = Effort::usual(&stop);
-    let workshop = Workshop::new(data, held_out, &options, &effort);
-    let (workshop, base) = fit_linear(workshop, &options).unwrap();
+    let context = Context::new(data, held_out, &options, &effort);
+    let (context, base) = fit_linear(context, &options).unwrap();
     if base.free().at_floor() {
         return None;
     }
-    let refit = found(&workshop, &base)?;
+    let refit = found(&context, &base)?;
     Some((refit.losses.unwrap(), refit.rms_counts))
 }
 

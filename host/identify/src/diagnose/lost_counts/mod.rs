@@ -22,11 +22,11 @@ mod step;
 use crate::diagnose::candidate::descent::{PROBE, Settings};
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::search;
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::models::{Loss, Losses, Refit};
 use crate::fit::{SPEED_HALF_WIDTH, may_start_moving};
 use detect::Depth;
-use fit_influence::Bent;
+use fit_influence::FitInfluence;
 use repaired::{Repaired, lost, repaired};
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle, Structure};
@@ -64,57 +64,57 @@ const SAMPLES_EACH: usize = 40;
 
 /// The model `parent` with the losses that its residuals show; its parameters are fitted again. `None`
 /// where there are too few jumps, or too many, or where it has losses already.
-pub fn found(workshop: &Workshop<'_>, parent: &Refit) -> Option<Refit> {
-    if !workshop.data.quantised || parent.losses.is_some() {
+pub fn found(context: &Context<'_>, parent: &Refit) -> Option<Refit> {
+    if !context.data.quantised || parent.losses.is_some() {
         return None;
     }
-    with_losses(workshop, parent, parent.effects.len(), &[])
+    with_losses(context, parent, parent.effects.len(), &[])
 }
 
 /// What `work` makes of a model with losses when the lost counts are put back, in each case with the losses
 /// that the recordings then show; the losses keep their place among the effects.
 pub fn beside(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     parent: &Refit,
-    work: impl Fn(&Workshop<'_>, &Refit) -> Vec<Refit>,
+    work: impl Fn(&Context<'_>, &Refit) -> Vec<Refit>,
 ) -> Vec<Refit> {
     let (Some(losses), Some((place, bare))) = (&parent.losses, without(parent)) else {
         return Vec::new();
     };
-    let repaired = Repaired::new(workshop, losses);
-    work(&repaired.workshop(workshop), &bare)
+    let repaired = Repaired::new(context, losses);
+    work(&repaired.context(context), &bare)
         .iter()
         .filter_map(|refit| {
             let place = place.min(refit.effects.len());
-            with_losses(workshop, refit, place, &losses.fitted)
+            with_losses(context, refit, place, &losses.fitted)
         })
         .collect()
 }
 
 /// The model `parent` with losses after `place` of its effects, `known` being those that it was fitted with.
 fn with_losses(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     parent: &Refit,
     place: usize,
     known: &[Loss],
 ) -> Option<Refit> {
     [Depth::Single, Depth::Clear]
         .into_iter()
-        .find_map(|depth| to_depth(workshop, parent, place, known, depth))
+        .find_map(|depth| to_depth(context, parent, place, known, depth))
 }
 
 fn to_depth(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     parent: &Refit,
     place: usize,
     known: &[Loss],
     depth: Depth,
 ) -> Option<Refit> {
-    let mut found = repair(workshop, parent, known, depth)?;
+    let mut found = repair(context, parent, known, depth)?;
     // A better model shows the losses better, and those bring forth a better model.
     if !found.refit.ran().at_floor()
         && found.refit.rms_counts < PROMISING
-        && let Some(again) = repair(workshop, &found.refit, &found.losses.fitted, depth)
+        && let Some(again) = repair(context, &found.refit, &found.losses.fitted, depth)
         && again.refit.rms_counts < found.refit.rms_counts
     {
         found = again;
@@ -149,24 +149,24 @@ impl Repair {
 }
 
 /// Finds the losses that the `parent` shows, and fits it to what it then is about.
-fn repair(workshop: &Workshop<'_>, parent: &Refit, known: &[Loss], depth: Depth) -> Option<Repair> {
+fn repair(context: &Context<'_>, parent: &Refit, known: &[Loss], depth: Depth) -> Option<Repair> {
     let structure = &parent.structure;
-    let (fitted, x) = settled(workshop, parent, known, depth)?;
+    let (fitted, x) = settled(context, parent, known, depth)?;
     let values = structure.values(&x);
-    let held_out = starts(workshop.held_out, structure, &values)
+    let held_out = starts(context.held_out, structure, &values)
         .into_iter()
-        .filter_map(|x| in_recording(workshop.held_out, structure, parent.method, &x, &[], depth))
+        .filter_map(|x| in_recording(context.held_out, structure, parent.method, &x, &[], depth))
         .max_by_key(Vec::len)?;
     let enough = |losses: &[Loss], least: usize| depth == Depth::Single || strong(losses) >= least;
     if held_out.is_empty()
-        || held_out.len() > most(workshop.held_out)
+        || held_out.len() > most(context.held_out)
         || !enough(&fitted, STRONG.1)
         || !enough(&held_out, STRONG.2)
     {
         return None;
     }
     let losses = Losses { fitted, held_out };
-    let repaired = Repaired::new(workshop, &losses);
+    let repaired = Repaired::new(context, &losses);
     let (residual, squares) =
         problem(&repaired.data, structure, parent.method).residuals_and_cost(&x)?;
     let rms = (squares / residual.len() as f64).sqrt();
@@ -175,7 +175,7 @@ fn repair(workshop: &Workshop<'_>, parent: &Refit, known: &[Loss], depth: Depth)
     }
     let speed = speeds(&repaired.data, &residual);
     let (share, threshold) = rate::share_and_threshold(&losses.fitted, &speed);
-    let units = &workshop.data.units;
+    let units = &context.data.units;
     let per_s = threshold / units.interval;
     let bare = Refit {
         candidate: structure.candidate(&values),
@@ -183,7 +183,7 @@ fn repair(workshop: &Workshop<'_>, parent: &Refit, known: &[Loss], depth: Depth)
         ..parent.clone()
     };
     Some(Repair {
-        refit: polish(&repaired.workshop(workshop), &bare).ok()?,
+        refit: polish(&repaired.context(context), &bare).ok()?,
         losses,
         share,
         threshold: per_s / units.counts_per_rev * core::f64::consts::TAU,
@@ -192,7 +192,7 @@ fn repair(workshop: &Workshop<'_>, parent: &Refit, known: &[Loss], depth: Depth)
 
 /// The losses of the fitted recording and the point where the model stands with them.
 fn settled(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     parent: &Refit,
     known: &[Loss],
     depth: Depth,
@@ -201,9 +201,9 @@ fn settled(
     let mut x = parent.x.clone();
     let mut losses = known.to_vec();
     for _ in 0..ROUNDS {
-        let next = in_recording(workshop.data, structure, parent.method, &x, &losses, depth)?;
+        let next = in_recording(context.data, structure, parent.method, &x, &losses, depth)?;
         let few = depth == Depth::Clear && strong(&next) < STRONG.1;
-        if few || next.len() < FEWEST || next.len() > most(workshop.data) {
+        if few || next.len() < FEWEST || next.len() > most(context.data) {
             return None;
         }
         let same = next == losses;
@@ -211,9 +211,9 @@ fn settled(
         if same {
             break;
         }
-        let data = repaired(workshop.data, &losses);
+        let data = repaired(context.data, &losses);
         let problem = problem(&data, structure, parent.method);
-        x = search(workshop, &problem, &x, FIT, parent.method)?.x;
+        x = search(context, &problem, &x, FIT, parent.method)?.x;
     }
     Some((losses, x))
 }
@@ -233,19 +233,19 @@ fn in_recording(
     depth: Depth,
 ) -> Option<Vec<Loss>> {
     let repaired = repaired(data, known);
-    let mut bent = Bent::at(&problem(&repaired, structure, method), x)?;
-    let speed = speeds(&repaired, &bent.residual);
+    let mut influence = FitInfluence::at(&problem(&repaired, structure, method), x)?;
+    let speed = speeds(&repaired, &influence.residual);
     let lag = if known.is_empty() { LAGS.0 } else { LAGS.1 };
-    let mut straight = bent.straightened(lag);
+    let mut straight = influence.without_influence(lag);
     let lost = lost(known, data.len());
-    for ((straight, residual), lost) in straight.iter_mut().zip(&mut bent.residual).zip(lost) {
+    for ((straight, residual), lost) in straight.iter_mut().zip(&mut influence.residual).zip(lost) {
         *straight += lost;
         *residual += lost;
     }
     let found = detect::losses(&straight, &speed, depth)?;
     Some(match depth {
         Depth::Clear => found,
-        Depth::Single => jump_sizes::rounded(&bent.residual, &bent.columns, found),
+        Depth::Single => jump_sizes::rounded(&influence.residual, &influence.columns, found),
     })
 }
 

@@ -1,6 +1,6 @@
 //! The recordings with their lost counts put back.
 
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::models::{Loss, Losses};
 use servoid_engine::problem::Data;
 
@@ -38,15 +38,15 @@ pub struct Repaired {
 
 impl Repaired {
     /// Puts the `losses` back.
-    pub fn new(workshop: &Workshop<'_>, losses: &Losses) -> Self {
+    pub fn new(context: &Context<'_>, losses: &Losses) -> Self {
         Repaired {
-            data: repaired(workshop.data, &losses.fitted),
-            held_out: repaired(workshop.held_out, &losses.held_out),
+            data: repaired(context.data, &losses.fitted),
+            held_out: repaired(context.held_out, &losses.held_out),
         }
     }
 
     /// What models of them are fitted with.
-    pub fn workshop<'a>(&'a self, of: &Workshop<'a>) -> Workshop<'a> {
+    pub fn context<'a>(&'a self, of: &Context<'a>) -> Context<'a> {
         of.with_recordings(&self.data, &self.held_out)
     }
 }

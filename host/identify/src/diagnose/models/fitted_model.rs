@@ -40,7 +40,7 @@ pub struct Refit {
     pub(in crate::diagnose) tracks: Vec<Tracked>,
     /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
     pub followed: f64,
-    /// RMS error that was foreseen before the refit, counts.
+    /// RMS error that was predicted before the refit, counts.
     pub foreseen_rms_counts: f64,
     /// Evaluations spent on it.
     pub evaluations: usize,

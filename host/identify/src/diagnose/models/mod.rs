@@ -10,4 +10,4 @@ pub use errors::{Errors, NOISE_COUNTS, ROOM};
 pub use fitted_model::{Refit, distinct, same};
 pub use losses::{Loss, Losses};
 pub use observer_errors::{MEMORIES_S, Tracked};
-pub use screened_model::Sketch;
+pub use screened_model::ScreenedModel;

@@ -5,14 +5,14 @@ use shared::effects::{Kind, Parameter};
 /// A model's effects, the same one more than once where it is there in several orders, and the values of their
 /// parameters.
 #[derive(Clone, Copy)]
-pub struct Found<'a> {
+pub struct EffectValues<'a> {
     /// The effects.
     pub effects: &'a [Kind],
     /// Their values, one effect after the other.
     pub values: &'a [f64],
 }
 
-impl Found<'_> {
+impl EffectValues<'_> {
     fn parameters(&self) -> Vec<(Kind, &'static Parameter)> {
         let of = |&kind: &Kind| {
             let parameters = kind.description().parameters.iter();
@@ -25,7 +25,7 @@ impl Found<'_> {
 /// The values of `own` with those of `other` in the place of all that both know: parameters of one name, and the
 /// sizes of two effects that stand in each other's place, if they have one unit. Friction and a dead zone of so many
 /// volts are the same to a motor that turns slowly.
-pub fn carried(own: Found<'_>, other: Found<'_>) -> Vec<f64> {
+pub fn with_common_parameters(own: EffectValues<'_>, other: EffectValues<'_>) -> Vec<f64> {
     let theirs = other.parameters();
     let value = |(&(kind, parameter), &value): (&(Kind, &Parameter), &f64)| {
         let common = |&(k, p): &(Kind, &Parameter)| {

@@ -1,20 +1,20 @@
-//! A model with one effect more, fitted roughly: led along the measured motion where that is possible. It
-//! foresees what the effect can explain, and is where the full fit starts.
+//! A model with one effect more, fitted roughly: in series-parallel form, along the measured motion, where that is possible.
+//! It predicts what the effect can explain, and is where the full fit starts.
 
 mod common_parameters;
 mod series_parallel;
 mod starts;
 
-pub use common_parameters::{Found, carried};
+pub use common_parameters::{EffectValues, with_common_parameters};
 
 use crate::diagnose::candidate::descent::{PROBE, Settings};
 use crate::diagnose::candidate::fit::LOST;
 use crate::diagnose::candidate::search::{fit_problem, search};
-use crate::diagnose::context::Workshop;
-use crate::diagnose::models::{NOISE_COUNTS, Refit, Sketch};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{NOISE_COUNTS, Refit, ScreenedModel};
 use crate::diagnose::spectrum::spectrum;
 use crate::fit::base_for;
-use series_parallel::{Led, follows};
+use series_parallel::{SeriesParallel, follows};
 use servoid_engine::problem::Structure;
 use servoid_engine::problem::unknowns::Scale;
 use servoid_engine::solve::Objective;
@@ -24,7 +24,7 @@ use starts::starts;
 
 /// Most orders of a cogging torque in a model.
 const MOST_ORDERS: usize = 5;
-const SKETCH: Settings = Settings {
+const SCREENING: Settings = Settings {
     evaluations: 40,
     tolerance: 5e-3,
     stride: 4,
@@ -38,56 +38,56 @@ const SKETCH: Settings = Settings {
 
 /// Starts that are left after a glance at all of them.
 const GLANCED: usize = 2;
-/// An effect that cannot be led, and leaves more than this part of the error from its first start, gets no other.
+/// An effect that the series-parallel model does not follow, and that leaves more than this part of the error from its first start, gets no other.
 const PROMISING: f64 = 0.9;
 
 /// The model `parent` with `kind` added.
 ///
-/// `dry` are sketches of dry friction, from which bristles start.
+/// `dry` are screened models with dry friction, from which bristles start.
 pub fn screen(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     parent: &Refit,
     kind: Kind,
-    dry: &[Sketch],
-) -> Option<Sketch> {
+    dry: &[ScreenedModel],
+) -> Option<ScreenedModel> {
     let mut effects = parent.structure.effects.clone();
-    let starts = match cogging_orders(workshop, parent, kind) {
+    let starts = match cogging_orders(context, parent, kind) {
         Some(orders) => vec![orders],
-        None => starts(workshop, parent, kind, dry),
+        None => starts(context, parent, kind, dry),
     };
     let own = kind.description().parameters.len();
     let times = starts.first()?.len().div_ceil(own);
     effects.extend(std::iter::repeat_n(kind, times));
-    let structure = structure_near(workshop, &effects, parent);
-    let mut begun: Vec<Sketch> = starts
+    let structure = structure_near(context, &effects, parent);
+    let mut begun: Vec<ScreenedModel> = starts
         .into_iter()
         .map(|start| {
             let mut parameters = parent.parameters.clone();
             parameters.extend(start);
-            Sketch::standing(structure.clone(), &parent.candidate, &parameters)
+            ScreenedModel::standing(structure.clone(), &parent.candidate, &parameters)
         })
         .collect();
     // Where every fit is a simulation, a glance at each start shows which of them is worth one.
     if !follows(kind) && begun.len() > 1 {
-        for sketch in &mut begun {
-            sketch.simulated = free_run_error(workshop, sketch, f64::INFINITY);
+        for screened in &mut begun {
+            screened.simulated = free_run_error(context, screened, f64::INFINITY);
         }
         begun.sort_by(|a, b| a.simulated.total_cmp(&b.simulated));
         begun.truncate(GLANCED);
     }
-    let mut best: Option<Sketch> = None;
+    let mut best: Option<ScreenedModel> = None;
     for start in begun {
-        let Some(sketch) = screen_from(workshop, &structure, start.x) else {
+        let Some(screened) = screen_from(context, &structure, start.x) else {
             continue;
         };
         if best
             .as_ref()
-            .is_none_or(|b| sketch.foreseen() < b.foreseen())
+            .is_none_or(|b| screened.predicted() < b.predicted())
         {
-            best = Some(sketch);
+            best = Some(screened);
         }
         // Further starts are for effects that promise something from the first one, or that do nothing there.
-        let leaves = best.as_ref().map_or(1.0, Sketch::foreseen) / parent.rms_counts;
+        let leaves = best.as_ref().map_or(1.0, ScreenedModel::predicted) / parent.rms_counts;
         if !follows(kind) && leaves > PROMISING {
             break;
         }
@@ -95,71 +95,75 @@ pub fn screen(
     best
 }
 
-/// What a count of a led error is worth in a free run of `parent` (see [`Sketch::worth`]). Near standstill the led
-/// model errs by more than the free run, whatever is added to it.
-pub fn free_run_ratio(workshop: &Workshop<'_>, parent: &Refit) -> f64 {
+/// What a count of a series-parallel error is worth in a free run of `parent` (see [`ScreenedModel::free_run_ratio`]).
+/// Near standstill the series-parallel model errs by more than the free run, whatever is added to it.
+pub fn free_run_ratio(context: &Context<'_>, parent: &Refit) -> f64 {
     // In windows both are set back to the measured state.
-    if workshop.span.window_s.is_some() {
+    if context.span.window_s.is_some() {
         return 1.0;
     }
-    let alone = screen_from(workshop, &parent.structure, parent.x.clone());
-    let led = alone.map_or(f64::INFINITY, |sketch| sketch.led);
-    if !led.is_finite() {
+    let alone = screen_from(context, &parent.structure, parent.x.clone());
+    let series_parallel = alone.map_or(f64::INFINITY, |screened| screened.series_parallel);
+    if !series_parallel.is_finite() {
         return 1.0;
     }
-    (parent.ran().fitted / led.max(NOISE_COUNTS)).min(1.0)
+    (parent.ran().fitted / series_parallel.max(NOISE_COUNTS)).min(1.0)
 }
 
-/// A sketch once more, from where `there` stands and with what it has found.
+/// A screened model once more, from where `there` stands and with what it has found.
 pub fn rescreen(
-    workshop: &Workshop<'_>,
-    sketch: &Sketch,
+    context: &Context<'_>,
+    screened: &ScreenedModel,
     parent: &Refit,
-    there: &Sketch,
-) -> Option<Sketch> {
-    let (own, theirs) = (sketch.values(), there.values());
-    let own = Found {
-        effects: &sketch.structure.effects,
+    there: &ScreenedModel,
+) -> Option<ScreenedModel> {
+    let (own, theirs) = (screened.values(), there.values());
+    let own = EffectValues {
+        effects: &screened.structure.effects,
         values: &own,
     };
-    let theirs = Found {
+    let theirs = EffectValues {
         effects: &there.structure.effects,
         values: &theirs,
     };
-    let structure = structure_near(workshop, own.effects, parent);
-    let start = Sketch::standing(structure, &parent.candidate, &carried(own, theirs));
-    screen_from(workshop, &start.structure, start.x)
+    let structure = structure_near(context, own.effects, parent);
+    let start = ScreenedModel::standing(
+        structure,
+        &parent.candidate,
+        &with_common_parameters(own, theirs),
+    );
+    screen_from(context, &start.structure, start.x)
 }
 
 /// A model that has lost effects, or has others in their place, where it stands.
-pub fn restart(workshop: &Workshop<'_>, rest: &Refit) -> Sketch {
-    let structure = structure_near(workshop, &rest.structure.effects, rest);
-    Sketch::standing(structure, &rest.candidate, &rest.parameters)
+pub fn restart(context: &Context<'_>, rest: &Refit) -> ScreenedModel {
+    let structure = structure_near(context, &rest.structure.effects, rest);
+    ScreenedModel::standing(structure, &rest.candidate, &rest.parameters)
 }
 
 /// The unknowns of a model with `effects` and a machine near that of `there`.
-fn structure_near(workshop: &Workshop<'_>, effects: &[Kind], there: &Refit) -> Structure {
+fn structure_near(context: &Context<'_>, effects: &[Kind], there: &Refit) -> Structure {
     let mut structure = Structure::around(
-        workshop.data,
-        base_for(workshop.data, effects),
+        context.data,
+        base_for(context.data, effects),
         effects,
         &there.candidate.machine,
         there.structure.start_speed,
     );
-    if workshop.span.window_s.is_some() {
-        widen(&mut structure, workshop.data.supply);
+    if context.span.window_s.is_some() {
+        widen(&mut structure, context.data.supply);
     }
     structure
 }
 
 /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
 /// strongest order alone may leave more than it explains.
-fn cogging_orders(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Option<Vec<f64>> {
-    if kind != Kind::Cogging || workshop.span.window_s.is_none() {
+fn cogging_orders(context: &Context<'_>, parent: &Refit, kind: Kind) -> Option<Vec<f64>> {
+    if kind != Kind::Cogging || context.span.window_s.is_none() {
         return None;
     }
     let room = MAX_EFFECTS - parent.structure.effects.len();
-    let lines = spectrum(workshop.data, &parent.candidate).lines;
+    let lines = spectrum(context.data, &parent.candidate).lines;
     let values = lines
         .iter()
         .filter(|line| line.order > 1)
@@ -169,44 +173,52 @@ fn cogging_orders(workshop: &Workshop<'_>, parent: &Refit, kind: Kind) -> Option
 }
 
 /// The same model, fitted roughly from `x`.
-pub fn screen_from(workshop: &Workshop<'_>, structure: &Structure, x: Vec<f64>) -> Option<Sketch> {
-    let samples = workshop.data.len() as f64;
+pub fn screen_from(
+    context: &Context<'_>,
+    structure: &Structure,
+    x: Vec<f64>,
+) -> Option<ScreenedModel> {
+    let samples = context.data.len() as f64;
     if !structure.effects.iter().all(|&kind| follows(kind)) {
         let found = search(
-            workshop,
-            &fit_problem(workshop, structure, workshop.method),
+            context,
+            &fit_problem(context, structure, context.method),
             &x,
-            SKETCH,
-            workshop.method,
+            SCREENING,
+            context.method,
         )?;
-        return Some(Sketch {
+        return Some(ScreenedModel {
             structure: structure.clone(),
             x: found.x,
-            led: f64::INFINITY,
-            worth: 1.0,
+            series_parallel: f64::INFINITY,
+            free_run_ratio: 1.0,
             simulated: (found.squares / samples).sqrt(),
         });
     }
-    let led = Led {
-        data: workshop.data,
-        motion: &workshop.motion,
-        horizon: &workshop.fitted_horizon,
+    let series_parallel = SeriesParallel {
+        data: context.data,
+        motion: &context.motion,
+        horizon: &context.fitted_horizon,
         structure: structure.clone(),
-        method: workshop.method,
+        method: context.method,
     };
-    let found = search(workshop, &led, &x, SKETCH, workshop.method)?;
-    let mut sketch = Sketch::at(structure.clone(), found.x);
-    sketch.led = (found.squares / samples).sqrt();
-    sketch.simulated = free_run_error(workshop, &sketch, LOST * sketch.led.max(NOISE_COUNTS));
-    Some(sketch)
+    let found = search(context, &series_parallel, &x, SCREENING, context.method)?;
+    let mut screened = ScreenedModel::at(structure.clone(), found.x);
+    screened.series_parallel = (found.squares / samples).sqrt();
+    screened.simulated = free_run_error(
+        context,
+        &screened,
+        LOST * screened.series_parallel.max(NOISE_COUNTS),
+    );
+    Some(screened)
 }
 
-/// RMS error of a free run from where a sketch stands, counts; infinite where it is above `limit`.
-pub fn free_run_error(workshop: &Workshop<'_>, sketch: &Sketch, limit: f64) -> f64 {
-    let samples = workshop.data.len() as f64;
+/// RMS error of a free run from where a screened model stands, counts; infinite where it is above `limit`.
+pub fn free_run_error(context: &Context<'_>, screened: &ScreenedModel, limit: f64) -> f64 {
+    let samples = context.data.len() as f64;
     let most = limit * limit * samples;
-    fit_problem(workshop, &sketch.structure, workshop.method)
-        .residuals_within(&sketch.x, most)
+    fit_problem(context, &screened.structure, context.method)
+        .residuals_within(&screened.x, most)
         .filter(|(_, squares)| *squares <= most)
         .map_or(f64::INFINITY, |(_, squares)| (squares / samples).sqrt())
 }

@@ -1,4 +1,4 @@
-//! A fit of the led model: cheap, smooth, and for that a start only.
+//! A fit of the series-parallel model, which is set to the measured motion at each sample: cheap, smooth, and for that a start only.
 
 use crate::diagnose::context::Motion;
 use servoid_engine::problem::abreast::Run;
@@ -8,13 +8,13 @@ use servoid_engine::problem::{Data, Horizon, StartAngle, Structure};
 use servoid_engine::solve::Objective;
 use shared::effects::Kind;
 
-/// The led model's error as a function of the unknowns.
-pub struct Led<'a> {
+/// The series-parallel model's error as a function of the unknowns.
+pub struct SeriesParallel<'a> {
     /// The recording.
     pub data: &'a Data,
     /// Its motion.
     pub motion: &'a Motion,
-    /// How far the model is led before it is set back to the measured state.
+    /// How far the model runs before it is set back to the measured state.
     pub horizon: &'a Horizon,
     /// The unknowns.
     pub structure: Structure,
@@ -22,9 +22,9 @@ pub struct Led<'a> {
     pub method: Method,
 }
 
-/// Whether a led model follows this effect: not where motor and load part ways, where commands are
+/// Whether a series-parallel model follows this effect: not where motor and load part ways, where commands are
 /// late, or where bristles bend, or the current rises,
-/// within a sample. Those cost little to simulate in full, or are not helped by being led.
+/// within a sample. Those cost little to simulate in full, or gain nothing by it.
 pub fn follows(kind: Kind) -> bool {
     !matches!(
         kind,
@@ -32,7 +32,7 @@ pub fn follows(kind: Kind) -> bool {
     )
 }
 
-impl Led<'_> {
+impl SeriesParallel<'_> {
     /// Model minus measurement in counts, with the best start angle. `None` where the model cannot run.
     pub fn errors(&self, candidate: &Candidate) -> Option<Vec<f64>> {
         let simulation = Simulation::new(self.data, candidate, self.coarse()).ok()?;
@@ -72,7 +72,7 @@ impl Led<'_> {
     }
 }
 
-impl Objective for Led<'_> {
+impl Objective for SeriesParallel<'_> {
     fn dim(&self) -> usize {
         self.structure.dim()
     }

@@ -1,7 +1,7 @@
 //! Where the search for a new effect's parameters starts.
 
-use crate::diagnose::context::Workshop;
-use crate::diagnose::models::{Refit, Sketch};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{Refit, ScreenedModel};
 use crate::diagnose::spectrum::orders;
 use shared::effects::Kind;
 use shared::units::Quantity;
@@ -13,12 +13,12 @@ const AMPLITUDE: f64 = 0.5;
 
 /// Starts for the parameters of `kind`, SI, beside the model `parent`.
 pub fn starts(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     parent: &Refit,
     kind: Kind,
-    dry: &[Sketch],
+    dry: &[ScreenedModel],
 ) -> Vec<Vec<f64>> {
-    let data = workshop.data;
+    let data = context.data;
     let parameters = kind.description().parameters;
     let typical: Vec<f64> = parameters
         .iter()
@@ -71,22 +71,23 @@ fn several(kind: Kind) -> Option<&'static [(usize, &'static [f64])]> {
 
 /// Bristles slide as dry friction does: their torque, and what they hold more at rest, start at what dry
 /// friction alone would have.
-fn bristles(parent: &Refit, typical: &[f64], dry: &[Sketch]) -> Vec<Vec<f64>> {
-    let of_parent = |sketch: &&Sketch| sketch.structure.effects.starts_with(&parent.effects);
+fn bristles(parent: &Refit, typical: &[f64], dry: &[ScreenedModel]) -> Vec<Vec<f64>> {
+    let of_parent =
+        |screened: &&ScreenedModel| screened.structure.effects.starts_with(&parent.effects);
     let best = |kind: Kind| {
         dry.iter()
             .filter(of_parent)
-            .find(|sketch| sketch.newest() == Some(kind))
+            .find(|screened| screened.newest() == Some(kind))
     };
-    let own = |sketch: &Sketch, count: usize| {
-        let values = sketch.structure.values(&sketch.x);
-        let values = sketch.structure.effect_values(&values);
+    let own = |screened: &ScreenedModel, count: usize| {
+        let values = screened.structure.values(&screened.x);
+        let values = screened.structure.effect_values(&values);
         values[values.len().saturating_sub(count)..].to_vec()
     };
     let mut starts = Vec::new();
-    if let Some(sketch) = best(Kind::Coulomb) {
+    if let Some(screened) = best(Kind::Coulomb) {
         let mut values = typical.to_vec();
-        values[..1].copy_from_slice(&own(sketch, 1));
+        values[..1].copy_from_slice(&own(screened, 1));
         starts.push(values);
     }
     starts

@@ -6,7 +6,7 @@ use super::nested_models;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
 use crate::diagnose::models::Refit;
 use crate::diagnose::screening::{free_run_error, restart, screen_from};
@@ -17,7 +17,7 @@ const NEAR: f64 = 3.0;
 
 /// `chosen` without the effects that no longer earn their place beside the others. Every model that was fitted
 /// for it goes to `known`.
-pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
+pub fn eliminate(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
     let mut chosen = chosen;
     while chosen.effects.len() > 1 {
         let simpler = chosen
@@ -25,8 +25,8 @@ pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
             .iter()
             .filter(|&&place| place != Kind::MissedCounts)
             .flat_map(|&place| {
-                workshop.effort.take_stock();
-                lessened(workshop, &chosen, place)
+                context.effort.take_stock();
+                without_one(context, &chosen, place)
             })
             .inspect(|model| known.push(model.clone()))
             .filter(|simpler| !removes(simpler, &chosen))
@@ -40,43 +40,41 @@ pub fn spared(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
 }
 
 /// `chosen` without one of its effects.
-fn lessened(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Vec<Refit> {
+fn without_one(context: &Context<'_>, chosen: &Refit, place: Kind) -> Vec<Refit> {
     if chosen.losses.is_some() {
-        return lost_counts::beside(workshop, chosen, |workshop, bare| {
-            lessened(workshop, bare, place)
+        return lost_counts::beside(context, chosen, |context, bare| {
+            without_one(context, bare, place)
         });
     }
-    fitted_without(workshop, chosen, place)
-        .into_iter()
-        .collect()
+    fitted_without(context, chosen, place).into_iter().collect()
 }
 
 /// `chosen` with the first `depth` of its effects only. `None` where it cannot run, or has losses.
-pub fn begun(workshop: &Workshop<'_>, chosen: &Refit, depth: usize) -> Option<Refit> {
+pub fn with_first(context: &Context<'_>, chosen: &Refit, depth: usize) -> Option<Refit> {
     if chosen.losses.is_some() {
         return None;
     }
     let drop = |rest: Refit, &place: &Kind| rest.without(place);
     let rest = chosen.effects[depth..].iter().fold(chosen.clone(), drop);
-    fit_screened(workshop, &restart(workshop, &rest)).ok()
+    fit_screened(context, &restart(context, &rest)).ok()
 }
 
-fn fitted_without(workshop: &Workshop<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
+fn fitted_without(context: &Context<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
     let mut rest = chosen.without(place);
     nested_models::absorb(&mut rest, place, &chosen.values_of(place));
-    let mut sketch = restart(workshop, &rest);
-    sketch.simulated = free_run_error(workshop, &sketch, f64::INFINITY);
-    if !sketch.rivals(chosen) {
-        sketch = screen_from(workshop, &sketch.structure, sketch.x)?;
+    let mut screened = restart(context, &rest);
+    screened.simulated = free_run_error(context, &screened, f64::INFINITY);
+    if !screened.may_rival(chosen) {
+        screened = screen_from(context, &screened.structure, screened.x)?;
     }
-    if !sketch.rivals(chosen) {
+    if !screened.may_rival(chosen) {
         return None;
     }
-    let mut refit = fit_screened(workshop, &sketch).ok()?;
-    observe_like(workshop, &mut refit, chosen).ok()?;
+    let mut refit = fit_screened(context, &screened).ok()?;
+    observe_like(context, &mut refit, chosen).ok()?;
     let behind = refit.judged().score() - chosen.judged().score();
     if !refit.judged().at_floor() && behind < NEAR {
-        refit = polish(workshop, &refit).ok()?;
+        refit = polish(context, &refit).ok()?;
     }
     Some(refit)
 }

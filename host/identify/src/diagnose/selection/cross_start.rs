@@ -4,9 +4,9 @@
 use super::judge::look_alikes;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_like;
-use crate::diagnose::context::Workshop;
-use crate::diagnose::models::{Refit, Sketch};
-use crate::diagnose::screening::{Found, carried};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{Refit, ScreenedModel};
+use crate::diagnose::screening::{EffectValues, with_common_parameters};
 use rayon::prelude::*;
 
 /// A rival whose score is so far behind the best is begun once more.
@@ -18,7 +18,7 @@ const RIVALS: usize = 2;
 
 /// Lets the look-alikes among the first of some models, sorted by score, start from each other's machine and
 /// common parameters, and sorts again.
-pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
+pub fn cross_start(context: &Context<'_>, models: &mut [Refit]) {
     let Some(best) = models.first().cloned() else {
         return;
     };
@@ -41,7 +41,7 @@ pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
     let again: Vec<(usize, Refit)> = pairs
         .par_iter()
         .filter_map(|&(own, other)| {
-            let refit = from_there(workshop, &models[own], &models[other])?;
+            let refit = from_there(context, &models[own], &models[other])?;
             let gained = models[own].judged().score() - refit.judged().score();
             (gained > GAINED).then_some((own, refit))
         })
@@ -52,20 +52,20 @@ pub fn duel(workshop: &Workshop<'_>, models: &mut [Refit]) {
     models.sort_by(Refit::by_score);
 }
 
-fn found(refit: &Refit) -> Found<'_> {
-    Found {
+fn found(refit: &Refit) -> EffectValues<'_> {
+    EffectValues {
         effects: &refit.structure.effects,
         values: &refit.parameters,
     }
 }
 
 /// `model`, fitted again from the machine of `other` and those parameters that both know.
-fn from_there(workshop: &Workshop<'_>, model: &Refit, other: &Refit) -> Option<Refit> {
-    let parameters = carried(found(model), found(other));
-    let start = Sketch::standing(model.structure.clone(), &other.candidate, &parameters);
-    let mut refit = fit_screened(workshop, &start).ok()?;
+fn from_there(context: &Context<'_>, model: &Refit, other: &Refit) -> Option<Refit> {
+    let parameters = with_common_parameters(found(model), found(other));
+    let start = ScreenedModel::standing(model.structure.clone(), &other.candidate, &parameters);
+    let mut refit = fit_screened(context, &start).ok()?;
     refit.foreseen_rms_counts = model.foreseen_rms_counts;
-    observe_like(workshop, &mut refit, model).ok()?;
+    observe_like(context, &mut refit, model).ok()?;
     refit.evaluations += model.evaluations;
     Some(refit)
 }

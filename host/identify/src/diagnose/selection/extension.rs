@@ -1,12 +1,12 @@
-//! Models with one effect more: all are sketched, the promising ones refitted.
+//! Models with one effect more: all are screened, the promising ones refitted.
 
 use super::judge::{is_exact, look_alikes, removes};
-use super::substitution::swapped;
+use super::substitution::substituted;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_all;
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
-use crate::diagnose::models::{Refit, Sketch};
+use crate::diagnose::models::{Refit, ScreenedModel};
 use crate::diagnose::screening::{free_run_ratio, rescreen, screen};
 use rayon::prelude::*;
 use shared::effects::{Kind, MAX_EFFECTS};
@@ -15,14 +15,14 @@ use shared::effects::{Kind, MAX_EFFECTS};
 const MOST_REFITS: usize = 6;
 /// The same where models run in windows.
 const MOST_IN_WINDOWS: usize = 12;
-/// Sketches within this factor of the best are refitted in any case.
+/// Screened models within this factor of the best are refitted in any case.
 const CLOSE: f64 = 1.5;
 /// Beyond this factor of the best they are not, but for look-alikes of the best.
 const FAR: f64 = 4.0;
 /// Refits made at a time, whatever the number of processors, so that the result is always the same.
 const AT_A_TIME: usize = 2;
 
-/// The same model must not be sketched twice, whichever parent it comes from.
+/// The same model must not be screened twice, whichever parent it comes from.
 fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
@@ -31,7 +31,7 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
             continue;
         }
         for &kind in Kind::ALL {
-            // Losses are found, not sketched.
+            // Losses are found, not screened.
             if parent.effects.contains(&kind) || kind == Kind::MissedCounts {
                 continue;
             }
@@ -49,13 +49,17 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
 
 /// Every model that adds one effect to one of the `parents`, as far as it is promising, best first.
 /// `done` is called after each piece of work.
-pub fn extend(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
+pub fn extensions(
+    context: &Context<'_>,
+    parents: &[&Refit],
+    done: &(dyn Fn() + Sync),
+) -> Vec<Refit> {
     let mut models: Vec<Refit> = parents
         .iter()
         // In windows a jump is forgotten with the window.
-        .filter(|_| workshop.span.window_s.is_none())
+        .filter(|_| context.span.window_s.is_none())
         .filter_map(|parent| {
-            let found = lost_counts::found(workshop, parent);
+            let found = lost_counts::found(context, parent);
             done();
             found
         })
@@ -63,113 +67,119 @@ pub fn extend(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sy
     // Jumps of whole counts that leave the encoder's own error: nothing smooth does the same.
     if models.iter().all(|model| !model.free().at_floor()) {
         for parent in parents.iter().filter(|parent| parent.losses.is_some()) {
-            models.extend(lost_counts::beside(workshop, parent, |workshop, bare| {
-                extend(workshop, &[bare], done)
+            models.extend(lost_counts::beside(context, parent, |context, bare| {
+                extensions(context, &[bare], done)
             }));
         }
-        models.extend(smooth(workshop, parents, done));
+        models.extend(smooth(context, parents, done));
     }
-    sort(workshop, &mut models);
+    sort(context, &mut models);
     models
 }
 
 /// Every model that adds one effect that can be simulated. Bristles cost much: they, and what builds on them,
 /// are tried where nothing else will do.
-fn smooth(workshop: &Workshop<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
+fn smooth(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
     let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents).into_iter().partition(|(at, kind)| {
         *kind != Kind::Lugre && !parents[*at].effects.contains(&Kind::Lugre)
     });
-    let sketch_all = |sets: &[(usize, Kind)], dry: &[Sketch]| -> Vec<Sketch> {
+    let screen_all = |sets: &[(usize, Kind)], dry: &[ScreenedModel]| -> Vec<ScreenedModel> {
         sets.par_iter()
-            .filter(|_| !workshop.effort.halted())
+            .filter(|_| !context.effort.halted())
             .filter_map(|&(parent, kind)| {
-                let sketch = screen(workshop, parents[parent], kind, dry);
+                let screened = screen(context, parents[parent], kind, dry);
                 done();
-                sketch
+                screened
             })
             .collect()
     };
-    let mut sketches: Vec<Sketch> = Vec::new();
+    let mut screened_models: Vec<ScreenedModel> = Vec::new();
     let mut models: Vec<Refit> = Vec::new();
     // The best parent first: where it is half of the truth, the others need not be tried.
     for parent in 0..parents.len() {
-        workshop.effort.take_stock();
+        context.effort.take_stock();
         let own: Vec<_> = plain
             .iter()
             .copied()
             .filter(|(at, _)| *at == parent)
             .collect();
-        let mut more = sketch_all(&own, &[]);
-        let worth = free_run_ratio(workshop, parents[parent]);
-        for sketch in &mut more {
-            sketch.worth = worth;
+        let mut more = screen_all(&own, &[]);
+        let ratio = free_run_ratio(context, parents[parent]);
+        for screened in &mut more {
+            screened.free_run_ratio = ratio;
         }
-        sort_sketches(&mut more);
-        again_from_best(workshop, parents, &mut more);
-        let further = parent == 0 && workshop.span.window_s.is_none();
-        models = refits(workshop, &more, models, done, |best| {
+        sort_screened(&mut more);
+        again_from_best(context, parents, &mut more);
+        let further = parent == 0 && context.span.window_s.is_none();
+        models = refits(context, &more, models, done, |best| {
             further && !removes(parents[parent], best)
         });
-        sketches.extend(more);
+        screened_models.extend(more);
         if models.first().is_some_and(|model| model.ran().at_floor()) {
             break;
         }
     }
-    sort_sketches(&mut sketches);
+    sort_screened(&mut screened_models);
     // Beside other effects, dry friction is tried against bristles at the end.
     let first = parents.iter().all(|parent| parent.effects.is_empty());
     let explained = models.first().is_some_and(|model| {
         if first {
-            is_exact(model, workshop.floor)
+            is_exact(model, context.floor)
         } else {
             parents.iter().all(|parent| removes(parent, model))
         }
     });
     if explained || bristles.is_empty() {
         if !first {
-            models.extend(bristled(workshop, &models));
-            sort(workshop, &mut models);
+            models.extend(bristled(context, &models));
+            sort(context, &mut models);
         }
         return models;
     }
-    // Bristles cannot be led: they start from dry friction, where that comes near the best.
-    let least = sketches.first().map_or(f64::INFINITY, Sketch::foreseen);
-    let dry = |sketch: &Sketch| {
-        matches!(sketch.newest(), Some(Kind::Coulomb | Kind::Stribeck))
-            && sketch.foreseen() < NEAR_DRY * least.max(FLOOR)
+    // No series-parallel model follows bristles: they start from dry friction, where that comes near the best.
+    let least = screened_models
+        .first()
+        .map_or(f64::INFINITY, ScreenedModel::predicted);
+    let dry = |screened: &ScreenedModel| {
+        matches!(screened.newest(), Some(Kind::Coulomb | Kind::Stribeck))
+            && screened.predicted() < NEAR_DRY * least.max(FLOOR)
     };
-    let near_dry = sketches.iter().any(dry);
+    let near_dry = screened_models.iter().any(dry);
     let bristles: Vec<_> = bristles
         .into_iter()
         .filter(|(parent, kind)| *kind != Kind::Lugre || (*parent == 0 && near_dry))
         .collect();
-    let mut more = sketch_all(&bristles, &sketches);
-    sort_sketches(&mut more);
-    refits(workshop, &more, models, done, |_| false)
+    let mut more = screen_all(&bristles, &screened_models);
+    sort_screened(&mut more);
+    refits(context, &more, models, done, |_| false)
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
 /// explain.
-fn bristled(workshop: &Workshop<'_>, models: &[Refit]) -> Option<Refit> {
+fn bristled(context: &Context<'_>, models: &[Refit]) -> Option<Refit> {
     let best = models.first().filter(|model| !model.ran().at_floor())?;
     let dry = |kind: &&Kind| matches!(kind, Kind::Coulomb | Kind::Stribeck);
     let place = *best.effects.iter().find(dry)?;
-    swapped(workshop, best, place, Kind::Lugre, models)
+    substituted(context, best, place, Kind::Lugre, models)
 }
 
 /// Best first.
-fn sort_sketches(sketches: &mut [Sketch]) {
-    sketches.sort_by(|a, b| a.foreseen().total_cmp(&b.foreseen()));
+fn sort_screened(screened_models: &mut [ScreenedModel]) {
+    screened_models.sort_by(|a, b| a.predicted().total_cmp(&b.predicted()));
 }
 
-/// The parent's machine may be far off for want of the effect. The best sketch has a better one: its
+/// The parent's machine may be far off for want of the effect. The best screened model has a better one: its
 /// look-alikes get a second start there, lest they lose for their start alone.
-fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [Sketch]) {
-    let Some((best, others)) = sketches.split_first_mut() else {
+fn again_from_best(
+    context: &Context<'_>,
+    parents: &[&Refit],
+    screened_models: &mut [ScreenedModel],
+) {
+    let Some((best, others)) = screened_models.split_first_mut() else {
         return;
     };
     let Some(kind) = best.newest() else { return };
-    let (best, least) = (&*best, best.foreseen());
+    let (best, least) = (&*best, best.predicted());
     let effects = best.structure.effects.clone();
     let values = best.structure.values(&best.x);
     let machine = best.structure.candidate(&values).machine;
@@ -181,36 +191,36 @@ fn again_from_best(workshop: &Workshop<'_>, parents: &[&Refit], sketches: &mut [
     };
     let mut parent = (*parent).clone();
     parent.candidate.machine = machine;
-    others.par_iter_mut().for_each(|sketch| {
-        let Some(newest) = sketch.newest() else {
+    others.par_iter_mut().for_each(|screened| {
+        let Some(newest) = screened.newest() else {
             return;
         };
-        let beside = sketch.structure.effects.starts_with(&parent.effects);
-        if beside && look_alikes(kind, newest) && sketch.foreseen() > CLOSE * least {
-            let with_all = rescreen(workshop, sketch, &parent, best);
-            let again = screen(workshop, &parent, newest, &[]);
+        let beside = screened.structure.effects.starts_with(&parent.effects);
+        if beside && look_alikes(kind, newest) && screened.predicted() > CLOSE * least {
+            let with_all = rescreen(context, screened, &parent, best);
+            let again = screen(context, &parent, newest, &[]);
             for mut again in [with_all, again].into_iter().flatten() {
-                again.worth = sketch.worth;
-                if again.foreseen() < sketch.foreseen() {
-                    *sketch = again;
+                again.free_run_ratio = screened.free_run_ratio;
+                if again.predicted() < screened.predicted() {
+                    *screened = again;
                 }
             }
         }
     });
-    sort_sketches(sketches);
+    sort_screened(screened_models);
 }
 
-/// Full fits of promising sketches beside the models that were `made` before, best first. Not more than what is usual,
-/// unless the best of them leaves something that is `unexplained`: a sketch may have ended early in a long valley.
+/// Full fits of promising screened models beside the models that were `made` before, best first. Not more than what is usual,
+/// unless the best of them leaves something that is `unexplained`: a screening may have ended early in a long valley.
 fn refits(
-    workshop: &Workshop<'_>,
-    sketches: &[Sketch],
+    context: &Context<'_>,
+    screened_models: &[ScreenedModel],
     made: Vec<Refit>,
     done: &(dyn Fn() + Sync),
     unexplained: impl Fn(&Refit) -> bool,
 ) -> Vec<Refit> {
     // In windows more of them are alike.
-    let windows = workshop.span.window_s.is_some();
+    let windows = context.span.window_s.is_some();
     let most = if windows {
         MOST_IN_WINDOWS
     } else {
@@ -218,63 +228,64 @@ fn refits(
     };
     let before = made.len();
     let mut refits = made;
-    for chunk in sketches.chunks(AT_A_TIME) {
-        workshop.effort.take_stock();
+    for chunk in screened_models.chunks(AT_A_TIME) {
+        context.effort.take_stock();
         let enough = refits.len() >= before + most;
-        if workshop.effort.halted() || (enough && !refits.first().is_some_and(&unexplained)) {
+        if context.effort.halted() || (enough && !refits.first().is_some_and(&unexplained)) {
             break;
         }
         let best = refits.first();
         let made: Vec<Refit> = chunk
             .par_iter()
-            .filter(|sketch| worth(sketch, sketches, best))
-            .filter_map(|sketch| {
-                let refit = fit_screened(workshop, sketch).ok();
+            .filter(|screened| deserves_fit(screened, screened_models, best))
+            .filter_map(|screened| {
+                let refit = fit_screened(context, screened).ok();
                 done();
                 refit
             })
             .collect();
         refits.extend(made);
-        sort(workshop, &mut refits);
+        sort(context, &mut refits);
     }
     refits
 }
 
 /// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
-pub fn sort(workshop: &Workshop<'_>, refits: &mut [Refit]) {
+pub fn sort(context: &Context<'_>, refits: &mut [Refit]) {
     if refits.iter().any(|refit| refit.tracked.is_some()) {
-        observe_all(workshop, refits);
+        observe_all(context, refits);
     }
     refits.sort_by(Refit::by_score);
 }
 
-/// Whether a sketch deserves a full fit, `best` being the best so far.
-fn worth(sketch: &Sketch, all: &[Sketch], best: Option<&Refit>) -> bool {
+/// Whether a screened model deserves a full fit, `best` being the best so far.
+fn deserves_fit(screened: &ScreenedModel, all: &[ScreenedModel], best: Option<&Refit>) -> bool {
     let Some(best) = best else { return true };
-    let least = all.first().map_or(1.0, Sketch::foreseen);
-    // What is led and what is simulated foresee with different errors: like is compared with like.
-    let foreseen = sketch.foreseen() / least.max(best.foreseen_rms_counts).max(FLOOR);
+    let least = all.first().map_or(1.0, ScreenedModel::predicted);
+    // Series-parallel and simulated runs predict with different errors: like is compared with like.
+    let predicted = screened.predicted() / least.max(best.foreseen_rms_counts).max(FLOOR);
     let look_alike = best.effects.last().is_some_and(|kind| {
         let names = kind.description().look_alikes;
-        sketch
+        screened
             .newest()
             .is_some_and(|kind| names.contains(&kind.name()))
     });
-    if sketch.newest() == Some(Kind::Lugre) && sketch.foreseen() > BRISTLED * best.ran().fitted {
+    if screened.newest() == Some(Kind::Lugre) && screened.predicted() > BRISTLED * best.ran().fitted
+    {
         // Their fit takes as long as a dozen others.
         return false;
     }
     if best.ran().at_floor() {
         // The rest is for rivals that may do as well.
-        foreseen < CLOSE || (look_alike && foreseen < FAR)
+        predicted < CLOSE || (look_alike && predicted < FAR)
     } else {
-        foreseen < FAR
+        predicted < FAR
     }
 }
 
 /// Dry friction is near the best if what it leaves is within this factor.
 const NEAR_DRY: f64 = 3.0;
-/// Bristles are fitted beyond a sketch that leaves at most this part of the best model's error.
+/// Bristles are fitted beyond a screened model that leaves at most this part of the best model's error.
 const BRISTLED: f64 = 0.9;
-/// Errors that are foreseen below this many counts are as good as each other.
+/// Errors that are predicted below this many counts are as good as each other.
 const FLOOR: f64 = 0.35;

@@ -1,10 +1,10 @@
 //! The search: effects are added one by one, each level of models building on the best of the one before.
 
-use super::extension::{extend, sort};
+use super::extension::{extensions, sort};
 use super::{cross_start, judge, nested_models};
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::models::{Refit, same};
 
 /// Most effects that are added.
@@ -26,12 +26,16 @@ pub struct Level {
 
 /// Adds effects one by one until the error is the encoder's own, or none earns its place. The first is not
 /// judged alone: two effects of one size each leave the other's error.
-pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -> Vec<Level> {
+pub fn forward_selection(
+    context: &Context<'_>,
+    base: &Refit,
+    done: &(dyn Fn() + Sync),
+) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     let mut before = base.clone();
     while !before.is_complete()
         && levels.len() < MOST_STEPS
-        && !workshop.effort.halted()
+        && !context.effort.halted()
         && levels.iter().skip(1).all(|level| level.believed)
     {
         let parents: Vec<&Refit> = match levels.last() {
@@ -44,20 +48,20 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
                 level.models.iter().filter(near).take(BEAM).collect()
             }
         };
-        let mut models = extend(workshop, &parents, done);
-        workshop.effort.take_stock();
+        let mut models = extensions(context, &parents, done);
+        context.effort.take_stock();
         // In windows a right model need not come down to the encoder's error, and what remains would be looked at for ever.
-        if let Some(level) = levels.last().filter(|_| workshop.span.window_s.is_none()) {
-            look_again(workshop, &level.models, &parents, &mut models, done);
+        if let Some(level) = levels.last().filter(|_| context.span.window_s.is_none()) {
+            look_again(context, &level.models, &parents, &mut models, done);
         }
-        cross_start::duel(workshop, &mut models);
-        workshop.effort.take_stock();
-        polish_best(workshop, &mut models);
+        cross_start::cross_start(context, &mut models);
+        context.effort.take_stock();
+        polish_best(context, &mut models);
         let Some(best) = judge::best(&models).cloned() else {
             break;
         };
         // One that cannot be tracked keeps the errors of its free runs.
-        let _ = observe_like(workshop, &mut before, &best);
+        let _ = observe_like(context, &mut before, &best);
         let walled = best.windowed.is_some() && best.at_wall();
         let believed = judge::removes(&before, &best) && !walled;
         before = best.clone();
@@ -73,7 +77,7 @@ pub fn levels(workshop: &Workshop<'_>, base: &Refit, done: &(dyn Fn() + Sync)) -
 /// Adds to `models`, which build on `parents` of a `level`, those that build on others, as long as nothing explains the
 /// recording.
 fn look_again(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     level: &[Refit],
     parents: &[&Refit],
     models: &mut Vec<Refit>,
@@ -81,31 +85,26 @@ fn look_again(
 ) {
     let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
     // Before more is blamed, what is there is brought to its end.
-    polish_best(workshop, models);
-    let further: [&dyn Fn() -> Vec<Refit>; 2] =
-        [&|| from_plainer(workshop, parents, done), &|| {
-            from_beyond(workshop, level, parents, done)
-        }];
+    polish_best(context, models);
+    let further: [&dyn Fn() -> Vec<Refit>; 2] = [&|| from_nested(context, parents, done), &|| {
+        from_beyond(context, level, parents, done)
+    }];
     for find in further {
         if explained(models) {
             return;
         }
         models.extend(find());
-        sort(workshop, models);
-        workshop.effort.take_stock();
+        sort(context, models);
+        context.effort.take_stock();
     }
 }
 
 /// A friction with many parameters may have taken on what another effect does, and then leaves that one nothing to
 /// explain. So the plainer frictions within the `parents` are built on as well, however far they are behind.
-fn from_plainer(
-    workshop: &Workshop<'_>,
-    parents: &[&Refit],
-    done: &(dyn Fn() + Sync),
-) -> Vec<Refit> {
+fn from_nested(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
     let mut plain: Vec<Refit> = Vec::new();
     for parent in parents {
-        for model in nested_models::all(workshop, parent) {
+        for model in nested_models::all(context, parent) {
             let known = |other: &Refit| same(&other.effects, &model.effects);
             if !plain.iter().any(known) && !parents.iter().any(|parent| known(parent)) {
                 plain.push(model);
@@ -114,13 +113,13 @@ fn from_plainer(
     }
     plain.sort_by(Refit::by_score);
     let plain: Vec<&Refit> = plain.iter().take(BEAM).collect();
-    extend(workshop, &plain, done)
+    extensions(context, &plain, done)
 }
 
 /// One effect may stand in for two at once, and then leaves each of them far behind. So the next models of a level are
 /// built on as well.
 fn from_beyond(
-    workshop: &Workshop<'_>,
+    context: &Context<'_>,
     level: &[Refit],
     parents: &[&Refit],
     done: &(dyn Fn() + Sync),
@@ -128,7 +127,7 @@ fn from_beyond(
     let is_parent = |model: &Refit| parents.iter().any(|p| same(&p.effects, &model.effects));
     let beyond = level.iter().filter(|model| !is_parent(model));
     let beyond: Vec<&Refit> = beyond.take(BEAM).collect();
-    extend(workshop, &beyond, done)
+    extensions(context, &beyond, done)
 }
 
 /// Models of a level whose fit is brought to its end before any more physics is blamed.
@@ -137,7 +136,7 @@ const POLISHED: usize = 2;
 const BEHIND: f64 = 1.0;
 
 /// Polishes the best models of a level that are not at the floor yet.
-fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
+fn polish_best(context: &Context<'_>, models: &mut [Refit]) {
     if models.first().is_none_or(|model| model.ran().at_floor()) {
         return;
     }
@@ -151,7 +150,7 @@ fn polish_best(workshop: &Workshop<'_>, models: &mut [Refit]) {
         if model.losses.is_some() {
             continue;
         }
-        if let Ok(polished) = polish(workshop, model) {
+        if let Ok(polished) = polish(context, model) {
             *model = polished;
         }
     }

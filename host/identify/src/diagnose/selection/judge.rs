@@ -13,11 +13,11 @@ const MUST_REMOVE: f64 = 0.6;
 /// Lead over the best rival that is no look-alike, in the logarithm of the errors' product.
 const MUST_LEAD: f64 = 0.1;
 /// Models whose score is within this of the best explain the recording alike.
-const ALIKE: f64 = 0.1;
+const EQUIVALENT: f64 = 0.1;
 /// Of models within this of the best score the simplest is taken: 2 % in each error.
 const AS_GOOD: f64 = 0.04;
 /// More models than this that explain a recording alike, and none of them is named.
-const MOST_ALIKE: usize = 4;
+const MOST_EQUIVALENT: usize = 4;
 
 /// The best of some models that are sorted by score: the simplest of those that are as good as the first.
 pub fn best(models: &[Refit]) -> Option<&Refit> {
@@ -39,12 +39,12 @@ pub fn best(models: &[Refit]) -> Option<&Refit> {
 /// simpler one's excess as a further effect would have to.
 pub fn replaces(simpler: &Refit, other: &Refit) -> bool {
     simpler.parameters.len() < other.parameters.len()
-        && akin(simpler, other)
+        && differ_by_look_alike(simpler, other)
         && !removes(simpler, other)
 }
 
 /// Whether two models differ in one effect only, and there by look-alikes.
-fn akin(a: &Refit, b: &Refit) -> bool {
+fn differ_by_look_alike(a: &Refit, b: &Refit) -> bool {
     let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
     match (own.next(), own.next()) {
         (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alikes(place, kind)),
@@ -78,17 +78,17 @@ pub fn look_alikes(a: Kind, b: Kind) -> bool {
 }
 
 /// What stands beside the chosen model.
-pub struct Company {
+pub struct Rivals {
     /// Effects that explain this recording as well in the place of the one in question.
-    pub alike: Vec<Kind>,
-    /// Lead over the best rival that is neither a look-alike nor among `alike`.
+    pub equivalent: Vec<Kind>,
+    /// Lead over the best rival that is neither a look-alike nor among `equivalent`.
     pub lead: f64,
 }
 
 /// Looks for models that differ from `chosen` in `place` alone, among `others`.
-pub fn company(chosen: &Refit, place: Kind, others: &[Refit]) -> Company {
-    let mut company = Company {
-        alike: Vec::new(),
+pub fn rivals(chosen: &Refit, place: Kind, others: &[Refit]) -> Rivals {
+    let mut rivals = Rivals {
+        equivalent: Vec::new(),
         lead: f64::INFINITY,
     };
     for other in others {
@@ -96,32 +96,32 @@ pub fn company(chosen: &Refit, place: Kind, others: &[Refit]) -> Company {
             continue;
         };
         let behind = other.judged().score() - chosen.judged().score();
-        if behind < ALIKE {
-            if !company.alike.contains(&instead) {
-                company.alike.push(instead);
+        if behind < EQUIVALENT {
+            if !rivals.equivalent.contains(&instead) {
+                rivals.equivalent.push(instead);
             }
         } else if !look_alikes(place, instead) {
-            company.lead = company.lead.min(behind);
+            rivals.lead = rivals.lead.min(behind);
         }
     }
-    company
+    rivals
 }
 
-impl Company {
-    /// Whether the effect may be named in this company: not where too many others, or others of quite
+impl Rivals {
+    /// Whether the effect may be named beside these rivals: not where too many others, or others of quite
     /// another nature, do as well.
     pub fn allows(&self, place: Kind) -> bool {
         let strangers = self
-            .alike
+            .equivalent
             .iter()
             .filter(|&&kind| !look_alikes(place, kind))
             .count();
-        self.alike.len() <= MOST_ALIKE && strangers <= 1
+        self.equivalent.len() <= MOST_EQUIVALENT && strangers <= 1
     }
 
     /// From one half (no lead) to one.
     pub fn confidence(&self) -> f64 {
-        let sets = 1.0 / (1.0 + self.alike.len() as f64 * 0.1);
+        let sets = 1.0 / (1.0 + self.equivalent.len() as f64 * 0.1);
         sets / (1.0 + (-self.lead.min(10.0) / MUST_LEAD).exp())
     }
 }

@@ -8,18 +8,18 @@ pub mod judge;
 pub mod nested_models;
 pub mod substitution;
 
-pub use extension::extend;
+pub use extension::extensions;
 pub use forward_selection::Level;
 
-use super::context::Workshop;
+use super::context::Context;
 use super::linear::{Linear, fit_linear_again};
 use super::models::Refit;
-use forward_selection::levels;
+use forward_selection::forward_selection;
 
 /// What forward selection ended with.
 pub struct Selected<'a> {
     /// The recordings.
-    pub context: Workshop<'a>,
+    pub context: Context<'a>,
     /// The linear motor.
     pub base: Refit,
     /// The models with one effect, with two, and so on; none where the linear motor explains the recording.
@@ -33,7 +33,7 @@ pub fn select_effects<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Selec
         mut base,
         anchor,
     } = linear;
-    let mut levels = levels(&context, &anchor, done);
+    let mut levels = forward_selection(&context, &anchor, done);
     context.effort.conclude();
     // A search that ended early looks like missing physics: the linear motor is fitted again from where the
     // best model has it.

@@ -6,7 +6,7 @@ use super::judge::removes;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
-use crate::diagnose::context::Workshop;
+use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
 use crate::diagnose::models::{Refit, same};
 use crate::diagnose::screening::{free_run_error, restart};
@@ -16,10 +16,10 @@ use shared::effects::Kind;
 const NEAR: f64 = 3.0;
 
 /// `chosen` with the plainest effects that do as well. Every model that was fitted for it goes to `known`.
-pub fn plainer(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
+pub fn simplify(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
     let mut chosen = chosen;
     loop {
-        let tried = all(workshop, &chosen);
+        let tried = all(context, &chosen);
         let plainest = tried
             .iter()
             .filter(|plain| !removes(plain, &chosen))
@@ -45,44 +45,44 @@ pub fn plainer(workshop: &Workshop<'_>, chosen: Refit, known: &mut Vec<Refit>) -
 }
 
 /// `chosen` with each plainer effect in the place of one that contains it.
-pub fn all(workshop: &Workshop<'_>, chosen: &Refit) -> Vec<Refit> {
+pub fn all(context: &Context<'_>, chosen: &Refit) -> Vec<Refit> {
     chosen
         .effects
         .iter()
         .flat_map(|&place| Kind::ALL.iter().map(move |&kind| (place, kind)))
         .filter(|(_, kind)| !chosen.effects.contains(kind))
         .flat_map(|(place, kind)| {
-            workshop.effort.take_stock();
-            instead(workshop, chosen, place, kind)
+            context.effort.take_stock();
+            instead(context, chosen, place, kind)
         })
         .collect()
 }
 
 /// `chosen` with `kind` in the place of an effect that contains it.
-fn instead(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Vec<Refit> {
+fn instead(context: &Context<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Vec<Refit> {
     if chosen.losses.is_some() && special_values(place, kind, &[1.0; 8]).is_some() {
-        return lost_counts::beside(workshop, chosen, |workshop, bare| {
-            instead(workshop, bare, place, kind)
+        return lost_counts::beside(context, chosen, |context, bare| {
+            instead(context, bare, place, kind)
         });
     }
-    fitted(workshop, chosen, place, kind).into_iter().collect()
+    fitted(context, chosen, place, kind).into_iter().collect()
 }
 
-fn fitted(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Option<Refit> {
+fn fitted(context: &Context<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Option<Refit> {
     let values = special_values(place, kind, &chosen.values_of(place))?;
     let mut plain = chosen.without(place);
     plain.effects.push(kind);
     plain.structure.effects.push(kind);
     plain.parameters.extend(values);
-    let mut sketch = restart(workshop, &plain);
-    sketch.simulated = free_run_error(workshop, &sketch, f64::INFINITY);
-    // Nothing was led here: the error that may be hoped for is the chosen one's.
-    sketch.led = chosen.ran().fitted;
-    let mut refit = fit_screened(workshop, &sketch).ok()?;
-    observe_like(workshop, &mut refit, chosen).ok()?;
+    let mut screened = restart(context, &plain);
+    screened.simulated = free_run_error(context, &screened, f64::INFINITY);
+    // Nothing was screened here: the error that may be hoped for is the chosen one's.
+    screened.series_parallel = chosen.ran().fitted;
+    let mut refit = fit_screened(context, &screened).ok()?;
+    observe_like(context, &mut refit, chosen).ok()?;
     let behind = refit.judged().score() - chosen.judged().score();
     if !refit.judged().at_floor() && behind < NEAR {
-        refit = polish(workshop, &refit).ok()?;
+        refit = polish(context, &refit).ok()?;
     }
     Some(refit)
 }

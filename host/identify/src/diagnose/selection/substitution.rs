@@ -3,28 +3,33 @@
 use super::judge::{best, is_exact};
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_like;
-use crate::diagnose::context::Workshop;
-use crate::diagnose::models::{Refit, Sketch, same};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{Refit, ScreenedModel, same};
 use crate::diagnose::screening::screen;
 use rayon::prelude::*;
 use shared::effects::Kind;
 
 /// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
 /// except those that are in `known` already.
-pub fn swaps(workshop: &Workshop<'_>, chosen: &Refit, place: Kind, known: &[Refit]) -> Vec<Refit> {
+pub fn substitutes(
+    context: &Context<'_>,
+    chosen: &Refit,
+    place: Kind,
+    known: &[Refit],
+) -> Vec<Refit> {
     place
         .description()
         .look_alikes
         .par_iter()
         .filter_map(|name| Kind::by_name(name))
         .filter(|&kind| kind != Kind::MissedCounts)
-        .filter_map(|kind| swapped(workshop, chosen, place, kind, known))
+        .filter_map(|kind| substituted(context, chosen, place, kind, known))
         .collect()
 }
 
 /// The model in which `place` is replaced by `kind`; `None` where it is no rival, or known.
-pub fn swapped(
-    workshop: &Workshop<'_>,
+pub fn substituted(
+    context: &Context<'_>,
     chosen: &Refit,
     place: Kind,
     kind: Kind,
@@ -33,7 +38,7 @@ pub fn swapped(
     if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
         return None;
     }
-    if kind == Kind::Lugre && is_exact(chosen, workshop.floor) {
+    if kind == Kind::Lugre && is_exact(chosen, context.floor) {
         return None;
     }
     let without = chosen.without(place);
@@ -43,14 +48,14 @@ pub fn swapped(
         return None;
     }
     // Bristles start from dry friction.
-    let dry = (kind == Kind::Lugre).then(|| screen(workshop, &without, Kind::Coulomb, &[]));
-    let dry: Vec<Sketch> = dry.flatten().into_iter().collect();
-    let sketch = screen(workshop, &without, kind, &dry)?;
-    if !sketch.rivals(chosen) {
+    let dry = (kind == Kind::Lugre).then(|| screen(context, &without, Kind::Coulomb, &[]));
+    let dry: Vec<ScreenedModel> = dry.flatten().into_iter().collect();
+    let screened = screen(context, &without, kind, &dry)?;
+    if !screened.may_rival(chosen) {
         return None;
     }
-    let mut refit = fit_screened(workshop, &sketch).ok()?;
-    observe_like(workshop, &mut refit, chosen).ok()?;
+    let mut refit = fit_screened(context, &screened).ok()?;
+    observe_like(context, &mut refit, chosen).ok()?;
     Some(refit)
 }
 

@@ -4,7 +4,7 @@
 //! so a descent must start in the right one. Each order's cosine and sine, as the residual's filter leaves them, are
 //! regressed on by themselves, beside friction each way and corrections of damping and inertia.
 
-use super::waves::{ABREAST, HIGHEST, ROWS, Row, each_sample};
+use super::waves::{HIGHEST, LANES, ROWS, Row, each_sample};
 use crate::fit::scores::{EquationResidual, equation_residuals};
 use nalgebra::{Matrix2, Matrix4, Matrix4x2, Vector2, Vector4};
 use servoid_engine::problem::{Candidate, Data};
@@ -75,7 +75,7 @@ pub fn lines_of(data: &Data, residuals: &[EquationResidual], time: f64) -> Vec<L
     let lowest = (WAVES / turned_through).ceil() as usize;
     let mut lines: Vec<Line> = (lowest.max(1)..=HIGHEST)
         .filter_map(|order| {
-            let (row, lane) = ((order - 1) / ABREAST, (order - 1) % ABREAST);
+            let (row, lane) = ((order - 1) / LANES, (order - 1) % LANES);
             rows[row].line(order, lane, &beside, &inverse)
         })
         .collect();
@@ -119,15 +119,15 @@ struct Sums {
     /// With what is fitted beside.
     others: [Row; 4],
     /// With each other: cosine's square, the mixed product, sine's square.
-    own: [[f64; ABREAST]; 3],
+    own: [[f64; LANES]; 3],
     /// Square of the waves' own square: with it, how many samples show them.
-    shown: [f64; ABREAST],
+    shown: [f64; LANES],
 }
 
 impl Sums {
     #[inline(always)]
     fn add(&mut self, volts: f64, others: &[f64; 4], [cosine, sine]: &Row) {
-        for lane in 0..ABREAST {
+        for lane in 0..LANES {
             let (c, s) = (cosine[lane], sine[lane]);
             self.volts[0][lane] += volts * c;
             self.volts[1][lane] += volts * s;

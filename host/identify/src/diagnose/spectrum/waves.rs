@@ -12,14 +12,14 @@ use servoid_engine::problem::Data;
 /// Highest order that is looked for.
 pub const HIGHEST: usize = 128;
 /// Orders side by side.
-pub const ABREAST: usize = 8;
+pub const LANES: usize = 8;
 /// Such rows of orders.
-pub const ROWS: usize = HIGHEST / ABREAST;
+pub const ROWS: usize = HIGHEST / LANES;
 /// Below this many radians within an interval, the mean of a wave is that of its ends.
 const SLOW: f64 = 1e-2;
 
 /// Cosine and sine of one row of orders.
-pub type Row = [[f64; ABREAST]; 2];
+pub type Row = [[f64; LANES]; 2];
 /// Those of all orders, from the first.
 pub type Rows = [Row; ROWS];
 
@@ -31,10 +31,10 @@ pub fn each_sample(data: &Data, time: f64, mut at: impl FnMut(usize, &Rows)) {
     with_vectors(
         #[inline(always)]
         || {
-            let filter = Filter::<ABREAST>::new(data, [time; ABREAST]);
+            let filter = Filter::<LANES>::new(data, [time; LANES]);
             let turns = |k: usize| data.centre(k) / data.units.counts_per_rev;
             let multiples = |turns: f64| multiples(turns.rem_euclid(1.0) * TAU);
-            let mut behind = [[Behind::<ABREAST>::default(); 2]; ROWS];
+            let mut behind = [[Behind::<LANES>::default(); 2]; ROWS];
             let mut seen: Rows = [Row::default(); ROWS];
             let mut begins = (turns(0), multiples(turns(0)));
             let mut before: Option<Rows> = None;
@@ -57,7 +57,7 @@ pub fn each_sample(data: &Data, time: f64, mut at: impl FnMut(usize, &Rows)) {
                 }
                 at(k, &seen);
                 for behind in behind.as_flattened_mut() {
-                    filter.pass(data, k, behind, [0.0; ABREAST]);
+                    filter.pass(data, k, behind, [0.0; LANES]);
                 }
                 (begins, before) = (ends, Some(now));
             }
@@ -72,7 +72,7 @@ fn multiples(angle: f64) -> Rows {
     let (mut c, mut s) = (1.0, 0.0);
     let mut rows: Rows = [Row::default(); ROWS];
     for [cosines, sines] in &mut rows {
-        for lane in 0..ABREAST {
+        for lane in 0..LANES {
             (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
             (cosines[lane], sines[lane]) = (c, s);
         }
@@ -84,7 +84,7 @@ fn multiples(angle: f64) -> Rows {
 #[inline(always)]
 fn means(row: usize, from: &Row, to: &Row, travel: f64) -> Row {
     let ([c0, s0], [c1, s1]) = (from, to);
-    let phase: [f64; ABREAST] = from_fn(|lane| travel * (row * ABREAST + lane + 1) as f64);
+    let phase: [f64; LANES] = from_fn(|lane| travel * (row * LANES + lane + 1) as f64);
     let mean = |lane: usize, integral: f64, ends: f64| {
         if phase[lane].abs() > SLOW {
             integral / phase[lane]
