@@ -7,7 +7,7 @@ mod folder;
 
 use folder::folder;
 use host::diagnose::steady;
-use host::diagnose::{Diagnosis, Effort, Refit, Verdict, diagnose};
+use host::diagnose::{Diagnosis, Budget, Refit, Verdict, diagnose};
 use host::fit::{Options, scores};
 use host::input::SteadyCurve;
 use host::input::{MotorFile, read_recording};
@@ -37,7 +37,7 @@ fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
         fitted,
         held_out,
         &Options::default(),
-        &Effort::usual(&stop),
+        &Budget::usual(&stop),
         &|| (),
     )
     .unwrap_or_else(|error| panic!("{error}"));

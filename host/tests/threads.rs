@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use host::compare::{self, Contest};
-use host::diagnose::{Effort, diagnose};
+use host::diagnose::{Budget, diagnose};
 use host::fit::{self, Fit, Options};
 use host::prove::{Case, Excite, HowMany, SetUp};
 use host::solve;
@@ -93,7 +93,7 @@ fn diagnoses_do_not_depend_on_the_number_of_threads() {
                 &case.fitted,
                 &case.held_out,
                 &options,
-                &Effort::usual(&stop),
+                &Budget::usual(&stop),
                 &|| (),
             )
             .expect("a diagnosis")

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::prove::surprise;
 use crate::session::Session;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{Effort, HeldOut};
+use servoid_identify::diagnose::{Budget, HeldOut};
 use servoid_identify::fit::Options;
 use servoid_io::output::write_whole;
 use servoid_io::showcase;
@@ -43,7 +43,7 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         &data,
         &held_out,
         &options,
-        &Effort::usual(session.stop()),
+        &Budget::usual(session.stop()),
     )?;
     let kind = HeldOut::Recording(other.to_owned());
     let story = DemoReport {

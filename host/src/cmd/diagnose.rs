@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::steady;
-use servoid_identify::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable};
+use servoid_identify::diagnose::{Budget, HeldOut, Remark, holdout, pair, usable};
 use servoid_identify::fit::{self, Options};
 use servoid_io::input::SteadyCurve;
 use servoid_io::output::is_same_file;
@@ -38,8 +38,8 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         remarks,
         whole,
     } = &recordings;
-    let effort = Effort::of(args.budget.saturating_mul(MILLION), session.stop());
-    let diagnosed = diagnosed(session, data, held_out, &options, &effort)?;
+    let budget = Budget::of(args.budget.saturating_mul(MILLION), session.stop());
+    let diagnosed = diagnosed(session, data, held_out, &options, &budget)?;
     let mut remarks = remarks.clone();
     if !diagnosed.interrupted && !diagnosed.diagnosis.ran_out {
         let stop = session.stop();

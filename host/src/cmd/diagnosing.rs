@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{self, Diagnosis, Effort, Findings, HeldOut, Remark};
+use servoid_identify::diagnose::{self, Diagnosis, Budget, Findings, HeldOut, Remark};
 use servoid_identify::fit::{Fit, Options};
 use servoid_results::report::diagnosis::DiagnosisReport;
 use std::sync::atomic::Ordering;
@@ -46,15 +46,15 @@ pub(super) fn diagnosed(
     data: &Data,
     held_out: &Data,
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
 ) -> Result<Diagnosed, Error> {
     // How many models will be fitted shows only as they are.
     let bar = session.count("diagnose", "models tried");
     let done = || bar.inc(1);
-    let diagnosis = diagnose::diagnose(data, held_out, options, effort, &done);
+    let diagnosis = diagnose::diagnose(data, held_out, options, budget, &done);
     bar.finish_and_clear();
     let diagnosis = diagnosis?;
-    let stop = effort.stop();
+    let stop = budget.stop();
     let interrupted = stop.load(Ordering::Relaxed);
     let last = diagnose::settle(&diagnosis, data, held_out, options, stop)?;
     let findings = diagnose::findings(&diagnosis, data, held_out)?;

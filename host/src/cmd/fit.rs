@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::{Data, FitProblem};
 use servoid_engine::solve::Found;
-use servoid_identify::diagnose::{self, Effort};
+use servoid_identify::diagnose::{self, Budget};
 use servoid_identify::fit::{self, Fit, Options};
 use servoid_io::output::write_whole;
 use servoid_results::plot;
@@ -85,8 +85,8 @@ fn again<'a>(
     if !squares || found.interrupted || !diagnose::is_lost(found.cost, problem.data.len()) {
         return None;
     }
-    let effort = Effort::usual(session.stop());
-    let candidate = diagnose::built_up(problem.data, &options.effects, options, &effort)?;
+    let budget = Budget::usual(session.stop());
+    let candidate = diagnose::built_up(problem.data, &options.effects, options, &budget)?;
     let again = problem.begun_at(&candidate);
     let better = search(session, &again, "lm", options).ok()?;
     (better.cost < found.cost).then_some((again, better))

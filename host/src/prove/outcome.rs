@@ -7,7 +7,7 @@ use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
-use servoid_identify::diagnose::{self, Diagnosis, Effort, Refit};
+use servoid_identify::diagnose::{self, Diagnosis, Budget, Refit};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::truth::{self, ParameterError};
 use shared::effects::Kind;
@@ -98,8 +98,8 @@ impl Outcome {
         // A fault of the diagnosis in one case of a thousand must not lose the others.
         let diagnosed = catch_unwind(AssertUnwindSafe(|| {
             pool.install(|| {
-                let effort = Effort::usual(stop);
-                diagnose::diagnose(&case.fitted, &case.held_out, &options, &effort, &count)
+                let budget = Budget::usual(stop);
+                diagnose::diagnose(&case.fitted, &case.held_out, &options, &budget, &count)
             })
         }));
         let outcome = Outcome {

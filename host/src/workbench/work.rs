@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::{self, Found, Objective};
-use servoid_identify::diagnose::{self, Diagnosis, Effort, Suggestion};
+use servoid_identify::diagnose::{self, Diagnosis, Budget, Suggestion};
 use servoid_identify::fit::{self, Fit, Options};
 use servoid_results::kept::KeptModel;
 use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
@@ -85,8 +85,8 @@ fn fitted(
         && let Some(candidate) = suggestion
             .map(|suggestion| suggestion.refit.candidate)
             .or_else(|| {
-                let effort = Effort::usual(bench.job.flag());
-                diagnose::built_up(data, effects, &options, &effort)
+                let budget = Budget::usual(bench.job.flag());
+                diagnose::built_up(data, effects, &options, &budget)
             })
     {
         let start = problem.begun_at(&candidate);
@@ -131,7 +131,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         held_out,
         &candidate,
         &options,
-        &Effort::usual(bench.job.flag()),
+        &Budget::usual(bench.job.flag()),
         &done,
     )?;
     bench.change(|state| state.suggested = Some((id, found.list)));
@@ -146,7 +146,7 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let teller = Teller::new(bench);
     let done = counting(&teller);
     let stop = bench.job.flag();
-    let found = diagnose::diagnose(data, held_out, &options, &Effort::usual(stop), &done)?;
+    let found = diagnose::diagnose(data, held_out, &options, &Budget::usual(stop), &done)?;
     let interrupted = stop.load(Ordering::Relaxed);
     let last = diagnose::settle(&found, data, held_out, &options, stop)?;
     let findings = diagnose::findings(&found, data, held_out)?;

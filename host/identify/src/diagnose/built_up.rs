@@ -3,7 +3,7 @@
 
 use super::candidate::fit::fit_screened;
 use super::candidate::polish::polish;
-use super::context::{Context, Effort};
+use super::context::{Budget, Context};
 use super::linear::fit_linear;
 use super::models::{Refit, ScreenedModel};
 use super::screening::screen;
@@ -26,12 +26,12 @@ pub fn built_up(
     data: &Data,
     effects: &[Kind],
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
 ) -> Option<Candidate> {
     if effects.is_empty() {
         return None;
     }
-    let context = Context::new(data, data, options, effort);
+    let context = Context::new(data, data, options, budget);
     let (context, mut model) = fit_linear(context, options).ok()?;
     for &kind in effects {
         model = added(&context, &model, kind)?;

@@ -8,7 +8,7 @@ use super::outcome::{Diagnosis, Verdict};
 /// The diagnosis with its verdict and advice.
 pub fn conclude(named: Named<'_>) -> Diagnosis {
     let both_ways = moves_both_ways(named.context.data);
-    let effort = named.context.effort;
+    let budget = named.context.budget;
     let mut diagnosis = Diagnosis {
         span: named.context.span,
         base: named.base,
@@ -18,8 +18,8 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
         rivals: named.rivals,
         not_named: named.not_named,
         advice: Vec::new(),
-        ran_out: effort.ran_out(),
-        steps_taken: effort.spent(),
+        ran_out: budget.ran_out(),
+        steps_taken: budget.spent(),
     };
     diagnosis.verdict = verdict(&diagnosis, both_ways);
     if !both_ways {

@@ -68,7 +68,7 @@ fn held_against_others(
     }
     let mut chosen = backward_elimination::eliminate(context, chosen, known);
     for place in chosen.effects.clone() {
-        context.effort.take_stock();
+        context.budget.checkpoint();
         let substitutes = if chosen.losses.is_some() {
             lost_counts::beside(context, &chosen, |context, bare| {
                 substitution::substitutes(context, bare, place, &[])

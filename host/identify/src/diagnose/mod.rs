@@ -54,7 +54,7 @@ pub mod steady;
 mod suggest;
 
 pub use built_up::{built_up, is_lost};
-pub use context::{Effort, Span, USUAL_STEPS, moves_both_ways};
+pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways};
 pub use explain::{Findings, advice, evidence, findings, pair};
 pub use models::{Errors, Loss, Losses, NOISE_COUNTS, Refit, Tracked, same};
 pub use outcome::{Diagnosis, Step, Verdict};
@@ -81,10 +81,10 @@ pub fn diagnose(
     data: &Data,
     held_out: &Data,
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Diagnosis, Error> {
-    let prepared = Context::new(data, held_out, options, effort);
+    let prepared = Context::new(data, held_out, options, budget);
     let linear = fit_linear_motor(prepared, options)?;
     let selected = select_effects(linear, done);
     let confirmed = confirm(selected);

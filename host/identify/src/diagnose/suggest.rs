@@ -3,7 +3,7 @@
 use super::candidate::descent::Descent;
 use super::candidate::score::score_candidate;
 use super::candidate::search::fit_problem;
-use super::context::{Context, Effort};
+use super::context::{Budget, Context};
 use super::explain::evidence;
 use super::models::Refit;
 use super::outcome::Verdict;
@@ -48,10 +48,10 @@ pub fn suggest(
     held_out: &Data,
     candidate: &Candidate,
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Suggestions, Error> {
-    let context = Context::new(data, held_out, options, effort);
+    let context = Context::new(data, held_out, options, budget);
     let parent = standing(&context, candidate)?;
     if parent.judged().at_floor() {
         let verdict = if parent.effects.is_empty() {

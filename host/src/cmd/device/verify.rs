@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::session::Session;
 use serde::Serialize;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{self, Effort, HeldOut, usable};
+use servoid_identify::diagnose::{self, Budget, HeldOut, usable};
 use servoid_identify::fit::{self, Fit, Options};
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_results::device_run::{Folder, FolderError, Saved, SavedOutcome};
@@ -220,7 +220,7 @@ fn diagnose(
         &data,
         &rest,
         &options,
-        &Effort::usual(session.stop()),
+        &Budget::usual(session.stop()),
     )?;
     let kind = HeldOut::Recording(other.source.clone());
     let report = diagnosed.report(session, &data, &kind, remarks);

@@ -47,7 +47,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &Refit) -> Option<Re
     };
     let book = |samples: usize, runs: usize| {
         context
-            .effort
+            .budget
             .book((samples * usize::from(method.substeps) * runs) as u64);
     };
     let departs = |x: &[f64]| {
@@ -69,7 +69,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &Refit) -> Option<Re
     let (mut reached, mut tries) = (0, 0);
     let mut to = departs(&here.x)?;
     while tries < MOST && to >= FEWEST && to > reached + context.data.len() / SHORTEST {
-        if context.effort.halted() {
+        if context.budget.exhausted() {
             break;
         }
         tries += 1;
@@ -79,7 +79,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &Refit) -> Option<Re
             horizon: Horizon::Whole,
             ..fit_problem(context, structure, method)
         };
-        let found = descend(&problem, &here.x, STRETCH, context.effort)?;
+        let found = descend(&problem, &here.x, STRETCH, context.budget)?;
         book(to, found.evaluations);
         let evaluations = here.evaluations + found.evaluations;
         if found.squares <= noise * noise * to as f64 {

@@ -6,7 +6,7 @@
 //! as the simulations.
 
 use super::bounded_step::within;
-use crate::diagnose::context::Effort;
+use crate::diagnose::context::Budget;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::solve::Objective;
 
@@ -63,19 +63,19 @@ const BETTER: f64 = 0.02;
 
 /// Descends from `start`; `None` where the model cannot run there.
 ///
-/// Where `effort` halts the search ends with what it has.
+/// Where `budget` is exhausted the search ends with what it has.
 pub fn descend(
     objective: &dyn Objective,
     start: &[f64],
     settings: Settings,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
 ) -> Option<Descent> {
-    let mut best = Search::new(objective, start, settings, effort)?.run();
+    let mut best = Search::new(objective, start, settings, budget)?.run();
     let inside = |x: &f64| x.clamp(INSIDE, 1.0 - INSIDE);
     let walled = best.x.iter().any(|x| *x == 0.0 || *x == 1.0);
     if settings.again && walled && best.squares > settings.enough {
         let start: Vec<f64> = best.x.iter().map(inside).collect();
-        if let Some(search) = Search::new(objective, &start, settings, effort) {
+        if let Some(search) = Search::new(objective, &start, settings, budget) {
             let again = search.run();
             let evaluations = best.evaluations + again.evaluations;
             if again.squares < best.squares * (1.0 - BETTER) {
@@ -90,7 +90,7 @@ pub fn descend(
 struct Search<'a> {
     objective: &'a dyn Objective,
     settings: Settings,
-    effort: &'a Effort<'a>,
+    budget: &'a Budget<'a>,
     x: Vec<f64>,
     residuals: Vec<f64>,
     squares: f64,
@@ -108,14 +108,14 @@ impl<'a> Search<'a> {
         objective: &'a dyn Objective,
         start: &[f64],
         settings: Settings,
-        effort: &'a Effort<'a>,
+        budget: &'a Budget<'a>,
     ) -> Option<Self> {
         let x: Vec<f64> = start.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         let (residuals, squares) = objective.residuals_and_cost(&x)?;
         squares.is_finite().then(|| Search {
             objective,
             settings,
-            effort,
+            budget,
             residuals: thinned(residuals, settings.stride),
             x,
             squares,
@@ -164,7 +164,7 @@ impl<'a> Search<'a> {
                     Outcome::Nowhere if self.fresh => return,
                     Outcome::Nowhere => break,
                 }
-                if self.evaluations >= self.settings.evaluations || self.effort.halted() {
+                if self.evaluations >= self.settings.evaluations || self.budget.exhausted() {
                     return;
                 }
             }
@@ -176,7 +176,7 @@ impl<'a> Search<'a> {
         if self.evaluations + self.x.len() > self.settings.evaluations {
             return false;
         }
-        if self.effort.halted() {
+        if self.budget.exhausted() {
             return false;
         }
         let step = |(x, probe): (&f64, &f64)| if x + probe > 1.0 { -probe } else { *probe };

@@ -33,8 +33,8 @@ pub fn search(
     settings: Settings,
     method: Method,
 ) -> Option<Descent> {
-    let found = descend(problem, start, settings, context.effort)?;
+    let found = descend(problem, start, settings, context.budget)?;
     let steps = context.data.len() * usize::from(method.substeps.max(1)) * found.evaluations;
-    context.effort.book(steps as u64);
+    context.budget.book(steps as u64);
     Some(found)
 }

@@ -11,7 +11,7 @@ pub const USUAL_STEPS: u64 = 600_000_000;
 const SEARCH: f64 = 0.75;
 
 /// What a diagnosis may compute, and what it has computed.
-pub struct Effort<'a> {
+pub struct Budget<'a> {
     stop: &'a AtomicBool,
     most: u64,
     spent: AtomicU64,
@@ -21,15 +21,15 @@ pub struct Effort<'a> {
     searches: AtomicBool,
 }
 
-impl<'a> Effort<'a> {
+impl<'a> Budget<'a> {
     /// The usual number of steps, until `stop` is set.
     pub fn usual(stop: &'a AtomicBool) -> Self {
-        Effort::of(USUAL_STEPS, stop)
+        Budget::of(USUAL_STEPS, stop)
     }
 
     /// So many steps, until `stop` is set.
     pub fn of(most: u64, stop: &'a AtomicBool) -> Self {
-        Effort {
+        Budget {
             stop,
             most,
             spent: AtomicU64::new(0),
@@ -60,7 +60,7 @@ impl<'a> Effort<'a> {
     }
 
     /// Whether work has to end with what it has.
-    pub(in crate::diagnose) fn halted(&self) -> bool {
+    pub(in crate::diagnose) fn exhausted(&self) -> bool {
         self.stop.load(Ordering::Relaxed) || self.over.load(Ordering::Relaxed)
     }
 
@@ -70,7 +70,7 @@ impl<'a> Effort<'a> {
     }
 
     /// Compares what was spent with what may be. To be called where no work is under way.
-    pub(in crate::diagnose) fn take_stock(&self) {
+    pub(in crate::diagnose) fn checkpoint(&self) {
         let part = if self.searches.load(Ordering::Relaxed) {
             SEARCH
         } else {
@@ -83,9 +83,9 @@ impl<'a> Effort<'a> {
     }
 
     /// Ends the search for effects: what was kept back for it may now be spent on trying the best model.
-    pub(in crate::diagnose) fn conclude(&self) {
+    pub(in crate::diagnose) fn release_reserve(&self) {
         self.searches.store(false, Ordering::Relaxed);
         self.over.store(false, Ordering::Relaxed);
-        self.take_stock();
+        self.checkpoint();
     }
 }

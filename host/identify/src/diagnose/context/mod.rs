@@ -4,7 +4,7 @@ mod budget;
 mod motion;
 mod span;
 
-pub use budget::{Effort, USUAL_STEPS};
+pub use budget::{Budget, USUAL_STEPS};
 pub use motion::Motion;
 pub use span::{Span, floor_counts, moves_both_ways};
 
@@ -32,7 +32,7 @@ pub struct Context<'a> {
     /// How models are run at first.
     pub method: Method,
     /// How much may be computed.
-    pub effort: &'a Effort<'a>,
+    pub budget: &'a Budget<'a>,
 }
 
 impl<'a> Context<'a> {
@@ -42,7 +42,7 @@ impl<'a> Context<'a> {
         data: &'a Data,
         held_out: &'a Data,
         options: &Options,
-        effort: &'a Effort<'a>,
+        budget: &'a Budget<'a>,
     ) -> Self {
         let span = Span::of(data, options);
         Context {
@@ -57,7 +57,7 @@ impl<'a> Context<'a> {
                 substeps: 1,
                 ..options.method
             },
-            effort,
+            budget,
         }
     }
 
@@ -87,7 +87,7 @@ impl<'a> Context<'a> {
             held_out_horizon: self.held_out_horizon.clone(),
             floor: self.floor,
             method: self.method,
-            effort: self.effort,
+            budget: self.budget,
         }
     }
 }

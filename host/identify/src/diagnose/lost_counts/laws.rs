@@ -2,7 +2,7 @@
 //! a counter that loses and one that does not.
 
 use super::found;
-use crate::diagnose::context::{Context, Effort};
+use crate::diagnose::context::{Budget, Context};
 use crate::diagnose::linear::fit_linear;
 use crate::diagnose::models::{Loss, Losses};
 use crate::fit::Options;
@@ -50,8 +50,8 @@ fn truth(lossless: &Data, with_losses: &Data) -> Vec<Loss> {
 fn losses(data: &Data, held_out: &Data) -> Option<(Losses, f64)> {
     let options = Options::default();
     let stop = AtomicBool::new(false);
-    let effort = Effort::usual(&stop);
-    let context = Context::new(data, held_out, &options, &effort);
+    let budget = Budget::usual(&stop);
+    let context = Context::new(data, held_out, &options, &budget);
     let (context, base) = fit_linear(context, &options).unwrap();
     if base.free().at_floor() {
         return None;

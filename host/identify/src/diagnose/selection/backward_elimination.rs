@@ -25,7 +25,7 @@ pub fn eliminate(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -
             .iter()
             .filter(|&&place| place != Kind::MissedCounts)
             .flat_map(|&place| {
-                context.effort.take_stock();
+                context.budget.checkpoint();
                 without_one(context, &chosen, place)
             })
             .inspect(|model| known.push(model.clone()))

@@ -85,7 +85,7 @@ fn smooth(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -
     });
     let screen_all = |sets: &[(usize, Kind)], dry: &[ScreenedModel]| -> Vec<ScreenedModel> {
         sets.par_iter()
-            .filter(|_| !context.effort.halted())
+            .filter(|_| !context.budget.exhausted())
             .filter_map(|&(parent, kind)| {
                 let screened = screen(context, parents[parent], kind, dry);
                 done();
@@ -97,7 +97,7 @@ fn smooth(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -
     let mut models: Vec<Refit> = Vec::new();
     // The best parent first: where it is half of the truth, the others need not be tried.
     for parent in 0..parents.len() {
-        context.effort.take_stock();
+        context.budget.checkpoint();
         let own: Vec<_> = plain
             .iter()
             .copied()
@@ -229,9 +229,9 @@ fn refits(
     let before = made.len();
     let mut refits = made;
     for chunk in screened_models.chunks(AT_A_TIME) {
-        context.effort.take_stock();
+        context.budget.checkpoint();
         let enough = refits.len() >= before + most;
-        if context.effort.halted() || (enough && !refits.first().is_some_and(&unexplained)) {
+        if context.budget.exhausted() || (enough && !refits.first().is_some_and(&unexplained)) {
             break;
         }
         let best = refits.first();

@@ -35,7 +35,7 @@ pub fn forward_selection(
     let mut before = base.clone();
     while !before.is_complete()
         && levels.len() < MOST_STEPS
-        && !context.effort.halted()
+        && !context.budget.exhausted()
         && levels.iter().skip(1).all(|level| level.believed)
     {
         let parents: Vec<&Refit> = match levels.last() {
@@ -49,13 +49,13 @@ pub fn forward_selection(
             }
         };
         let mut models = extensions(context, &parents, done);
-        context.effort.take_stock();
+        context.budget.checkpoint();
         // In windows a right model need not come down to the encoder's error, and what remains would be looked at for ever.
         if let Some(level) = levels.last().filter(|_| context.span.window_s.is_none()) {
             look_again(context, &level.models, &parents, &mut models, done);
         }
         cross_start::cross_start(context, &mut models);
-        context.effort.take_stock();
+        context.budget.checkpoint();
         polish_best(context, &mut models);
         let Some(best) = judge::best(&models).cloned() else {
             break;
@@ -95,7 +95,7 @@ fn look_again(
         }
         models.extend(find());
         sort(context, models);
-        context.effort.take_stock();
+        context.budget.checkpoint();
     }
 }
 

@@ -34,7 +34,7 @@ pub fn select_effects<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Selec
         anchor,
     } = linear;
     let mut levels = forward_selection(&context, &anchor, done);
-    context.effort.conclude();
+    context.budget.release_reserve();
     // A search that ended early looks like missing physics: the linear motor is fitted again from where the
     // best model has it.
     if let Some(again) = levels

@@ -52,7 +52,7 @@ pub fn all(context: &Context<'_>, chosen: &Refit) -> Vec<Refit> {
         .flat_map(|&place| Kind::ALL.iter().map(move |&kind| (place, kind)))
         .filter(|(_, kind)| !chosen.effects.contains(kind))
         .flat_map(|(place, kind)| {
-            context.effort.take_stock();
+            context.budget.checkpoint();
             instead(context, chosen, place, kind)
         })
         .collect()

@@ -88,10 +88,10 @@ fn a_valley_that_slants_across_a_wall_is_followed_to_its_lowest_point_within() {
         again: true,
     };
     let stop = AtomicBool::new(false);
-    let effort = Effort::usual(&stop);
+    let budget = Budget::usual(&stop);
     for seed in 0..40 {
         let problem = Slanted::draw(seed);
-        let found = descend(&problem, &[0.5; UNKNOWNS], settings, &effort).unwrap();
+        let found = descend(&problem, &[0.5; UNKNOWNS], settings, &budget).unwrap();
         let least = problem.least();
         assert!(
             found.squares < least * 1.001 + 1e-9,
@@ -143,9 +143,9 @@ fn steps_that_follow_what_they_change_find_the_bottom_of_a_fine_wave() {
         again: true,
     };
     let stop = AtomicBool::new(false);
-    let effort = Effort::usual(&stop);
+    let budget = Budget::usual(&stop);
     for off in [-0.6e-7, -0.2e-7, 0.3e-7, 0.5e-7] {
-        let found = descend(&Fine, &[0.3 + off], settings, &effort).unwrap();
+        let found = descend(&Fine, &[0.3 + off], settings, &budget).unwrap();
         assert!(found.squares < 1e-9, "{off:e}: {}", found.squares);
     }
 }
