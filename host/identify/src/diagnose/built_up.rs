@@ -5,7 +5,7 @@ use super::candidate::fit::fit_screened;
 use super::candidate::polish::polish;
 use super::context::{Budget, Context};
 use super::linear::fit_linear;
-use super::models::{Refit, ScreenedModel};
+use super::models::{FittedModel, ScreenedModel};
 use super::screening::screen;
 use crate::fit::Options;
 use servoid_engine::problem::{Candidate, Data};
@@ -39,7 +39,7 @@ pub fn built_up(
     Some(model.candidate)
 }
 
-fn added(context: &Context<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
+fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<FittedModel> {
     // Bristles start from dry friction.
     let dry = (kind == Kind::Lugre).then(|| screen(context, model, Kind::Coulomb, &[]));
     let dry: Vec<ScreenedModel> = dry.flatten().into_iter().collect();

@@ -3,7 +3,7 @@
 
 use super::context::Context;
 use super::lost_counts;
-use super::models::Refit;
+use super::models::FittedModel;
 use super::selection::{Level, Selected, backward_elimination, nested_models, substitution};
 use shared::effects::Kind;
 
@@ -12,13 +12,13 @@ pub struct Confirmed<'a> {
     /// The recordings.
     pub context: Context<'a>,
     /// The linear motor.
-    pub base: Refit,
+    pub base: FittedModel,
     /// The levels of the selection up to the one that was believed.
     pub levels: Vec<Level>,
     /// The model with the effects that hold; `None` where none was believed.
-    pub chosen: Option<Refit>,
+    pub chosen: Option<FittedModel>,
     /// Models with as many effects, and those in which one of its effects is another.
-    pub known: Vec<Refit>,
+    pub known: Vec<FittedModel>,
     /// The newest effect of the first level beyond those, which was not believed.
     pub not_named: Option<Kind>,
 }
@@ -59,10 +59,10 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
 /// to `known`.
 fn held_against_others(
     context: &Context<'_>,
-    chosen: Refit,
+    chosen: FittedModel,
     several: bool,
-    known: &mut Vec<Refit>,
-) -> Refit {
+    known: &mut Vec<FittedModel>,
+) -> FittedModel {
     if !several {
         return nested_models::simplify(context, chosen, known);
     }

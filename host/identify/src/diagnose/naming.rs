@@ -5,7 +5,7 @@ use super::candidate::observer::observe_like;
 use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
 use super::context::{Context, moves_both_ways};
-use super::models::{Refit, same};
+use super::models::{FittedModel, same};
 use super::outcome::Step;
 use super::selection::{Level, backward_elimination, judge};
 use super::spectrum::spectrum;
@@ -16,13 +16,13 @@ pub struct Named<'a> {
     /// The recordings.
     pub context: Context<'a>,
     /// The linear motor.
-    pub base: Refit,
+    pub base: FittedModel,
     /// The effects, in the order in which they were added.
     pub steps: Vec<Step>,
     /// The model with all of them.
-    pub last: Refit,
+    pub last: FittedModel,
     /// Models with as many effects as the one that was confirmed, and those in which one of its effects is another.
-    pub rivals: Vec<Refit>,
+    pub rivals: Vec<FittedModel>,
     /// The best candidate that was not believed.
     pub not_named: Option<Kind>,
 }
@@ -54,11 +54,11 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
 /// The steps from `base` to `chosen`, and the model after the last of them.
 fn steps_to(
     context: &Context<'_>,
-    base: &Refit,
+    base: &FittedModel,
     levels: &[Level],
-    chosen: &Refit,
-    known: &[Refit],
-) -> (Vec<Step>, Refit) {
+    chosen: &FittedModel,
+    known: &[FittedModel],
+) -> (Vec<Step>, FittedModel) {
     let mut observed_base = base.clone();
     // A motor that cannot be tracked keeps the errors of its free run.
     let _ = observe_like(context, &mut observed_base, chosen);
@@ -105,16 +105,16 @@ fn steps_to(
 /// this depth, or fitted now.
 fn model_at(
     context: &Context<'_>,
-    chosen: &Refit,
+    chosen: &FittedModel,
     depth: usize,
-    list: &[Refit],
-    known: &[Refit],
-) -> Option<Refit> {
+    list: &[FittedModel],
+    known: &[FittedModel],
+) -> Option<FittedModel> {
     let prefix = &chosen.effects[..=depth];
     let after = if depth + 1 == chosen.effects.len() {
         Some(chosen.clone())
     } else {
-        let fitted = |model: &&Refit| same(&model.effects, prefix);
+        let fitted = |model: &&FittedModel| same(&model.effects, prefix);
         let made = list.iter().chain(known).find(fitted).cloned();
         made.or_else(|| backward_elimination::with_first(context, chosen, depth + 1))
     };

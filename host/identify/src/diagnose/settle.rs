@@ -1,6 +1,6 @@
 //! The model that a diagnosis ends with, fitted to its end: parameters with intervals.
 
-use super::models::{NOISE_COUNTS, Refit};
+use super::models::{FittedModel, NOISE_COUNTS};
 use super::outcome::Diagnosis;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, Parameter};
@@ -73,7 +73,7 @@ pub fn settle(
 }
 
 /// Errors with the lost counts put back, and the parameters of the loss, whose errors are not known.
-fn with_losses(fit: &mut Fit, last: &Refit) {
+fn with_losses(fit: &mut Fit, last: &FittedModel) {
     fit.rms_counts = last.rms_counts;
     fit.validate_rms_counts = Some(last.validate_rms_counts);
     fit.effects = last.effects.iter().map(|kind| kind.name()).collect();

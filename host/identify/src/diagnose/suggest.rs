@@ -5,7 +5,7 @@ use super::candidate::score::score_candidate;
 use super::candidate::search::fit_problem;
 use super::context::{Budget, Context};
 use super::explain::evidence;
-use super::models::Refit;
+use super::models::FittedModel;
 use super::outcome::Verdict;
 use super::residual_analysis::whereabouts;
 use super::selection::{extensions, judge};
@@ -21,7 +21,7 @@ pub struct Suggestion {
     /// The effect.
     pub effect: Kind,
     /// The model with it, fitted.
-    pub refit: Refit,
+    pub refit: FittedModel,
     /// What was measured that speaks for it, if the recording shows it.
     pub evidence: Option<String>,
     /// Chance of so large a gain if it were absent.
@@ -87,7 +87,7 @@ pub fn suggest(
 }
 
 /// A model as it stands, in the terms of a diagnosis.
-fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<Refit, Error> {
+fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<FittedModel, Error> {
     let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
     let values: Vec<f64> = (candidate.effects.iter())
         .flat_map(|(_, values)| values.to_vec())

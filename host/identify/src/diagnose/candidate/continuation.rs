@@ -9,7 +9,7 @@ use super::descent::{Descent, FINEST, Settings, descend};
 use super::score::score_candidate;
 use super::search::fit_problem;
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{ROOM, Refit};
+use crate::diagnose::models::{FittedModel, ROOM};
 use crate::fit::{START_OFFSETS, departure, scores};
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon, Structure};
@@ -38,7 +38,7 @@ const FAR: f64 = 0.1;
 
 /// A model that follows the readings to their end, or as far as can be, from one that does not; `None` where they are lost
 /// early.
-pub fn follow_by_continuation(context: &Context<'_>, refit: &Refit) -> Option<Refit> {
+pub fn follow_by_continuation(context: &Context<'_>, refit: &FittedModel) -> Option<FittedModel> {
     let structure = &refit.structure;
     // What the arithmetic leaves would grow along the run like any other error.
     let method = Method {
@@ -101,7 +101,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &Refit) -> Option<Re
     }
     let predicted = refit.foreseen_rms_counts;
     let followed = score_candidate(context, structure.clone(), &here, predicted, method).ok()?;
-    Some(Refit {
+    Some(FittedModel {
         followed: part,
         ..followed
     })

@@ -5,7 +5,7 @@ use super::observer::observe_all;
 use super::score::score_candidate;
 use super::search::{fit_problem, search};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{NOISE_COUNTS, ROOM, Refit, ScreenedModel};
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ROOM, ScreenedModel};
 use crate::error::Error;
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon, Structure};
@@ -47,7 +47,7 @@ const AS_GOOD: f64 = 0.04;
 ///
 /// # Errors
 /// [`Error::Failed`] where the model cannot run from there.
-pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<Refit, Error> {
+pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<FittedModel, Error> {
     let settings = Settings {
         enough: (context.floor * ROOM).powi(2) * context.data.len() as f64,
         ..FULL
@@ -95,7 +95,7 @@ pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<R
     )?;
     let mut both = [free, faded];
     observe_all(context, &mut both);
-    let score = |refit: &Refit| {
+    let score = |refit: &FittedModel| {
         let errors = refit.tracked.map(|tracked| tracked.errors);
         errors.map_or(f64::INFINITY, |errors| errors.score())
     };

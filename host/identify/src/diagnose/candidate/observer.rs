@@ -5,7 +5,7 @@
 //! best of them can follow.
 
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Errors, MEMORIES_S, NOISE_COUNTS, Refit, Tracked};
+use crate::diagnose::models::{Errors, FittedModel, MEMORIES_S, NOISE_COUNTS, Tracked};
 use crate::error::Error;
 use servoid_engine::problem::cost::{errors, rms_counts};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
@@ -19,7 +19,7 @@ const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
 ///
 /// # Errors
 /// Where the model cannot run.
-fn observe(context: &Context<'_>, refit: &mut Refit, memory_s: f64) -> Result<(), Error> {
+fn observe(context: &Context<'_>, refit: &mut FittedModel, memory_s: f64) -> Result<(), Error> {
     if let Some(known) = refit.tracks.iter().find(|known| known.memory_s == memory_s) {
         refit.tracked = Some(*known);
         return Ok(());
@@ -54,7 +54,11 @@ fn observe(context: &Context<'_>, refit: &mut Refit, memory_s: f64) -> Result<()
 ///
 /// # Errors
 /// Where the model cannot run.
-pub fn observe_like(context: &Context<'_>, refit: &mut Refit, other: &Refit) -> Result<(), Error> {
+pub fn observe_like(
+    context: &Context<'_>,
+    refit: &mut FittedModel,
+    other: &FittedModel,
+) -> Result<(), Error> {
     match (refit.tracked, other.tracked) {
         (_, None) => Ok(()),
         (Some(own), Some(other)) if own.memory_s == other.memory_s => Ok(()),
@@ -63,7 +67,7 @@ pub fn observe_like(context: &Context<'_>, refit: &mut Refit, other: &Refit) -> 
 }
 
 /// Tracks all of some models in the same way.
-pub fn observe_all(context: &Context<'_>, refits: &mut [Refit]) {
+pub fn observe_all(context: &Context<'_>, refits: &mut [FittedModel]) {
     for memory_s in MEMORIES_S {
         for refit in refits.iter_mut() {
             if refit.tracked.is_none_or(|own| own.memory_s != memory_s) {

@@ -6,7 +6,7 @@ use super::observer::observe_like;
 use super::score::{refine_held_out_start, run_errors, score_candidate};
 use super::search::{fit_problem, search};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::Refit;
+use crate::diagnose::models::FittedModel;
 use crate::error::Error;
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{FitProblem, Horizon};
@@ -38,7 +38,7 @@ const STEP_PART: f64 = 0.1;
 ///
 /// # Errors
 /// Where the model cannot run, which it could before.
-pub fn polish(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
+pub fn polish(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, Error> {
     if refit.followed > 0.0 {
         return Ok(refit.clone());
     }
@@ -56,13 +56,13 @@ pub fn polish(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
     }
     let free = converge(
         context,
-        &Refit {
+        &FittedModel {
             tracked: None,
             ..polished.clone()
         },
     )?;
     Ok(if free.ran().at_floor() {
-        Refit {
+        FittedModel {
             tracked: polished.tracked,
             ..free
         }
@@ -71,7 +71,7 @@ pub fn polish(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
     })
 }
 
-fn converge(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
+fn converge(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, Error> {
     let mut best = refit.clone();
     loop {
         let method = best.method;
@@ -92,7 +92,7 @@ fn converge(context: &Context<'_>, refit: &Refit) -> Result<Refit, Error> {
             best.foreseen_rms_counts,
             method,
         )?;
-        let mut polished = Refit {
+        let mut polished = FittedModel {
             evaluations: best.evaluations + polished.evaluations,
             ..polished
         };

@@ -2,7 +2,7 @@
 
 use super::descent::Descent;
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Errors, Refit, distinct};
+use crate::diagnose::models::{Errors, FittedModel, distinct};
 use crate::error::Error;
 use crate::fit::{scores, validate, validate_roughly};
 use servoid_engine::problem::cost::{errors, rms_counts};
@@ -20,11 +20,11 @@ pub fn score_candidate(
     found: &Descent,
     predicted: f64,
     method: Method,
-) -> Result<Refit, Error> {
+) -> Result<FittedModel, Error> {
     let values = structure.values(&found.x);
     let candidate = structure.candidate(&values);
     let windows = context.span.window_s.is_some();
-    Ok(Refit {
+    Ok(FittedModel {
         effects: distinct(&structure.effects),
         parameters: structure.effect_values(&values).to_vec(),
         candidate,
@@ -86,7 +86,7 @@ pub fn run_errors(
 }
 
 /// Looks for the start of the held-out run as it is looked for where results are told.
-pub fn refine_held_out_start(context: &Context<'_>, refit: &mut Refit) {
+pub fn refine_held_out_start(context: &Context<'_>, refit: &mut FittedModel) {
     // Where nothing depends on the angle, where it began does not matter.
     if refit.losses.is_none()
         && refit.candidate.needs_angle()

@@ -2,7 +2,7 @@
 //! constants that the refit found, are drawn without any model of the effect: a sentence is only said where
 //! that drawing shows it.
 
-use crate::diagnose::models::Refit;
+use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
 use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, Whereabouts};
 use crate::error::Error;
@@ -21,7 +21,7 @@ const LINE: f64 = 0.2;
 const IN_PHASE: f64 = 40.0;
 
 /// The model before step `index`.
-pub fn before(diagnosis: &Diagnosis, index: usize) -> &Refit {
+pub fn before(diagnosis: &Diagnosis, index: usize) -> &FittedModel {
     let earlier = index.checked_sub(1).and_then(|k| diagnosis.steps.get(k));
     let after = earlier.and_then(|step| step.candidates.first());
     after.unwrap_or(&diagnosis.base)
@@ -48,7 +48,7 @@ pub fn asked_for(
 }
 
 /// Values of the parameters that `refit` found for one of its effects.
-pub fn values(refit: &Refit, kind: Kind) -> Vec<f64> {
+pub fn values(refit: &FittedModel, kind: Kind) -> Vec<f64> {
     let mut effects = refit.candidate.effects.iter();
     let found = effects.find(|(own, _)| *own == kind);
     found.map_or(Vec::new(), |(_, values)| values.to_vec())

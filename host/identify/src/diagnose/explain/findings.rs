@@ -1,7 +1,7 @@
 //! Where the models of a diagnosis fail, and whether the last one leaves anything but the encoder's steps.
 
 use super::evidence;
-use crate::diagnose::models::Refit;
+use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
 use crate::diagnose::residual_analysis::{Whereabouts, Whiteness, whereabouts, whiteness};
 use crate::error::Error;
@@ -34,9 +34,10 @@ pub struct Findings {
 /// Where a model cannot run, which it could before.
 pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<Findings, Error> {
     let complete = &diagnosis.last.candidate;
-    let look = |refit: &Refit| whereabouts(data, &refit.candidate, complete, diagnosis.last.method);
+    let look =
+        |refit: &FittedModel| whereabouts(data, &refit.candidate, complete, diagnosis.last.method);
     let centre = data.centre(0) - data.counts[0];
-    let errors = |refit: &Refit| -> Result<Vec<f64>, Error> {
+    let errors = |refit: &FittedModel| -> Result<Vec<f64>, Error> {
         let errors = scores::whole(data, &refit.candidate, refit.method)?;
         Ok(errors.into_iter().map(|error| error - centre).collect())
     };

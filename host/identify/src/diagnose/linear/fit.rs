@@ -5,7 +5,7 @@ use crate::diagnose::candidate::descent::{Descent, PROBE, Settings};
 use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::{Context, floor_counts};
-use crate::diagnose::models::Refit;
+use crate::diagnose::models::FittedModel;
 use crate::error::Error;
 use crate::fit::{self, Options, base_for};
 use servoid_engine::problem::{FitProblem, Structure};
@@ -31,7 +31,7 @@ const BASE: Settings = Settings {
 pub fn fit_linear<'a>(
     mut context: Context<'a>,
     options: &Options,
-) -> Result<(Context<'a>, Refit), Error> {
+) -> Result<(Context<'a>, FittedModel), Error> {
     let options = Options {
         effects: Vec::new(),
         window_s: context.span.window_s,
@@ -57,9 +57,9 @@ pub fn fit_linear<'a>(
 /// The linear motor, fitted again from `machine`, if that explains the recording down to the encoder after all.
 pub fn fit_linear_again(
     context: &Context<'_>,
-    base: &Refit,
+    base: &FittedModel,
     machine: &Machine<f64>,
-) -> Option<Refit> {
+) -> Option<FittedModel> {
     let (kind, speed) = (base.structure.base, base.structure.start_speed);
     let structure = Structure::around(context.data, kind, &[], machine, speed);
     let start = structure.values_of(machine, &[], base.candidate.start_speed);
@@ -70,7 +70,11 @@ pub fn fit_linear_again(
     again.judged().at_floor().then_some(again)
 }
 
-fn scored(context: &Context<'_>, structure: Structure, found: &Descent) -> Result<Refit, Error> {
+fn scored(
+    context: &Context<'_>,
+    structure: Structure,
+    found: &Descent,
+) -> Result<FittedModel, Error> {
     let predicted = (found.squares / context.data.len() as f64).sqrt();
     score_candidate(context, structure, found, predicted, context.method)
 }

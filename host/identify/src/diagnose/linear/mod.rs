@@ -6,7 +6,7 @@ mod offset_regressor;
 pub use fit::{fit_linear, fit_linear_again};
 
 use super::context::Context;
-use super::models::Refit;
+use super::models::FittedModel;
 use crate::error::Error;
 use crate::fit::Options;
 use offset_regressor::regressed_beside_offset;
@@ -19,9 +19,9 @@ pub struct Linear<'a> {
     /// The recordings, over the span that the linear motor allows.
     pub context: Context<'a>,
     /// The linear motor.
-    pub base: Refit,
+    pub base: FittedModel,
     /// The same where the search for effects starts: with another gain where a constant beside the motor shows one.
-    pub anchor: Refit,
+    pub anchor: FittedModel,
 }
 
 /// Fits the linear motor, in windows where its free run says little.

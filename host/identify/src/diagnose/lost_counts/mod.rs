@@ -23,7 +23,7 @@ use crate::diagnose::candidate::descent::{PROBE, Settings};
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Loss, Losses, Refit};
+use crate::diagnose::models::{FittedModel, Loss, Losses};
 use crate::fit::{SPEED_HALF_WIDTH, may_start_moving};
 use detect::Depth;
 use fit_influence::FitInfluence;
@@ -64,7 +64,7 @@ const SAMPLES_EACH: usize = 40;
 
 /// The model `parent` with the losses that its residuals show; its parameters are fitted again. `None`
 /// where there are too few jumps, or too many, or where it has losses already.
-pub fn found(context: &Context<'_>, parent: &Refit) -> Option<Refit> {
+pub fn found(context: &Context<'_>, parent: &FittedModel) -> Option<FittedModel> {
     if !context.data.quantised || parent.losses.is_some() {
         return None;
     }
@@ -75,9 +75,9 @@ pub fn found(context: &Context<'_>, parent: &Refit) -> Option<Refit> {
 /// that the recordings then show; the losses keep their place among the effects.
 pub fn beside(
     context: &Context<'_>,
-    parent: &Refit,
-    work: impl Fn(&Context<'_>, &Refit) -> Vec<Refit>,
-) -> Vec<Refit> {
+    parent: &FittedModel,
+    work: impl Fn(&Context<'_>, &FittedModel) -> Vec<FittedModel>,
+) -> Vec<FittedModel> {
     let (Some(losses), Some((place, bare))) = (&parent.losses, without(parent)) else {
         return Vec::new();
     };
@@ -94,10 +94,10 @@ pub fn beside(
 /// The model `parent` with losses after `place` of its effects, `known` being those that it was fitted with.
 fn with_losses(
     context: &Context<'_>,
-    parent: &Refit,
+    parent: &FittedModel,
     place: usize,
     known: &[Loss],
-) -> Option<Refit> {
+) -> Option<FittedModel> {
     [Depth::Single, Depth::Clear]
         .into_iter()
         .find_map(|depth| to_depth(context, parent, place, known, depth))
@@ -105,11 +105,11 @@ fn with_losses(
 
 fn to_depth(
     context: &Context<'_>,
-    parent: &Refit,
+    parent: &FittedModel,
     place: usize,
     known: &[Loss],
     depth: Depth,
-) -> Option<Refit> {
+) -> Option<FittedModel> {
     let mut found = repair(context, parent, known, depth)?;
     // A better model shows the losses better, and those bring forth a better model.
     if !found.refit.ran().at_floor()
@@ -125,7 +125,7 @@ fn to_depth(
 
 /// A model of the recordings with their lost counts put back.
 struct Repair {
-    refit: Refit,
+    refit: FittedModel,
     losses: Losses,
     share: f64,
     /// Of the speed, rad/s.
@@ -134,8 +134,8 @@ struct Repair {
 
 impl Repair {
     /// The same as a model of the recordings with losses, which come after `place` others.
-    fn with(self, place: usize) -> Refit {
-        let mut refit = Refit {
+    fn with(self, place: usize) -> FittedModel {
+        let mut refit = FittedModel {
             foreseen_rms_counts: self.refit.rms_counts,
             losses: Some(self.losses),
             ..self.refit
@@ -149,7 +149,12 @@ impl Repair {
 }
 
 /// Finds the losses that the `parent` shows, and fits it to what it then is about.
-fn repair(context: &Context<'_>, parent: &Refit, known: &[Loss], depth: Depth) -> Option<Repair> {
+fn repair(
+    context: &Context<'_>,
+    parent: &FittedModel,
+    known: &[Loss],
+    depth: Depth,
+) -> Option<Repair> {
     let structure = &parent.structure;
     let (fitted, x) = settled(context, parent, known, depth)?;
     let values = structure.values(&x);
@@ -177,7 +182,7 @@ fn repair(context: &Context<'_>, parent: &Refit, known: &[Loss], depth: Depth) -
     let (share, threshold) = rate::share_and_threshold(&losses.fitted, &speed);
     let units = &context.data.units;
     let per_s = threshold / units.interval;
-    let bare = Refit {
+    let bare = FittedModel {
         candidate: structure.candidate(&values),
         parameters: structure.effect_values(&values).to_vec(),
         ..parent.clone()
@@ -193,7 +198,7 @@ fn repair(context: &Context<'_>, parent: &Refit, known: &[Loss], depth: Depth) -
 /// The losses of the fitted recording and the point where the model stands with them.
 fn settled(
     context: &Context<'_>,
-    parent: &Refit,
+    parent: &FittedModel,
     known: &[Loss],
     depth: Depth,
 ) -> Option<(Vec<Loss>, Vec<f64>)> {
@@ -298,7 +303,7 @@ fn problem<'d>(data: &'d Data, structure: &Structure, method: Method) -> FitProb
 }
 
 /// A model with losses as one of the repaired recordings, and the place that the losses had.
-fn without(refit: &Refit) -> Option<(usize, Refit)> {
+fn without(refit: &FittedModel) -> Option<(usize, FittedModel)> {
     let mut bare = refit.clone();
     let place = bare
         .effects

@@ -14,7 +14,7 @@ const PROOF: f64 = 0.5;
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
-pub struct Refit {
+pub struct FittedModel {
     /// The effects, the newest last; one that its structure holds several times stands here once.
     pub effects: Vec<Kind>,
     /// The model.
@@ -48,7 +48,7 @@ pub struct Refit {
     pub method: Method,
 }
 
-impl Refit {
+impl FittedModel {
     /// Errors of the free runs.
     pub fn free(&self) -> Errors {
         Errors {
@@ -88,7 +88,7 @@ impl Refit {
     }
 
     /// Order by what they are judged by, best first.
-    pub fn by_score(&self, other: &Refit) -> Ordering {
+    pub fn by_score(&self, other: &FittedModel) -> Ordering {
         self.judged().score().total_cmp(&other.judged().score())
     }
 
@@ -123,7 +123,7 @@ impl Refit {
     }
 
     /// The model with the parameters that it has, less one effect.
-    pub fn without(&self, place: Kind) -> Refit {
+    pub fn without(&self, place: Kind) -> FittedModel {
         let mut rest = &self.parameters[..];
         let mut refit = self.clone();
         refit.effects.clear();

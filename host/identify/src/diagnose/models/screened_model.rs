@@ -1,7 +1,7 @@
 //! A model that was fitted roughly: it predicts what an effect can explain, and is where the full fit starts.
 
 use super::errors::NOISE_COUNTS;
-use super::fitted_model::Refit;
+use super::fitted_model::FittedModel;
 use servoid_engine::problem::{Candidate, Structure};
 use shared::effects::Kind;
 
@@ -55,7 +55,7 @@ impl ScreenedModel {
     }
 
     /// Whether a full fit may come near what `chosen` leaves, which may have been predicted as badly.
-    pub fn may_rival(&self, chosen: &Refit) -> bool {
+    pub fn may_rival(&self, chosen: &FittedModel) -> bool {
         let left = chosen.ran().fitted.max(chosen.foreseen_rms_counts);
         self.predicted() < FAR * left.max(NOISE_COUNTS)
     }

@@ -3,7 +3,7 @@
 use super::step::Step;
 use super::verdict::Verdict;
 use crate::diagnose::context::Span;
-use crate::diagnose::models::{NOISE_COUNTS, Refit};
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS};
 use shared::effects::Kind;
 
 /// A diagnosis.
@@ -12,15 +12,15 @@ pub struct Diagnosis {
     /// How far models ran on their own, and why.
     pub span: Span,
     /// The linear motor.
-    pub base: Refit,
+    pub base: FittedModel,
     /// The verdict.
     pub verdict: Verdict,
     /// The effects, in the order in which they were added.
     pub steps: Vec<Step>,
     /// The model with all of them.
-    pub last: Refit,
+    pub last: FittedModel,
     /// Models with as many effects as the last one, and those in which one of its effects is another.
-    pub rivals: Vec<Refit>,
+    pub rivals: Vec<FittedModel>,
     /// The best candidate that was not added, if one reduced the error but not beyond doubt.
     pub not_named: Option<Kind>,
     /// What to do next, in words.

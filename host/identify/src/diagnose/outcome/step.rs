@@ -1,6 +1,6 @@
 //! One effect that a diagnosis names.
 
-use crate::diagnose::models::Refit;
+use crate::diagnose::models::FittedModel;
 use crate::diagnose::spectrum::Spectrum;
 use shared::effects::Kind;
 
@@ -15,7 +15,7 @@ pub struct Step {
     /// and by the part of the error that the whole model leaves unexplained.
     pub confidence: f64,
     /// All candidates with their refits, best first.
-    pub candidates: Vec<Refit>,
+    pub candidates: Vec<FittedModel>,
     /// Chance of so large a gain if the effect were absent, for each candidate.
     pub p_values: Vec<f64>,
     /// All orders of a cogging torque, of which the model holds the strongest.

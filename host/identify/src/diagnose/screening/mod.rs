@@ -11,7 +11,7 @@ use crate::diagnose::candidate::descent::{PROBE, Settings};
 use crate::diagnose::candidate::fit::LOST;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{NOISE_COUNTS, Refit, ScreenedModel};
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ScreenedModel};
 use crate::diagnose::spectrum::spectrum;
 use crate::fit::base_for;
 use series_parallel::{SeriesParallel, follows};
@@ -46,7 +46,7 @@ const PROMISING: f64 = 0.9;
 /// `dry` are screened models with dry friction, from which bristles start.
 pub fn screen(
     context: &Context<'_>,
-    parent: &Refit,
+    parent: &FittedModel,
     kind: Kind,
     dry: &[ScreenedModel],
 ) -> Option<ScreenedModel> {
@@ -97,7 +97,7 @@ pub fn screen(
 
 /// What a count of a series-parallel error is worth in a free run of `parent` (see [`ScreenedModel::free_run_ratio`]).
 /// Near standstill the series-parallel model errs by more than the free run, whatever is added to it.
-pub fn free_run_ratio(context: &Context<'_>, parent: &Refit) -> f64 {
+pub fn free_run_ratio(context: &Context<'_>, parent: &FittedModel) -> f64 {
     // In windows both are set back to the measured state.
     if context.span.window_s.is_some() {
         return 1.0;
@@ -114,7 +114,7 @@ pub fn free_run_ratio(context: &Context<'_>, parent: &Refit) -> f64 {
 pub fn rescreen(
     context: &Context<'_>,
     screened: &ScreenedModel,
-    parent: &Refit,
+    parent: &FittedModel,
     there: &ScreenedModel,
 ) -> Option<ScreenedModel> {
     let (own, theirs) = (screened.values(), there.values());
@@ -136,13 +136,13 @@ pub fn rescreen(
 }
 
 /// A model that has lost effects, or has others in their place, where it stands.
-pub fn restart(context: &Context<'_>, rest: &Refit) -> ScreenedModel {
+pub fn restart(context: &Context<'_>, rest: &FittedModel) -> ScreenedModel {
     let structure = structure_near(context, &rest.structure.effects, rest);
     ScreenedModel::standing(structure, &rest.candidate, &rest.parameters)
 }
 
 /// The unknowns of a model with `effects` and a machine near that of `there`.
-fn structure_near(context: &Context<'_>, effects: &[Kind], there: &Refit) -> Structure {
+fn structure_near(context: &Context<'_>, effects: &[Kind], there: &FittedModel) -> Structure {
     let mut structure = Structure::around(
         context.data,
         base_for(context.data, effects),
@@ -158,7 +158,7 @@ fn structure_near(context: &Context<'_>, effects: &[Kind], there: &Refit) -> Str
 
 /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
 /// strongest order alone may leave more than it explains.
-fn cogging_orders(context: &Context<'_>, parent: &Refit, kind: Kind) -> Option<Vec<f64>> {
+fn cogging_orders(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option<Vec<f64>> {
     if kind != Kind::Cogging || context.span.window_s.is_none() {
         return None;
     }

@@ -1,7 +1,7 @@
 //! Where the search for a new effect's parameters starts.
 
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Refit, ScreenedModel};
+use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::diagnose::spectrum::orders;
 use shared::effects::Kind;
 use shared::units::Quantity;
@@ -14,7 +14,7 @@ const AMPLITUDE: f64 = 0.5;
 /// Starts for the parameters of `kind`, SI, beside the model `parent`.
 pub fn starts(
     context: &Context<'_>,
-    parent: &Refit,
+    parent: &FittedModel,
     kind: Kind,
     dry: &[ScreenedModel],
 ) -> Vec<Vec<f64>> {
@@ -71,7 +71,7 @@ fn several(kind: Kind) -> Option<&'static [(usize, &'static [f64])]> {
 
 /// Bristles slide as dry friction does: their torque, and what they hold more at rest, start at what dry
 /// friction alone would have.
-fn bristles(parent: &Refit, typical: &[f64], dry: &[ScreenedModel]) -> Vec<Vec<f64>> {
+fn bristles(parent: &FittedModel, typical: &[f64], dry: &[ScreenedModel]) -> Vec<Vec<f64>> {
     let of_parent =
         |screened: &&ScreenedModel| screened.structure.effects.starts_with(&parent.effects);
     let best = |kind: Kind| {

@@ -8,7 +8,7 @@ use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
-use crate::diagnose::models::Refit;
+use crate::diagnose::models::FittedModel;
 use crate::diagnose::screening::{free_run_error, restart, screen_from};
 use shared::effects::Kind;
 
@@ -17,7 +17,11 @@ const NEAR: f64 = 3.0;
 
 /// `chosen` without the effects that no longer earn their place beside the others. Every model that was fitted
 /// for it goes to `known`.
-pub fn eliminate(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
+pub fn eliminate(
+    context: &Context<'_>,
+    chosen: FittedModel,
+    known: &mut Vec<FittedModel>,
+) -> FittedModel {
     let mut chosen = chosen;
     while chosen.effects.len() > 1 {
         let simpler = chosen
@@ -30,7 +34,7 @@ pub fn eliminate(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -
             })
             .inspect(|model| known.push(model.clone()))
             .filter(|simpler| !removes(simpler, &chosen))
-            .min_by(Refit::by_score);
+            .min_by(FittedModel::by_score);
         match simpler {
             Some(simpler) => chosen = simpler,
             None => break,
@@ -40,7 +44,7 @@ pub fn eliminate(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -
 }
 
 /// `chosen` without one of its effects.
-fn without_one(context: &Context<'_>, chosen: &Refit, place: Kind) -> Vec<Refit> {
+fn without_one(context: &Context<'_>, chosen: &FittedModel, place: Kind) -> Vec<FittedModel> {
     if chosen.losses.is_some() {
         return lost_counts::beside(context, chosen, |context, bare| {
             without_one(context, bare, place)
@@ -50,16 +54,20 @@ fn without_one(context: &Context<'_>, chosen: &Refit, place: Kind) -> Vec<Refit>
 }
 
 /// `chosen` with the first `depth` of its effects only. `None` where it cannot run, or has losses.
-pub fn with_first(context: &Context<'_>, chosen: &Refit, depth: usize) -> Option<Refit> {
+pub fn with_first(
+    context: &Context<'_>,
+    chosen: &FittedModel,
+    depth: usize,
+) -> Option<FittedModel> {
     if chosen.losses.is_some() {
         return None;
     }
-    let drop = |rest: Refit, &place: &Kind| rest.without(place);
+    let drop = |rest: FittedModel, &place: &Kind| rest.without(place);
     let rest = chosen.effects[depth..].iter().fold(chosen.clone(), drop);
     fit_screened(context, &restart(context, &rest)).ok()
 }
 
-fn fitted_without(context: &Context<'_>, chosen: &Refit, place: Kind) -> Option<Refit> {
+fn fitted_without(context: &Context<'_>, chosen: &FittedModel, place: Kind) -> Option<FittedModel> {
     let mut rest = chosen.without(place);
     nested_models::absorb(&mut rest, place, &chosen.values_of(place));
     let mut screened = restart(context, &rest);

@@ -5,7 +5,7 @@ use super::judge::look_alikes;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Refit, ScreenedModel};
+use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::diagnose::screening::{EffectValues, with_common_parameters};
 use rayon::prelude::*;
 
@@ -18,12 +18,13 @@ const RIVALS: usize = 2;
 
 /// Lets the look-alikes among the first of some models, sorted by score, start from each other's machine and
 /// common parameters, and sorts again.
-pub fn cross_start(context: &Context<'_>, models: &mut [Refit]) {
+pub fn cross_start(context: &Context<'_>, models: &mut [FittedModel]) {
     let Some(best) = models.first().cloned() else {
         return;
     };
-    let near = |model: &Refit| model.judged().score() - best.judged().score() < NEAR;
-    let alike = |model: &Refit| match (model.effects.split_last(), best.effects.split_last()) {
+    let near = |model: &FittedModel| model.judged().score() - best.judged().score() < NEAR;
+    let alike = |model: &FittedModel| match (model.effects.split_last(), best.effects.split_last())
+    {
         (Some((&own, rest)), Some((&other, others))) => rest == others && look_alikes(own, other),
         _ => false,
     };
@@ -38,7 +39,7 @@ pub fn cross_start(context: &Context<'_>, models: &mut [Refit]) {
     if !best.judged().at_floor() {
         pairs.push((0, first));
     }
-    let again: Vec<(usize, Refit)> = pairs
+    let again: Vec<(usize, FittedModel)> = pairs
         .par_iter()
         .filter_map(|&(own, other)| {
             let refit = from_there(context, &models[own], &models[other])?;
@@ -49,10 +50,10 @@ pub fn cross_start(context: &Context<'_>, models: &mut [Refit]) {
     for (place, refit) in again {
         models[place] = refit;
     }
-    models.sort_by(Refit::by_score);
+    models.sort_by(FittedModel::by_score);
 }
 
-fn found(refit: &Refit) -> EffectValues<'_> {
+fn found(refit: &FittedModel) -> EffectValues<'_> {
     EffectValues {
         effects: &refit.structure.effects,
         values: &refit.parameters,
@@ -60,7 +61,11 @@ fn found(refit: &Refit) -> EffectValues<'_> {
 }
 
 /// `model`, fitted again from the machine of `other` and those parameters that both know.
-fn from_there(context: &Context<'_>, model: &Refit, other: &Refit) -> Option<Refit> {
+fn from_there(
+    context: &Context<'_>,
+    model: &FittedModel,
+    other: &FittedModel,
+) -> Option<FittedModel> {
     let parameters = with_common_parameters(found(model), found(other));
     let start = ScreenedModel::standing(model.structure.clone(), &other.candidate, &parameters);
     let mut refit = fit_screened(context, &start).ok()?;

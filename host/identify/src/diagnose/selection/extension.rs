@@ -6,7 +6,7 @@ use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_all;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
-use crate::diagnose::models::{Refit, ScreenedModel};
+use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::diagnose::screening::{free_run_ratio, rescreen, screen};
 use rayon::prelude::*;
 use shared::effects::{Kind, MAX_EFFECTS};
@@ -23,7 +23,7 @@ const FAR: f64 = 4.0;
 const AT_A_TIME: usize = 2;
 
 /// The same model must not be screened twice, whichever parent it comes from.
-fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
+fn sets(parents: &[&FittedModel]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
     for (index, parent) in parents.iter().enumerate() {
@@ -51,10 +51,10 @@ fn sets(parents: &[&Refit]) -> Vec<(usize, Kind)> {
 /// `done` is called after each piece of work.
 pub fn extensions(
     context: &Context<'_>,
-    parents: &[&Refit],
+    parents: &[&FittedModel],
     done: &(dyn Fn() + Sync),
-) -> Vec<Refit> {
-    let mut models: Vec<Refit> = parents
+) -> Vec<FittedModel> {
+    let mut models: Vec<FittedModel> = parents
         .iter()
         // In windows a jump is forgotten with the window.
         .filter(|_| context.span.window_s.is_none())
@@ -79,7 +79,11 @@ pub fn extensions(
 
 /// Every model that adds one effect that can be simulated. Bristles cost much: they, and what builds on them,
 /// are tried where nothing else will do.
-fn smooth(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
+fn smooth(
+    context: &Context<'_>,
+    parents: &[&FittedModel],
+    done: &(dyn Fn() + Sync),
+) -> Vec<FittedModel> {
     let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents).into_iter().partition(|(at, kind)| {
         *kind != Kind::Lugre && !parents[*at].effects.contains(&Kind::Lugre)
     });
@@ -94,7 +98,7 @@ fn smooth(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -
             .collect()
     };
     let mut screened_models: Vec<ScreenedModel> = Vec::new();
-    let mut models: Vec<Refit> = Vec::new();
+    let mut models: Vec<FittedModel> = Vec::new();
     // The best parent first: where it is half of the truth, the others need not be tried.
     for parent in 0..parents.len() {
         context.budget.checkpoint();
@@ -156,7 +160,7 @@ fn smooth(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
 /// explain.
-fn bristled(context: &Context<'_>, models: &[Refit]) -> Option<Refit> {
+fn bristled(context: &Context<'_>, models: &[FittedModel]) -> Option<FittedModel> {
     let best = models.first().filter(|model| !model.ran().at_floor())?;
     let dry = |kind: &&Kind| matches!(kind, Kind::Coulomb | Kind::Stribeck);
     let place = *best.effects.iter().find(dry)?;
@@ -172,7 +176,7 @@ fn sort_screened(screened_models: &mut [ScreenedModel]) {
 /// look-alikes get a second start there, lest they lose for their start alone.
 fn again_from_best(
     context: &Context<'_>,
-    parents: &[&Refit],
+    parents: &[&FittedModel],
     screened_models: &mut [ScreenedModel],
 ) {
     let Some((best, others)) = screened_models.split_first_mut() else {
@@ -215,10 +219,10 @@ fn again_from_best(
 fn refits(
     context: &Context<'_>,
     screened_models: &[ScreenedModel],
-    made: Vec<Refit>,
+    made: Vec<FittedModel>,
     done: &(dyn Fn() + Sync),
-    unexplained: impl Fn(&Refit) -> bool,
-) -> Vec<Refit> {
+    unexplained: impl Fn(&FittedModel) -> bool,
+) -> Vec<FittedModel> {
     // In windows more of them are alike.
     let windows = context.span.window_s.is_some();
     let most = if windows {
@@ -235,7 +239,7 @@ fn refits(
             break;
         }
         let best = refits.first();
-        let made: Vec<Refit> = chunk
+        let made: Vec<FittedModel> = chunk
             .par_iter()
             .filter(|screened| deserves_fit(screened, screened_models, best))
             .filter_map(|screened| {
@@ -251,15 +255,19 @@ fn refits(
 }
 
 /// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
-pub fn sort(context: &Context<'_>, refits: &mut [Refit]) {
+pub fn sort(context: &Context<'_>, refits: &mut [FittedModel]) {
     if refits.iter().any(|refit| refit.tracked.is_some()) {
         observe_all(context, refits);
     }
-    refits.sort_by(Refit::by_score);
+    refits.sort_by(FittedModel::by_score);
 }
 
 /// Whether a screened model deserves a full fit, `best` being the best so far.
-fn deserves_fit(screened: &ScreenedModel, all: &[ScreenedModel], best: Option<&Refit>) -> bool {
+fn deserves_fit(
+    screened: &ScreenedModel,
+    all: &[ScreenedModel],
+    best: Option<&FittedModel>,
+) -> bool {
     let Some(best) = best else { return true };
     let least = all.first().map_or(1.0, ScreenedModel::predicted);
     // Series-parallel and simulated runs predict with different errors: like is compared with like.

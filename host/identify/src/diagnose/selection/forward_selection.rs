@@ -5,7 +5,7 @@ use super::{cross_start, judge, nested_models};
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Refit, same};
+use crate::diagnose::models::{FittedModel, same};
 
 /// Most effects that are added.
 const MOST_STEPS: usize = 4;
@@ -17,9 +17,9 @@ const BEAM_WIDTH: f64 = 2.0;
 /// Models with one effect more than the level before.
 pub struct Level {
     /// Best first.
-    pub models: Vec<Refit>,
+    pub models: Vec<FittedModel>,
     /// The simplest of the best.
-    pub best: Refit,
+    pub best: FittedModel,
     /// Whether its newest effect earned its place.
     pub believed: bool,
 }
@@ -28,7 +28,7 @@ pub struct Level {
 /// judged alone: two effects of one size each leave the other's error.
 pub fn forward_selection(
     context: &Context<'_>,
-    base: &Refit,
+    base: &FittedModel,
     done: &(dyn Fn() + Sync),
 ) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
@@ -38,10 +38,10 @@ pub fn forward_selection(
         && !context.budget.exhausted()
         && levels.iter().skip(1).all(|level| level.believed)
     {
-        let parents: Vec<&Refit> = match levels.last() {
+        let parents: Vec<&FittedModel> = match levels.last() {
             None => vec![base],
             Some(level) => {
-                let near = |model: &&Refit| {
+                let near = |model: &&FittedModel| {
                     model.judged().score() - level.models[0].judged().score() < BEAM_WIDTH
                         && !level.models.iter().any(|m| judge::replaces(m, model))
                 };
@@ -78,17 +78,18 @@ pub fn forward_selection(
 /// recording.
 fn look_again(
     context: &Context<'_>,
-    level: &[Refit],
-    parents: &[&Refit],
-    models: &mut Vec<Refit>,
+    level: &[FittedModel],
+    parents: &[&FittedModel],
+    models: &mut Vec<FittedModel>,
     done: &(dyn Fn() + Sync),
 ) {
-    let explained = |models: &[Refit]| models.first().is_some_and(|m| m.ran().at_floor());
+    let explained = |models: &[FittedModel]| models.first().is_some_and(|m| m.ran().at_floor());
     // Before more is blamed, what is there is brought to its end.
     polish_best(context, models);
-    let further: [&dyn Fn() -> Vec<Refit>; 2] = [&|| from_nested(context, parents, done), &|| {
-        from_beyond(context, level, parents, done)
-    }];
+    let further: [&dyn Fn() -> Vec<FittedModel>; 2] =
+        [&|| from_nested(context, parents, done), &|| {
+            from_beyond(context, level, parents, done)
+        }];
     for find in further {
         if explained(models) {
             return;
@@ -101,18 +102,22 @@ fn look_again(
 
 /// A friction with many parameters may have taken on what another effect does, and then leaves that one nothing to
 /// explain. So the plainer frictions within the `parents` are built on as well, however far they are behind.
-fn from_nested(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Sync)) -> Vec<Refit> {
-    let mut plain: Vec<Refit> = Vec::new();
+fn from_nested(
+    context: &Context<'_>,
+    parents: &[&FittedModel],
+    done: &(dyn Fn() + Sync),
+) -> Vec<FittedModel> {
+    let mut plain: Vec<FittedModel> = Vec::new();
     for parent in parents {
         for model in nested_models::all(context, parent) {
-            let known = |other: &Refit| same(&other.effects, &model.effects);
+            let known = |other: &FittedModel| same(&other.effects, &model.effects);
             if !plain.iter().any(known) && !parents.iter().any(|parent| known(parent)) {
                 plain.push(model);
             }
         }
     }
-    plain.sort_by(Refit::by_score);
-    let plain: Vec<&Refit> = plain.iter().take(BEAM).collect();
+    plain.sort_by(FittedModel::by_score);
+    let plain: Vec<&FittedModel> = plain.iter().take(BEAM).collect();
     extensions(context, &plain, done)
 }
 
@@ -120,13 +125,13 @@ fn from_nested(context: &Context<'_>, parents: &[&Refit], done: &(dyn Fn() + Syn
 /// built on as well.
 fn from_beyond(
     context: &Context<'_>,
-    level: &[Refit],
-    parents: &[&Refit],
+    level: &[FittedModel],
+    parents: &[&FittedModel],
     done: &(dyn Fn() + Sync),
-) -> Vec<Refit> {
-    let is_parent = |model: &Refit| parents.iter().any(|p| same(&p.effects, &model.effects));
+) -> Vec<FittedModel> {
+    let is_parent = |model: &FittedModel| parents.iter().any(|p| same(&p.effects, &model.effects));
     let beyond = level.iter().filter(|model| !is_parent(model));
-    let beyond: Vec<&Refit> = beyond.take(BEAM).collect();
+    let beyond: Vec<&FittedModel> = beyond.take(BEAM).collect();
     extensions(context, &beyond, done)
 }
 
@@ -136,7 +141,7 @@ const POLISHED: usize = 2;
 const BEHIND: f64 = 1.0;
 
 /// Polishes the best models of a level that are not at the floor yet.
-fn polish_best(context: &Context<'_>, models: &mut [Refit]) {
+fn polish_best(context: &Context<'_>, models: &mut [FittedModel]) {
     if models.first().is_none_or(|model| model.ran().at_floor()) {
         return;
     }
@@ -154,5 +159,5 @@ fn polish_best(context: &Context<'_>, models: &mut [Refit]) {
             *model = polished;
         }
     }
-    models.sort_by(Refit::by_score);
+    models.sort_by(FittedModel::by_score);
 }

@@ -1,6 +1,6 @@
 //! Which model may be believed, and beside which others.
 
-use crate::diagnose::models::{Errors, Refit};
+use crate::diagnose::models::{Errors, FittedModel};
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -20,7 +20,7 @@ const AS_GOOD: f64 = 0.04;
 const MOST_EQUIVALENT: usize = 4;
 
 /// The best of some models that are sorted by score: the simplest of those that are as good as the first.
-pub fn best(models: &[Refit]) -> Option<&Refit> {
+pub fn best(models: &[FittedModel]) -> Option<&FittedModel> {
     let least = models.first()?.judged().score();
     let best = models
         .iter()
@@ -37,14 +37,14 @@ pub fn best(models: &[Refit]) -> Option<&Refit> {
 /// Whether a simpler model will do in the place of another that has a look-alike of one of its effects. Where errors
 /// are above the reading's own, any further parameter lowers them a little: the other must remove as much of the
 /// simpler one's excess as a further effect would have to.
-pub fn replaces(simpler: &Refit, other: &Refit) -> bool {
+pub fn replaces(simpler: &FittedModel, other: &FittedModel) -> bool {
     simpler.parameters.len() < other.parameters.len()
         && differ_by_look_alike(simpler, other)
         && !removes(simpler, other)
 }
 
 /// Whether two models differ in one effect only, and there by look-alikes.
-fn differ_by_look_alike(a: &Refit, b: &Refit) -> bool {
+fn differ_by_look_alike(a: &FittedModel, b: &FittedModel) -> bool {
     let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
     match (own.next(), own.next()) {
         (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alikes(place, kind)),
@@ -53,13 +53,13 @@ fn differ_by_look_alike(a: &Refit, b: &Refit) -> bool {
 }
 
 /// Whether a model leaves nothing that bristles could explain, `floor` being what the reading's own noise makes of a right one.
-pub fn is_exact(model: &Refit, floor: f64) -> bool {
+pub fn is_exact(model: &FittedModel, floor: f64) -> bool {
     let ran = model.ran();
     ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * floor
 }
 
 /// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.
-pub fn removes(before: &Refit, after: &Refit) -> bool {
+pub fn removes(before: &FittedModel, after: &FittedModel) -> bool {
     // Both in the same measure: a free run is no rival of one that is held to the reading.
     let (old, new) = match (before.tracked, after.tracked) {
         _ if before.is_proven() => return false,
@@ -86,7 +86,7 @@ pub struct Rivals {
 }
 
 /// Looks for models that differ from `chosen` in `place` alone, among `others`.
-pub fn rivals(chosen: &Refit, place: Kind, others: &[Refit]) -> Rivals {
+pub fn rivals(chosen: &FittedModel, place: Kind, others: &[FittedModel]) -> Rivals {
     let mut rivals = Rivals {
         equivalent: Vec::new(),
         lead: f64::INFINITY,
@@ -128,7 +128,7 @@ impl Rivals {
 
 /// Which part of the way from the error of `base` to the reading's own the `last` model has gone, in the logarithm of
 /// the errors: what stays unexplained may be an effect for which a named one stands in.
-pub fn explained(base: &Refit, last: &Refit) -> f64 {
+pub fn explained(base: &FittedModel, last: &FittedModel) -> f64 {
     let (from, to) = match (base.tracked, last.tracked) {
         _ if last.explains() => return 1.0,
         (Some(from), Some(to)) => (from.errors, to.errors),
@@ -149,7 +149,7 @@ pub fn explained(base: &Refit, last: &Refit) -> f64 {
 }
 
 /// The effect that `other` has in the place of `place`, if that is all in which they differ.
-fn instead(chosen: &Refit, place: Kind, other: &Refit) -> Option<Kind> {
+fn instead(chosen: &FittedModel, place: Kind, other: &FittedModel) -> Option<Kind> {
     if other.effects.len() != chosen.effects.len() || other.effects.contains(&place) {
         return None;
     }
@@ -163,7 +163,7 @@ fn instead(chosen: &Refit, place: Kind, other: &Refit) -> Option<Kind> {
 
 /// Chance of so large a fall of the error if the new effect were absent: likelihood ratio with as many
 /// samples as the reading changes, since a motor at rest says the same thing a thousand times.
-pub fn p_value(data: &Data, before: &Refit, after: &Refit) -> f64 {
+pub fn p_value(data: &Data, before: &FittedModel, after: &FittedModel) -> f64 {
     let samples = data.transitions() as f64;
     let statistic = 2.0 * samples * (before.ran().fitted / after.ran().fitted).ln();
     let added = after

@@ -13,7 +13,7 @@ pub use forward_selection::Level;
 
 use super::context::Context;
 use super::linear::{Linear, fit_linear_again};
-use super::models::Refit;
+use super::models::FittedModel;
 use forward_selection::forward_selection;
 
 /// What forward selection ended with.
@@ -21,7 +21,7 @@ pub struct Selected<'a> {
     /// The recordings.
     pub context: Context<'a>,
     /// The linear motor.
-    pub base: Refit,
+    pub base: FittedModel,
     /// The models with one effect, with two, and so on; none where the linear motor explains the recording.
     pub levels: Vec<Level>,
 }

@@ -8,7 +8,7 @@ use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
-use crate::diagnose::models::{Refit, same};
+use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::screening::{free_run_error, restart};
 use shared::effects::Kind;
 
@@ -16,7 +16,11 @@ use shared::effects::Kind;
 const NEAR: f64 = 3.0;
 
 /// `chosen` with the plainest effects that do as well. Every model that was fitted for it goes to `known`.
-pub fn simplify(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) -> Refit {
+pub fn simplify(
+    context: &Context<'_>,
+    chosen: FittedModel,
+    known: &mut Vec<FittedModel>,
+) -> FittedModel {
     let mut chosen = chosen;
     loop {
         let tried = all(context, &chosen);
@@ -45,7 +49,7 @@ pub fn simplify(context: &Context<'_>, chosen: Refit, known: &mut Vec<Refit>) ->
 }
 
 /// `chosen` with each plainer effect in the place of one that contains it.
-pub fn all(context: &Context<'_>, chosen: &Refit) -> Vec<Refit> {
+pub fn all(context: &Context<'_>, chosen: &FittedModel) -> Vec<FittedModel> {
     chosen
         .effects
         .iter()
@@ -59,7 +63,12 @@ pub fn all(context: &Context<'_>, chosen: &Refit) -> Vec<Refit> {
 }
 
 /// `chosen` with `kind` in the place of an effect that contains it.
-fn instead(context: &Context<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Vec<Refit> {
+fn instead(
+    context: &Context<'_>,
+    chosen: &FittedModel,
+    place: Kind,
+    kind: Kind,
+) -> Vec<FittedModel> {
     if chosen.losses.is_some() && special_values(place, kind, &[1.0; 8]).is_some() {
         return lost_counts::beside(context, chosen, |context, bare| {
             instead(context, bare, place, kind)
@@ -68,7 +77,12 @@ fn instead(context: &Context<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Ve
     fitted(context, chosen, place, kind).into_iter().collect()
 }
 
-fn fitted(context: &Context<'_>, chosen: &Refit, place: Kind, kind: Kind) -> Option<Refit> {
+fn fitted(
+    context: &Context<'_>,
+    chosen: &FittedModel,
+    place: Kind,
+    kind: Kind,
+) -> Option<FittedModel> {
     let values = special_values(place, kind, &chosen.values_of(place))?;
     let mut plain = chosen.without(place);
     plain.effects.push(kind);
@@ -108,7 +122,7 @@ fn special_values(general: Kind, special: Kind, values: &[f64]) -> Option<Vec<f6
 }
 
 /// Friction that was beside another one which contains it, and is taken away, leaves its torque to that one.
-pub fn absorb(rest: &mut Refit, gone: Kind, values: &[f64]) {
+pub fn absorb(rest: &mut FittedModel, gone: Kind, values: &[f64]) {
     let (Kind::Coulomb, &[torque, ..]) = (gone, values) else {
         return;
     };

@@ -4,7 +4,7 @@ use super::judge::{best, is_exact};
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Refit, ScreenedModel, same};
+use crate::diagnose::models::{FittedModel, ScreenedModel, same};
 use crate::diagnose::screening::screen;
 use rayon::prelude::*;
 use shared::effects::Kind;
@@ -13,10 +13,10 @@ use shared::effects::Kind;
 /// except those that are in `known` already.
 pub fn substitutes(
     context: &Context<'_>,
-    chosen: &Refit,
+    chosen: &FittedModel,
     place: Kind,
-    known: &[Refit],
-) -> Vec<Refit> {
+    known: &[FittedModel],
+) -> Vec<FittedModel> {
     place
         .description()
         .look_alikes
@@ -30,11 +30,11 @@ pub fn substitutes(
 /// The model in which `place` is replaced by `kind`; `None` where it is no rival, or known.
 pub fn substituted(
     context: &Context<'_>,
-    chosen: &Refit,
+    chosen: &FittedModel,
     place: Kind,
     kind: Kind,
-    known: &[Refit],
-) -> Option<Refit> {
+    known: &[FittedModel],
+) -> Option<FittedModel> {
     if !chosen.effects.contains(&place) || chosen.effects.contains(&kind) {
         return None;
     }
@@ -60,10 +60,10 @@ pub fn substituted(
 }
 
 /// The best of `chosen` and `others`.
-pub fn better(chosen: &Refit, others: &[Refit]) -> Option<Refit> {
-    let mut all: Vec<Refit> = others.to_vec();
+pub fn better(chosen: &FittedModel, others: &[FittedModel]) -> Option<FittedModel> {
+    let mut all: Vec<FittedModel> = others.to_vec();
     all.push(chosen.clone());
-    all.sort_by(Refit::by_score);
+    all.sort_by(FittedModel::by_score);
     best(&all)
         .filter(|model| !same(&model.effects, &chosen.effects))
         .cloned()

@@ -5,7 +5,7 @@ use super::{DiagnosisReport, Role};
 use crate::kept::{KeptMachine, KeptModel, KeptParameter};
 use crate::report::json::{IdentifiableJson, MarginsJson, ParameterJson};
 use serde::Serialize;
-use servoid_identify::diagnose::{Errors, HeldOut, Refit, Remark, Step};
+use servoid_identify::diagnose::{Errors, HeldOut, FittedModel, Remark, Step};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// A number, or null where there is none.
@@ -191,7 +191,7 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
     let step: &Step = &report.diagnosis.steps[index];
     let names = step.indistinguishable_from.iter().map(|kind| kind.name());
     let after = step.candidates.first();
-    let of = |value: fn(&Refit) -> f64| after.map(value).and_then(finite);
+    let of = |value: fn(&FittedModel) -> f64| after.map(value).and_then(finite);
     StepJson {
         added: step.added.name(),
         indistinguishable_from: names.collect(),
@@ -217,7 +217,7 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
     }
 }
 
-fn candidate(refit: &Refit, p_value: f64) -> CandidateJson {
+fn candidate(refit: &FittedModel, p_value: f64) -> CandidateJson {
     let effects: Vec<&'static str> = refit.effects.iter().map(|kind| kind.name()).collect();
     CandidateJson {
         effect: effects.last().copied().unwrap_or_default(),
@@ -272,7 +272,7 @@ fn held_out(held_out: &HeldOut) -> HeldOutJson {
 }
 
 /// A model that can be run again; counts that were lost are not put back.
-fn kept(refit: &Refit) -> KeptModel {
+fn kept(refit: &FittedModel) -> KeptModel {
     KeptModel::of(&refit.candidate, refit.method)
 }
 
