@@ -85,7 +85,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
         let (options, budget) = (Options::default(), Budget::usual(&stop));
         let found = diagnose(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
         let named: Vec<Kind> = found.steps.iter().map(|step| step.added).collect();
-        if named != [Kind::Cogging] || found.last.tracked.is_none() {
+        if named != [Kind::Cogging] || found.last.observed.is_none() {
             continue;
         }
         let errors = found.last.free();

@@ -56,7 +56,7 @@ mod suggest;
 pub use built_up::{built_up, is_lost};
 pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways};
 pub use explain::{Findings, advice, evidence, findings, pair};
-pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, Tracked, same};
+pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};
 pub use outcome::{Diagnosis, Step, Verdict};
 pub use recordings::{HeldOut, Remark, holdout, usable};
 pub use settle::settle;

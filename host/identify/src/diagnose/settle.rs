@@ -47,9 +47,9 @@ pub fn settle(
         start: Some(start.clone()),
     };
     let judged_otherwise = last.windowed.is_some() || last.losses.is_some();
-    let chaotic = last.tracked.is_some() && !last.ran().at_floor();
+    let chaotic = last.observed.is_some() && !last.ran().at_floor();
     // As far as it was followed it was fitted to its end.
-    let followed = last.followed > 0.0;
+    let followed = last.followed_fraction > 0.0;
     let stays = judged_otherwise || followed || diagnosis.ran_out || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {

@@ -102,7 +102,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &FittedModel) -> Opt
     let predicted = refit.foreseen_rms_counts;
     let followed = score_candidate(context, structure.clone(), &here, predicted, method).ok()?;
     Some(FittedModel {
-        followed: part,
+        followed_fraction: part,
         ..followed
     })
 }

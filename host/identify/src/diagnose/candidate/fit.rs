@@ -40,7 +40,7 @@ const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 const ASTRAY: f64 = 2.0;
 /// A simulation whose error is so many times the series-parallel one's has lost its way.
 pub const LOST: f64 = 3.0;
-/// Tracked scores this near are as good as each other.
+/// ObserverErrors scores this near are as good as each other.
 const AS_GOOD: f64 = 0.04;
 
 /// Fits a screened model by full simulation.
@@ -96,7 +96,7 @@ pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<F
     let mut both = [free, faded];
     observe_all(context, &mut both);
     let score = |refit: &FittedModel| {
-        let errors = refit.tracked.map(|tracked| tracked.errors);
+        let errors = refit.observed.map(|tracked| tracked.errors);
         errors.map_or(f64::INFINITY, |errors| errors.score())
     };
     let [free, faded] = both;

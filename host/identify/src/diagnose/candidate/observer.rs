@@ -5,7 +5,7 @@
 //! best of them can follow.
 
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Errors, FittedModel, MEMORIES_S, NOISE_COUNTS, Tracked};
+use crate::diagnose::models::{Errors, FittedModel, MEMORIES_S, NOISE_COUNTS, ObserverErrors};
 use crate::error::Error;
 use servoid_engine::problem::cost::{errors, rms_counts};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
@@ -20,8 +20,12 @@ const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
 /// # Errors
 /// Where the model cannot run.
 fn observe(context: &Context<'_>, refit: &mut FittedModel, memory_s: f64) -> Result<(), Error> {
-    if let Some(known) = refit.tracks.iter().find(|known| known.memory_s == memory_s) {
-        refit.tracked = Some(*known);
+    if let Some(known) = refit
+        .observed_runs
+        .iter()
+        .find(|known| known.memory_s == memory_s)
+    {
+        refit.observed = Some(*known);
         return Ok(());
     }
     let tracked = |data: &Data| {
@@ -44,9 +48,9 @@ fn observe(context: &Context<'_>, refit: &mut FittedModel, memory_s: f64) -> Res
         held_out: tracked(context.held_out)?,
         floor: FLOOR_RMS_COUNTS,
     };
-    let tracked = Tracked { errors, memory_s };
-    refit.tracked = Some(tracked);
-    refit.tracks.push(tracked);
+    let tracked = ObserverErrors { errors, memory_s };
+    refit.observed = Some(tracked);
+    refit.observed_runs.push(tracked);
     Ok(())
 }
 
@@ -59,7 +63,7 @@ pub fn observe_like(
     refit: &mut FittedModel,
     other: &FittedModel,
 ) -> Result<(), Error> {
-    match (refit.tracked, other.tracked) {
+    match (refit.observed, other.observed) {
         (_, None) => Ok(()),
         (Some(own), Some(other)) if own.memory_s == other.memory_s => Ok(()),
         (_, Some(other)) => observe(context, refit, other.memory_s),
@@ -70,12 +74,12 @@ pub fn observe_like(
 pub fn observe_all(context: &Context<'_>, refits: &mut [FittedModel]) {
     for memory_s in MEMORIES_S {
         for refit in refits.iter_mut() {
-            if refit.tracked.is_none_or(|own| own.memory_s != memory_s) {
+            if refit.observed.is_none_or(|own| own.memory_s != memory_s) {
                 // A model that cannot be tracked keeps the errors of its free runs.
                 let _ = observe(context, refit, memory_s);
             }
         }
-        let errors = refits.iter().filter_map(|refit| refit.tracked);
+        let errors = refits.iter().filter_map(|refit| refit.observed);
         if errors.into_iter().any(|t| t.errors.fitted < FOLLOWS) {
             break;
         }

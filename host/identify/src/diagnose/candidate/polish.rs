@@ -39,11 +39,11 @@ const STEP_PART: f64 = 0.1;
 /// # Errors
 /// Where the model cannot run, which it could before.
 pub fn polish(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, Error> {
-    if refit.followed > 0.0 {
+    if refit.followed_fraction > 0.0 {
         return Ok(refit.clone());
     }
     let polished = converge(context, refit)?;
-    if polished.tracked.is_none() || polished.ran().at_floor() {
+    if polished.observed.is_none() || polished.ran().at_floor() {
         return Ok(polished);
     }
     // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.
@@ -57,13 +57,13 @@ pub fn polish(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel,
     let free = converge(
         context,
         &FittedModel {
-            tracked: None,
+            observed: None,
             ..polished.clone()
         },
     )?;
     Ok(if free.ran().at_floor() {
         FittedModel {
-            tracked: polished.tracked,
+            observed: polished.observed,
             ..free
         }
     } else {
@@ -76,7 +76,7 @@ fn converge(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, E
     loop {
         let method = best.method;
         let problem = FitProblem {
-            horizon: match best.tracked {
+            horizon: match best.observed {
                 Some(tracked) => Horizon::Nudged(POLISHED * tracked.memory_s),
                 None => context.fitted_horizon.clone(),
             },

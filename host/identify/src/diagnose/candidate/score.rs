@@ -45,9 +45,9 @@ pub fn score_candidate(
             None
         },
         validate_rms_counts: validate_roughly(context.held_out, &candidate, method)?,
-        tracked: None,
-        tracks: Vec::new(),
-        followed: 0.0,
+        observed: None,
+        observed_runs: Vec::new(),
+        followed_fraction: 0.0,
         foreseen_rms_counts: predicted,
         evaluations: found.evaluations,
         method,

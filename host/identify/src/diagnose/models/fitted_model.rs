@@ -2,7 +2,7 @@
 
 use super::errors::Errors;
 use super::losses::Losses;
-use super::observer_errors::Tracked;
+use super::observer_errors::ObserverErrors;
 use servoid_engine::problem::simulate::Method;
 use servoid_engine::problem::{Candidate, Structure};
 use shared::effects::Kind;
@@ -35,11 +35,11 @@ pub struct FittedModel {
     /// Errors in windows, each run from the measured state, where whole runs say little.
     pub windowed: Option<Errors>,
     /// Errors that are soon forgotten, where free runs are chaotic.
-    pub tracked: Option<Tracked>,
+    pub observed: Option<ObserverErrors>,
     /// The same for every memory that was asked for, so that none is computed again whenever models are compared.
-    pub(in crate::diagnose) tracks: Vec<Tracked>,
+    pub(in crate::diagnose) observed_runs: Vec<ObserverErrors>,
     /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
-    pub followed: f64,
+    pub followed_fraction: f64,
     /// RMS error that was predicted before the refit, counts.
     pub foreseen_rms_counts: f64,
     /// Evaluations spent on it.
@@ -65,7 +65,7 @@ impl FittedModel {
 
     /// The errors that it is judged by: those of the runs that were fitted, unless they are chaotic.
     pub fn judged(&self) -> Errors {
-        match self.tracked {
+        match self.observed {
             Some(tracked) if !self.ran().at_floor() => tracked.errors,
             _ => self.ran(),
         }
@@ -78,12 +78,12 @@ impl FittedModel {
 
     /// Whether it does so running on its own: to the end, or as far as a chaotic run can be followed.
     pub fn is_proven(&self) -> bool {
-        self.ran().at_floor() || self.followed >= PROOF
+        self.ran().at_floor() || self.followed_fraction >= PROOF
     }
 
     /// Whether nothing more need be looked for. A model that has to be held tightly to the readings may yet lack something.
     pub fn is_complete(&self) -> bool {
-        let tight = self.tracked.is_some_and(|tracked| !tracked.is_loose());
+        let tight = self.observed.is_some_and(|tracked| !tracked.is_loose());
         self.is_proven() || (self.judged().at_floor() && !tight)
     }
 

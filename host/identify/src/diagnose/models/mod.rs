@@ -9,5 +9,5 @@ mod screened_model;
 pub use errors::{Errors, NOISE_COUNTS, ROOM};
 pub use fitted_model::{FittedModel, distinct, same};
 pub use losses::{Loss, Losses};
-pub use observer_errors::{MEMORIES_S, Tracked};
+pub use observer_errors::{MEMORIES_S, ObserverErrors};
 pub use screened_model::ScreenedModel;

@@ -256,7 +256,7 @@ fn refits(
 
 /// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
 pub fn sort(context: &Context<'_>, refits: &mut [FittedModel]) {
-    if refits.iter().any(|refit| refit.tracked.is_some()) {
+    if refits.iter().any(|refit| refit.observed.is_some()) {
         observe_all(context, refits);
     }
     refits.sort_by(FittedModel::by_score);

@@ -61,7 +61,7 @@ pub fn is_exact(model: &FittedModel, floor: f64) -> bool {
 /// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.
 pub fn removes(before: &FittedModel, after: &FittedModel) -> bool {
     // Both in the same measure: a free run is no rival of one that is held to the reading.
-    let (old, new) = match (before.tracked, after.tracked) {
+    let (old, new) = match (before.observed, after.observed) {
         _ if before.is_proven() => return false,
         (Some(old), Some(_)) if old.errors.at_floor() && !old.is_loose() => return false,
         (Some(old), Some(new)) => (old.errors, new.errors),
@@ -129,7 +129,7 @@ impl Rivals {
 /// Which part of the way from the error of `base` to the reading's own the `last` model has gone, in the logarithm of
 /// the errors: what stays unexplained may be an effect for which a named one stands in.
 pub fn explained(base: &FittedModel, last: &FittedModel) -> f64 {
-    let (from, to) = match (base.tracked, last.tracked) {
+    let (from, to) = match (base.observed, last.observed) {
         _ if last.explains() => return 1.0,
         (Some(from), Some(to)) => (from.errors, to.errors),
         _ => (base.ran(), last.ran()),

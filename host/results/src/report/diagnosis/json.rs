@@ -201,10 +201,10 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         validate_rms_counts: of(|refit| refit.validate_rms_counts),
         foreseen_rms_counts: of(|refit| refit.foreseen_rms_counts),
         tracked: after
-            .and_then(|refit| refit.tracked)
+            .and_then(|refit| refit.observed)
             .map(|t| errors(t.errors)),
-        tracked_memory_s: after.and_then(|refit| refit.tracked).map(|t| t.memory_s),
-        followed: after.map(|refit| refit.followed).filter(|part| *part > 0.0),
+        tracked_memory_s: after.and_then(|refit| refit.observed).map(|t| t.memory_s),
+        followed: after.map(|refit| refit.followed_fraction).filter(|part| *part > 0.0),
         windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
         model: after.map(kept),
@@ -225,7 +225,7 @@ fn candidate(refit: &FittedModel, p_value: f64) -> CandidateJson {
         rms_counts: finite(refit.rms_counts),
         validate_rms_counts: finite(refit.validate_rms_counts),
         foreseen_rms_counts: finite(refit.foreseen_rms_counts),
-        tracked: refit.tracked.map(|t| errors(t.errors)),
+        tracked: refit.observed.map(|t| errors(t.errors)),
         windowed: refit.windowed.map(errors),
         p_value: finite(p_value),
         evaluations: refit.evaluations,

@@ -173,7 +173,7 @@ impl DiagnosisReport<'_> {
                     ),
                 )?;
             }
-            if let Some(tracked) = after.tracked {
+            if let Some(tracked) = after.observed {
                 say(
                     "judged by",
                     &format!(
