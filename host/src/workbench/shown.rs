@@ -95,7 +95,7 @@ fn suggestions(state: &State) -> Value {
             "equation": description.equation,
             "evidence": s.evidence,
             "believed": s.believed,
-            "foreseen_rms_counts": s.refit.foreseen_rms_counts,
+            "foreseen_rms_counts": s.refit.predicted_rms_counts,
             "rms_counts": s.refit.rms_counts,
             "held_out_rms_counts": s.refit.validate_rms_counts,
             "chance": s.p_value,

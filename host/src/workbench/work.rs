@@ -40,7 +40,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         id: 0,
         effects: effects.to_vec(),
         fit: Arc::new(fit),
-        foreseen: suggestion.map(|s| s.refit.foreseen_rms_counts),
+        foreseen: suggestion.map(|s| s.refit.predicted_rms_counts),
     };
     bench.change(|state| {
         state.put(model);
@@ -219,7 +219,7 @@ fn on_the_way(
             id: 0,
             effects: effects.clone(),
             fit: Arc::new(fit),
-            foreseen: Some(after.foreseen_rms_counts),
+            foreseen: Some(after.predicted_rms_counts),
         });
     }
     Ok(models)

@@ -99,7 +99,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &FittedModel) -> Opt
     if part < FAR {
         return None;
     }
-    let predicted = refit.foreseen_rms_counts;
+    let predicted = refit.predicted_rms_counts;
     let followed = score_candidate(context, structure.clone(), &here, predicted, method).ok()?;
     Some(FittedModel {
         followed_fraction: part,

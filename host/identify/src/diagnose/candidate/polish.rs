@@ -89,7 +89,7 @@ fn converge(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, E
             context,
             best.structure.clone(),
             &found,
-            best.foreseen_rms_counts,
+            best.predicted_rms_counts,
             method,
         )?;
         let mut polished = FittedModel {

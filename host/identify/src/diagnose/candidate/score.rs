@@ -48,7 +48,7 @@ pub fn score_candidate(
         observed: None,
         observed_runs: Vec::new(),
         followed_fraction: 0.0,
-        foreseen_rms_counts: predicted,
+        predicted_rms_counts: predicted,
         evaluations: found.evaluations,
         method,
     })

@@ -136,7 +136,7 @@ impl Repair {
     /// The same as a model of the recordings with losses, which come after `place` others.
     fn with(self, place: usize) -> FittedModel {
         let mut refit = FittedModel {
-            foreseen_rms_counts: self.refit.rms_counts,
+            predicted_rms_counts: self.refit.rms_counts,
             losses: Some(self.losses),
             ..self.refit
         };

@@ -41,7 +41,7 @@ pub struct FittedModel {
     /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
     pub followed_fraction: f64,
     /// RMS error that was predicted before the refit, counts.
-    pub foreseen_rms_counts: f64,
+    pub predicted_rms_counts: f64,
     /// Evaluations spent on it.
     pub evaluations: usize,
     /// How it was run.

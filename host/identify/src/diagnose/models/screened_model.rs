@@ -56,7 +56,7 @@ impl ScreenedModel {
 
     /// Whether a full fit may come near what `chosen` leaves, which may have been predicted as badly.
     pub fn may_rival(&self, chosen: &FittedModel) -> bool {
-        let left = chosen.ran().fitted.max(chosen.foreseen_rms_counts);
+        let left = chosen.ran().fitted.max(chosen.predicted_rms_counts);
         self.predicted() < FAR * left.max(NOISE_COUNTS)
     }
 

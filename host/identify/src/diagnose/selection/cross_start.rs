@@ -69,7 +69,7 @@ fn from_there(
     let parameters = with_common_parameters(found(model), found(other));
     let start = ScreenedModel::standing(model.structure.clone(), &other.candidate, &parameters);
     let mut refit = fit_screened(context, &start).ok()?;
-    refit.foreseen_rms_counts = model.foreseen_rms_counts;
+    refit.predicted_rms_counts = model.predicted_rms_counts;
     observe_like(context, &mut refit, model).ok()?;
     refit.evaluations += model.evaluations;
     Some(refit)

@@ -271,7 +271,7 @@ fn deserves_fit(
     let Some(best) = best else { return true };
     let least = all.first().map_or(1.0, ScreenedModel::predicted);
     // Series-parallel and simulated runs predict with different errors: like is compared with like.
-    let predicted = screened.predicted() / least.max(best.foreseen_rms_counts).max(FLOOR);
+    let predicted = screened.predicted() / least.max(best.predicted_rms_counts).max(FLOOR);
     let look_alike = best.effects.last().is_some_and(|kind| {
         let names = kind.description().look_alikes;
         screened

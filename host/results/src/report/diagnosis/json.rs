@@ -199,7 +199,7 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         confidence: finite(step.confidence),
         rms_counts: of(|refit| refit.rms_counts),
         validate_rms_counts: of(|refit| refit.validate_rms_counts),
-        foreseen_rms_counts: of(|refit| refit.foreseen_rms_counts),
+        foreseen_rms_counts: of(|refit| refit.predicted_rms_counts),
         tracked: after
             .and_then(|refit| refit.observed)
             .map(|t| errors(t.errors)),
@@ -224,7 +224,7 @@ fn candidate(refit: &FittedModel, p_value: f64) -> CandidateJson {
         effects,
         rms_counts: finite(refit.rms_counts),
         validate_rms_counts: finite(refit.validate_rms_counts),
-        foreseen_rms_counts: finite(refit.foreseen_rms_counts),
+        foreseen_rms_counts: finite(refit.predicted_rms_counts),
         tracked: refit.observed.map(|t| errors(t.errors)),
         windowed: refit.windowed.map(errors),
         p_value: finite(p_value),

@@ -159,7 +159,7 @@ impl DiagnosisReport<'_> {
                 "foreseen",
                 &format!(
                     "{} counts RMS before the refit; {} reached",
-                    counts(after.foreseen_rms_counts),
+                    counts(after.predicted_rms_counts),
                     counts(after.rms_counts)
                 ),
             )?;
