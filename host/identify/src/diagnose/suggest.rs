@@ -7,7 +7,7 @@ use super::context::{Budget, Context};
 use super::explain::evidence;
 use super::models::FittedModel;
 use super::outcome::Verdict;
-use super::residual_analysis::whereabouts;
+use super::residual_analysis::analyse_residual;
 use super::selection::{extensions, judge};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
@@ -70,7 +70,7 @@ pub fn suggest(
             continue;
         };
         let without = evidence::without(&refit.candidate, effect);
-        let missing = whereabouts(data, &without, &refit.candidate, refit.method)?;
+        let missing = analyse_residual(data, &without, &refit.candidate, refit.method)?;
         let values = refit.values_of(effect);
         list.push(Suggestion {
             effect,

@@ -4,7 +4,7 @@
 
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, Whereabouts};
+use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis};
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data};
 use shared::effects::{EffectSet, Kind};
@@ -36,7 +36,7 @@ pub fn asked_for(
     diagnosis: &Diagnosis,
     index: usize,
     data: &Data,
-) -> Result<Option<Whereabouts>, Error> {
+) -> Result<Option<ResidualAnalysis>, Error> {
     let Some(step) = diagnosis.steps.get(index) else {
         return Ok(None);
     };
@@ -44,7 +44,7 @@ pub fn asked_for(
         return Ok(None);
     };
     let without = without(&after.candidate, step.added);
-    residual_analysis::whereabouts(data, &without, &after.candidate, after.method).map(Some)
+    residual_analysis::analyse_residual(data, &without, &after.candidate, after.method).map(Some)
 }
 
 /// Values of the parameters that `refit` found for one of its effects.
@@ -70,7 +70,7 @@ pub(crate) fn without(candidate: &Candidate, kind: Kind) -> Candidate {
 }
 
 /// What the drawing shows of the effect `kind` with these `values` of its parameters, if it shows anything.
-pub fn sentence(kind: Kind, values: &[f64], missing: &Whereabouts) -> Option<String> {
+pub fn sentence(kind: Kind, values: &[f64], missing: &ResidualAnalysis) -> Option<String> {
     let speed = missing.map(Against::Speed).and_then(Directions::of);
     let special = match kind {
         Kind::Coulomb
@@ -212,7 +212,7 @@ impl Directions {
 }
 
 /// A line that both directions show at the same angles.
-fn line(missing: &Whereabouts, order: usize) -> Option<String> {
+fn line(missing: &ResidualAnalysis, order: usize) -> Option<String> {
     let (f, b): (Line, Line) = missing.spectrum.both(order)?;
     let apart = (f.phase_deg - b.phase_deg + 540.0).rem_euclid(360.0) - 180.0;
     (f.share > LINE && b.share > LINE && apart.abs() < IN_PHASE).then(|| {
@@ -262,7 +262,7 @@ fn general(map: &Map) -> String {
 }
 
 /// Where the last model leaves most, for a verdict that cannot name it.
-pub fn largest(missing: &Whereabouts) -> Option<String> {
+pub fn largest(missing: &ResidualAnalysis) -> Option<String> {
     let mut said = Vec::new();
     if let Some(map) = missing.most() {
         said.push(general(map).replace(" without it", ""));

@@ -3,7 +3,9 @@
 use super::evidence;
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{Whereabouts, Whiteness, whereabouts, whiteness};
+use crate::diagnose::residual_analysis::{
+    ResidualAnalysis, Whiteness, analyse_residual, whiteness,
+};
 use crate::error::Error;
 use crate::fit::scores;
 use servoid_engine::problem::Data;
@@ -11,13 +13,13 @@ use servoid_engine::problem::Data;
 /// What the drawings show.
 pub struct Findings {
     /// Of the linear motor.
-    pub base: Whereabouts,
+    pub base: ResidualAnalysis,
     /// Of each step's model without the effect that it adds, with its other constants.
-    pub steps: Vec<Option<Whereabouts>>,
+    pub steps: Vec<Option<ResidualAnalysis>>,
     /// Of the last model.
-    pub last: Whereabouts,
+    pub last: ResidualAnalysis,
     /// Of the last model, on what was held out.
-    pub held_out: Whereabouts,
+    pub held_out: ResidualAnalysis,
     /// What is left of the linear motor's error.
     pub base_whiteness: Option<Whiteness>,
     /// What is left of the last model's error.
@@ -34,8 +36,9 @@ pub struct Findings {
 /// Where a model cannot run, which it could before.
 pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<Findings, Error> {
     let complete = &diagnosis.last.candidate;
-    let look =
-        |refit: &FittedModel| whereabouts(data, &refit.candidate, complete, diagnosis.last.method);
+    let look = |refit: &FittedModel| {
+        analyse_residual(data, &refit.candidate, complete, diagnosis.last.method)
+    };
     let centre = data.centre(0) - data.counts[0];
     let errors = |refit: &FittedModel| -> Result<Vec<f64>, Error> {
         let errors = scores::whole(data, &refit.candidate, refit.method)?;
@@ -50,7 +53,7 @@ pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<F
             .map(|index| evidence::asked_for(diagnosis, index, data))
             .collect::<Result<_, _>>()?,
         last: look(&diagnosis.last)?,
-        held_out: whereabouts(held_out, complete, complete, diagnosis.last.method)?,
+        held_out: analyse_residual(held_out, complete, complete, diagnosis.last.method)?,
         base_whiteness: whiteness(data, &base_errors),
         last_whiteness: whiteness(data, &last_errors),
         base_errors,

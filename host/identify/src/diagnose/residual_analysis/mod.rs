@@ -25,7 +25,7 @@ const PARTS: usize = 8;
 
 /// Where a model fails.
 #[derive(Clone, Debug)]
-pub struct Whereabouts {
+pub struct ResidualAnalysis {
     /// RMS of the volts that the model's equation misses along the measured motion, V.
     pub volts_rms: f64,
     /// What a perfect model would show here, V: the encoder's steps, and what the equation does not follow (the
@@ -57,12 +57,12 @@ pub struct Part {
 ///
 /// # Errors
 /// Where a model cannot run.
-pub fn whereabouts(
+pub fn analyse_residual(
     data: &Data,
     candidate: &Candidate,
     complete: &Candidate,
     method: Method,
-) -> Result<Whereabouts, Error> {
+) -> Result<ResidualAnalysis, Error> {
     let time = FILTER_SAMPLES * data.units.interval;
     let residuals = equation_residuals(data, candidate, time);
     let perfect_volts_rms = perfect_volts(data, complete, method, time)?;
@@ -73,7 +73,7 @@ pub fn whereabouts(
         .collect();
     // Shares that are nearly equal stay in the order of the list.
     maps.sort_by_key(|map| -(map.share * ALIKE).round() as i64);
-    Ok(Whereabouts {
+    Ok(ResidualAnalysis {
         volts_rms: rms(&residuals),
         perfect_volts_rms,
         maps,
@@ -82,7 +82,7 @@ pub fn whereabouts(
     })
 }
 
-impl Whereabouts {
+impl ResidualAnalysis {
     /// The volts against one quantity, if there was enough to draw it from.
     pub fn map(&self, against: Against) -> Option<&Map> {
         self.maps.iter().find(|map| map.against == against)

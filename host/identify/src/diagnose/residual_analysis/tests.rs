@@ -9,7 +9,7 @@ use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, commands};
 
 /// What the true linear machine misses, and what the true model does, with one effect hidden.
-fn missing(kind: Kind) -> (Whereabouts, Whereabouts) {
+fn missing(kind: Kind) -> (ResidualAnalysis, ResidualAnalysis) {
     let machine = Machine::gearmotor();
     let hidden = Hidden::typical(kind.name(), &machine).expect("an effect");
     let mut bench = Bench::new(machine);
@@ -33,7 +33,7 @@ fn missing(kind: Kind) -> (Whereabouts, Whereabouts) {
     let mut complete = linear;
     let values = truth::parameters(&hidden, &machine, 8000).expect("its counterpart");
     complete.effects.push(kind, &values).expect("one effect");
-    let look = |candidate| whereabouts(&data, candidate, &complete, Method::default());
+    let look = |candidate| analyse_residual(&data, candidate, &complete, Method::default());
     (
         look(&linear).expect("it runs"),
         look(&complete).expect("it runs"),

@@ -5,7 +5,7 @@ use super::{DiagnosisReport, Role};
 use crate::kept::{KeptMachine, KeptModel, KeptParameter};
 use crate::report::json::{IdentifiableJson, MarginsJson, ParameterJson};
 use serde::Serialize;
-use servoid_identify::diagnose::{Errors, HeldOut, FittedModel, Remark, Step};
+use servoid_identify::diagnose::{Errors, FittedModel, HeldOut, Remark, Step};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// A number, or null where there is none.
@@ -204,7 +204,9 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
             .and_then(|refit| refit.observed)
             .map(|t| errors(t.errors)),
         tracked_memory_s: after.and_then(|refit| refit.observed).map(|t| t.memory_s),
-        followed: after.map(|refit| refit.followed_fraction).filter(|part| *part > 0.0),
+        followed: after
+            .map(|refit| refit.followed_fraction)
+            .filter(|part| *part > 0.0),
         windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
         model: after.map(kept),

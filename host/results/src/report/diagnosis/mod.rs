@@ -13,7 +13,9 @@ pub use steady::{SteadyJson, SteadyReport};
 
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::advice::cannot_tell;
-use servoid_identify::diagnose::{Diagnosis, Findings, HeldOut, FittedModel, Remark, Step, Verdict};
+use servoid_identify::diagnose::{
+    Diagnosis, Findings, FittedModel, HeldOut, Remark, Step, Verdict,
+};
 use servoid_identify::fit::Fit;
 use servoid_identify::plan::Hypothesis;
 use servoid_io::recording::Drive;
