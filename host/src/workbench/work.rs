@@ -31,7 +31,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         let state = bench.state();
         let suggestion = (state.suggested.iter())
             .flat_map(|(_, list)| list)
-            .find(|suggestion| diagnose::same(&suggestion.refit.effects, effects))
+            .find(|suggestion| diagnose::same(&suggestion.model.effects, effects))
             .cloned();
         (state.recordings()?, suggestion)
     };
@@ -40,7 +40,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         id: 0,
         effects: effects.to_vec(),
         fit: Arc::new(fit),
-        foreseen: suggestion.map(|s| s.refit.predicted_rms_counts),
+        foreseen: suggestion.map(|s| s.model.predicted_rms_counts),
     };
     bench.change(|state| {
         state.put(model);
@@ -83,7 +83,7 @@ fn fitted(
     if algorithm == USUAL
         && diagnose::is_lost(found.cost, data.len())
         && let Some(candidate) = suggestion
-            .map(|suggestion| suggestion.refit.candidate)
+            .map(|suggestion| suggestion.model.candidate)
             .or_else(|| {
                 let budget = Budget::usual(bench.job.flag());
                 diagnose::built_up(data, effects, &options, &budget)
@@ -208,7 +208,7 @@ fn on_the_way(
         } else {
             let suggestion = Suggestion {
                 effect: step.added,
-                refit: after.clone(),
+                model: after.clone(),
                 evidence: None,
                 p_value: 0.0,
                 believed: true,

@@ -44,9 +44,9 @@ fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<Fitte
     let dry = (kind == Kind::Lugre).then(|| screen(context, model, Kind::Coulomb, &[]));
     let dry: Vec<ScreenedModel> = dry.flatten().into_iter().collect();
     let screened = screen(context, model, kind, &dry)?;
-    let refit = fit_screened(context, &screened).ok()?;
-    if refit.judged().at_floor() {
-        return Some(refit);
+    let fitted = fit_screened(context, &screened).ok()?;
+    if fitted.judged().at_floor() {
+        return Some(fitted);
     }
-    polish(context, &refit).ok()
+    polish(context, &fitted).ok()
 }

@@ -60,7 +60,7 @@ fn steps_to(
     known: &[FittedModel],
 ) -> (Vec<Step>, FittedModel) {
     let mut observed_base = base.clone();
-    // A motor that cannot be tracked keeps the errors of its free run.
+    // A motor that no observer can hold to the readings keeps the errors of its free run.
     let _ = observe_like(context, &mut observed_base, chosen);
     let explained = judge::explained(&observed_base, chosen);
     // A motor that never reverses cannot tell any of them apart: they are named as one.

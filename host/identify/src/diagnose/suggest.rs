@@ -21,7 +21,7 @@ pub struct Suggestion {
     /// The effect.
     pub effect: Kind,
     /// The model with it, fitted.
-    pub refit: FittedModel,
+    pub model: FittedModel,
     /// What was measured that speaks for it, if the recording shows it.
     pub evidence: Option<String>,
     /// Chance of so large a gain if it were absent.
@@ -65,19 +65,19 @@ pub fn suggest(
         });
     }
     let mut list = Vec::new();
-    for refit in extensions(&context, &[&parent], done) {
-        let Some(&effect) = refit.effects.last() else {
+    for model in extensions(&context, &[&parent], done) {
+        let Some(&effect) = model.effects.last() else {
             continue;
         };
-        let without = evidence::without(&refit.candidate, effect);
-        let missing = analyse_residual(data, &without, &refit.candidate, refit.method)?;
-        let values = refit.values_of(effect);
+        let without = evidence::without(&model.candidate, effect);
+        let missing = analyse_residual(data, &without, &model.candidate, model.method)?;
+        let values = model.values_of(effect);
         list.push(Suggestion {
             effect,
             evidence: evidence::sentence(effect, &values, &missing),
-            p_value: judge::p_value(data, &parent, &refit),
-            believed: judge::removes(&parent, &refit),
-            refit,
+            p_value: judge::p_value(data, &parent, &model),
+            believed: judge::removes(&parent, &model),
+            model,
         });
     }
     Ok(Suggestions {

@@ -38,12 +38,12 @@ const FAR: f64 = 0.1;
 
 /// A model that follows the readings to their end, or as far as can be, from one that does not; `None` where they are lost
 /// early.
-pub fn follow_by_continuation(context: &Context<'_>, refit: &FittedModel) -> Option<FittedModel> {
-    let structure = &refit.structure;
+pub fn follow_by_continuation(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> {
+    let structure = &model.structure;
     // What the arithmetic leaves would grow along the run like any other error.
     let method = Method {
         substeps: FINEST,
-        ..refit.method
+        ..model.method
     };
     let book = |samples: usize, runs: usize| {
         context
@@ -57,7 +57,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &FittedModel) -> Opt
         Some(departure(context.data, &errors))
     };
     // Where it began in its cell an observer has forgotten.
-    let starts = starts(structure, &refit.x);
+    let starts = starts(structure, &model.x);
     let evaluations = starts.len();
     let furthest = starts.into_iter().max_by_key(|x| departs(x))?;
     let mut here = Descent {
@@ -99,7 +99,7 @@ pub fn follow_by_continuation(context: &Context<'_>, refit: &FittedModel) -> Opt
     if part < FAR {
         return None;
     }
-    let predicted = refit.predicted_rms_counts;
+    let predicted = model.predicted_rms_counts;
     let followed = score_candidate(context, structure.clone(), &here, predicted, method).ok()?;
     Some(FittedModel {
         followed_fraction: part,

@@ -95,8 +95,8 @@ pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<F
     )?;
     let mut both = [free, faded];
     observe_all(context, &mut both);
-    let score = |refit: &FittedModel| {
-        let errors = refit.observed.map(|tracked| tracked.errors);
+    let score = |model: &FittedModel| {
+        let errors = model.observed.map(|observed| observed.errors);
         errors.map_or(f64::INFINITY, |errors| errors.score())
     };
     let [free, faded] = both;

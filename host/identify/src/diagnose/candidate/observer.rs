@@ -19,24 +19,24 @@ const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
 ///
 /// # Errors
 /// Where the model cannot run.
-fn observe(context: &Context<'_>, refit: &mut FittedModel, memory_s: f64) -> Result<(), Error> {
-    if let Some(known) = refit
+fn observe(context: &Context<'_>, model: &mut FittedModel, memory_s: f64) -> Result<(), Error> {
+    if let Some(known) = model
         .observed_runs
         .iter()
         .find(|known| known.memory_s == memory_s)
     {
-        refit.observed = Some(*known);
+        model.observed = Some(*known);
         return Ok(());
     }
-    let tracked = |data: &Data| {
+    let observed = |data: &Data| {
         errors(
             data,
             &Candidate {
                 start_speed: 0.0,
                 start_offset: 0.0,
-                ..refit.candidate
+                ..model.candidate
             },
-            refit.method,
+            model.method,
             &Horizon::Nudged(memory_s),
             StartAngle::Free,
             Cost::Squared,
@@ -44,42 +44,42 @@ fn observe(context: &Context<'_>, refit: &mut FittedModel, memory_s: f64) -> Res
         .map(|errors| rms_counts(data, &errors))
     };
     let errors = Errors {
-        fitted: tracked(context.data)?,
-        held_out: tracked(context.held_out)?,
+        fitted: observed(context.data)?,
+        held_out: observed(context.held_out)?,
         floor: FLOOR_RMS_COUNTS,
     };
-    let tracked = ObserverErrors { errors, memory_s };
-    refit.observed = Some(tracked);
-    refit.observed_runs.push(tracked);
+    let observed = ObserverErrors { errors, memory_s };
+    model.observed = Some(observed);
+    model.observed_runs.push(observed);
     Ok(())
 }
 
-/// Tracks a model as another one is, which it is to be compared with; not at all if that is not.
+/// Observes a model as another one is, which it is to be compared with; not at all if that is not.
 ///
 /// # Errors
 /// Where the model cannot run.
 pub fn observe_like(
     context: &Context<'_>,
-    refit: &mut FittedModel,
+    model: &mut FittedModel,
     other: &FittedModel,
 ) -> Result<(), Error> {
-    match (refit.observed, other.observed) {
+    match (model.observed, other.observed) {
         (_, None) => Ok(()),
         (Some(own), Some(other)) if own.memory_s == other.memory_s => Ok(()),
-        (_, Some(other)) => observe(context, refit, other.memory_s),
+        (_, Some(other)) => observe(context, model, other.memory_s),
     }
 }
 
-/// Tracks all of some models in the same way.
-pub fn observe_all(context: &Context<'_>, refits: &mut [FittedModel]) {
+/// Observes all of some models in the same way.
+pub fn observe_all(context: &Context<'_>, models: &mut [FittedModel]) {
     for memory_s in MEMORIES_S {
-        for refit in refits.iter_mut() {
-            if refit.observed.is_none_or(|own| own.memory_s != memory_s) {
-                // A model that cannot be tracked keeps the errors of its free runs.
-                let _ = observe(context, refit, memory_s);
+        for model in models.iter_mut() {
+            if model.observed.is_none_or(|own| own.memory_s != memory_s) {
+                // A model that no observer can hold to the readings keeps the errors of its free runs.
+                let _ = observe(context, model, memory_s);
             }
         }
-        let errors = refits.iter().filter_map(|refit| refit.observed);
+        let errors = models.iter().filter_map(|model| model.observed);
         if errors.into_iter().any(|t| t.errors.fitted < FOLLOWS) {
             break;
         }

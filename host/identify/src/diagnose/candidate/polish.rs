@@ -33,16 +33,16 @@ const STEP_ERROR: f64 = 0.02;
 /// The same as a part of what an error is above a count: such a model lacks something else.
 const STEP_PART: f64 = 0.1;
 
-/// Fits on from where a refit ended, with finer steps as long as they change its error, until it has
+/// Fits on from where a fit ended, with finer steps as long as they change its error, until it has
 /// converged: what is left then is not the arithmetic's.
 ///
 /// # Errors
 /// Where the model cannot run, which it could before.
-pub fn polish(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, Error> {
-    if refit.followed_fraction > 0.0 {
-        return Ok(refit.clone());
+pub fn polish(context: &Context<'_>, model: &FittedModel) -> Result<FittedModel, Error> {
+    if model.followed_fraction > 0.0 {
+        return Ok(model.clone());
     }
-    let polished = converge(context, refit)?;
+    let polished = converge(context, model)?;
     if polished.observed.is_none() || polished.ran().at_floor() {
         return Ok(polished);
     }
@@ -71,8 +71,8 @@ pub fn polish(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel,
     })
 }
 
-fn converge(context: &Context<'_>, refit: &FittedModel) -> Result<FittedModel, Error> {
-    let mut best = refit.clone();
+fn converge(context: &Context<'_>, model: &FittedModel) -> Result<FittedModel, Error> {
+    let mut best = model.clone();
     loop {
         let method = best.method;
         let problem = FitProblem {

@@ -86,12 +86,12 @@ pub fn run_errors(
 }
 
 /// Looks for the start of the held-out run as it is looked for where results are told.
-pub fn refine_held_out_start(context: &Context<'_>, refit: &mut FittedModel) {
+pub fn refine_held_out_start(context: &Context<'_>, model: &mut FittedModel) {
     // Where nothing depends on the angle, where it began does not matter.
-    if refit.losses.is_none()
-        && refit.candidate.needs_angle()
-        && let Ok(rms) = validate(context.held_out, &refit.candidate, refit.method)
+    if model.losses.is_none()
+        && model.candidate.needs_angle()
+        && let Ok(rms) = validate(context.held_out, &model.candidate, model.method)
     {
-        refit.validate_rms_counts = rms;
+        model.validate_rms_counts = rms;
     }
 }

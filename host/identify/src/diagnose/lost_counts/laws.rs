@@ -56,8 +56,8 @@ fn losses(data: &Data, held_out: &Data) -> Option<(Losses, f64)> {
     if base.free().at_floor() {
         return None;
     }
-    let refit = found(&context, &base)?;
-    Some((refit.losses.unwrap(), refit.rms_counts))
+    let model = found(&context, &base)?;
+    Some((model.losses.unwrap(), model.rms_counts))
 }
 
 /// Readings within so many samples are the same event.

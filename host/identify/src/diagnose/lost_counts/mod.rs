@@ -84,9 +84,9 @@ pub fn beside(
     let repaired = Repaired::new(context, losses);
     work(&repaired.context(context), &bare)
         .iter()
-        .filter_map(|refit| {
-            let place = place.min(refit.effects.len());
-            with_losses(context, refit, place, &losses.fitted)
+        .filter_map(|model| {
+            let place = place.min(model.effects.len());
+            with_losses(context, model, place, &losses.fitted)
         })
         .collect()
 }
@@ -112,20 +112,20 @@ fn to_depth(
 ) -> Option<FittedModel> {
     let mut found = repair(context, parent, known, depth)?;
     // A better model shows the losses better, and those bring forth a better model.
-    if !found.refit.ran().at_floor()
-        && found.refit.rms_counts < PROMISING
-        && let Some(again) = repair(context, &found.refit, &found.losses.fitted, depth)
-        && again.refit.rms_counts < found.refit.rms_counts
+    if !found.model.ran().at_floor()
+        && found.model.rms_counts < PROMISING
+        && let Some(again) = repair(context, &found.model, &found.losses.fitted, depth)
+        && again.model.rms_counts < found.model.rms_counts
     {
         found = again;
     }
-    let near = found.refit.rms_counts < NEAR && found.refit.validate_rms_counts < NEAR;
+    let near = found.model.rms_counts < NEAR && found.model.validate_rms_counts < NEAR;
     (near || depth == Depth::Clear).then(|| found.with(place))
 }
 
 /// A model of the recordings with their lost counts put back.
 struct Repair {
-    refit: FittedModel,
+    model: FittedModel,
     losses: Losses,
     share: f64,
     /// Of the speed, rad/s.
@@ -135,16 +135,16 @@ struct Repair {
 impl Repair {
     /// The same as a model of the recordings with losses, which come after `place` others.
     fn with(self, place: usize) -> FittedModel {
-        let mut refit = FittedModel {
-            predicted_rms_counts: self.refit.rms_counts,
+        let mut model = FittedModel {
+            predicted_rms_counts: self.model.rms_counts,
             losses: Some(self.losses),
-            ..self.refit
+            ..self.model
         };
-        let before = parameters_of(&refit.effects[..place]);
-        refit.effects.insert(place, Kind::MissedCounts);
+        let before = parameters_of(&model.effects[..place]);
+        model.effects.insert(place, Kind::MissedCounts);
         let parameters = [self.share, self.threshold];
-        refit.parameters.splice(before..before, parameters);
-        refit
+        model.parameters.splice(before..before, parameters);
+        model
     }
 }
 
@@ -188,7 +188,7 @@ fn repair(
         ..parent.clone()
     };
     Some(Repair {
-        refit: polish(&repaired.context(context), &bare).ok()?,
+        model: polish(&repaired.context(context), &bare).ok()?,
         losses,
         share,
         threshold: per_s / units.counts_per_rev * core::f64::consts::TAU,
@@ -303,8 +303,8 @@ fn problem<'d>(data: &'d Data, structure: &Structure, method: Method) -> FitProb
 }
 
 /// A model with losses as one of the repaired recordings, and the place that the losses had.
-fn without(refit: &FittedModel) -> Option<(usize, FittedModel)> {
-    let mut bare = refit.clone();
+fn without(model: &FittedModel) -> Option<(usize, FittedModel)> {
+    let mut bare = model.clone();
     let place = bare
         .effects
         .iter()

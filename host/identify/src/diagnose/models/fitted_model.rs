@@ -125,22 +125,22 @@ impl FittedModel {
     /// The model with the parameters that it has, less one effect.
     pub fn without(&self, place: Kind) -> FittedModel {
         let mut rest = &self.parameters[..];
-        let mut refit = self.clone();
-        refit.effects.clear();
-        refit.parameters.clear();
-        refit.structure.effects.clear();
+        let mut model = self.clone();
+        model.effects.clear();
+        model.parameters.clear();
+        model.structure.effects.clear();
         for &kind in &self.structure.effects {
             let (own, further) = rest.split_at(kind.description().parameters.len());
             rest = further;
             if kind != place {
-                if !refit.effects.contains(&kind) {
-                    refit.effects.push(kind);
+                if !model.effects.contains(&kind) {
+                    model.effects.push(kind);
                 }
-                refit.structure.effects.push(kind);
-                refit.parameters.extend_from_slice(own);
+                model.structure.effects.push(kind);
+                model.parameters.extend_from_slice(own);
             }
         }
-        refit
+        model
     }
 }
 

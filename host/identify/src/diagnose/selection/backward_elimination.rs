@@ -78,11 +78,11 @@ fn fitted_without(context: &Context<'_>, chosen: &FittedModel, place: Kind) -> O
     if !screened.may_rival(chosen) {
         return None;
     }
-    let mut refit = fit_screened(context, &screened).ok()?;
-    observe_like(context, &mut refit, chosen).ok()?;
-    let behind = refit.judged().score() - chosen.judged().score();
-    if !refit.judged().at_floor() && behind < NEAR {
-        refit = polish(context, &refit).ok()?;
+    let mut model = fit_screened(context, &screened).ok()?;
+    observe_like(context, &mut model, chosen).ok()?;
+    let behind = model.judged().score() - chosen.judged().score();
+    if !model.judged().at_floor() && behind < NEAR {
+        model = polish(context, &model).ok()?;
     }
-    Some(refit)
+    Some(model)
 }

@@ -42,21 +42,21 @@ pub fn cross_start(context: &Context<'_>, models: &mut [FittedModel]) {
     let again: Vec<(usize, FittedModel)> = pairs
         .par_iter()
         .filter_map(|&(own, other)| {
-            let refit = from_there(context, &models[own], &models[other])?;
-            let gained = models[own].judged().score() - refit.judged().score();
-            (gained > GAINED).then_some((own, refit))
+            let fitted = from_there(context, &models[own], &models[other])?;
+            let gained = models[own].judged().score() - fitted.judged().score();
+            (gained > GAINED).then_some((own, fitted))
         })
         .collect();
-    for (place, refit) in again {
-        models[place] = refit;
+    for (place, fitted) in again {
+        models[place] = fitted;
     }
     models.sort_by(FittedModel::by_score);
 }
 
-fn found(refit: &FittedModel) -> EffectValues<'_> {
+fn found(fitted: &FittedModel) -> EffectValues<'_> {
     EffectValues {
-        effects: &refit.structure.effects,
-        values: &refit.parameters,
+        effects: &fitted.structure.effects,
+        values: &fitted.parameters,
     }
 }
 
@@ -68,9 +68,9 @@ fn from_there(
 ) -> Option<FittedModel> {
     let parameters = with_common_parameters(found(model), found(other));
     let start = ScreenedModel::standing(model.structure.clone(), &other.candidate, &parameters);
-    let mut refit = fit_screened(context, &start).ok()?;
-    refit.predicted_rms_counts = model.predicted_rms_counts;
-    observe_like(context, &mut refit, model).ok()?;
-    refit.evaluations += model.evaluations;
-    Some(refit)
+    let mut fitted = fit_screened(context, &start).ok()?;
+    fitted.predicted_rms_counts = model.predicted_rms_counts;
+    observe_like(context, &mut fitted, model).ok()?;
+    fitted.evaluations += model.evaluations;
+    Some(fitted)
 }

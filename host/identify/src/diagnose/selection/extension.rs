@@ -11,8 +11,8 @@ use crate::diagnose::screening::{free_run_ratio, rescreen, screen};
 use rayon::prelude::*;
 use shared::effects::{Kind, MAX_EFFECTS};
 
-/// Most refits of one call, unless they leave something unexplained.
-const MOST_REFITS: usize = 6;
+/// Most fits of one call, unless they leave something unexplained.
+const MOST_FITS: usize = 6;
 /// The same where models run in windows.
 const MOST_IN_WINDOWS: usize = 12;
 /// Screened models within this factor of the best are refitted in any case.
@@ -115,7 +115,7 @@ fn smooth(
         sort_screened(&mut more);
         again_from_best(context, parents, &mut more);
         let further = parent == 0 && context.span.window_s.is_none();
-        models = refits(context, &more, models, done, |best| {
+        models = fit_promising(context, &more, models, done, |best| {
             further && !removes(parents[parent], best)
         });
         screened_models.extend(more);
@@ -155,7 +155,7 @@ fn smooth(
         .collect();
     let mut more = screen_all(&bristles, &screened_models);
     sort_screened(&mut more);
-    refits(context, &more, models, done, |_| false)
+    fit_promising(context, &more, models, done, |_| false)
 }
 
 /// The first of the `models` with bristles in the place of its dry friction, where it leaves something to
@@ -216,7 +216,7 @@ fn again_from_best(
 
 /// Full fits of promising screened models beside the models that were `made` before, best first. Not more than what is usual,
 /// unless the best of them leaves something that is `unexplained`: a screening may have ended early in a long valley.
-fn refits(
+fn fit_promising(
     context: &Context<'_>,
     screened_models: &[ScreenedModel],
     made: Vec<FittedModel>,
@@ -225,41 +225,37 @@ fn refits(
 ) -> Vec<FittedModel> {
     // In windows more of them are alike.
     let windows = context.span.window_s.is_some();
-    let most = if windows {
-        MOST_IN_WINDOWS
-    } else {
-        MOST_REFITS
-    };
+    let most = if windows { MOST_IN_WINDOWS } else { MOST_FITS };
     let before = made.len();
-    let mut refits = made;
+    let mut models = made;
     for chunk in screened_models.chunks(AT_A_TIME) {
         context.budget.checkpoint();
-        let enough = refits.len() >= before + most;
-        if context.budget.exhausted() || (enough && !refits.first().is_some_and(&unexplained)) {
+        let enough = models.len() >= before + most;
+        if context.budget.exhausted() || (enough && !models.first().is_some_and(&unexplained)) {
             break;
         }
-        let best = refits.first();
+        let best = models.first();
         let made: Vec<FittedModel> = chunk
             .par_iter()
             .filter(|screened| deserves_fit(screened, screened_models, best))
             .filter_map(|screened| {
-                let refit = fit_screened(context, screened).ok();
+                let model = fit_screened(context, screened).ok();
                 done();
-                refit
+                model
             })
             .collect();
-        refits.extend(made);
-        sort(context, &mut refits);
+        models.extend(made);
+        sort(context, &mut models);
     }
-    refits
+    models
 }
 
-/// Best first, all in one measure: if free runs of any of them are chaotic, all are tracked.
-pub fn sort(context: &Context<'_>, refits: &mut [FittedModel]) {
-    if refits.iter().any(|refit| refit.observed.is_some()) {
-        observe_all(context, refits);
+/// Best first, all in one measure: if free runs of any of them are chaotic, all are compared under an observer.
+pub fn sort(context: &Context<'_>, models: &mut [FittedModel]) {
+    if models.iter().any(|model| model.observed.is_some()) {
+        observe_all(context, models);
     }
-    refits.sort_by(FittedModel::by_score);
+    models.sort_by(FittedModel::by_score);
 }
 
 /// Whether a screened model deserves a full fit, `best` being the best so far.

@@ -60,7 +60,7 @@ pub fn forward_selection(
         let Some(best) = judge::best(&models).cloned() else {
             break;
         };
-        // One that cannot be tracked keeps the errors of its free runs.
+        // One that no observer can hold to the readings keeps the errors of its free runs.
         let _ = observe_like(context, &mut before, &best);
         let walled = best.windowed.is_some() && best.at_wall();
         let believed = judge::removes(&before, &best) && !walled;

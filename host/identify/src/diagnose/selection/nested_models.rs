@@ -92,13 +92,13 @@ fn fitted(
     screened.simulated = free_run_error(context, &screened, f64::INFINITY);
     // Nothing was screened here: the error that may be hoped for is the chosen one's.
     screened.series_parallel = chosen.ran().fitted;
-    let mut refit = fit_screened(context, &screened).ok()?;
-    observe_like(context, &mut refit, chosen).ok()?;
-    let behind = refit.judged().score() - chosen.judged().score();
-    if !refit.judged().at_floor() && behind < NEAR {
-        refit = polish(context, &refit).ok()?;
+    let mut model = fit_screened(context, &screened).ok()?;
+    observe_like(context, &mut model, chosen).ok()?;
+    let behind = model.judged().score() - chosen.judged().score();
+    if !model.judged().at_floor() && behind < NEAR {
+        model = polish(context, &model).ok()?;
     }
-    Some(refit)
+    Some(model)
 }
 
 /// Values for the parameters of `special` at which it comes nearest to `general` with these `values`; `None` where

@@ -54,9 +54,9 @@ pub fn substituted(
     if !screened.may_rival(chosen) {
         return None;
     }
-    let mut refit = fit_screened(context, &screened).ok()?;
-    observe_like(context, &mut refit, chosen).ok()?;
-    Some(refit)
+    let mut model = fit_screened(context, &screened).ok()?;
+    observe_like(context, &mut model, chosen).ok()?;
+    Some(model)
 }
 
 /// The best of `chosen` and `others`.
