@@ -40,7 +40,7 @@ const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 const ASTRAY: f64 = 2.0;
 /// A simulation whose error is so many times the series-parallel one's has lost its way.
 pub const LOST: f64 = 3.0;
-/// ObserverErrors scores this near are as good as each other.
+/// Scores under an observer this near are as good as each other.
 const AS_GOOD: f64 = 0.04;
 
 /// Fits a screened model by full simulation.

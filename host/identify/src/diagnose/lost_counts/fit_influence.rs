@@ -33,8 +33,8 @@ impl FitInfluence {
         Some(FitInfluence { residual, columns })
     }
 
-    /// The residual less what a shift of the parameters does, by differences over `lag` samples: few where losses are many, many where
-    /// few are left, since long ones see a small drift.
+    /// The residual less what a shift of the parameters does, by differences over `lag` samples: few where losses are
+    /// many, many where few are left, since long ones see a small drift.
     pub fn without_influence(&self, lag: usize) -> Vec<f64> {
         let mut residual = self.residual.clone();
         let shift = shift(&residual, &self.columns, lag);

@@ -19,7 +19,8 @@ pub struct ScreenedModel {
     /// What a count of that error is worth in a free run: what the model without the effect leaves there, over what it
     /// leaves in series-parallel form, at most one.
     pub free_run_ratio: f64,
-    /// RMS error of a free run from there, counts; infinite where it is so far above the series-parallel one that the run has lost its way.
+    /// RMS error of a free run from there, counts; infinite where it is so far above the series-parallel one that the run
+    /// has lost its way.
     pub simulated: f64,
 }
 

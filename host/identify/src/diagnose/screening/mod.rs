@@ -38,7 +38,8 @@ const SCREENING: Settings = Settings {
 
 /// Starts that are left after a glance at all of them.
 const GLANCED: usize = 2;
-/// An effect that the series-parallel model does not follow, and that leaves more than this part of the error from its first start, gets no other.
+/// An effect that the series-parallel model does not follow, and that leaves more than this part of the error from its
+/// first start, gets no other.
 const PROMISING: f64 = 0.9;
 
 /// The model `parent` with `kind` added.

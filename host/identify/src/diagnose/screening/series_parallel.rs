@@ -1,4 +1,5 @@
-//! A fit of the series-parallel model, which is set to the measured motion at each sample: cheap, smooth, and for that a start only.
+//! A fit of the series-parallel model, whose effects act along the measured motion: cheap, smooth, and for that a start
+//! only.
 
 use crate::diagnose::context::Motion;
 use servoid_engine::problem::abreast::Run;
