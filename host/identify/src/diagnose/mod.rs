@@ -23,15 +23,15 @@
 //! | `recordings` | what is wrong with a recording, and which part is held out |
 //! | `models` | fitted and screened models and their errors, as plain data |
 //! | `context` | the recordings, how models run along them, and the budget |
-//! | `candidate` | one model: searched for, scored, held by an observer, followed, polished |
+//! | `candidate` | one model: searched for, scored, held to the readings by an observer, polished |
 //! | `spectrum` | the orders of the angle at which a torque repeats |
 //! | `screening` | one effect more, fitted roughly along the measured motion |
 //! | `lost_counts` | jumps of the reading by whole counts |
 //! | `residual_analysis` | where a model fails: volts against speed, voltage, angle, time |
 //!
-//! Beside the pipeline stand [`suggest`] (one step of it for a given model), [`built_up`] (a start for a fit), [`settle`]
-//! (the last model with intervals), [`steady`] (a curve of steady speeds) and what is said of a diagnosis ([`evidence`],
-//! [`advice`], [`findings()`], [`pair`]).
+//! Beside the pipeline stand [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
+//! [`settle()`] (the last model with intervals), [`steady`] (a curve of steady speeds), and `explain`: what is said of a
+//! diagnosis ([`evidence`], [`advice`], [`findings()`], [`pair`]).
 
 mod built_up;
 mod candidate;
