@@ -7,7 +7,7 @@ mod folder;
 
 use folder::folder;
 use host::diagnose::steady;
-use host::diagnose::{Diagnosis, Budget, FittedModel, Verdict, diagnose};
+use host::diagnose::{Budget, Diagnosis, FittedModel, Verdict, diagnose};
 use host::fit::{Options, scores};
 use host::input::SteadyCurve;
 use host::input::{MotorFile, read_recording};

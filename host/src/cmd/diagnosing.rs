@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{self, Diagnosis, Budget, Findings, HeldOut, Remark};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark};
 use servoid_identify::fit::{Fit, Options};
 use servoid_results::report::diagnosis::DiagnosisReport;
 use std::sync::atomic::Ordering;

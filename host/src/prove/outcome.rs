@@ -7,7 +7,7 @@ use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
-use servoid_identify::diagnose::{self, Diagnosis, Budget, FittedModel};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, FittedModel};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::truth::{self, ParameterError};
 use shared::effects::Kind;

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::{self, Found, Objective};
-use servoid_identify::diagnose::{self, Diagnosis, Budget, Suggestion};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, Suggestion};
 use servoid_identify::fit::{self, Fit, Options};
 use servoid_results::kept::KeptModel;
 use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
