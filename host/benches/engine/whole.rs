@@ -3,7 +3,7 @@
 use super::clock;
 use host::prove::{Case, Excite, HowMany, SetUp};
 use servoid_engine::solve;
-use servoid_identify::diagnose::{Effort, diagnose};
+use servoid_identify::diagnose::{Budget, diagnose};
 use servoid_identify::fit::{self, Fit, Options};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
@@ -64,7 +64,7 @@ pub fn rows() {
                             &case.fitted,
                             &case.held_out,
                             &options,
-                            &Effort::usual(&stop),
+                            &Budget::usual(&stop),
                             &|| (),
                         )
                     };

@@ -1,7 +1,7 @@
 //! The front door of a diagnosis: every face comes through here.
 
 use crate::datasets::Datasets;
-use crate::diagnose::{self, Diagnosis, Effort, Findings, HeldOut, Remark, pair};
+use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, pair};
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use crate::progress::Progress;
@@ -52,8 +52,8 @@ pub fn diagnose(
     progress: &dyn Progress,
 ) -> Result<Diagnosed, Error> {
     let datasets = Datasets::new(recording.clone(), validation.cloned(), options)?;
-    let effort = Effort::usual(progress.stop());
-    diagnose_datasets(&datasets, options, &effort, progress)
+    let budget = Budget::usual(progress.stop());
+    diagnose_datasets(&datasets, options, &budget, progress)
 }
 
 /// As [`diagnose`], for recordings that are checked and lowered, within a budget.
@@ -63,7 +63,7 @@ pub fn diagnose(
 pub fn diagnose_datasets(
     datasets: &Datasets,
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
     progress: &dyn Progress,
 ) -> Result<Diagnosed, Error> {
     let mut diagnosed = diagnose_data(
@@ -71,7 +71,7 @@ pub fn diagnose_datasets(
         &datasets.held_out,
         &datasets.kind,
         options,
-        effort,
+        budget,
         progress,
     )?;
     let mut remarks = datasets.remarks.clone();
@@ -89,12 +89,12 @@ pub fn diagnose_data(
     held_out: &Data,
     kind: &HeldOut,
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
     progress: &dyn Progress,
 ) -> Result<Diagnosed, Error> {
     let stop = progress.stop();
     let tried = || progress.tried();
-    let diagnosis = diagnose::diagnose(fitted, held_out, options, effort, &tried)?;
+    let diagnosis = diagnose::diagnose(fitted, held_out, options, budget, &tried)?;
     let interrupted = stop.load(Ordering::Relaxed);
     let last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
     let findings = diagnose::findings(&diagnosis, fitted, held_out)?;

@@ -1,6 +1,6 @@
 //! The front door of a fit: every face (command line, workbench, check of a device, library user) comes through here.
 
-use crate::diagnose::{Effort, built_up, is_lost};
+use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
 use crate::progress::Progress;
@@ -130,7 +130,7 @@ fn second_start(
         return None;
     }
     options.start.or_else(|| {
-        let effort = Effort::usual(progress.stop());
-        built_up(problem.data, &options.effects, options, &effort)
+        let budget = Budget::usual(progress.stop());
+        built_up(problem.data, &options.effects, options, &budget)
     })
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::prove::surprise;
 use crate::session::Session;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{Effort, HeldOut};
+use servoid_identify::diagnose::{Budget, HeldOut};
 use servoid_identify::diagnose_data;
 use servoid_identify::fit::Options;
 use servoid_io::output::write_whole;
@@ -42,8 +42,8 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
     };
     let kind = HeldOut::Recording(other.to_owned());
     let watched = Watched::diagnosis(session);
-    let effort = Effort::usual(session.stop());
-    let found = diagnose_data(&data, &held_out, &kind, &options, &effort, &watched)?;
+    let budget = Budget::usual(session.stop());
+    let found = diagnose_data(&data, &held_out, &kind, &options, &budget, &watched)?;
     drop(watched);
     let story = DemoReport {
         diagnosis: DiagnosisReport::new(&found, &data, &kind, session.seed, session.json_file()),

@@ -5,7 +5,7 @@ use super::{motor, report};
 use crate::cli::DiagnoseArgs;
 use crate::error::Error;
 use crate::session::Session;
-use servoid_identify::diagnose::Effort;
+use servoid_identify::diagnose::Budget;
 use servoid_identify::diagnose::steady;
 use servoid_identify::fit::Options;
 use servoid_identify::{Datasets, diagnose_datasets};
@@ -42,9 +42,9 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         ..Options::default()
     };
     let datasets = Datasets::new(recording, other.map(|(other, _)| other), &options)?;
-    let effort = Effort::of(args.budget.saturating_mul(MILLION), session.stop());
+    let budget = Budget::of(args.budget.saturating_mul(MILLION), session.stop());
     let watched = Watched::diagnosis(session);
-    let found = diagnose_datasets(&datasets, &options, &effort, &watched)?;
+    let found = diagnose_datasets(&datasets, &options, &budget, &watched)?;
     drop(watched);
     let Datasets { fitted, kind, .. } = &datasets;
     let told = DiagnosisReport::new(&found, fitted, kind, session.seed, session.json_file());

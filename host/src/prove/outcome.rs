@@ -7,7 +7,7 @@ use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
-use servoid_identify::diagnose::{self, Diagnosis, Effort, Refit};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, FittedModel};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::truth::{self, ParameterError};
 use shared::effects::Kind;
@@ -98,8 +98,8 @@ impl Outcome {
         // A fault of the diagnosis in one case of a thousand must not lose the others.
         let diagnosed = catch_unwind(AssertUnwindSafe(|| {
             pool.install(|| {
-                let effort = Effort::usual(stop);
-                diagnose::diagnose(&case.fitted, &case.held_out, &options, &effort, &count)
+                let budget = Budget::usual(stop);
+                diagnose::diagnose(&case.fitted, &case.held_out, &options, &budget, &count)
             })
         }));
         let outcome = Outcome {
@@ -172,7 +172,7 @@ impl Outcome {
 }
 
 impl Errors {
-    fn of(refit: &Refit) -> Errors {
+    fn of(refit: &FittedModel) -> Errors {
         Errors {
             fitted: finite(refit.rms_counts),
             held_out: finite(refit.validate_rms_counts),
@@ -213,7 +213,7 @@ fn leaves(drawn: &Drawn, which: usize, stop: &AtomicBool) -> Option<f64> {
 }
 
 /// Errors of the parameters of the effects that are both hidden and in the model.
-fn parameter_errors(drawn: &Drawn, model: &Refit) -> Result<Vec<ParameterError>, Error> {
+fn parameter_errors(drawn: &Drawn, model: &FittedModel) -> Result<Vec<ParameterError>, Error> {
     let machine = drawn.motor.machine();
     let mut rest = &model.parameters[..];
     let mut errors = Vec::new();

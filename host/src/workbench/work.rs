@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::solve::{self, Objective};
-use servoid_identify::diagnose::{self, Diagnosis, Effort, Suggestion};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, Suggestion};
 use servoid_identify::fit::{Fit, Options};
 use servoid_identify::{Diagnosed, Progress, bounded_problem, diagnose_data, identify_data};
 use servoid_results::kept::KeptModel;
@@ -24,7 +24,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         let state = bench.state();
         let suggestion = (state.suggested.iter())
             .flat_map(|(_, list)| list)
-            .find(|suggestion| diagnose::same(&suggestion.refit.effects, effects))
+            .find(|suggestion| diagnose::same(&suggestion.model.effects, effects))
             .cloned();
         (state.recordings()?, suggestion)
     };
@@ -33,7 +33,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         id: 0,
         effects: effects.to_vec(),
         fit: Arc::new(fit),
-        foreseen: suggestion.map(|s| s.refit.foreseen_rms_counts),
+        foreseen: suggestion.map(|s| s.model.predicted_rms_counts),
     };
     bench.change(|state| {
         state.put(model);
@@ -51,7 +51,7 @@ fn fitted(
 ) -> Result<Fit, Error> {
     let options = Options {
         algorithm: algorithm.to_owned(),
-        start: suggestion.map(|suggestion| suggestion.refit.candidate),
+        start: suggestion.map(|suggestion| suggestion.model.candidate),
         ..options(&recordings.fitted, effects, 1)
     };
     let (data, held_out) = recordings.parts();
@@ -111,7 +111,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         held_out,
         &candidate,
         &options,
-        &Effort::usual(bench.job.flag()),
+        &Budget::usual(bench.job.flag()),
         &done,
     )?;
     bench.change(|state| state.suggested = Some((id, found.list)));
@@ -125,8 +125,8 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let options = options(&recordings.fitted, &[], 1);
     let kind = recordings.kind();
     let watched = Watched::new(bench, data.len());
-    let effort = Effort::usual(bench.job.flag());
-    let found = diagnose_data(data, held_out, &kind, &options, &effort, &watched)?;
+    let budget = Budget::usual(bench.job.flag());
+    let found = diagnose_data(data, held_out, &kind, &options, &budget, &watched)?;
     let report = DiagnosisReport::new(&found, data, &kind, options.seed, None);
     let json = serde_json::to_value(DiagnosisJson::from(&report))
         .map_err(|error| Error::Failed(error.to_string()))?;
@@ -180,7 +180,7 @@ fn on_the_way(
         } else {
             let suggestion = Suggestion {
                 effect: step.added,
-                refit: after.clone(),
+                model: after.clone(),
                 evidence: None,
                 p_value: 0.0,
                 believed: true,
@@ -191,7 +191,7 @@ fn on_the_way(
             id: 0,
             effects: effects.clone(),
             fit: Arc::new(fit),
-            foreseen: Some(after.foreseen_rms_counts),
+            foreseen: Some(after.predicted_rms_counts),
         });
     }
     Ok(models)

@@ -1,6 +1,6 @@
 //! Diagnoses of drawn motors whose hidden effect once led the search astray.
 
-use host::diagnose::{Effort, diagnose};
+use host::diagnose::{Budget, diagnose};
 use host::fit::Options;
 use host::prove::{Case, Excite, HowMany, SetUp};
 use shared::effects::Kind;
@@ -56,8 +56,8 @@ fn cogging_is_named_beside_another_effect() {
         {
             continue;
         }
-        let (options, effort) = (Options::default(), Effort::usual(&stop));
-        let found = diagnose(&case.fitted, &case.held_out, &options, &effort, &|| ()).unwrap();
+        let (options, budget) = (Options::default(), Budget::usual(&stop));
+        let found = diagnose(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
         let named: Vec<&str> = found.steps.iter().map(|step| step.added.name()).collect();
         println!(
             "seed {SEED}, pair {number}, {:?}: {named:?}",
@@ -88,10 +88,10 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
     let (mut chaotic, mut followed) = (0, 0);
     for number in 0..cases(CHAOTIC_CASES, 3) {
         let case = Case::record(&set_up, number).unwrap();
-        let (options, effort) = (Options::default(), Effort::usual(&stop));
-        let found = diagnose(&case.fitted, &case.held_out, &options, &effort, &|| ()).unwrap();
+        let (options, budget) = (Options::default(), Budget::usual(&stop));
+        let found = diagnose(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
         let named: Vec<Kind> = found.steps.iter().map(|step| step.added).collect();
-        if named != [Kind::Cogging] || found.last.tracked.is_none() {
+        if named != [Kind::Cogging] || found.last.observed.is_none() {
             continue;
         }
         let errors = found.last.free();
@@ -118,7 +118,7 @@ fn a_strong_constant_load_is_named_and_nothing_else() {
             &case.fitted,
             &case.held_out,
             &Options::default(),
-            &Effort::usual(&stop),
+            &Budget::usual(&stop),
             &|| (),
         )
         .unwrap();

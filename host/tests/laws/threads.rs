@@ -1,7 +1,7 @@
 //! Results do not depend on the number of threads.
 
 use host::compare::{self, Contest};
-use host::diagnose::{Effort, diagnose};
+use host::diagnose::{Budget, diagnose};
 use host::fit::{self, Fit, Options};
 use host::prove::{Case, Excite, HowMany, SetUp};
 use host::solve;
@@ -92,7 +92,7 @@ fn diagnoses_do_not_depend_on_the_number_of_threads() {
                 &case.fitted,
                 &case.held_out,
                 &options,
-                &Effort::usual(&stop),
+                &Budget::usual(&stop),
                 &|| (),
             )
             .expect("a diagnosis")

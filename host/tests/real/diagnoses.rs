@@ -2,7 +2,7 @@
 
 use crate::limits::within;
 use crate::source::{data, elsewhere, kept};
-use host::diagnose::{Diagnosis, Effort, Refit, Verdict, diagnose};
+use host::diagnose::{Budget, Diagnosis, FittedModel, Verdict, diagnose};
 use host::fit::{Options, scores};
 use host::problem::Data;
 use shared::effects::Kind;
@@ -16,7 +16,7 @@ fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
         fitted,
         held_out,
         &Options::default(),
-        &Effort::usual(&stop),
+        &Budget::usual(&stop),
         &|| (),
     )
     .unwrap_or_else(|error| panic!("{error}"));
@@ -54,7 +54,7 @@ fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
     diagnosis
 }
 
-fn print(fitted: &Data, what: &str, refit: &Refit) {
+fn print(fitted: &Data, what: &str, refit: &FittedModel) {
     let errors = refit.judged();
     println!(
         "{what} {:?}: {:.2} / {:.2} counts over a floor of {:.2}, whole {:.1} / {:.1}, windowed {:.2} %, equation {:.2} %, {:.4?}",
@@ -71,7 +71,7 @@ fn print(fitted: &Data, what: &str, refit: &Refit) {
 }
 
 /// Error of free runs over windows, per cent of the motion in them.
-fn windowed(data: &Data, refit: &Refit, window_s: f64) -> f64 {
+fn windowed(data: &Data, refit: &FittedModel, window_s: f64) -> f64 {
     let options = Options {
         window_s: Some(window_s),
         method: refit.method,
@@ -81,7 +81,7 @@ fn windowed(data: &Data, refit: &Refit, window_s: f64) -> f64 {
 }
 
 /// Part of the drive that the model's equation leaves unexplained, per cent.
-fn equation(data: &Data, refit: &Refit) -> f64 {
+fn equation(data: &Data, refit: &FittedModel) -> f64 {
     scores::equation_error(data, &refit.candidate).map_or(f64::NAN, |e| 100.0 * e.abs())
 }
 
@@ -125,7 +125,7 @@ fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() 
     assert!(diagnosis.span.window_s.is_some());
     let named: Vec<Kind> = diagnosis.steps.iter().map(|step| step.added).collect();
     assert!(named == [Kind::Unbalance, Kind::LoadFriction], "{named:?}");
-    let shares = |refit: &Refit| (windowed(&fitted, refit, 0.5), equation(&fitted, refit));
+    let shares = |refit: &FittedModel| (windowed(&fitted, refit, 0.5), equation(&fitted, refit));
     let (window, drive) = shares(&diagnosis.base);
     within("linear, free runs", window, 65.0..100.0);
     within("linear, equation", drive, 50.0..85.0);

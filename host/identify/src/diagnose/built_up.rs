@@ -1,9 +1,12 @@
 //! A start for a fit with given effects: they are added one by one, as a diagnosis adds them. Regression knows nothing of
 //! most effects, and where runs are chaotic a search that begins there ends in the wrong valley.
 
-use super::effort::Effort;
-use super::refit::Refit;
-use super::workshop::Workshop;
+use super::candidate::fit::fit_screened;
+use super::candidate::polish::polish;
+use super::context::{Budget, Context};
+use super::linear::fit_linear;
+use super::models::FittedModel;
+use super::screening::screen;
 use crate::fit::Options;
 use servoid_engine::problem::{Candidate, Data};
 use shared::effects::Kind;
@@ -23,26 +26,26 @@ pub fn built_up(
     data: &Data,
     effects: &[Kind],
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
 ) -> Option<Candidate> {
     if effects.is_empty() {
         return None;
     }
-    let mut workshop = Workshop::new(data, data, options, effort);
-    let mut model = workshop.base(options).ok()?;
+    let context = Context::new(data, data, options, budget);
+    let (context, mut model) = fit_linear(context, options).ok()?;
     for &kind in effects {
-        model = added(&workshop, &model, kind)?;
+        model = added(&context, &model, kind)?;
     }
     Some(model.candidate)
 }
 
-fn added(workshop: &Workshop<'_>, model: &Refit, kind: Kind) -> Option<Refit> {
+fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<FittedModel> {
     let first = kind.facts().starts.after();
-    let first = first.and_then(|plainer| workshop.sketch(model, plainer, &[]));
-    let sketch = workshop.sketch(model, kind, first.as_slice())?;
-    let refit = workshop.refit(&sketch).ok()?;
-    if refit.judged().at_floor() {
-        return Some(refit);
+    let first = first.and_then(|plainer| screen(context, model, plainer, &[]));
+    let screened = screen(context, model, kind, first.as_slice())?;
+    let fitted = fit_screened(context, &screened).ok()?;
+    if fitted.judged().at_floor() {
+        return Some(fitted);
     }
-    workshop.polish(&refit).ok()
+    polish(context, &fitted).ok()
 }

@@ -1,6 +1,7 @@
 //! The model that a diagnosis ends with, fitted to its end: parameters with intervals.
 
-use super::{Diagnosis, NOISE_COUNTS, Refit};
+use super::models::{FittedModel, NOISE_COUNTS};
+use super::outcome::Diagnosis;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, Parameter};
 use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle};
@@ -45,9 +46,9 @@ pub fn settle(
         start: Some(start.clone()),
     };
     let judged_otherwise = last.windowed.is_some() || last.losses.is_some();
-    let chaotic = last.tracked.is_some() && !last.ran().at_floor();
+    let chaotic = last.observed.is_some() && !last.ran().at_floor();
     // As far as it was followed it was fitted to its end.
-    let followed = last.followed > 0.0;
+    let followed = last.followed_fraction > 0.0;
     let stays = judged_otherwise || followed || diagnosis.ran_out || stop.load(Ordering::Relaxed);
     let found = (!stays)
         .then(|| {
@@ -71,7 +72,7 @@ pub fn settle(
 }
 
 /// Errors with the lost counts put back, and the parameters of the loss, whose errors are not known.
-fn with_losses(fit: &mut Fit, last: &Refit) {
+fn with_losses(fit: &mut Fit, last: &FittedModel) {
     fit.rms_counts = last.rms_counts;
     fit.validate_rms_counts = Some(last.validate_rms_counts);
     fit.effects = last.effects.iter().map(|kind| kind.name()).collect();

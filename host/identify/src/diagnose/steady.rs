@@ -1,7 +1,7 @@
 //! A motor's steady speed against its voltage: no recording in time, and still enough to see a constant drop.
 //! Whether friction, the brushes or the power stage take it, such a curve cannot say.
 
-use super::Verdict;
+use super::outcome::Verdict;
 use servoid_io::input::SteadyCurve;
 use shared::effects::Kind;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};

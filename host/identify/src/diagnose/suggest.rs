@@ -1,13 +1,14 @@
 //! One step of a diagnosis on its own: which effects would explain more than a given model does.
 
-use super::descent::Descent;
-use super::evidence;
-use super::extend::extend;
-use super::judge;
-use super::refit::Refit;
-use super::whereabouts::whereabouts;
-use super::workshop::Workshop;
-use super::{Effort, Verdict};
+use super::candidate::descent::Descent;
+use super::candidate::score::score_candidate;
+use super::candidate::search::fit_problem;
+use super::context::{Budget, Context};
+use super::explain::evidence;
+use super::models::FittedModel;
+use super::outcome::Verdict;
+use super::residual_analysis::analyse_residual;
+use super::selection::{extensions, judge};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
 use servoid_engine::problem::{Candidate, Data, Structure};
@@ -20,7 +21,7 @@ pub struct Suggestion {
     /// The effect.
     pub effect: Kind,
     /// The model with it, fitted.
-    pub refit: Refit,
+    pub model: FittedModel,
     /// What was measured that speaks for it, if the recording shows it.
     pub evidence: Option<String>,
     /// Chance of so large a gain if it were absent.
@@ -47,11 +48,11 @@ pub fn suggest(
     held_out: &Data,
     candidate: &Candidate,
     options: &Options,
-    effort: &Effort<'_>,
+    budget: &Budget<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Suggestions, Error> {
-    let workshop = Workshop::new(data, held_out, options, effort);
-    let parent = standing(&workshop, candidate)?;
+    let context = Context::new(data, held_out, options, budget);
+    let parent = standing(&context, candidate)?;
     if parent.judged().at_floor() {
         let verdict = if parent.effects.is_empty() {
             Verdict::Complete
@@ -64,19 +65,19 @@ pub fn suggest(
         });
     }
     let mut list = Vec::new();
-    for refit in extend(&workshop, &[&parent], done) {
-        let Some(&effect) = refit.effects.last() else {
+    for model in extensions(&context, &[&parent], done) {
+        let Some(&effect) = model.effects.last() else {
             continue;
         };
-        let without = evidence::without(&refit.candidate, effect);
-        let missing = whereabouts(data, &without, &refit.candidate, refit.method)?;
-        let values = evidence::values(&refit, effect);
+        let without = evidence::without(&model.candidate, effect);
+        let missing = analyse_residual(data, &without, &model.candidate, model.method)?;
+        let values = model.values_of(effect);
         list.push(Suggestion {
             effect,
             evidence: evidence::sentence(effect, &values, &missing),
-            p_value: judge::p_value(data, &parent, &refit),
-            believed: judge::removes(&parent, &refit),
-            refit,
+            p_value: judge::p_value(data, &parent, &model),
+            believed: judge::removes(&parent, &model),
+            model,
         });
     }
     Ok(Suggestions {
@@ -86,12 +87,12 @@ pub fn suggest(
 }
 
 /// A model as it stands, in the terms of a diagnosis.
-fn standing(workshop: &Workshop<'_>, candidate: &Candidate) -> Result<Refit, Error> {
+fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<FittedModel, Error> {
     let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
     let values: Vec<f64> = (candidate.effects.iter())
         .flat_map(|(_, values)| values.to_vec())
         .collect();
-    let data = workshop.data;
+    let data = context.data;
     let structure = Structure::around(
         data,
         base_for(data, &effects),
@@ -101,12 +102,12 @@ fn standing(workshop: &Workshop<'_>, candidate: &Candidate) -> Result<Refit, Err
     );
     let x = structure.values_of(&candidate.machine, &values, candidate.start_speed);
     let x = structure.coordinates(&x);
-    let squares = workshop.problem(&structure, workshop.method).cost(&x);
+    let squares = fit_problem(context, &structure, context.method).cost(&x);
     let found = Descent {
         x,
         squares,
         evaluations: 1,
     };
-    let foreseen = (squares / data.len() as f64).sqrt();
-    workshop.conclude(structure, &found, foreseen, workshop.method)
+    let predicted = (squares / data.len() as f64).sqrt();
+    score_candidate(context, structure, &found, predicted, context.method)
 }

@@ -5,7 +5,7 @@ use super::{Drawing, Picture, axis, colour, layout, rounded};
 use plotly::common::{DashType, Line, Marker, Mode};
 use plotly::layout::{LayoutGrid, Shape, ShapeLayer, ShapeLine, ShapeType};
 use plotly::{Bar, Plot, Scatter};
-use servoid_identify::diagnose::whereabouts::Correlations;
+use servoid_identify::diagnose::residual_analysis::Correlations;
 
 /// Half the width of the drawn band, standard deviations: nineteen of twenty independent values lie within.
 const WIDE: f64 = 1.96;

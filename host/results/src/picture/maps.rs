@@ -4,19 +4,19 @@ use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::report::text::short;
 use plotly::common::{ErrorData, ErrorType, Line, Marker, Mode};
 use plotly::{Plot, Scatter, Trace};
-use servoid_identify::diagnose::whereabouts::{Against, Bin, Map, Whereabouts};
+use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, ResidualAnalysis};
 
 /// Half the width of a drawn interval, standard errors.
 const WIDE: f64 = 2.0;
 
 /// One drawing for each quantity: each of `models` with its name.
-pub fn maps(id: &str, models: &[(&str, &Whereabouts)]) -> Vec<Picture> {
+pub fn maps(id: &str, models: &[(&str, &ResidualAnalysis)]) -> Vec<Picture> {
     let all = Against::ALL.iter();
     all.filter_map(|&against| map(id, against, models))
         .collect()
 }
 
-fn map(id: &str, against: Against, models: &[(&str, &Whereabouts)]) -> Option<Picture> {
+fn map(id: &str, against: Against, models: &[(&str, &ResidualAnalysis)]) -> Option<Picture> {
     let (name, unit) = against.name();
     let name = name.replace('_', " ");
     let split = if against == Against::Speed {

@@ -5,7 +5,7 @@ use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use plotly::common::Marker;
 use plotly::layout::BarMode;
 use plotly::{Bar, Plot};
-use servoid_identify::diagnose::whereabouts::{Line, Spectrum};
+use servoid_identify::diagnose::residual_analysis::{Line, Spectrum};
 
 /// Orders that are drawn: as many as are the strongest of each direction.
 const STRONGEST: usize = 12;

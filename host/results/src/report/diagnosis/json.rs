@@ -5,7 +5,7 @@ use super::{DiagnosisReport, Role};
 use crate::kept::{KeptMachine, KeptModel, KeptParameter};
 use crate::report::json::{IdentifiableJson, MarginsJson, ParameterJson};
 use serde::Serialize;
-use servoid_identify::diagnose::{Errors, HeldOut, Refit, Remark, Step};
+use servoid_identify::diagnose::{Errors, FittedModel, HeldOut, Remark, Step};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// A number, or null where there is none.
@@ -191,7 +191,7 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
     let step: &Step = &report.diagnosis.steps[index];
     let names = step.indistinguishable_from.iter().map(|kind| kind.name());
     let after = step.candidates.first();
-    let of = |value: fn(&Refit) -> f64| after.map(value).and_then(finite);
+    let of = |value: fn(&FittedModel) -> f64| after.map(value).and_then(finite);
     StepJson {
         added: step.added.name(),
         indistinguishable_from: names.collect(),
@@ -199,12 +199,14 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
         confidence: finite(step.confidence),
         rms_counts: of(|refit| refit.rms_counts),
         validate_rms_counts: of(|refit| refit.validate_rms_counts),
-        foreseen_rms_counts: of(|refit| refit.foreseen_rms_counts),
+        foreseen_rms_counts: of(|refit| refit.predicted_rms_counts),
         tracked: after
-            .and_then(|refit| refit.tracked)
+            .and_then(|refit| refit.observed)
             .map(|t| errors(t.errors)),
-        tracked_memory_s: after.and_then(|refit| refit.tracked).map(|t| t.memory_s),
-        followed: after.map(|refit| refit.followed).filter(|part| *part > 0.0),
+        tracked_memory_s: after.and_then(|refit| refit.observed).map(|t| t.memory_s),
+        followed: after
+            .map(|refit| refit.followed_fraction)
+            .filter(|part| *part > 0.0),
         windowed: after.and_then(|refit| refit.windowed).map(errors),
         evidence: report.evidence(index),
         model: after.map(kept),
@@ -217,15 +219,15 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> StepJson {
     }
 }
 
-fn candidate(refit: &Refit, p_value: f64) -> CandidateJson {
+fn candidate(refit: &FittedModel, p_value: f64) -> CandidateJson {
     let effects: Vec<&'static str> = refit.effects.iter().map(|kind| kind.name()).collect();
     CandidateJson {
         effect: effects.last().copied().unwrap_or_default(),
         effects,
         rms_counts: finite(refit.rms_counts),
         validate_rms_counts: finite(refit.validate_rms_counts),
-        foreseen_rms_counts: finite(refit.foreseen_rms_counts),
-        tracked: refit.tracked.map(|t| errors(t.errors)),
+        foreseen_rms_counts: finite(refit.predicted_rms_counts),
+        tracked: refit.observed.map(|t| errors(t.errors)),
         windowed: refit.windowed.map(errors),
         p_value: finite(p_value),
         evaluations: refit.evaluations,
@@ -272,7 +274,7 @@ fn held_out(held_out: &HeldOut) -> HeldOutJson {
 }
 
 /// A model that can be run again; counts that were lost are not put back.
-fn kept(refit: &Refit) -> KeptModel {
+fn kept(refit: &FittedModel) -> KeptModel {
     KeptModel::of(&refit.candidate, refit.method)
 }
 

@@ -14,7 +14,9 @@ pub use steady::{SteadyJson, SteadyReport};
 use servoid_engine::problem::Data;
 use servoid_identify::Diagnosed;
 use servoid_identify::diagnose::advice::cannot_tell;
-use servoid_identify::diagnose::{Diagnosis, Findings, HeldOut, Refit, Remark, Step, Verdict};
+use servoid_identify::diagnose::{
+    Diagnosis, Findings, FittedModel, HeldOut, Remark, Step, Verdict,
+};
 use servoid_identify::fit::Fit;
 use servoid_identify::plan::Hypothesis;
 use servoid_io::recording::Drive;
@@ -47,7 +49,7 @@ pub struct DiagnosisReport<'a> {
 /// A model that explains the recording: the chosen one, or one with a look-alike in some place.
 struct Role<'a> {
     name: &'static str,
-    model: &'a Refit,
+    model: &'a FittedModel,
 }
 
 impl<'a> DiagnosisReport<'a> {
@@ -107,9 +109,9 @@ impl DiagnosisReport<'_> {
 
     /// The best model with `instead` in the place of `added`: beside all the other effects if there is one, else
     /// of the step.
-    fn alternative(&self, added: Kind, instead: Kind) -> Option<&Refit> {
+    fn alternative(&self, added: Kind, instead: Kind) -> Option<&FittedModel> {
         let last = &self.diagnosis.last.effects;
-        let swapped = |model: &&Refit| {
+        let swapped = |model: &&FittedModel| {
             model.effects.len() == last.len()
                 && model.effects.contains(&instead)
                 && last
@@ -117,8 +119,8 @@ impl DiagnosisReport<'_> {
                     .all(|&kind| kind == added || model.effects.contains(&kind))
         };
         let step = self.diagnosis.steps.iter().find(|s| s.added == added)?;
-        let in_step = |model: &&Refit| model.effects.last() == Some(&instead);
-        let score = |model: &&Refit| model.judged().score();
+        let in_step = |model: &&FittedModel| model.effects.last() == Some(&instead);
+        let score = |model: &&FittedModel| model.judged().score();
         (self.diagnosis.rivals.iter().filter(swapped))
             .min_by(|a, b| score(a).total_cmp(&score(b)))
             .or_else(|| step.candidates.iter().find(in_step))

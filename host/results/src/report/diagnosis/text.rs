@@ -159,7 +159,7 @@ impl DiagnosisReport<'_> {
                 "foreseen",
                 &format!(
                     "{} counts RMS before the refit; {} reached",
-                    counts(after.foreseen_rms_counts),
+                    counts(after.predicted_rms_counts),
                     counts(after.rms_counts)
                 ),
             )?;
@@ -173,7 +173,7 @@ impl DiagnosisReport<'_> {
                     ),
                 )?;
             }
-            if let Some(tracked) = after.tracked {
+            if let Some(tracked) = after.observed {
                 say(
                     "judged by",
                     &format!(

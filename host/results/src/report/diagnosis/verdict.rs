@@ -126,7 +126,7 @@ impl DiagnosisReport<'_> {
     /// By what the model was judged where free runs over the whole recording say little.
     fn chaos_text(&self) -> String {
         let last = &self.diagnosis.last;
-        let (why, errors) = match (&self.diagnosis.span.window_s, last.windowed, last.tracked) {
+        let (why, errors) = match (&self.diagnosis.span.window_s, last.windowed, last.observed) {
             (Some(seconds), Some(windowed), _) => (
                 format!(
                     "The model was judged in windows of {seconds:.3} s, since {}",
@@ -143,7 +143,7 @@ impl DiagnosisReport<'_> {
             ),
             _ => return String::new(),
         };
-        let kept = match last.followed {
+        let kept = match last.followed_fraction {
             part if part > 0.0 && part < 1.0 => format!(
                 " On its own it keeps to the readings over the first {:.0} % of the recording.",
                 100.0 * part

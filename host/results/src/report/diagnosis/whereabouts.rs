@@ -4,8 +4,10 @@ use super::json::finite;
 use serde::Serialize;
 use servoid_identify::diagnose::Findings;
 use servoid_identify::diagnose::evidence::plain;
-use servoid_identify::diagnose::whereabouts::whiteness::{AUTOCORRELATION_LIMIT, INPUT_LIMIT};
-use servoid_identify::diagnose::whereabouts::{Bin, Line, Map, Whereabouts, Whiteness};
+use servoid_identify::diagnose::residual_analysis::whiteness::{
+    AUTOCORRELATION_LIMIT, INPUT_LIMIT,
+};
+use servoid_identify::diagnose::residual_analysis::{Bin, Line, Map, ResidualAnalysis, Whiteness};
 
 /// What the linear motor and the last model leave.
 #[derive(Debug, Serialize)]
@@ -88,8 +90,8 @@ struct WhitenessJson {
     input_limit: f64,
 }
 
-impl From<&Whereabouts> for WhereJson {
-    fn from(found: &Whereabouts) -> Self {
+impl From<&ResidualAnalysis> for WhereJson {
+    fn from(found: &ResidualAnalysis) -> Self {
         let lines = |lines: &[Line]| lines.iter().take(LINES).map(line).collect();
         WhereJson {
             volts_rms: finite(found.volts_rms),
@@ -158,7 +160,7 @@ const LINES: usize = 5;
 const HALF: usize = 12;
 
 /// The shares of all quantities, and the table of the one that explains most.
-pub(super) fn table(found: &Whereabouts) -> String {
+pub(super) fn table(found: &ResidualAnalysis) -> String {
     let shares: Vec<String> = found
         .maps
         .iter()

@@ -7,8 +7,8 @@ use crate::page::{Block, Section};
 use crate::picture;
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
-use servoid_identify::diagnose::whereabouts::{
-    Correlations, Whereabouts, correlations, whereabouts,
+use servoid_identify::diagnose::residual_analysis::{
+    Correlations, ResidualAnalysis, analyse_residual, correlations,
 };
 use shared::effects::{EffectSet, Kind, Order, Place};
 
@@ -48,10 +48,10 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
     let Some(best) = models.last() else {
         return Ok(Vec::new());
     };
-    let mut found: Vec<(&str, Whereabouts)> = Vec::new();
+    let mut found: Vec<(&str, ResidualAnalysis)> = Vec::new();
     let mut related: Vec<(&str, Correlations)> = Vec::new();
     for model in models {
-        let at = whereabouts(data, &model.candidate, &best.candidate, best.method)?;
+        let at = analyse_residual(data, &model.candidate, &best.candidate, best.method)?;
         found.push((&model.name, at));
         let run = model.run(data)?;
         if let Some(correlations) = correlations(data, &run.residual) {
@@ -59,7 +59,7 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
         }
     }
     let mut fails = Section::new(&format!("{id}-where"), "Where it fails");
-    let maps: Vec<(&str, &Whereabouts)> = found.iter().map(|(n, w)| (*n, w)).collect();
+    let maps: Vec<(&str, &ResidualAnalysis)> = found.iter().map(|(n, w)| (*n, w)).collect();
     fails.blocks.push(Block::Text(missing(&found)));
     let mut pictures = picture::maps(&format!("{id}-against"), &maps);
     // What a wave in the angle explains shows only without it.
@@ -123,7 +123,7 @@ fn periodic_torque(kind: Kind) -> Option<Order> {
     periodic.filter(|_| kind.description().place == Place::Torque)
 }
 
-fn missing(found: &[(&str, Whereabouts)]) -> String {
+fn missing(found: &[(&str, ResidualAnalysis)]) -> String {
     let said: Vec<String> = found
         .iter()
         .map(|(name, found)| {

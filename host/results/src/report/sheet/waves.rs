@@ -7,7 +7,7 @@
 //! enough are not seen.
 
 use servoid_engine::problem::{Candidate, Data};
-use servoid_identify::diagnose::whereabouts::{Line, Spectrum};
+use servoid_identify::diagnose::residual_analysis::{Line, Spectrum};
 use servoid_identify::fit::scores::{EquationResidual, equation_residuals};
 use std::f64::consts::TAU;
 

@@ -1,0 +1,148 @@
+//! The fit of a screened model by full simulation.
+
+use super::descent::{Descent, PROBE, Settings};
+use super::observer::observe_all;
+use super::score::score_candidate;
+use super::search::{fit_problem, search};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ROOM, ScreenedModel};
+use crate::error::Error;
+use servoid_engine::problem::{FitProblem, Horizon, Structure};
+use servoid_engine::simulation::Method;
+
+/// Of a fit by full simulation.
+const FULL: Settings = Settings {
+    evaluations: 80,
+    tolerance: 1e-3,
+    stride: 2,
+    enough: 0.0,
+    damping: 1e-6,
+    secant: true,
+    probe: PROBE,
+    probed: None,
+    again: true,
+};
+/// Of a stage with a short memory.
+const FADE: Settings = Settings {
+    evaluations: 40,
+    tolerance: 1e-2,
+    stride: 4,
+    enough: f64::INFINITY,
+    damping: 1e-4,
+    secant: true,
+    probe: PROBE,
+    probed: None,
+    again: true,
+};
+/// How long errors are remembered, stage by stage.
+const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
+/// A stage that leaves so many times the error of the one before has lost its way.
+const ASTRAY: f64 = 2.0;
+/// A simulation whose error is so many times the series-parallel one's has lost its way.
+pub const LOST: f64 = 3.0;
+/// Scores under an observer this near are as good as each other.
+const AS_GOOD: f64 = 0.04;
+
+/// Fits a screened model by full simulation.
+///
+/// # Errors
+/// [`Error::Failed`] where the model cannot run from there.
+pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<FittedModel, Error> {
+    let settings = Settings {
+        enough: (context.floor * ROOM).powi(2) * context.data.len() as f64,
+        ..FULL
+    };
+    let predicted = screened.predicted();
+    let fit = |start: &[f64]| {
+        let found = search_or_fail(
+            context,
+            &screened.structure,
+            start,
+            settings,
+            context.method,
+        )?;
+        score_candidate(
+            context,
+            screened.structure.clone(),
+            &found,
+            predicted,
+            context.method,
+        )
+    };
+    // Where the simulation is far worse than the series-parallel model predicted, the free run has lost its way.
+    if context.span.window_s.is_some()
+        || screened.simulated <= LOST * screened.series_parallel.max(NOISE_COUNTS)
+    {
+        return fit(&screened.x);
+    }
+    let faded = fit_with_growing_memory(context, &screened.structure, &screened.x);
+    let free = fit(&faded)?;
+    if free.ran().at_floor() {
+        return Ok(free);
+    }
+    // A free run that is chaotic leads the search astray; then what the observer learnt stands.
+    let stand = Descent {
+        squares: 0.0,
+        evaluations: free.evaluations,
+        x: faded,
+    };
+    let faded = score_candidate(
+        context,
+        screened.structure.clone(),
+        &stand,
+        predicted,
+        context.method,
+    )?;
+    let mut both = [free, faded];
+    observe_all(context, &mut both);
+    let score = |model: &FittedModel| {
+        let errors = model.observed.map(|observed| observed.errors);
+        errors.map_or(f64::INFINITY, |errors| errors.score())
+    };
+    let [free, faded] = both;
+    Ok(if score(&free) < score(&faded) + AS_GOOD {
+        free
+    } else {
+        faded
+    })
+}
+
+/// Descends with a memory that grows from stage to stage, so that the search meets the rough cost of the
+/// free run only when it is near.
+fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f64]) -> Vec<f64> {
+    let mut x = x.to_vec();
+    let mut last = f64::INFINITY;
+    for memory_s in MEMORIES_S {
+        let problem = FitProblem {
+            horizon: Horizon::Observer(memory_s),
+            ..fit_problem(context, structure, context.method)
+        };
+        let Some(found) = search(context, &problem, &x, FADE, context.method) else {
+            break;
+        };
+        let rms = (found.squares / context.data.len() as f64).sqrt();
+        if rms > ASTRAY * last.max(NOISE_COUNTS) {
+            break;
+        }
+        last = rms;
+        x = found.x;
+    }
+    x
+}
+
+fn search_or_fail(
+    context: &Context<'_>,
+    structure: &Structure,
+    start: &[f64],
+    settings: Settings,
+    method: Method,
+) -> Result<Descent, Error> {
+    search(
+        context,
+        &fit_problem(context, structure, method),
+        start,
+        settings,
+        method,
+    )
+    .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", context.data.source)))
+}

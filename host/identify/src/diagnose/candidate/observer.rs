@@ -1,0 +1,87 @@
+//! Errors that are soon forgotten: what models are judged by where their free runs are chaotic.
+//!
+//! The run is held to the readings, so that an error dies away within some time. The longer that is, the less is missed; but
+//! where a shaft slips over detents within it, all models look alike. So models that are compared are held as loosely as the
+//! best of them can follow.
+
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{Errors, FittedModel, MEMORIES_S, NOISE_COUNTS, ObserverErrors};
+use crate::error::Error;
+use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::problem::{errors, rms_counts};
+use shared::cost::Cost;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// A model follows the readings if it errs by no more than this, counts RMS.
+const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
+
+/// Adds the errors that are forgotten within `memory_s`.
+///
+/// # Errors
+/// Where the model cannot run.
+fn observe(context: &Context<'_>, model: &mut FittedModel, memory_s: f64) -> Result<(), Error> {
+    if let Some(known) = model
+        .observed_runs
+        .iter()
+        .find(|known| known.memory_s == memory_s)
+    {
+        model.observed = Some(*known);
+        return Ok(());
+    }
+    let observed = |data: &Data| {
+        errors(
+            data,
+            &Candidate {
+                start_speed: 0.0,
+                start_offset: 0.0,
+                ..model.candidate
+            },
+            model.method,
+            &Horizon::Observer(memory_s),
+            StartAngle::Free,
+            Cost::Squared,
+        )
+        .map(|errors| rms_counts(data, &errors))
+    };
+    let errors = Errors {
+        fitted: observed(context.data)?,
+        held_out: observed(context.held_out)?,
+        floor: FLOOR_RMS_COUNTS,
+    };
+    let observed = ObserverErrors { errors, memory_s };
+    model.observed = Some(observed);
+    model.observed_runs.push(observed);
+    Ok(())
+}
+
+/// Observes a model as another one is, which it is to be compared with; not at all if that is not.
+///
+/// # Errors
+/// Where the model cannot run.
+pub fn observe_like(
+    context: &Context<'_>,
+    model: &mut FittedModel,
+    other: &FittedModel,
+) -> Result<(), Error> {
+    match (model.observed, other.observed) {
+        (_, None) => Ok(()),
+        (Some(own), Some(other)) if own.memory_s == other.memory_s => Ok(()),
+        (_, Some(other)) => observe(context, model, other.memory_s),
+    }
+}
+
+/// Observes all of some models in the same way.
+pub fn observe_all(context: &Context<'_>, models: &mut [FittedModel]) {
+    for memory_s in MEMORIES_S {
+        for model in models.iter_mut() {
+            if model.observed.is_none_or(|own| own.memory_s != memory_s) {
+                // A model that no observer can hold to the readings keeps the errors of its free runs.
+                let _ = observe(context, model, memory_s);
+            }
+        }
+        let errors = models.iter().filter_map(|model| model.observed);
+        if errors.into_iter().any(|t| t.errors.fitted < FOLLOWS) {
+            break;
+        }
+    }
+}

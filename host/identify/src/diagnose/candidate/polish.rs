@@ -1,0 +1,117 @@
+//! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
+
+use super::continuation::follow_by_continuation;
+use super::descent::{FINEST, PROBE, Settings};
+use super::observer::observe_like;
+use super::score::{refine_held_out_start, run_errors, score_candidate};
+use super::search::{fit_problem, search};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::FittedModel;
+use crate::error::Error;
+use servoid_engine::problem::{FitProblem, Horizon};
+use servoid_engine::simulation::Method;
+
+/// Of one that must converge.
+const LAST: Settings = Settings {
+    evaluations: 120,
+    tolerance: 1e-4,
+    stride: 1,
+    enough: 0.0,
+    damping: 1e-9,
+    secant: false,
+    probe: PROBE,
+    probed: None,
+    again: false,
+};
+/// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
+/// polished.
+const POLISHED: f64 = 5.0;
+/// Factor between step sizes that are compared.
+const FINER: u16 = 4;
+/// A finer step that changes the RMS error by less is not worth its time: counts.
+const STEP_ERROR: f64 = 0.02;
+/// The same as a part of what an error is above a count: such a model lacks something else.
+const STEP_PART: f64 = 0.1;
+
+/// Fits on from where a fit ended, with finer steps as long as they change its error, until it has
+/// converged: what is left then is not the arithmetic's.
+///
+/// # Errors
+/// Where the model cannot run, which it could before.
+pub fn polish(context: &Context<'_>, model: &FittedModel) -> Result<FittedModel, Error> {
+    if model.followed_fraction > 0.0 {
+        return Ok(model.clone());
+    }
+    let polished = converge(context, model)?;
+    if polished.observed.is_none() || polished.ran().at_floor() {
+        return Ok(polished);
+    }
+    // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.
+    if polished.candidate.needs_angle()
+        && let Some(mut followed) = follow_by_continuation(context, &polished)
+    {
+        observe_like(context, &mut followed, &polished)?;
+        refine_held_out_start(context, &mut followed);
+        return Ok(followed);
+    }
+    let free = converge(
+        context,
+        &FittedModel {
+            observed: None,
+            ..polished.clone()
+        },
+    )?;
+    Ok(if free.ran().at_floor() {
+        FittedModel {
+            observed: polished.observed,
+            ..free
+        }
+    } else {
+        polished
+    })
+}
+
+fn converge(context: &Context<'_>, model: &FittedModel) -> Result<FittedModel, Error> {
+    let mut best = model.clone();
+    loop {
+        let method = best.method;
+        let problem = FitProblem {
+            horizon: match best.observed {
+                Some(tracked) => Horizon::Observer(POLISHED * tracked.memory_s),
+                None => context.fitted_horizon.clone(),
+            },
+            ..fit_problem(context, &best.structure, method)
+        };
+        let Some(found) = search(context, &problem, &best.x, LAST, method) else {
+            return Ok(best);
+        };
+        let polished = score_candidate(
+            context,
+            best.structure.clone(),
+            &found,
+            best.predicted_rms_counts,
+            method,
+        )?;
+        let mut polished = FittedModel {
+            evaluations: best.evaluations + polished.evaluations,
+            ..polished
+        };
+        observe_like(context, &mut polished, &best)?;
+        best = polished;
+        let finer = Method {
+            substeps: method.substeps * FINER,
+            ..method
+        };
+        let (again, ran) = (run_errors(context, &best.candidate, finer)?, best.ran());
+        let change = (again.fitted - ran.fitted)
+            .abs()
+            .max((again.held_out - ran.held_out).abs());
+        if best.judged().at_floor()
+            || change < STEP_ERROR.max(STEP_PART * (ran.fitted - 1.0))
+            || finer.substeps > FINEST
+        {
+            return Ok(best);
+        }
+        best.method = finer;
+    }
+}

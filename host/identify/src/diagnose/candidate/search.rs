@@ -1,0 +1,40 @@
+//! The least-squares problem of a model, and the search for its parameters within the budget.
+
+use super::descent::{Descent, Settings, descend};
+use crate::diagnose::context::Context;
+use servoid_engine::problem::{FitProblem, StartAngle, Structure};
+use servoid_engine::simulation::Method;
+use servoid_engine::solve::Objective;
+use shared::cost::Cost;
+
+/// The recording, run over the span that was chosen.
+pub fn fit_problem<'a>(
+    context: &'a Context<'_>,
+    structure: &Structure,
+    method: Method,
+) -> FitProblem<'a> {
+    FitProblem {
+        data: context.data,
+        structure: structure.clone(),
+        cost: Cost::Squared,
+        weight: 1.0,
+        horizon: context.fitted_horizon.clone(),
+        start_angle: StartAngle::Free,
+        method,
+        start: None,
+    }
+}
+
+/// Descends, and books what it took. `None` where the model cannot run at the start.
+pub fn search(
+    context: &Context<'_>,
+    problem: &dyn Objective,
+    start: &[f64],
+    settings: Settings,
+    method: Method,
+) -> Option<Descent> {
+    let found = descend(problem, start, settings, context.budget)?;
+    let steps = context.data.len() * usize::from(method.substeps.max(1)) * found.evaluations;
+    context.budget.book(steps as u64);
+    Some(found)
+}

@@ -1,0 +1,174 @@
+//! How far models run on their own before they are set back to the measured state. Open-loop errors of whole
+//! recordings show the smallest effects, but only where the motor was left to the voltage: behind a current
+//! loop, or under a controller, every small error of the torque adds up without end.
+
+use crate::diagnose::models::Errors;
+use crate::fit::{Options, SPEED_HALF_WIDTH};
+use servoid_engine::data::local_parabola;
+use servoid_engine::problem::{Data, Horizon};
+use servoid_io::recording::Drive;
+use shared::encoder::FLOOR_RMS_COUNTS;
+use shared::motor::Machine;
+
+/// Length of the windows when the user chose none, s.
+const USUAL_WINDOW_S: f64 = 0.5;
+/// Fewest samples of such a window.
+const FEWEST_SAMPLES: f64 = 50.0;
+
+/// How far models run on their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Span {
+    /// Length of the windows, s; the whole recording if `None`.
+    pub window_s: Option<f64>,
+    /// Why.
+    pub reason: String,
+}
+
+impl Span {
+    /// What the user wants, or what the kind of recording demands before any model is fitted.
+    pub fn of(data: &Data, options: &Options) -> Self {
+        let because = |window_s, reason: &str| Span {
+            window_s,
+            reason: reason.to_owned(),
+        };
+        if options.window_s.is_some() {
+            return because(options.window_s, "as asked for");
+        }
+        if data.drive == Drive::Current {
+            return because(
+                usual(data),
+                "behind a current loop an error of the torque adds up twice over a whole recording",
+            );
+        }
+        if !data.quantised {
+            return because(
+                usual(data),
+                "the angle is no plain count: its errors have no floor that whole runs could reach",
+            );
+        }
+        because(
+            None,
+            "the motor was left to the voltage: whole runs show the smallest effects",
+        )
+    }
+
+    /// Windows instead of whole runs, where the linear motor run over the whole recording says little, even
+    /// beside a constant that drives it: then it leaves `steadied` counts RMS.
+    pub fn after(self, data: &Data, base: Errors, steadied: f64) -> Self {
+        let lost = base.fitted.min(steadied) / spread(data);
+        if self.window_s.is_some() {
+            return self;
+        }
+        if !base.at_floor() && !moves_both_ways(data) {
+            return Span {
+                window_s: usual(data),
+                reason: "the motor turns one way only: a small change of its friction is never taken back"
+                    .to_owned(),
+            };
+        }
+        if lost < LOST {
+            return self;
+        }
+        Span {
+            window_s: usual(data),
+            reason: format!(
+                "over the whole recording the linear motor strays by {:.0} % of the motion: a controller or a \
+                 changing load moved it more than the voltage alone",
+                100.0 * lost
+            ),
+        }
+    }
+}
+
+/// A motor that strays by this part of the motion's spread was not moved by its voltage and a constant alone.
+const LOST: f64 = 0.8;
+
+/// Whether a twentieth of the travel at least goes against the prevailing direction.
+pub fn moves_both_ways(data: &Data) -> bool {
+    let (mut forward, mut backward) = (0.0, 0.0);
+    for pair in data.counts.windows(2) {
+        let step = pair[1] - pair[0];
+        if step > 0.0 {
+            forward += step
+        } else {
+            backward -= step
+        }
+    }
+    forward.min(backward) > 0.05 * (forward + backward)
+}
+
+fn usual(data: &Data) -> Option<f64> {
+    Some(USUAL_WINDOW_S.max(FEWEST_SAMPLES * data.units.interval))
+}
+
+/// Standard deviation of the readings, counts.
+fn spread(data: &Data) -> f64 {
+    let n = data.len().max(1) as f64;
+    let mean = data.counts.iter().sum::<f64>() / n;
+    let squares: f64 = data.counts.iter().map(|c| (c - mean).powi(2)).sum();
+    (squares / n).sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// RMS error in counts that the reading's own noise makes of a right model in windows: that of the reading,
+/// that of the angle at the start, and that of the speed at the start, which carries on for as long as the
+/// motor's time constant lets it.
+pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f64 {
+    let Horizon::Windows(windows) = horizon else {
+        return FLOOR_RMS_COUNTS;
+    };
+    let noise = noise_counts(data);
+    let slowest = machine.response().a1;
+    let mut squares = 0.0;
+    for window in windows {
+        let first = window.range.start;
+        let speed = noise * slope_gain(data, first);
+        for k in window.range.clone() {
+            let t = data.time_s[k] - data.time_s[first];
+            let carried = if slowest.is_finite() && slowest > 0.0 {
+                -slowest * (-t / slowest).exp_m1()
+            } else {
+                t
+            };
+            squares += 2.0 * noise * noise + (speed * carried).powi(2);
+        }
+    }
+    (squares / data.len().max(1) as f64).sqrt()
+}
+
+/// Standard deviation of the slope at sample `k` for noise of one count, 1/s.
+fn slope_gain(data: &Data, k: usize) -> f64 {
+    let from = k.saturating_sub(SPEED_HALF_WIDTH);
+    let to = (k + SPEED_HALF_WIDTH + 1).min(data.len());
+    let n = (to - from) as f64;
+    let mean = (from..to).map(|j| data.time_s[j]).sum::<f64>() / n;
+    let squares: f64 = (from..to).map(|j| (data.time_s[j] - mean).powi(2)).sum();
+    1.0 / squares.sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// Noise of a reading, counts RMS: that of rounding, or what local parabolas leave.
+fn noise_counts(data: &Data) -> f64 {
+    if data.quantised {
+        return FLOOR_RMS_COUNTS;
+    }
+    let side = SPEED_HALF_WIDTH;
+    if data.len() <= 2 * side {
+        return FLOOR_RMS_COUNTS;
+    }
+    // The middle of a parabola through 2h + 1 points follows this part of its own point's noise.
+    let n = (2 * side + 1) as f64;
+    let own = 3.0 * (3.0 * n * n - 7.0) / (4.0 * n * (n * n - 4.0));
+    let middles = side..data.len() - side;
+    let count = middles.len() as f64;
+    let squares: f64 = middles
+        .map(|k| {
+            let points = (k - side..=k + side).map(|j| {
+                (
+                    data.time_s[j] - data.time_s[k],
+                    data.counts[j] - data.counts[k],
+                )
+            });
+            local_parabola(points).0.powi(2)
+        })
+        .sum();
+    (squares / count / (1.0 - own)).sqrt()
+}

@@ -1,0 +1,39 @@
+//! Errors on both recordings, and what a model is worth by them.
+
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
+/// whose readings dwell in one part of their cells.
+pub const NOISE_COUNTS: f64 = 0.33;
+/// Room above the floor, for a recording whose readings dwell in one part of their cells.
+pub const ROOM: f64 = NOISE_COUNTS / FLOOR_RMS_COUNTS;
+
+/// RMS errors on both recordings, counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// On the fitted recording.
+    pub fitted: f64,
+    /// On the held-out recording.
+    pub held_out: f64,
+    /// What the reading's own noise makes of a right model.
+    pub floor: f64,
+}
+
+impl Errors {
+    /// Whether both are the encoder's own.
+    pub fn at_floor(&self) -> bool {
+        let noise = self.floor * ROOM;
+        self.fitted < noise && self.held_out < noise
+    }
+
+    /// Mean square error on the held-out recording beyond the reading's own.
+    pub fn excess(&self) -> f64 {
+        (self.held_out.powi(2) - self.floor.powi(2)).max(0.0)
+    }
+
+    /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.
+    pub fn score(&self) -> f64 {
+        let floored = |rms: f64| rms.max(self.floor);
+        (floored(self.fitted) * floored(self.held_out)).ln()
+    }
+}

@@ -1,0 +1,125 @@
+//! Stage 5: the steps from the linear motor to the model that was confirmed. An effect is named only where not too many
+//! others do as well in its place.
+
+use super::candidate::observer::observe_like;
+use super::candidate::score::refine_held_out_start;
+use super::confirmation::Confirmed;
+use super::context::{Context, moves_both_ways};
+use super::models::{FittedModel, same};
+use super::outcome::Step;
+use super::selection::{Level, backward_elimination, judge};
+use super::spectrum::spectrum;
+use shared::effects::{Kind, Starts};
+
+/// The effects that are named, and the models that they lead to.
+pub struct Named<'a> {
+    /// The recordings.
+    pub context: Context<'a>,
+    /// The linear motor.
+    pub base: FittedModel,
+    /// The effects, in the order in which they were added.
+    pub steps: Vec<Step>,
+    /// The model with all of them.
+    pub last: FittedModel,
+    /// Models with as many effects as the one that was confirmed, and those in which one of its effects is another.
+    pub rivals: Vec<FittedModel>,
+    /// The best candidate that was not believed.
+    pub not_named: Option<Kind>,
+}
+
+/// Writes down the steps to the model that was confirmed, up to the first effect that may not be named.
+pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
+    let Confirmed {
+        context,
+        base,
+        levels,
+        chosen,
+        known,
+        not_named,
+    } = confirmed;
+    let (steps, last) = match &chosen {
+        Some(chosen) => steps_to(&context, &base, &levels, chosen, &known),
+        None => (Vec::new(), base.clone()),
+    };
+    Named {
+        context,
+        base,
+        steps,
+        last,
+        rivals: known,
+        not_named,
+    }
+}
+
+/// The steps from `base` to `chosen`, and the model after the last of them.
+fn steps_to(
+    context: &Context<'_>,
+    base: &FittedModel,
+    levels: &[Level],
+    chosen: &FittedModel,
+    known: &[FittedModel],
+) -> (Vec<Step>, FittedModel) {
+    let mut observed_base = base.clone();
+    // A motor that no observer can hold to the readings keeps the errors of its free run.
+    let _ = observe_like(context, &mut observed_base, chosen);
+    let explained = judge::explained(&observed_base, chosen);
+    // A motor that never reverses cannot tell any of them apart: they are named as one.
+    let as_one = context.span.window_s.is_some() && !moves_both_ways(context.data);
+    let (mut steps, mut before) = (Vec::new(), base.clone());
+    for (depth, &added) in chosen.effects.iter().enumerate() {
+        let rivals = judge::rivals(chosen, added, known);
+        if !as_one && !rivals.allows(added) {
+            break;
+        }
+        let list = levels
+            .get(depth)
+            .map(|level| &level.models[..])
+            .unwrap_or_default();
+        let Some(after) = model_at(context, chosen, depth, list, known) else {
+            break;
+        };
+        let mut candidates = vec![after.clone()];
+        candidates.extend(
+            list.iter()
+                .filter(|m| !same(&m.effects, &after.effects))
+                .cloned(),
+        );
+        let p_values = candidates
+            .iter()
+            .map(|c| judge::p_value(context.data, &before, c))
+            .collect();
+        steps.push(Step {
+            added,
+            confidence: explained * rivals.confidence(),
+            indistinguishable_from: rivals.equivalent,
+            candidates,
+            p_values,
+            spectrum: (added.facts().starts == Starts::AngleOrders)
+                .then(|| spectrum(context.data, &before.candidate)),
+        });
+        before = after;
+    }
+    (steps, before)
+}
+
+/// The model with the first effects of `chosen` up to that at `depth`: from those that are `known` or in the `list` of
+/// this depth, or fitted now.
+fn model_at(
+    context: &Context<'_>,
+    chosen: &FittedModel,
+    depth: usize,
+    list: &[FittedModel],
+    known: &[FittedModel],
+) -> Option<FittedModel> {
+    let prefix = &chosen.effects[..=depth];
+    let after = if depth + 1 == chosen.effects.len() {
+        Some(chosen.clone())
+    } else {
+        let fitted = |model: &&FittedModel| same(&model.effects, prefix);
+        let made = list.iter().chain(known).find(fitted).cloned();
+        made.or_else(|| backward_elimination::with_first(context, chosen, depth + 1))
+    };
+    let mut after = after.or(list.first().cloned())?;
+    refine_held_out_start(context, &mut after);
+    Some(after)
+}

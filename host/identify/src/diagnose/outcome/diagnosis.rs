@@ -1,0 +1,40 @@
+//! All that a diagnosis found.
+
+use super::step::Step;
+use super::verdict::Verdict;
+use crate::diagnose::context::Span;
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS};
+use shared::effects::Kind;
+
+/// A diagnosis.
+#[derive(Clone, Debug)]
+pub struct Diagnosis {
+    /// How far models ran on their own, and why.
+    pub span: Span,
+    /// The linear motor.
+    pub base: FittedModel,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The effects, in the order in which they were added.
+    pub steps: Vec<Step>,
+    /// The model with all of them.
+    pub last: FittedModel,
+    /// Models with as many effects as the last one, and those in which one of its effects is another.
+    pub rivals: Vec<FittedModel>,
+    /// The best candidate that was not added, if one reduced the error but not beyond doubt.
+    pub not_named: Option<Kind>,
+    /// What to do next, in words.
+    pub advice: Vec<String>,
+    /// Whether the steps that it may take did not suffice: then not all effects were tried.
+    pub ran_out: bool,
+    /// Steps of a model that it took.
+    pub steps_taken: u64,
+}
+
+impl Diagnosis {
+    /// Whether the last model explains the fitted recording down to the encoder, and what was held out not.
+    pub fn fits_only_its_own(&self) -> bool {
+        let errors = self.last.judged();
+        errors.fitted < NOISE_COUNTS && errors.held_out >= NOISE_COUNTS
+    }
+}

@@ -1,0 +1,73 @@
+//! The drawings, against a motor of which the bench knows everything.
+
+use super::*;
+use crate::diagnose::evidence::sentence;
+use crate::truth;
+use servoid_io::record::Record;
+use servoid_plant::{Bench, DriveSample, Hidden, Machine};
+use shared::effects::{EffectSet, Kind};
+use shared::excite::{COMMISSIONING, commands};
+
+/// What the true linear machine misses, and what the true model does, with one effect hidden.
+fn missing(kind: Kind) -> (ResidualAnalysis, ResidualAnalysis) {
+    let machine = Machine::gearmotor();
+    let hidden = Hidden::typical(kind.name(), &machine).expect("an effect");
+    let mut bench = Bench::new(machine);
+    bench.counts_per_rev = 8000;
+    bench.sample_s = 1e-3;
+    bench.effects = vec![hidden.clone()];
+    let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, 1e-3, 5)
+        .map(|c| DriveSample {
+            volts: c.drive * machine.supply_v,
+            enabled: c.enabled,
+        })
+        .collect();
+    let recording = bench.record(&drive, "bench", false).expect("a recording");
+    let data = Data::new(&recording).expect("data");
+    let linear = Candidate {
+        machine: truth::physical(&machine).machine(),
+        effects: EffectSet::default(),
+        start_speed: 0.0,
+        start_offset: 0.0,
+    };
+    let mut complete = linear;
+    let values = hidden.truth(&machine, 8000);
+    complete.effects.push(kind, &values).expect("one effect");
+    let look = |candidate| analyse_residual(&data, candidate, &complete, Method::default());
+    (
+        look(&linear).expect("it runs"),
+        look(&complete).expect("it runs"),
+    )
+}
+
+#[test]
+fn what_is_missing_goes_with_what_the_effect_acts_on_and_is_gone_with_it() {
+    for (kind, against, least) in [
+        (Kind::Coulomb, Against::Speed, 0.8),
+        (Kind::Windage, Against::Speed, 0.8),
+        (Kind::OffsetVoltage, Against::Speed, 0.9),
+        (Kind::VoltageSat, Against::Voltage, 0.5),
+    ] {
+        let (without, with) = missing(kind);
+        let share = without.map(against).map_or(0.0, |map| map.share);
+        assert!(share > least, "{}: {share}, {without:?}", kind.name());
+        assert!(without.volts_rms > 2.0 * without.perfect_volts_rms);
+        let ratio = with.volts_rms / with.perfect_volts_rms;
+        assert!((0.8..1.25).contains(&ratio), "{}: {ratio}", kind.name());
+        assert!(with.most().is_none_or(|map| map.share < 0.5), "{with:?}");
+    }
+}
+
+#[test]
+fn a_sentence_is_said_only_of_what_the_drawing_shows() {
+    let (coulomb, nothing) = missing(Kind::Coulomb);
+    let said = sentence(Kind::Coulomb, &[], &coulomb).expect("it shows");
+    assert!(said.contains("does not grow with it"), "{said}");
+    let wrong = sentence(Kind::OffsetVoltage, &[], &coulomb).unwrap_or_default();
+    assert!(!wrong.contains("same constant voltage"), "{wrong}");
+    let (offset, _) = missing(Kind::OffsetVoltage);
+    let said = sentence(Kind::OffsetVoltage, &[], &offset).expect("it shows");
+    assert!(said.contains("same constant voltage"), "{said}");
+    let empty = sentence(Kind::Coulomb, &[], &nothing).unwrap_or_default();
+    assert!(!empty.contains("changes sign"), "{empty}");
+}

@@ -1,0 +1,240 @@
+//! A model with one effect more, fitted roughly: in series-parallel form, along the measured motion, where that is possible.
+//! It predicts what the effect can explain, and is where the full fit starts.
+
+mod common_parameters;
+mod series_parallel;
+mod starts;
+
+pub use common_parameters::{EffectValues, with_common_parameters};
+
+use crate::diagnose::candidate::descent::{PROBE, Settings};
+use crate::diagnose::candidate::fit::LOST;
+use crate::diagnose::candidate::search::{fit_problem, search};
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ScreenedModel};
+use crate::diagnose::spectrum::spectrum;
+use crate::fit::base_for;
+use series_parallel::{SeriesParallel, follows};
+use servoid_engine::problem::Scale;
+use servoid_engine::problem::Structure;
+use servoid_engine::solve::Objective;
+use shared::effects::{Kind, MAX_EFFECTS, Starts};
+use shared::units::Quantity;
+use starts::starts;
+
+/// Most orders of a cogging torque in a model.
+const MOST_ORDERS: usize = 5;
+const SCREENING: Settings = Settings {
+    evaluations: 40,
+    tolerance: 5e-3,
+    stride: 4,
+    enough: f64::INFINITY,
+    damping: 1e-4,
+    secant: true,
+    probe: PROBE,
+    probed: None,
+    again: true,
+};
+
+/// Starts that are left after a glance at all of them.
+const GLANCED: usize = 2;
+/// An effect that the series-parallel model does not follow, and that leaves more than this part of the error from its
+/// first start, gets no other.
+const PROMISING: f64 = 0.9;
+
+/// The model `parent` with `kind` added.
+///
+/// `dry` are screened models with dry friction, from which bristles start.
+pub fn screen(
+    context: &Context<'_>,
+    parent: &FittedModel,
+    kind: Kind,
+    dry: &[ScreenedModel],
+) -> Option<ScreenedModel> {
+    let mut effects = parent.structure.effects.clone();
+    let starts = match cogging_orders(context, parent, kind) {
+        Some(orders) => vec![orders],
+        None => starts(context, parent, kind, dry),
+    };
+    let own = kind.description().parameters.len();
+    let times = starts.first()?.len().div_ceil(own);
+    effects.extend(std::iter::repeat_n(kind, times));
+    let structure = structure_near(context, &effects, parent);
+    let mut begun: Vec<ScreenedModel> = starts
+        .into_iter()
+        .map(|start| {
+            let mut parameters = parent.parameters.clone();
+            parameters.extend(start);
+            ScreenedModel::standing(structure.clone(), &parent.candidate, &parameters)
+        })
+        .collect();
+    // Where every fit is a simulation, a glance at each start shows which of them is worth one.
+    if !follows(kind) && begun.len() > 1 {
+        for screened in &mut begun {
+            screened.simulated = free_run_error(context, screened, f64::INFINITY);
+        }
+        begun.sort_by(|a, b| a.simulated.total_cmp(&b.simulated));
+        begun.truncate(GLANCED);
+    }
+    let mut best: Option<ScreenedModel> = None;
+    for start in begun {
+        let Some(screened) = screen_from(context, &structure, start.x) else {
+            continue;
+        };
+        if best
+            .as_ref()
+            .is_none_or(|b| screened.predicted() < b.predicted())
+        {
+            best = Some(screened);
+        }
+        // Further starts are for effects that promise something from the first one, or that do nothing there.
+        let leaves = best.as_ref().map_or(1.0, ScreenedModel::predicted) / parent.rms_counts;
+        if !follows(kind) && leaves > PROMISING {
+            break;
+        }
+    }
+    best
+}
+
+/// What a count of a series-parallel error is worth in a free run of `parent` (see [`ScreenedModel::free_run_ratio`]).
+/// Near standstill the series-parallel model errs by more than the free run, whatever is added to it.
+pub fn free_run_ratio(context: &Context<'_>, parent: &FittedModel) -> f64 {
+    // In windows both are set back to the measured state.
+    if context.span.window_s.is_some() {
+        return 1.0;
+    }
+    let alone = screen_from(context, &parent.structure, parent.x.clone());
+    let series_parallel = alone.map_or(f64::INFINITY, |screened| screened.series_parallel);
+    if !series_parallel.is_finite() {
+        return 1.0;
+    }
+    (parent.ran().fitted / series_parallel.max(NOISE_COUNTS)).min(1.0)
+}
+
+/// A screened model once more, from where `there` stands and with what it has found.
+pub fn rescreen(
+    context: &Context<'_>,
+    screened: &ScreenedModel,
+    parent: &FittedModel,
+    there: &ScreenedModel,
+) -> Option<ScreenedModel> {
+    let (own, theirs) = (screened.values(), there.values());
+    let own = EffectValues {
+        effects: &screened.structure.effects,
+        values: &own,
+    };
+    let theirs = EffectValues {
+        effects: &there.structure.effects,
+        values: &theirs,
+    };
+    let structure = structure_near(context, own.effects, parent);
+    let start = ScreenedModel::standing(
+        structure,
+        &parent.candidate,
+        &with_common_parameters(own, theirs),
+    );
+    screen_from(context, &start.structure, start.x)
+}
+
+/// A model that has lost effects, or has others in their place, where it stands.
+pub fn restart(context: &Context<'_>, rest: &FittedModel) -> ScreenedModel {
+    let structure = structure_near(context, &rest.structure.effects, rest);
+    ScreenedModel::standing(structure, &rest.candidate, &rest.parameters)
+}
+
+/// The unknowns of a model with `effects` and a machine near that of `there`.
+fn structure_near(context: &Context<'_>, effects: &[Kind], there: &FittedModel) -> Structure {
+    let mut structure = Structure::around(
+        context.data,
+        base_for(context.data, effects),
+        effects,
+        &there.candidate.machine,
+        there.structure.start_speed,
+    );
+    if context.span.window_s.is_some() {
+        widen(&mut structure, context.data.supply);
+    }
+    structure
+}
+
+/// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its
+/// strongest order alone may leave more than it explains.
+fn cogging_orders(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option<Vec<f64>> {
+    if kind.facts().starts != Starts::AngleOrders || context.span.window_s.is_none() {
+        return None;
+    }
+    let room = MAX_EFFECTS - parent.structure.effects.len();
+    let lines = spectrum(context.data, &parent.candidate).lines;
+    let values = lines
+        .iter()
+        .filter(|line| line.order > 1)
+        .take(room.min(MOST_ORDERS))
+        .flat_map(|line| [line.cosine, line.sine, line.order as f64]);
+    Some(values.collect()).filter(|values: &Vec<f64>| !values.is_empty())
+}
+
+/// The same model, fitted roughly from `x`.
+pub fn screen_from(
+    context: &Context<'_>,
+    structure: &Structure,
+    x: Vec<f64>,
+) -> Option<ScreenedModel> {
+    let samples = context.data.len() as f64;
+    if !structure.effects.iter().all(|&kind| follows(kind)) {
+        let found = search(
+            context,
+            &fit_problem(context, structure, context.method),
+            &x,
+            SCREENING,
+            context.method,
+        )?;
+        return Some(ScreenedModel {
+            structure: structure.clone(),
+            x: found.x,
+            series_parallel: f64::INFINITY,
+            free_run_ratio: 1.0,
+            simulated: (found.squares / samples).sqrt(),
+        });
+    }
+    let series_parallel = SeriesParallel {
+        data: context.data,
+        motion: &context.motion,
+        horizon: &context.fitted_horizon,
+        structure: structure.clone(),
+        method: context.method,
+    };
+    let found = search(context, &series_parallel, &x, SCREENING, context.method)?;
+    let mut screened = ScreenedModel::at(structure.clone(), found.x);
+    screened.series_parallel = (found.squares / samples).sqrt();
+    screened.simulated = free_run_error(
+        context,
+        &screened,
+        LOST * screened.series_parallel.max(NOISE_COUNTS),
+    );
+    Some(screened)
+}
+
+/// RMS error of a free run from where a screened model stands, counts; infinite where it is above `limit`.
+pub fn free_run_error(context: &Context<'_>, screened: &ScreenedModel, limit: f64) -> f64 {
+    let samples = context.data.len() as f64;
+    let most = limit * limit * samples;
+    fit_problem(context, &screened.structure, context.method)
+        .residuals_within(&screened.x, most)
+        .filter(|(_, squares)| *squares <= most)
+        .map_or(f64::INFINITY, |(_, squares)| (squares / samples).sqrt())
+}
+
+/// A motor under a controller may carry whatever it can hold: torques and voltages are searched for up to the
+/// supply.
+fn widen(structure: &mut Structure, supply: f64) {
+    let volts = Quantity::Torque.unit();
+    for unknown in &mut structure.unknowns {
+        let (low, high) = unknown.range;
+        if unknown.unit == volts && unknown.scale == Scale::Linear {
+            unknown.range = (
+                if low < 0.0 { low.min(-supply) } else { low },
+                high.max(supply),
+            );
+        }
+    }
+}

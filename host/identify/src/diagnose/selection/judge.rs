@@ -1,0 +1,171 @@
+//! Which model may be believed, and beside which others.
+
+use crate::diagnose::models::{Errors, FittedModel};
+use servoid_engine::problem::Data;
+use shared::effects::Kind;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Errors within this factor of the floor leave nothing to explain: five standard deviations of what a recording
+/// of some thousand readings has.
+const EXACT: f64 = 1.02;
+/// Part of the held-out excess over the encoder's floor that a named effect must remove.
+const MUST_REMOVE: f64 = 0.6;
+/// Lead over the best rival that is no look-alike, in the logarithm of the errors' product.
+const MUST_LEAD: f64 = 0.1;
+/// Models whose score is within this of the best explain the recording alike.
+const EQUIVALENT: f64 = 0.1;
+/// Of models within this of the best score the simplest is taken: 2 % in each error.
+const AS_GOOD: f64 = 0.04;
+/// More models than this that explain a recording alike, and none of them is named.
+const MOST_EQUIVALENT: usize = 4;
+
+/// The best of some models that are sorted by score: the simplest of those that are as good as the first.
+pub fn best(models: &[FittedModel]) -> Option<&FittedModel> {
+    let least = models.first()?.judged().score();
+    let best = models
+        .iter()
+        .take_while(|model| model.judged().score() - least < AS_GOOD)
+        .min_by_key(|model| model.parameters.len())?;
+    Some(models.iter().fold(
+        best,
+        |best, model| {
+            if replaces(model, best) { model } else { best }
+        },
+    ))
+}
+
+/// Whether a simpler model will do in the place of another that has a look-alike of one of its effects. Where errors
+/// are above the reading's own, any further parameter lowers them a little: the other must remove as much of the
+/// simpler one's excess as a further effect would have to.
+pub fn replaces(simpler: &FittedModel, other: &FittedModel) -> bool {
+    simpler.parameters.len() < other.parameters.len()
+        && differ_by_look_alike(simpler, other)
+        && !removes(simpler, other)
+}
+
+/// Whether two models differ in one effect only, and there by look-alikes.
+fn differ_by_look_alike(a: &FittedModel, b: &FittedModel) -> bool {
+    let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
+    match (own.next(), own.next()) {
+        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| place.looks_like(kind)),
+        _ => false,
+    }
+}
+
+/// Whether a model leaves nothing that bristles could explain, `floor` being what the reading's own noise makes of a right one.
+pub fn is_exact(model: &FittedModel, floor: f64) -> bool {
+    let ran = model.ran();
+    ran.at_floor() && ran.fitted.max(ran.held_out) < EXACT * floor
+}
+
+/// Whether `after` removes enough of what `before` leaves, on the held-out recording above all.
+pub fn removes(before: &FittedModel, after: &FittedModel) -> bool {
+    // Both in the same measure: a free run is no rival of one that is held to the reading.
+    let (old, new) = match (before.observed, after.observed) {
+        _ if before.is_proven() => return false,
+        (Some(old), Some(_)) if old.errors.at_floor() && !old.is_loose() => return false,
+        (Some(old), Some(new)) => (old.errors, new.errors),
+        _ => (before.ran(), after.ran()),
+    };
+    let removed = 1.0 - new.excess() / old.excess();
+    removed > MUST_REMOVE && new.fitted < old.fitted
+}
+
+/// What stands beside the chosen model.
+pub struct Rivals {
+    /// Effects that explain this recording as well in the place of the one in question.
+    pub equivalent: Vec<Kind>,
+    /// Lead over the best rival that is neither a look-alike nor among `equivalent`.
+    pub lead: f64,
+}
+
+/// Looks for models that differ from `chosen` in `place` alone, among `others`.
+pub fn rivals(chosen: &FittedModel, place: Kind, others: &[FittedModel]) -> Rivals {
+    let mut rivals = Rivals {
+        equivalent: Vec::new(),
+        lead: f64::INFINITY,
+    };
+    for other in others {
+        let Some(instead) = instead(chosen, place, other) else {
+            continue;
+        };
+        let behind = other.judged().score() - chosen.judged().score();
+        if behind < EQUIVALENT {
+            if !rivals.equivalent.contains(&instead) {
+                rivals.equivalent.push(instead);
+            }
+        } else if !place.looks_like(instead) {
+            rivals.lead = rivals.lead.min(behind);
+        }
+    }
+    rivals
+}
+
+impl Rivals {
+    /// Whether the effect may be named beside these rivals: not where too many others, or others of quite
+    /// another nature, do as well.
+    pub fn allows(&self, place: Kind) -> bool {
+        let strangers = self
+            .equivalent
+            .iter()
+            .filter(|&&kind| !place.looks_like(kind))
+            .count();
+        self.equivalent.len() <= MOST_EQUIVALENT && strangers <= 1
+    }
+
+    /// From one half (no lead) to one.
+    pub fn confidence(&self) -> f64 {
+        let sets = 1.0 / (1.0 + self.equivalent.len() as f64 * 0.1);
+        sets / (1.0 + (-self.lead.min(10.0) / MUST_LEAD).exp())
+    }
+}
+
+/// Which part of the way from the error of `base` to the reading's own the `last` model has gone, in the logarithm of
+/// the errors: what stays unexplained may be an effect for which a named one stands in.
+pub fn explained(base: &FittedModel, last: &FittedModel) -> f64 {
+    let (from, to) = match (base.observed, last.observed) {
+        _ if last.explains() => return 1.0,
+        (Some(from), Some(to)) => (from.errors, to.errors),
+        _ => (base.ran(), last.ran()),
+    };
+    let floor = Errors {
+        fitted: 0.0,
+        held_out: 0.0,
+        ..to
+    };
+    let part = (from.score() - to.score()) / (from.score() - floor.score());
+    // A base at the floor has no way to go.
+    if part.is_finite() {
+        part.clamp(0.0, 1.0)
+    } else {
+        1.0
+    }
+}
+
+/// The effect that `other` has in the place of `place`, if that is all in which they differ.
+fn instead(chosen: &FittedModel, place: Kind, other: &FittedModel) -> Option<Kind> {
+    if other.effects.len() != chosen.effects.len() || other.effects.contains(&place) {
+        return None;
+    }
+    let mut different = other
+        .effects
+        .iter()
+        .filter(|kind| !chosen.effects.contains(kind));
+    let instead = *different.next()?;
+    different.next().is_none().then_some(instead)
+}
+
+/// Chance of so large a fall of the error if the new effect were absent: likelihood ratio with as many
+/// samples as the reading changes, since a motor at rest says the same thing a thousand times.
+pub fn p_value(data: &Data, before: &FittedModel, after: &FittedModel) -> f64 {
+    let samples = data.transitions() as f64;
+    let statistic = 2.0 * samples * (before.ran().fitted / after.ran().fitted).ln();
+    let added = after
+        .structure
+        .dim()
+        .saturating_sub(before.structure.dim())
+        .max(1);
+    let law = ChiSquared::new(added as f64).ok();
+    let law = law.filter(|_| statistic.is_finite());
+    law.map_or(1.0, |law| law.sf(statistic.max(0.0)))
+}
