@@ -11,7 +11,8 @@ use servoid_identify::fit;
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
-use servoid_results::report::sheet::Recordings;
+use servoid_results::report::html::Recordings;
+use servoid_results::schema;
 
 pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
@@ -45,7 +46,7 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
         session.remark(&format!("plot: {}", path.display()));
     }
     let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
-    let json = report::json::CompareJson::new(&contest, &rows);
+    let json = schema::Contest::new(&contest, &rows);
     sheet::write(session, &args.sheet, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }

@@ -11,8 +11,9 @@ use servoid_identify::diagnose::{Effort, HeldOut, Remark, holdout, pair, usable}
 use servoid_identify::fit::{self, Options};
 use servoid_io::input::SteadyCurve;
 use servoid_io::output::is_same_file;
-use servoid_results::report::diagnosis::{DiagnosisJson, SteadyJson, SteadyReport};
-use servoid_results::report::sheet;
+use servoid_results::report::diagnosis::SteadyReport;
+use servoid_results::report::html;
+use servoid_results::schema::{Diagnosis, Steady};
 use std::sync::Arc;
 
 /// The unit of --budget, steps of a model.
@@ -53,8 +54,8 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         )?);
     }
     let told = diagnosed.report(session, data, kind, remarks);
-    let json = DiagnosisJson::from(&told);
-    let drawn = sheet::Recordings {
+    let json = Diagnosis::from(&told);
+    let drawn = html::Recordings {
         fitted: Some(whole.as_deref().unwrap_or(data)),
         held_out: kind.source().map(|_| held_out),
     };
@@ -77,8 +78,8 @@ fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         diagnosis: &diagnosis,
         seed: session.seed,
     };
-    let json = SteadyJson::from(&told);
-    report::write(session, &args.sheet, &json, sheet::Recordings::default())?;
+    let json = Steady::from(&told);
+    report::write(session, &args.sheet, &json, html::Recordings::default())?;
     session.deliver(&told.text(), &json)
 }
 

@@ -11,8 +11,8 @@ use servoid_identify::diagnose::{self, Effort};
 use servoid_identify::fit::{self, Fit, Options};
 use servoid_io::output::write_whole;
 use servoid_results::plot;
-use servoid_results::report::json::FitJson;
-use servoid_results::report::{sheet, text};
+use servoid_results::report::{html, text};
+use servoid_results::schema;
 use shared::cost::Cost;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
@@ -64,8 +64,8 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         session.remark(&format!("plot: {}", path.display()));
     }
     let source = validation.as_ref().map(|data| data.source.as_str());
-    let json = FitJson::new(&fit, &data, source);
-    let drawn = sheet::Recordings {
+    let json = schema::Fit::new(&fit, &data, source);
+    let drawn = html::Recordings {
         fitted: Some(&data),
         held_out: validation.as_ref(),
     };

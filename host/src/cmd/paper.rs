@@ -13,9 +13,9 @@ use servoid_identify::paper::{self, Experiment, PRINTED, Variant};
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
-use servoid_results::report::json::{PaperJson, least_cost};
+use servoid_results::report::html::Recordings;
 use servoid_results::report::paper::{PrintedCosts, Round, Strong};
-use servoid_results::report::sheet::Recordings;
+use servoid_results::schema::contest::least_cost;
 use shared::effects::EffectSet;
 use std::path::Path;
 
@@ -90,7 +90,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
         draw(folder, &rounds, budget, session)?;
     }
     let text = report::paper::text(&rounds, &strong, &printed_costs(&data));
-    let json = PaperJson::new(&rounds, &strong);
+    let json = report::paper::document(&rounds, &strong);
     sheet::write(session, &args.sheet, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }

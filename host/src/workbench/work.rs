@@ -11,9 +11,8 @@ use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::{self, Found, Objective};
 use servoid_identify::diagnose::{self, Diagnosis, Effort, Suggestion};
 use servoid_identify::fit::{self, Fit, Options};
-use servoid_results::kept::KeptModel;
-use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
-use servoid_results::report::json::CompareJson;
+use servoid_results::report::diagnosis::DiagnosisReport;
+use servoid_results::schema;
 use shared::effects::Kind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -162,7 +161,7 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
         interrupted,
         json: None,
     };
-    let json = serde_json::to_value(DiagnosisJson::from(&report))
+    let json = serde_json::to_value(schema::Diagnosis::from(&report))
         .map_err(|error| Error::Failed(error.to_string()))?;
     let models = if interrupted {
         as_found(&recordings, &found, last)?
@@ -228,7 +227,7 @@ fn on_the_way(
 /// The first and the last model of a diagnosis that was stopped, as they were found: there is no time to fit those
 /// between.
 fn as_found(recordings: &Recordings, found: &Diagnosis, last: Fit) -> Result<Vec<Model>, Error> {
-    let base = KeptModel::of(&found.base.candidate, found.base.method);
+    let base = schema::Model::of(&found.base.candidate, found.base.method);
     let mut models = vec![Model::again(0, &base, USUAL, recordings)?];
     let effects: Vec<Kind> = last
         .candidate
@@ -292,7 +291,7 @@ pub(super) fn race(
         seeds,
     };
     let rows = compare::run(&contest, &solvers, bench.job.flag(), &|| {});
-    let json = serde_json::to_value(CompareJson::new(&contest, &rows))
+    let json = serde_json::to_value(schema::Contest::new(&contest, &rows))
         .map_err(|error| Error::Failed(error.to_string()))?;
     bench.change(|state| state.race = Some(json));
     Ok(())

@@ -51,7 +51,7 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
             .light_line_style(TRANSPARENT)
             .x_desc("model evaluations")
             .y_desc(format!("cost ({cost})"))
-            .y_label_formatter(&|y| crate::report::text::short(*y))
+            .y_label_formatter(&|y| crate::number_text::short(*y))
             .draw()
             .map_err(failed)?;
         for (k, (row, [lower, median, upper])) in rows.iter().zip(curves).enumerate() {

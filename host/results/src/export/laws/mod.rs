@@ -5,7 +5,7 @@ mod numbers;
 
 use super::samples::{DIGITS, KNOWN, Known, linear, result, subject};
 use super::{ExportError, FORMATS, Format, Options, Side, Subject, Written};
-use crate::kept::KeptResult;
+use crate::schema::Identified;
 use servoid_io::input::MotorFile;
 use servoid_plant as bench;
 use shared::effects::Kind;
@@ -15,7 +15,7 @@ use std::path::Path;
 const OUTPUT: Side = Side::Output { ratio: 30.0 };
 
 /// Every result of a list: the linear motors of the bench and each effect, all that is known and little.
-fn results() -> Vec<(String, KeptResult)> {
+fn results() -> Vec<(String, Identified)> {
     let mut results = Vec::new();
     for known in KNOWN {
         for name in bench::PRESETS {

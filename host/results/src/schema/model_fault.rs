@@ -1,6 +1,6 @@
 //! What can be wrong with a model in a result's JSON.
 
-/// Why a kept model cannot be used. The place is where it stands in the file, as in `models[0]`.
+/// Why a model in a result cannot be used. The place is where it stands in the file, as in `models[0]`.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelFault {
     /// A number that no motor and no drive has.

@@ -1,11 +1,11 @@
 //! The page of a curve of steady speeds.
 
-use crate::kept::KeptSteady;
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, SteadyLine, Table};
+use crate::schema::Steady;
 
-pub(super) fn page(kept: &KeptSteady) -> Page {
-    let curve = &kept.steady;
+pub(super) fn page(found: &Steady) -> Page {
+    let curve = &found.steady;
     let lines = [
         SteadyLine {
             name: "a line through the origin",
@@ -43,32 +43,32 @@ pub(super) fn page(kept: &KeptSteady) -> Page {
         .blocks
         .push(Block::Table("The two lines".to_owned(), fits));
     let mut sections = vec![drawn];
-    if !curve.indistinguishable.is_empty() || !kept.advice.is_empty() {
-        sections.push(next(kept));
+    if !curve.indistinguishable.is_empty() || !found.advice.is_empty() {
+        sections.push(next(found));
     }
     Page {
-        title: format!("Diagnosis of {}", kept.recording),
-        lead: vec![kept.summary.clone()],
+        title: format!("Diagnosis of {}", found.recording),
+        lead: vec![found.summary.clone()],
         facts: vec![
-            ("curve".to_owned(), kept.recording.clone()),
+            ("curve".to_owned(), found.recording.clone()),
             ("points".to_owned(), curve.curve.len().to_string()),
-            ("verdict".to_owned(), kept.verdict.replace('_', " ")),
+            ("verdict".to_owned(), found.verdict.replace('_', " ")),
         ],
         sections,
     }
 }
 
-fn next(kept: &KeptSteady) -> Section {
+fn next(found: &Steady) -> Section {
     let mut section = Section::new("next", "What to do next, and what stays open");
-    let alike = &kept.steady.indistinguishable;
+    let alike = &found.steady.indistinguishable;
     if !alike.is_empty() {
         section.blocks.push(Block::Text(format!(
             "Steady speeds cannot tell which of these takes the drop: {}.",
             alike.join(", ")
         )));
     }
-    if !kept.advice.is_empty() {
-        section.blocks.push(Block::List(kept.advice.clone()));
+    if !found.advice.is_empty() {
+        section.blocks.push(Block::List(found.advice.clone()));
     }
     section
 }

@@ -1,8 +1,8 @@
 //! One result, read from the file that a verb wrote with `--json`.
 
-use super::told::{KeptContest, KeptDiagnosis, KeptFit, KeptSteady, KeptVerification};
-use super::{ModelFault, json_place};
-use crate::device_run::{Folder, Saved};
+use super::{
+    Contest, Demo, DeviceRun, Diagnosis, Fit, ModelFault, Steady, Verification, json_place,
+};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::fs;
@@ -11,34 +11,36 @@ use std::path::{Path, PathBuf};
 
 /// A result of some verb.
 #[derive(Clone, Debug)]
-pub enum Kept {
-    /// Of `fit` or `demo`.
-    Fit(Box<KeptFit>),
+pub enum Document {
+    /// Of `fit`.
+    Fit(Box<Fit>),
+    /// Of `demo`.
+    Demo(Box<Demo>),
     /// Of `diagnose`.
-    Diagnosis(Box<KeptDiagnosis>),
+    Diagnosis(Box<Diagnosis>),
     /// Of `diagnose` of a curve of steady speeds.
-    Steady(Box<KeptSteady>),
+    Steady(Box<Steady>),
     /// Of `compare` or `paper`.
-    Contest(Box<KeptContest>),
+    Contest(Box<Contest>),
     /// Of `device verify`.
-    Verification(Box<KeptVerification>),
+    Verification(Box<Verification>),
     /// Of `device commission`, `record` or `run`, with the folder it lies in.
-    Device(Box<Saved>, Folder),
+    Device(Box<DeviceRun>, PathBuf),
 }
 
 /// A result that cannot be read: the file, and why.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{fault}", .path.display())]
-pub struct KeptError {
+pub struct DocumentError {
     /// The file.
     pub path: PathBuf,
     /// What was seen in it and what to do.
-    pub fault: KeptFault,
+    pub fault: DocumentFault,
 }
 
 /// Why a result cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub enum KeptFault {
+pub enum DocumentFault {
     /// The system refused.
     #[error(
         ": cannot be read: {0}; give the file that a verb wrote with --json FILE, or the folder of a device's run"
@@ -76,20 +78,20 @@ pub enum KeptFault {
     Device(String),
 }
 
-impl Kept {
+impl Document {
     /// Reads a result: a file, or the folder of a device's run.
     ///
     /// # Errors
     /// A file that cannot be read or is no result.
-    pub fn read(path: &Path) -> Result<Self, KeptError> {
-        let wrong = |fault| KeptError {
+    pub fn read(path: &Path) -> Result<Self, DocumentError> {
+        let wrong = |fault| DocumentError {
             path: path.to_path_buf(),
             fault,
         };
         if path.is_dir() {
             return device(path).map_err(wrong);
         }
-        let text = fs::read_to_string(path).map_err(|error| wrong(KeptFault::Io(error)))?;
+        let text = fs::read_to_string(path).map_err(|error| wrong(DocumentFault::Io(error)))?;
         let value: Value = serde_json::from_str(&text).map_err(|error| wrong(no_json(&error)))?;
         if schema(&value).as_deref() == Some("servoid.device/1") {
             return device(path.parent().unwrap_or(path)).map_err(wrong);
@@ -101,32 +103,37 @@ impl Kept {
     ///
     /// # Errors
     /// What is no result.
-    pub fn from_json(value: Value) -> Result<Self, KeptFault> {
+    pub fn from_json(value: Value) -> Result<Self, DocumentFault> {
         let schema = schema(&value);
-        let kept = match schema.as_deref() {
-            Some("servoid.fit/1") => Kept::Fit(keys(value)?),
+        let document = match schema.as_deref() {
+            Some("servoid.fit/1") if is_demo(&value) => Document::Demo(keys(value)?),
+            Some("servoid.fit/1") => Document::Fit(keys(value)?),
             Some("servoid.diagnosis/1") if value.get("steady").is_some() => {
-                Kept::Steady(keys(value)?)
+                Document::Steady(keys(value)?)
             }
-            Some("servoid.diagnosis/1") => Kept::Diagnosis(keys(value)?),
-            Some("servoid.compare/1") => Kept::Contest(keys(value)?),
-            Some("servoid.verify/1") => Kept::Verification(keys(value)?),
-            other => return Err(KeptFault::Schema(other.unwrap_or("missing").to_owned())),
+            Some("servoid.diagnosis/1") => Document::Diagnosis(keys(value)?),
+            Some("servoid.compare/1") => Document::Contest(keys(value)?),
+            Some("servoid.verify/1") => Document::Verification(keys(value)?),
+            other => return Err(DocumentFault::Schema(other.unwrap_or("missing").to_owned())),
         };
-        kept.check_models()?;
-        Ok(kept)
+        document.check_models()?;
+        Ok(document)
     }
 
     /// Refuses models that are none, while it is known where they stand.
-    fn check_models(&self) -> Result<(), KeptFault> {
+    fn check_models(&self) -> Result<(), DocumentFault> {
         let diagnosis = match self {
-            Kept::Fit(fit) => {
+            Document::Fit(fit) => {
                 fit.model.candidate("model")?;
-                fit.diagnosis.as_ref()
+                None
             }
-            Kept::Diagnosis(diagnosis) => Some(diagnosis),
-            Kept::Verification(verification) => verification.diagnosis.as_ref(),
-            Kept::Steady(_) | Kept::Contest(_) | Kept::Device(..) => None,
+            Document::Demo(demo) => {
+                demo.fit.model.candidate("model")?;
+                demo.diagnosis.as_ref()
+            }
+            Document::Diagnosis(diagnosis) => Some(diagnosis),
+            Document::Verification(verification) => verification.diagnosis.as_ref(),
+            Document::Steady(_) | Document::Contest(_) | Document::Device(..) => None,
         };
         if let Some(diagnosis) = diagnosis {
             diagnosis.base.model.candidate("base.model")?;
@@ -140,21 +147,25 @@ fn schema(value: &Value) -> Option<String> {
     value.get("schema")?.as_str().map(str::to_owned)
 }
 
-fn keys<T: DeserializeOwned>(value: Value) -> Result<T, KeptFault> {
-    serde_json::from_value(value).map_err(|error| KeptFault::Keys {
+/// A demonstration is a fit with its truth and its diagnosis beside it.
+fn is_demo(value: &Value) -> bool {
+    ["hidden", "diagnosis"]
+        .iter()
+        .any(|&key| value.get(key).is_some())
+}
+
+fn keys<T: DeserializeOwned>(value: Value) -> Result<T, DocumentFault> {
+    serde_path_to_error::deserialize(value).map_err(|error| DocumentFault::Keys {
         what: error.to_string(),
     })
 }
 
-fn no_json(error: &serde_json::Error) -> KeptFault {
+fn no_json(error: &serde_json::Error) -> DocumentFault {
     let (line, column, what) = json_place(error);
-    KeptFault::Json { line, column, what }
+    DocumentFault::Json { line, column, what }
 }
 
-fn device(path: &Path) -> Result<Kept, KeptFault> {
-    let folder = Folder::at(path);
-    let saved = folder
-        .saved()
-        .map_err(|error| KeptFault::Device(error.to_string()))?;
-    Ok(Kept::Device(Box::new(saved), folder))
+fn device(folder: &Path) -> Result<Document, DocumentFault> {
+    let run = DeviceRun::read(folder).map_err(|error| DocumentFault::Device(error.to_string()))?;
+    Ok(Document::Device(Box::new(run), folder.to_path_buf()))
 }

@@ -1,25 +1,26 @@
 //! A model with all its numbers, as results carry it: machine and torques referred to the winding, so that nothing
 //! but the recording determines them.
 
-use super::fault::{ModelFault, number};
+use super::model_fault::{ModelFault, number};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Candidate;
 use servoid_engine::problem::simulate::Method;
 use servoid_io::input::suggest::did_you_mean;
 use shared::discretise::Discretisation;
 use shared::effects::{EffectSet, Kind, MAX_EFFECTS};
-use shared::motor::Machine;
+use shared::motor;
 
 /// A model that can be run again.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct KeptModel {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Model {
     /// Names of the effects; one may stand here several times.
     pub effects: Vec<String>,
     /// The linear machine.
-    pub machine: KeptMachine,
+    pub machine: Machine,
     /// The effects' parameters, torques in V.
     #[serde(default)]
-    pub parameters: Vec<KeptParameter>,
+    pub parameters: Vec<ModelParameter>,
     /// Speed at the first sample, rad/s.
     #[serde(default)]
     pub start_speed_rad_s: f64,
@@ -35,8 +36,8 @@ pub struct KeptModel {
 }
 
 /// The linear machine referred to its winding.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct KeptMachine {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Machine {
     /// Back-EMF constant, V·s/rad.
     pub kb_v_s_rad: f64,
     /// Viscous friction times R/Kt, V·s/rad.
@@ -48,8 +49,8 @@ pub struct KeptMachine {
 }
 
 /// One parameter of an effect.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct KeptParameter {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ModelParameter {
     /// Its name behind its effect's, as in `coulomb.torque`.
     pub name: String,
     /// Its value.
@@ -59,7 +60,7 @@ pub struct KeptParameter {
 }
 
 /// How a model is made discrete.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Integrator {
     /// Exactly.
@@ -73,9 +74,9 @@ fn one() -> u16 {
     1
 }
 
-impl From<&Machine<f64>> for KeptMachine {
-    fn from(machine: &Machine<f64>) -> Self {
-        KeptMachine {
+impl From<&motor::Machine<f64>> for Machine {
+    fn from(machine: &motor::Machine<f64>) -> Self {
+        Machine {
             kb_v_s_rad: machine.kb,
             damping_v_s_rad: machine.damping,
             inertia_v_s2_rad: machine.inertia,
@@ -84,19 +85,19 @@ impl From<&Machine<f64>> for KeptMachine {
     }
 }
 
-impl KeptMachine {
+impl Machine {
     /// The machine, if a motor can be like that. `place` is where it stands in the file.
     ///
     /// # Errors
     /// A number that no motor has.
-    pub fn machine(&self, place: &str) -> Result<Machine<f64>, ModelFault> {
+    pub fn machine(&self, place: &str) -> Result<motor::Machine<f64>, ModelFault> {
         let key = |name: &str| format!("{place}.machine.{name}");
         let positive =
             |name: &str, value: f64| number(&key(name), value, value > 0.0, "a positive number");
         let at_least_zero = |name: &str, value: f64| {
             number(&key(name), value, value >= 0.0, "zero or a positive number")
         };
-        Ok(Machine {
+        Ok(motor::Machine {
             // Behind an amplifier with a current loop there is none.
             kb: at_least_zero("kb_v_s_rad", self.kb_v_s_rad)?,
             damping: at_least_zero("damping_v_s_rad", self.damping_v_s_rad)?,
@@ -106,23 +107,35 @@ impl KeptMachine {
     }
 }
 
-impl KeptModel {
-    /// A model as it is kept.
+impl ModelParameter {
+    /// The parameters of `effects`, one effect after the other, with their values in the catalogue's order.
+    pub fn all(effects: &[Kind], values: &[f64]) -> Vec<Self> {
+        let named = effects.iter().flat_map(|kind| {
+            let parameters = kind.description().parameters.iter();
+            parameters.map(|p| (format!("{}.{}", kind.name(), p.name), p.quantity.unit()))
+        });
+        let values = named.zip(values);
+        values
+            .map(|((name, unit), &value)| ModelParameter {
+                name,
+                value,
+                unit: unit.to_owned(),
+            })
+            .collect()
+    }
+}
+
+impl Model {
+    /// A model as it is written.
     pub fn of(candidate: &Candidate, method: Method) -> Self {
         let mut parameters = Vec::new();
         for (kind, values) in candidate.effects.iter() {
-            for (parameter, &value) in kind.description().parameters.iter().zip(values) {
-                parameters.push(KeptParameter {
-                    name: format!("{}.{}", kind.name(), parameter.name),
-                    value,
-                    unit: parameter.quantity.unit().to_owned(),
-                });
-            }
+            parameters.extend(ModelParameter::all(&[kind], values));
         }
         let effects = candidate.effects.iter();
-        KeptModel {
+        Model {
             effects: effects.map(|(kind, _)| kind.name().to_owned()).collect(),
-            machine: KeptMachine::from(&candidate.machine),
+            machine: Machine::from(&candidate.machine),
             parameters,
             start_speed_rad_s: candidate.start_speed,
             start_offset_counts: candidate.start_offset,
@@ -174,45 +187,57 @@ impl KeptModel {
     /// Each effect with its parameters in the catalogue's order.
     ///
     /// # Errors
-    /// An effect or unit that is unknown, a parameter that is not there, too many effects.
+    /// As [`terms`].
     pub fn terms(&self, place: &str) -> Result<Vec<(Kind, Vec<f64>)>, ModelFault> {
-        let many = self.effects.len();
-        number(
-            &format!("{place}.effects"),
-            many as f64,
-            many <= MAX_EFFECTS,
-            "at most 8 effects",
-        )?;
-        // An effect that stands there twice has each of its parameters twice.
-        let mut left: Vec<&KeptParameter> = self.parameters.iter().collect();
-        let mut terms = Vec::with_capacity(many);
-        for effect in &self.effects {
-            let kind = kind(place, effect)?;
-            let mut values = Vec::new();
-            for parameter in kind.description().parameters {
-                let name = format!("{effect}.{}", parameter.name);
-                let at = left.iter().position(|known| known.name == name);
-                let Some(known) = at.map(|at| left.remove(at)) else {
-                    return Err(ModelFault::Parameter {
-                        place: place.to_owned(),
-                        name,
-                    });
-                };
-                let needed = parameter.quantity.unit();
-                if known.unit != needed {
-                    return Err(ModelFault::Unit {
-                        place: place.to_owned(),
-                        name,
-                        unit: known.unit.clone(),
-                        needed,
-                    });
-                }
-                values.push(known.value);
-            }
-            terms.push((kind, values));
-        }
-        Ok(terms)
+        terms(&self.effects, &self.parameters, place)
     }
+}
+
+/// Each of `effects` with its parameters in the catalogue's order. `place` is where the model stands in the file.
+///
+/// # Errors
+/// An effect or unit that is unknown, a parameter that is not there, too many effects.
+pub(super) fn terms(
+    effects: &[String],
+    parameters: &[ModelParameter],
+    place: &str,
+) -> Result<Vec<(Kind, Vec<f64>)>, ModelFault> {
+    let many = effects.len();
+    number(
+        &format!("{place}.effects"),
+        many as f64,
+        many <= MAX_EFFECTS,
+        "at most 8 effects",
+    )?;
+    // An effect that stands there twice has each of its parameters twice.
+    let mut left: Vec<&ModelParameter> = parameters.iter().collect();
+    let mut terms = Vec::with_capacity(many);
+    for effect in effects {
+        let kind = kind(place, effect)?;
+        let mut values = Vec::new();
+        for parameter in kind.description().parameters {
+            let name = format!("{effect}.{}", parameter.name);
+            let at = left.iter().position(|known| known.name == name);
+            let Some(known) = at.map(|at| left.remove(at)) else {
+                return Err(ModelFault::Parameter {
+                    place: place.to_owned(),
+                    name,
+                });
+            };
+            let needed = parameter.quantity.unit();
+            if known.unit != needed {
+                return Err(ModelFault::Unit {
+                    place: place.to_owned(),
+                    name,
+                    unit: known.unit.clone(),
+                    needed,
+                });
+            }
+            values.push(known.value);
+        }
+        terms.push((kind, values));
+    }
+    Ok(terms)
 }
 
 fn kind(place: &str, name: &str) -> Result<Kind, ModelFault> {
@@ -248,10 +273,10 @@ mod tests {
                     substeps: 3,
                     ..Method::default()
                 };
-                let text = serde_json::to_string(&KeptModel::of(&candidate, method)).expect("text");
-                let kept: KeptModel = serde_json::from_str(&text).expect("a model");
-                assert_eq!(kept.method().substeps, 3);
-                let read = kept.candidate("model").expect("a model");
+                let text = serde_json::to_string(&Model::of(&candidate, method)).expect("text");
+                let read: Model = serde_json::from_str(&text).expect("a model");
+                assert_eq!(read.method().substeps, 3);
+                let read = read.candidate("model").expect("a model");
                 assert_eq!(format!("{read:?}"), format!("{candidate:?}"), "{text}");
             }
         }

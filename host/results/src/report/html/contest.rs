@@ -1,24 +1,25 @@
 //! The page of a comparison of search methods, and of the paper's.
 
-use crate::kept::{KeptContest, KeptMargins, KeptRow};
+use crate::number_text::short;
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Table};
-use crate::report::text::short;
+use crate::schema::contest::{Row, Runs};
+use crate::schema::{Contest, Margins};
 use servoid_identify::fit::margins::Loop;
 use shared::motor::Physical;
 
-pub(super) fn page(contest: &KeptContest) -> Page {
+pub(super) fn page(contest: &Contest) -> Page {
     let is_paper = contest.rows.iter().any(|row| row.paper.is_some());
     let seeds = contest.seeds.len();
     let mut sections = Vec::new();
     let mut curves = Section::new("curves", "Cost against evaluations");
-    if contest.variants.is_empty() {
+    if contest.variants().is_empty() {
         let title = "Best cost so far";
         curves.blocks.extend(
             picture::cost_curves("cost-curves", title, &contest.rows, seeds).map(Block::Picture),
         );
     }
-    for (k, variant) in contest.variants.iter().enumerate() {
+    for (k, variant) in contest.variants().iter().enumerate() {
         let title = match variant.truth_cost {
             Some(cost) => format!("{} (the true motor costs {})", variant.name, short(cost)),
             None => variant.name.clone(),
@@ -57,25 +58,24 @@ pub(super) fn page(contest: &KeptContest) -> Page {
 }
 
 /// Which method leads, and by what.
-fn lead(contest: &KeptContest) -> String {
-    let mut rows: Vec<&KeptRow> = contest
-        .rows
-        .iter()
-        .filter(|row| row.median_cost.is_some())
+fn lead(contest: &Contest) -> String {
+    let mut rows: Vec<(&Row, &Runs)> = (contest.rows.iter())
+        .filter_map(|row| Some((row, row.runs.as_ref()?)))
+        .filter(|(_, runs)| runs.median_cost.is_some())
         .collect();
-    rows.sort_by(|a, b| {
-        let cost = |row: &KeptRow| row.median_cost.unwrap_or(f64::INFINITY);
-        let work = |row: &KeptRow| row.median_evaluations_to_1pct.unwrap_or(f64::INFINITY);
+    rows.sort_by(|(_, a), (_, b)| {
+        let cost = |runs: &Runs| runs.median_cost.unwrap_or(f64::INFINITY);
+        let work = |runs: &Runs| runs.median_evaluations_to_1pct.unwrap_or(f64::INFINITY);
         cost(a)
             .total_cmp(&cost(b))
             .then(work(a).total_cmp(&work(b)))
     });
-    let Some(best) = rows.first() else {
+    let Some((best, best_runs)) = rows.first() else {
         return "No method found a model of finite cost.".to_owned();
     };
     let fastest = rows
         .iter()
-        .filter_map(|row| Some((row, row.median_evaluations_to_1pct?)))
+        .filter_map(|(row, runs)| Some((row, runs.median_evaluations_to_1pct?)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
     let quick = fastest.map_or(String::new(), |(row, n)| {
         format!(
@@ -88,12 +88,12 @@ fn lead(contest: &KeptContest) -> String {
         contest.budget,
         contest.seeds.len(),
         best.algorithm,
-        best.median_cost.map_or("-".to_owned(), short)
+        best_runs.median_cost.map_or("-".to_owned(), short)
     )
 }
 
 /// The paper's table beside ours.
-fn printed(contest: &KeptContest) -> Section {
+fn printed(contest: &Contest) -> Section {
     let mut table = Table::new(&[
         "method",
         "paper's cost",
@@ -106,14 +106,15 @@ fn printed(contest: &KeptContest) -> Section {
     let cost = |x: Option<f64>| x.map_or("-".to_owned(), short);
     for row in &contest.rows {
         let Some(paper) = &row.paper else { continue };
+        let ours = row.runs.as_ref();
         table.row([
             row.algorithm.clone(),
             cost(paper.cost),
-            cost(row.median_cost),
-            cost(row.best_cost),
+            cost(ours.and_then(|runs| runs.median_cost)),
+            cost(ours.and_then(|runs| runs.best_cost)),
             margins(Some(paper.margins_printed)),
             margins(paper.margins_computed),
-            margins(row.margins),
+            margins(ours.and_then(|runs| runs.margins)),
         ]);
     }
     let mut section = Section::new("table", "Table 1 of the paper, and ours");
@@ -121,7 +122,7 @@ fn printed(contest: &KeptContest) -> Section {
     section
 }
 
-fn margins(margins: Option<KeptMargins>) -> String {
+fn margins(margins: Option<Margins>) -> String {
     let Some(m) = margins else {
         return "-".to_owned();
     };
@@ -132,7 +133,7 @@ fn margins(margins: Option<KeptMargins>) -> String {
 }
 
 /// The loops of the actual motor and of each method: ours, and the paper's where there are any.
-fn loops(contest: &KeptContest) -> Vec<(String, Loop)> {
+fn loops(contest: &Contest) -> Vec<(String, Loop)> {
     let mut loops = Vec::new();
     for row in &contest.rows {
         if let Some(paper) = &row.paper {
@@ -154,18 +155,13 @@ fn loops(contest: &KeptContest) -> Vec<(String, Loop)> {
             };
             loops.extend(physical.map(|p: Physical<f64>| (name, Loop::from(&p.machine()))));
         }
-        if let Some(l) = row.position_loop {
-            let ours = Loop {
-                a3: l.a3,
-                a2: l.a2,
-                a1: l.a1,
-            };
+        if let Some(l) = row.runs.as_ref().and_then(|runs| runs.position_loop) {
             let name = if row.paper.is_some() {
                 format!("our {}, best run", row.algorithm)
             } else {
                 format!("{}, best run", row.algorithm)
             };
-            loops.push((name, ours));
+            loops.push((name, Loop::from(l)));
         }
     }
     loops

@@ -1,7 +1,9 @@
 //! What a fit, a diagnosis, a verification or a device found, from the JSON that it wrote.
 
-use super::model::{KeptMachine, KeptModel, KeptParameter};
-use super::result_fault::{ResultError, ResultFault};
+use super::device::{FILE as DEVICE, SCHEMA as DEVICE_SCHEMA};
+use super::identified_fault::{ResultError, ResultFault};
+use super::partial::{Found, Partial};
+use super::{Estimate, Machine, Model, ModelParameter};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use servoid_io::recording::Drive;
@@ -10,24 +12,9 @@ use shared::motor::Response;
 use std::fs;
 use std::path::Path;
 
-/// One number of a result.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct KeptEstimate {
-    /// Its name; an effect's parameters carry its name before a point.
-    pub name: String,
-    /// Its value.
-    pub value: f64,
-    /// Its unit.
-    pub unit: String,
-    /// Standard deviation, where the data determine one.
-    pub std: Option<f64>,
-    /// Whether the data (with the known facts) determine it.
-    pub identifiable: bool,
-}
-
 /// A model that was found, with how well each number of it is known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct KeptResult {
+pub struct Identified {
     /// What the file calls itself, as in `servoid.fit/1`.
     pub schema: String,
     /// The recording behind it.
@@ -43,73 +30,19 @@ pub struct KeptResult {
     /// Whether the search came to its end.
     pub converged: bool,
     /// Everything that was searched for, and what follows from it.
-    pub parameters: Vec<KeptEstimate>,
+    pub parameters: Vec<Estimate>,
     /// The model itself, referred to the winding.
-    pub model: KeptModel,
+    pub model: Model,
     /// Where the model stands in the file.
     pub place: &'static str,
 }
 
-/// A fit or a diagnosis: the one has the model and its numbers at the top, the other under `final`.
-#[derive(Deserialize)]
-struct File {
-    recording: Option<String>,
-    drive: Option<String>,
-    supply_v: Option<f64>,
-    counts_per_rev: Option<f64>,
-    sample_s: Option<f64>,
-    parameters: Option<Vec<KeptEstimate>>,
-    converged: Option<bool>,
-    model: Option<KeptModel>,
-    #[serde(rename = "final")]
-    last: Option<Found>,
-    steady: Option<serde::de::IgnoredAny>,
-}
-
-/// A model and its numbers.
-#[derive(Deserialize)]
-struct Found {
-    parameters: Option<Vec<KeptEstimate>>,
-    converged: Option<bool>,
-    model: Option<KeptModel>,
-}
-
-#[derive(Deserialize)]
-struct VerifyFile {
-    diagnosis: Option<File>,
-}
-
-/// A device's report, as far as a model follows from it.
-#[derive(Deserialize)]
-struct DeviceFile {
-    period_us: Option<f64>,
-    supply_v: Option<f64>,
-    counts_per_rev: Option<f64>,
-    outcome: Option<DeviceOutcome>,
-}
-
-#[derive(Deserialize)]
-struct DeviceOutcome {
-    parameters: Vec<DeviceParameter>,
-    converged: bool,
-}
-
-#[derive(Deserialize)]
-struct DeviceParameter {
-    name: String,
-    value: f64,
-    unit: String,
-    std: Option<f64>,
-}
-
-/// The file of a device's folder.
-const DEVICE: &str = "device.json";
 /// No number of a motor is as large, and what is computed from smaller ones stays finite.
 const HUGE: f64 = 1e30;
 /// Beyond this part of the value a standard deviation leaves the value open, as in a fit.
 const OPEN: f64 = 0.5;
 
-impl KeptResult {
+impl Identified {
     /// Reads the result in `path`; of a folder that `servoid device` wrote, its `device.json`.
     ///
     /// # Errors
@@ -122,7 +55,7 @@ impl KeptResult {
         };
         fs::read_to_string(&path)
             .map_err(ResultFault::Io)
-            .and_then(|text| KeptResult::parse(&text))
+            .and_then(|text| Identified::parse(&text))
             .map_err(|fault| ResultError { path, fault })
     }
 
@@ -137,22 +70,15 @@ impl KeptResult {
             schema: Option<String>,
         }
         let schema = json::<Named>(text)?.schema.unwrap_or_default();
+        let file = || json::<Partial>(text);
         let result = match schema.as_str() {
-            "servoid.fit/1" => {
-                let mut file: File = json(text)?;
-                let found = Found {
-                    parameters: file.parameters.take(),
-                    converged: file.converged,
-                    model: file.model.take(),
-                };
-                KeptResult::found(schema, file, found, "model")
-            }
-            "servoid.diagnosis/1" => KeptResult::diagnosed(schema, json(text)?),
+            "servoid.fit/1" => Identified::fitted(schema, file()?),
+            "servoid.diagnosis/1" => Identified::diagnosed(schema, file()?),
             "servoid.verify/1" => {
-                let diagnosis = json::<VerifyFile>(text)?.diagnosis;
-                KeptResult::diagnosed(schema, diagnosis.ok_or(ResultFault::Undiagnosed)?)
+                let diagnosis = file()?.diagnosis.ok_or(ResultFault::Undiagnosed)?;
+                Identified::diagnosed(schema, *diagnosis)
             }
-            "servoid.device/1" => KeptResult::device(schema, json(text)?),
+            DEVICE_SCHEMA => Identified::device(schema, file()?),
             _ => return Err(ResultFault::Schema(shown(&schema))),
         }?;
         result.check()
@@ -160,7 +86,7 @@ impl KeptResult {
 
     fn found(
         schema: String,
-        set_up: File,
+        set_up: Partial,
         found: Found,
         place: &'static str,
     ) -> Result<Self, ResultFault> {
@@ -170,7 +96,7 @@ impl KeptResult {
             None => return Err(ResultFault::Missing("drive")),
             Some(other) => return Err(ResultFault::Drive(shown(other))),
         };
-        Ok(KeptResult {
+        Ok(Identified {
             schema,
             recording: set_up.recording,
             drive,
@@ -184,17 +110,26 @@ impl KeptResult {
         })
     }
 
-    fn diagnosed(schema: String, mut file: File) -> Result<Self, ResultFault> {
+    fn fitted(schema: String, mut file: Partial) -> Result<Self, ResultFault> {
+        let found = Found {
+            parameters: file.parameters.take(),
+            converged: file.converged,
+            model: file.model.take(),
+        };
+        Identified::found(schema, file, found, "model")
+    }
+
+    fn diagnosed(schema: String, mut file: Partial) -> Result<Self, ResultFault> {
         if file.steady.is_some() {
             return Err(ResultFault::Steady);
         }
         let last = file.last.take();
         let last = last.ok_or(ResultFault::Missing("final"))?;
-        KeptResult::found(schema, file, last, "final.model")
+        Identified::found(schema, file, last, "final.model")
     }
 
     /// The device's three numbers say of a machine what voltage and angle can; its friction is in volts already.
-    fn device(schema: String, file: DeviceFile) -> Result<Self, ResultFault> {
+    fn device(schema: String, file: Partial) -> Result<Self, ResultFault> {
         let outcome = file.outcome.ok_or(ResultFault::NotFitted)?;
         let value = |name: &'static str| {
             let found = outcome.parameters.iter().find(|p| p.name == name);
@@ -212,9 +147,9 @@ impl KeptResult {
             a2: a1 * electrical,
         }
         .machine();
-        let mut model = KeptModel {
+        let mut model = Model {
             effects: Vec::new(),
-            machine: KeptMachine::from(&machine),
+            machine: Machine::from(&machine),
             parameters: Vec::new(),
             start_speed_rad_s: 0.0,
             start_offset_counts: 0.0,
@@ -240,14 +175,14 @@ impl KeptResult {
             };
             if let Some(kind) = kind {
                 model.effects.push(kind.name().to_owned());
-                model.parameters.push(KeptParameter {
+                model.parameters.push(ModelParameter {
                     name: name.clone(),
                     value: found.value,
                     unit: unit.clone(),
                 });
             }
             let known = |std: f64| std < OPEN * found.value.abs();
-            parameters.push(KeptEstimate {
+            parameters.push(Estimate {
                 name,
                 value: found.value,
                 unit,
@@ -255,7 +190,7 @@ impl KeptResult {
                 identifiable: outcome.converged && found.std.is_some_and(known),
             });
         }
-        Ok(KeptResult {
+        Ok(Identified {
             schema,
             recording: None,
             drive: Drive::Voltage,

@@ -1,25 +1,16 @@
 //! The models of a diagnosis, from the JSON that `servoid diagnose --json` writes.
 
-use super::hypotheses_error::{DiagnosisError, DiagnosisFault};
-use super::{KeptModel, ModelFault, json_place, number};
-use serde::Deserialize;
+use super::diagnosis::Alternative;
+use super::hypotheses_fault::{DiagnosisError, DiagnosisFault};
+use super::model::terms;
+use super::partial::Partial;
+use super::{ModelFault, json_place, number};
 use servoid_identify::plan::{Hypothesis, Setup};
 use std::fs;
 use std::path::Path;
 
 /// What a diagnosis calls itself.
 pub(super) const SCHEMA: &str = "servoid.diagnosis/1";
-
-/// What is read of the file; other keys are ignored.
-#[derive(Deserialize)]
-struct Diagnosis {
-    schema: Option<String>,
-    models: Option<Vec<KeptModel>>,
-    supply_v: Option<f64>,
-    no_load_rad_s: Option<f64>,
-    counts_per_rev: Option<f64>,
-    sample_s: Option<f64>,
-}
 
 /// The models of the diagnosis in `path` that differ in their effects, and what they run on.
 ///
@@ -36,7 +27,7 @@ pub fn read(path: &Path) -> Result<(Vec<Hypothesis>, Setup), DiagnosisError> {
 }
 
 fn parse(text: &str) -> Result<(Vec<Hypothesis>, Setup), DiagnosisFault> {
-    let diagnosis: Diagnosis = serde_json::from_str(text).map_err(json_fault)?;
+    let diagnosis: Partial = serde_json::from_str(text).map_err(json_fault)?;
     match diagnosis.schema.as_deref() {
         Some(SCHEMA) => {}
         other => return Err(DiagnosisFault::Schema(other.unwrap_or("missing").into())),
@@ -64,7 +55,7 @@ fn json_fault(error: serde_json::Error) -> DiagnosisFault {
     DiagnosisFault::Json { line, column, what }
 }
 
-fn setup(diagnosis: &Diagnosis) -> Result<Setup, DiagnosisFault> {
+fn setup(diagnosis: &Partial) -> Result<Setup, DiagnosisFault> {
     let positive = |key: &'static str, value: Option<f64>| {
         let value = value.ok_or(DiagnosisFault::Missing(key))?;
         number(key, value, value > 0.0, "a positive number").map_err(DiagnosisFault::from)
@@ -77,10 +68,10 @@ fn setup(diagnosis: &Diagnosis) -> Result<Setup, DiagnosisFault> {
     })
 }
 
-fn hypothesis(index: usize, model: &KeptModel) -> Result<Hypothesis, ModelFault> {
+fn hypothesis(index: usize, model: &Alternative) -> Result<Hypothesis, ModelFault> {
     let place = format!("models[{index}]");
     let (mut effects, mut values) = (Vec::new(), Vec::new());
-    for (kind, own) in model.terms(&place)? {
+    for (kind, own) in terms(&model.effects, &model.parameters, &place)? {
         effects.push(kind);
         values.extend(own);
     }

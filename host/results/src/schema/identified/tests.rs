@@ -32,11 +32,11 @@ const DEVICE: &str = r#"{
 
 #[test]
 fn a_fit_a_diagnosis_and_a_verification_of_one_model_say_the_same() {
-    let fit = KeptResult::parse(FIT).expect("a fit");
+    let fit = Identified::parse(FIT).expect("a fit");
     let diagnosis = diagnosis();
     let verify = format!("{{\"schema\": \"servoid.verify/1\", \"diagnosis\": {diagnosis}}}");
     for text in [diagnosis.as_str(), &verify] {
-        let read = KeptResult::parse(text).expect("a result");
+        let read = Identified::parse(text).expect("a result");
         assert_eq!(
             (&read.model, &read.parameters, read.sample_s),
             (&fit.model, &fit.parameters, fit.sample_s)
@@ -46,7 +46,7 @@ fn a_fit_a_diagnosis_and_a_verification_of_one_model_say_the_same() {
 
 #[test]
 fn a_device_s_report_becomes_the_machine_that_has_its_response() {
-    let read = KeptResult::parse(DEVICE).expect("a report");
+    let read = Identified::parse(DEVICE).expect("a report");
     let machine = read.model.machine.machine("model").expect("a machine");
     let response = machine.response();
     assert!((response.gain - 40.0).abs() < 1e-9 && (response.a1 - 0.02).abs() < 1e-12);
@@ -79,11 +79,11 @@ fn what_is_no_result_is_refused_with_its_place_and_never_read() {
     ];
     for (text, number, says) in cases {
         let broken = text.replace("12.0", number).replace("4.3e-4", number);
-        let error = KeptResult::parse(&broken).expect_err(&broken).to_string();
+        let error = Identified::parse(&broken).expect_err(&broken).to_string();
         assert!(error.contains(says), "{number}: {error}");
     }
     for length in 0..FIT.len() - 1 {
-        assert!(KeptResult::parse(&FIT[..length]).is_err(), "{length}");
+        assert!(Identified::parse(&FIT[..length]).is_err(), "{length}");
     }
     for (from, to, says) in [
         ("servoid.fit/1", "servoid.compare/1", "servoid.compare/1"),
@@ -98,7 +98,7 @@ fn what_is_no_result_is_refused_with_its_place_and_never_read() {
         ("\"gain\"", "\"ga,in\"", "`ga,in`"),
         ("\"std\": 0.001", "\"std\": -1", "at least 0"),
     ] {
-        let error = KeptResult::parse(&FIT.replace(from, to)).expect_err(to);
+        let error = Identified::parse(&FIT.replace(from, to)).expect_err(to);
         assert!(error.to_string().contains(says), "{to}: {error}");
     }
     let unfitted = DEVICE
@@ -107,14 +107,14 @@ fn what_is_no_result_is_refused_with_its_place_and_never_read() {
         .0
         .to_owned()
         + "\"outcome\": null}";
-    let error = KeptResult::parse(&unfitted).expect_err("no fit");
+    let error = Identified::parse(&unfitted).expect_err("no fit");
     assert!(error.to_string().contains("did not fit"), "{error}");
 }
 
 #[test]
 fn numbers_that_no_motor_has_are_refused_before_anything_is_computed_from_them() {
     for (from, to) in [("58.0", "1e200"), ("4.3e-4", "1e40"), ("0.017", "1e301")] {
-        let error = KeptResult::parse(&FIT.replace(from, to)).expect_err(to);
+        let error = Identified::parse(&FIT.replace(from, to)).expect_err(to);
         assert!(error.to_string().contains("1e30"), "{error}");
     }
 }

@@ -1,21 +1,21 @@
 //! The page of a motor that commissioned itself, and of the host's check of it.
 
 use super::{Model, Recordings, diagnosis, failing, no_recording, recording_facts};
-use crate::device_run::{Saved, SavedOutcome};
 use crate::error::Error;
-use crate::kept::{KeptEstimate, KeptVerification};
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Estimates};
 use crate::report::diagnosis::bars::counts;
+use crate::schema::device::Outcome;
+use crate::schema::{DeviceRun, Estimate, Verification};
 use servoid_engine::problem::Candidate;
 use servoid_engine::problem::simulate::Method;
 use servoid_identify::fit::margins::Loop;
 use shared::effects::{EffectSet, Kind};
 use shared::motor::Machine;
 
-pub(super) fn page(saved: &Saved, recordings: Recordings<'_>) -> Result<Page, Error> {
+pub(super) fn page(run: &DeviceRun, recordings: Recordings<'_>) -> Result<Page, Error> {
     let mut sections = Vec::new();
-    if let Some(outcome) = &saved.outcome {
+    if let Some(outcome) = &run.outcome {
         let model = model(outcome)?;
         let mut seen = Section::new("overlay", "Measured and the device's model");
         match recordings.fitted {
@@ -63,23 +63,20 @@ pub(super) fn page(saved: &Saved, recordings: Recordings<'_>) -> Result<Page, Er
     facts.extend([
         (
             "board".to_owned(),
-            format!("{}, firmware {}", saved.board, saved.firmware),
+            format!("{}, firmware {}", run.board, run.firmware),
         ),
-        ("supply".to_owned(), format!("{} V", saved.supply_v)),
-        (
-            "control period".to_owned(),
-            format!("{} µs", saved.period_us),
-        ),
-        ("number format".to_owned(), saved.format.clone()),
+        ("supply".to_owned(), format!("{} V", run.supply_v)),
+        ("control period".to_owned(), format!("{} µs", run.period_us)),
+        ("number format".to_owned(), run.format.clone()),
         (
             "first moved at".to_owned(),
-            format!("{:.3} V", saved.breakaway_v),
+            format!("{:.3} V", run.breakaway_v),
         ),
-        ("periods lost".to_owned(), saved.missing.to_string()),
+        ("periods lost".to_owned(), run.missing.to_string()),
     ]);
     Ok(Page {
-        title: format!("Commissioning on {}", saved.board),
-        lead: vec![lead(saved)],
+        title: format!("Commissioning on {}", run.board),
+        lead: vec![lead(run)],
         facts,
         sections,
     })
@@ -87,7 +84,7 @@ pub(super) fn page(saved: &Saved, recordings: Recordings<'_>) -> Result<Page, Er
 
 /// The host's check: its verdict above the page of its diagnosis.
 pub(super) fn verification(
-    verification: &KeptVerification,
+    verification: &Verification,
     recordings: Recordings<'_>,
 ) -> Result<Page, Error> {
     let mut page = match &verification.diagnosis {
@@ -111,17 +108,17 @@ pub(super) fn verification(
     Ok(page)
 }
 
-fn lead(saved: &Saved) -> String {
-    if let Some(failure) = &saved.failure {
+fn lead(run: &DeviceRun) -> String {
+    if let Some(failure) = &run.failure {
         return format!(
             "The run was given up {:.3} s after its start, in {}: {}",
             failure.at_s, failure.stage, failure.message
         );
     }
-    let Some(outcome) = &saved.outcome else {
+    let Some(outcome) = &run.outcome else {
         return "The device recorded and did not fit.".to_owned();
     };
-    let verified = saved.verified_rms_counts.map_or(String::new(), |rms| {
+    let verified = run.verified_rms_counts.map_or(String::new(), |rms| {
         format!(
             " What it had not seen it predicts to {} counts RMS.",
             counts(rms)
@@ -135,11 +132,11 @@ fn lead(saved: &Saved) -> String {
     )
 }
 
-fn estimates(outcome: &SavedOutcome) -> Vec<KeptEstimate> {
+fn estimates(outcome: &Outcome) -> Vec<Estimate> {
     outcome
         .parameters
         .iter()
-        .map(|p| KeptEstimate {
+        .map(|p| Estimate {
             name: p.name.clone(),
             value: p.value,
             unit: p.unit.clone(),
@@ -150,7 +147,7 @@ fn estimates(outcome: &SavedOutcome) -> Vec<KeptEstimate> {
 }
 
 /// The device's model: its damping is all back-EMF, since voltage and angle do not tell the two apart.
-fn model(outcome: &SavedOutcome) -> Result<Model, Error> {
+fn model(outcome: &Outcome) -> Result<Model, Error> {
     let of = |name: &str| {
         outcome.value(name).ok_or_else(|| {
             Error::Failed(format!(

@@ -25,8 +25,8 @@ pub use belongs::doubts;
 pub use failing::{Model, failing};
 
 use crate::error::Error;
-use crate::kept::Kept;
 use crate::page::Page;
+use crate::schema::Document;
 use servoid_engine::problem::Data;
 
 /// The recordings that a result was made from, as far as they are at hand.
@@ -42,21 +42,22 @@ pub struct Recordings<'a> {
 ///
 /// # Errors
 /// A model in it that is none, or that cannot run along the recordings.
-pub fn page(kept: &Kept, recordings: Recordings<'_>) -> Result<Page, Error> {
-    match kept {
-        Kept::Fit(fit) => match &fit.diagnosis {
+pub fn page(document: &Document, recordings: Recordings<'_>) -> Result<Page, Error> {
+    match document {
+        Document::Fit(fit) => fit::page(fit, recordings),
+        Document::Demo(demo) => match &demo.diagnosis {
             Some(diagnosis) => {
                 let mut page = diagnosis::page(diagnosis, recordings)?;
-                page.sections.push(diagnosis::truth(fit));
+                page.sections.push(diagnosis::truth(demo));
                 Ok(page)
             }
-            None => fit::page(fit, recordings),
+            None => fit::page(&demo.fit, recordings),
         },
-        Kept::Diagnosis(diagnosis) => diagnosis::page(diagnosis, recordings),
-        Kept::Steady(steady) => Ok(steady::page(steady)),
-        Kept::Contest(contest) => Ok(contest::page(contest)),
-        Kept::Verification(verification) => device::verification(verification, recordings),
-        Kept::Device(saved, _) => device::page(saved, recordings),
+        Document::Diagnosis(diagnosis) => diagnosis::page(diagnosis, recordings),
+        Document::Steady(steady) => Ok(steady::page(steady)),
+        Document::Contest(contest) => Ok(contest::page(contest)),
+        Document::Verification(verification) => device::verification(verification, recordings),
+        Document::Device(run, _) => device::page(run, recordings),
     }
 }
 

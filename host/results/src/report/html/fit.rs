@@ -2,14 +2,14 @@
 
 use super::{Model, Recordings, failing, no_recording, recording_facts};
 use crate::error::Error;
-use crate::kept::{KeptFit, KeptModel};
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Estimates, Rung};
 use crate::report::diagnosis::bars::counts;
+use crate::schema::{self, Fit};
 use servoid_identify::fit::margins::Loop;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
-pub(super) fn page(fit: &KeptFit, recordings: Recordings<'_>) -> Result<Page, Error> {
+pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error> {
     let model = model(&fit.name(), &fit.model, "model")?;
     let mut sections = Vec::new();
     if let Some(data) = recordings.fitted {
@@ -62,7 +62,7 @@ pub(super) fn page(fit: &KeptFit, recordings: Recordings<'_>) -> Result<Page, Er
         ("evaluations".to_owned(), fit.evaluations.to_string()),
         (
             format!("cost, {}", fit.cost_kind),
-            crate::report::text::short(fit.cost),
+            crate::number_text::short(fit.cost),
         ),
         ("seed".to_owned(), fit.seed.to_string()),
     ]);
@@ -75,18 +75,18 @@ pub(super) fn page(fit: &KeptFit, recordings: Recordings<'_>) -> Result<Page, Er
 }
 
 /// A model of the result with its name.
-pub(super) fn model(name: &str, kept: &KeptModel, place: &str) -> Result<Model, Error> {
-    let candidate = kept
+pub(super) fn model(name: &str, saved: &schema::Model, place: &str) -> Result<Model, Error> {
+    let candidate = saved
         .candidate(place)
         .map_err(|fault| Error::Failed(format!("{fault}; write the result again with --json")))?;
     Ok(Model {
         name: name.to_owned(),
         candidate,
-        method: kept.method(),
+        method: saved.method(),
     })
 }
 
-impl KeptFit {
+impl Fit {
     fn name(&self) -> String {
         named(&self.effects)
     }
@@ -100,7 +100,7 @@ pub(super) fn named(effects: &[String]) -> String {
     }
 }
 
-fn lead(fit: &KeptFit) -> String {
+fn lead(fit: &Fit) -> String {
     let floor = format!("the encoder alone leaves {FLOOR_RMS_COUNTS:.3}");
     let held_out = fit.validate_rms_counts.map_or(String::new(), |rms| {
         format!(", and by {} where it was never fitted", counts(rms))
@@ -124,7 +124,7 @@ fn lead(fit: &KeptFit) -> String {
     )
 }
 
-fn rungs(fit: &KeptFit) -> Vec<Rung> {
+fn rungs(fit: &Fit) -> Vec<Rung> {
     fit.ladder
         .iter()
         .map(|rung| Rung {
@@ -138,7 +138,7 @@ fn rungs(fit: &KeptFit) -> Vec<Rung> {
         .collect()
 }
 
-fn parameters(fit: &KeptFit, position_loop: Loop) -> Section {
+fn parameters(fit: &Fit, position_loop: Loop) -> Section {
     let mut section = Section::new("parameters", "Parameters");
     let sources = [Estimates {
         name: fit.algorithm.clone(),

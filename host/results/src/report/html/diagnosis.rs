@@ -3,10 +3,11 @@
 use super::fit::{model, named};
 use super::{Model, Recordings, failing, no_recording, recording_facts};
 use crate::error::Error;
-use crate::kept::{KeptDiagnosis, KeptFit, KeptStep};
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Estimates, Rung, Table};
 use crate::report::diagnosis::bars::counts;
+use crate::schema::diagnosis::Step;
+use crate::schema::{Demo, Diagnosis};
 use servoid_engine::problem::Data;
 use servoid_identify::fit::margins::Loop;
 use shared::effects::Kind;
@@ -14,7 +15,7 @@ use shared::effects::Kind;
 /// Candidates that are listed for each step.
 const LISTED: usize = 8;
 
-pub(super) fn page(diagnosis: &KeptDiagnosis, recordings: Recordings<'_>) -> Result<Page, Error> {
+pub(super) fn page(diagnosis: &Diagnosis, recordings: Recordings<'_>) -> Result<Page, Error> {
     let base = model("linear motor", &diagnosis.base.model, "base.model")?;
     let last = model(
         &named(&diagnosis.last.effects),
@@ -48,7 +49,7 @@ pub(super) fn page(diagnosis: &KeptDiagnosis, recordings: Recordings<'_>) -> Res
 }
 
 /// What a demonstration hid, and how near the diagnosis came.
-pub(super) fn truth(demo: &KeptFit) -> Section {
+pub(super) fn truth(demo: &Demo) -> Section {
     let mut truth = Section::new("truth", "The truth");
     truth.blocks.push(Block::Text(format!(
         "This motor was made by the virtual bench, which shares no code with the model. Hidden in it was {}.",
@@ -66,7 +67,7 @@ pub(super) fn truth(demo: &KeptFit) -> Section {
     truth
 }
 
-fn lead(diagnosis: &KeptDiagnosis) -> Vec<String> {
+fn lead(diagnosis: &Diagnosis) -> Vec<String> {
     let mut lead = vec![diagnosis.summary.clone()];
     if diagnosis.interrupted {
         lead.push("The work was stopped by the user: this is the best so far.".to_owned());
@@ -74,7 +75,7 @@ fn lead(diagnosis: &KeptDiagnosis) -> Vec<String> {
     lead
 }
 
-fn held_out(diagnosis: &KeptDiagnosis) -> String {
+fn held_out(diagnosis: &Diagnosis) -> String {
     let held_out = &diagnosis.held_out;
     match (&held_out.source, held_out.from_s) {
         (Some(source), _) => source.clone(),
@@ -83,7 +84,7 @@ fn held_out(diagnosis: &KeptDiagnosis) -> String {
     }
 }
 
-fn ladder(diagnosis: &KeptDiagnosis) -> Section {
+fn ladder(diagnosis: &Diagnosis) -> Section {
     let mut rungs = vec![Rung {
         name: "linear motor".to_owned(),
         fitted: diagnosis.base.rms_counts,
@@ -109,7 +110,7 @@ fn ladder(diagnosis: &KeptDiagnosis) -> Section {
 }
 
 fn seen(
-    diagnosis: &KeptDiagnosis,
+    diagnosis: &Diagnosis,
     recordings: Recordings<'_>,
     models: &[Model],
 ) -> Result<Section, Error> {
@@ -142,12 +143,12 @@ fn seen(
 }
 
 /// One section for each effect that was added.
-fn named_effects(diagnosis: &KeptDiagnosis) -> Vec<Section> {
+fn named_effects(diagnosis: &Diagnosis) -> Vec<Section> {
     let steps = diagnosis.steps.iter().enumerate();
     steps.map(|(k, step)| effect(k, step)).collect()
 }
 
-fn effect(index: usize, step: &KeptStep) -> Section {
+fn effect(index: usize, step: &Step) -> Section {
     let description = Kind::by_name(&step.added).map(|kind| kind.description());
     let title = description.map_or("", |d| d.title);
     let heading = format!("{}. {}: {title}", index + 1, step.added);
@@ -183,7 +184,7 @@ fn effect(index: usize, step: &KeptStep) -> Section {
 }
 
 /// Other effects that explain the data as well, in the words of the terminal.
-fn company(step: &KeptStep) -> String {
+fn company(step: &Step) -> String {
     let refines = |name: &&String| step.refined_by.contains(name);
     let alike: Vec<String> = (step.indistinguishable_from.iter())
         .filter(|name| !refines(name))
@@ -203,7 +204,7 @@ fn company(step: &KeptStep) -> String {
     text
 }
 
-fn candidates(step: &KeptStep) -> Table {
+fn candidates(step: &Step) -> Table {
     let mut table = Table::new(&[
         "effect",
         "fitted, counts RMS",
@@ -233,7 +234,7 @@ fn chance(p: f64) -> String {
     }
 }
 
-fn next(diagnosis: &KeptDiagnosis) -> Section {
+fn next(diagnosis: &Diagnosis) -> Section {
     let mut section = Section::new("next", "What to do next, and what stays open");
     if let Some(effect) = &diagnosis.not_named {
         section.blocks.push(Block::Text(format!(
@@ -267,7 +268,7 @@ fn next(diagnosis: &KeptDiagnosis) -> Section {
     section
 }
 
-fn parameters(diagnosis: &KeptDiagnosis, loops: &[(String, Loop)]) -> Section {
+fn parameters(diagnosis: &Diagnosis, loops: &[(String, Loop)]) -> Section {
     let mut section = Section::new("parameters", "Parameters");
     let sources = [Estimates {
         name: "this diagnosis".to_owned(),

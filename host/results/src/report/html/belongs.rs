@@ -2,9 +2,9 @@
 
 use super::fit::model;
 use crate::error::Error;
-use crate::kept::{Kept, KeptDiagnosis, KeptModel};
 use crate::picture::Run;
 use crate::report::diagnosis::bars::counts;
+use crate::schema::{self, Diagnosis, Document, Fit};
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::{HeldOut, holdout};
 use servoid_io::recording::Recording;
@@ -18,37 +18,31 @@ const SAME: f64 = 1e-5;
 /// # Errors
 /// A model that is none, or that cannot run along the recordings.
 pub fn doubts(
-    kept: &Kept,
+    document: &Document,
     fitted: Option<&Recording>,
     held_out: Option<&Recording>,
 ) -> Result<Vec<String>, Error> {
-    let told = match kept {
-        Kept::Fit(fit) => match &fit.diagnosis {
+    let claim = match document {
+        Document::Fit(fit) => fitted_to(fit),
+        Document::Demo(demo) => match &demo.diagnosis {
             Some(diagnosis) => diagnosed(diagnosis),
-            None => Told {
-                model: &fit.model,
-                recording: &fit.recording,
-                rms_counts: Some(fit.rms_counts),
-                other: fit.validate.as_deref(),
-                other_rms_counts: fit.validate_rms_counts,
-                is_cut: false,
-            },
+            None => fitted_to(&demo.fit),
         },
-        Kept::Diagnosis(diagnosis) => diagnosed(diagnosis),
-        Kept::Verification(verification) => match &verification.diagnosis {
+        Document::Diagnosis(diagnosis) => diagnosed(diagnosis),
+        Document::Verification(verification) => match &verification.diagnosis {
             Some(diagnosis) => diagnosed(diagnosis),
             None => return Ok(Vec::new()),
         },
-        Kept::Device(..) | Kept::Steady(_) | Kept::Contest(_) => return Ok(Vec::new()),
+        Document::Device(..) | Document::Steady(_) | Document::Contest(_) => return Ok(Vec::new()),
     };
-    let model = model("model", told.model, "model")?;
+    let model = model("model", claim.model, "model")?;
     let mut doubts = Vec::new();
-    if let Some((recording, rms)) = fitted.zip(told.rms_counts) {
-        let data = told.fitted(recording)?;
+    if let Some((recording, rms)) = fitted.zip(claim.rms_counts) {
+        let data = claim.fitted(recording)?;
         let run = data.map(|data| model.run(&data)).transpose()?;
-        doubts.extend(doubt(&recording.source, told.recording, rms, run.as_ref()));
+        doubts.extend(doubt(&recording.source, claim.recording, rms, run.as_ref()));
     }
-    if let Some(((recording, rms), name)) = held_out.zip(told.other_rms_counts).zip(told.other) {
+    if let Some(((recording, rms), name)) = held_out.zip(claim.other_rms_counts).zip(claim.other) {
         let run = model.run_unseen(&Data::new(recording)?)?;
         doubts.extend(doubt(&recording.source, name, rms, Some(&run)));
     }
@@ -56,8 +50,8 @@ pub fn doubts(
 }
 
 /// What a result says of its recordings.
-struct Told<'a> {
-    model: &'a KeptModel,
+struct Claim<'a> {
+    model: &'a schema::Model,
     recording: &'a str,
     rms_counts: Option<f64>,
     other: Option<&'a str>,
@@ -66,8 +60,19 @@ struct Told<'a> {
     is_cut: bool,
 }
 
-fn diagnosed(diagnosis: &KeptDiagnosis) -> Told<'_> {
-    Told {
+fn fitted_to(fit: &Fit) -> Claim<'_> {
+    Claim {
+        model: &fit.model,
+        recording: &fit.recording,
+        rms_counts: Some(fit.rms_counts),
+        other: fit.validate.as_deref(),
+        other_rms_counts: fit.validate_rms_counts,
+        is_cut: false,
+    }
+}
+
+fn diagnosed(diagnosis: &Diagnosis) -> Claim<'_> {
+    Claim {
         model: &diagnosis.last.model,
         recording: &diagnosis.recording,
         rms_counts: diagnosis.last.rms_counts,
@@ -77,7 +82,7 @@ fn diagnosed(diagnosis: &KeptDiagnosis) -> Told<'_> {
     }
 }
 
-impl Told<'_> {
+impl Claim<'_> {
     /// What was fitted of the recording; `None` where it is too short for its end to have been held out.
     fn fitted(&self, recording: &Recording) -> Result<Option<Data>, Error> {
         if !self.is_cut {
@@ -90,16 +95,16 @@ impl Told<'_> {
     }
 }
 
-fn doubt(seen: &str, named: &str, told: f64, run: Option<&Run>) -> Option<String> {
+fn doubt(seen: &str, named: &str, claim: f64, run: Option<&Run>) -> Option<String> {
     let why = match run {
         Some(run) => {
             let squares: f64 = run.residual.iter().map(|e| e * e).sum();
             let rms = (squares / run.residual.len() as f64).sqrt();
-            if (rms - told).abs() <= SAME * told {
+            if (rms - claim).abs() <= SAME * claim {
                 return None;
             }
-            let (rms, told) = (counts(rms), counts(told));
-            format!("the model misses it by {rms} counts RMS, and the result says {told}")
+            let (rms, claim) = (counts(rms), counts(claim));
+            format!("the model misses it by {rms} counts RMS, and the result says {claim}")
         }
         None => "it is too short for its end to have been held out".to_owned(),
     };
