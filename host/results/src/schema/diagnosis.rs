@@ -9,6 +9,9 @@ use servoid_identify::diagnose;
 use servoid_identify::diagnose::Refit;
 use servoid_identify::fit;
 
+/// What a diagnosis calls itself.
+pub const SCHEMA: &str = "servoid.diagnosis/1";
+
 /// `servoid.diagnosis/1`: where the model fails, and which effects are missing.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Diagnosis {

@@ -1,7 +1,8 @@
 //! One result, read from the file that a verb wrote with `--json`.
 
 use super::{
-    Contest, Demo, DeviceRun, Diagnosis, Fit, ModelFault, Steady, Verification, json_place,
+    Contest, Demo, DeviceRun, Diagnosis, Fit, ModelFault, Steady, Verification, contest, device,
+    diagnosis, fit, json_place, verification,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -93,7 +94,7 @@ impl Document {
         }
         let text = fs::read_to_string(path).map_err(|error| wrong(DocumentFault::Io(error)))?;
         let value: Value = serde_json::from_str(&text).map_err(|error| wrong(no_json(&error)))?;
-        if schema(&value).as_deref() == Some("servoid.device/1") {
+        if schema(&value).as_deref() == Some(device::SCHEMA) {
             return device(path.parent().unwrap_or(path)).map_err(wrong);
         }
         Self::from_json(value).map_err(wrong)
@@ -106,14 +107,14 @@ impl Document {
     pub fn from_json(value: Value) -> Result<Self, DocumentFault> {
         let schema = schema(&value);
         let document = match schema.as_deref() {
-            Some("servoid.fit/1") if is_demo(&value) => Document::Demo(keys(value)?),
-            Some("servoid.fit/1") => Document::Fit(keys(value)?),
-            Some("servoid.diagnosis/1") if value.get("steady").is_some() => {
+            Some(fit::SCHEMA) if is_demo(&value) => Document::Demo(keys(value)?),
+            Some(fit::SCHEMA) => Document::Fit(keys(value)?),
+            Some(diagnosis::SCHEMA) if value.get("steady").is_some() => {
                 Document::Steady(keys(value)?)
             }
-            Some("servoid.diagnosis/1") => Document::Diagnosis(keys(value)?),
-            Some("servoid.compare/1") => Document::Contest(keys(value)?),
-            Some("servoid.verify/1") => Document::Verification(keys(value)?),
+            Some(diagnosis::SCHEMA) => Document::Diagnosis(keys(value)?),
+            Some(contest::SCHEMA) => Document::Contest(keys(value)?),
+            Some(verification::SCHEMA) => Document::Verification(keys(value)?),
             other => return Err(DocumentFault::Schema(other.unwrap_or("missing").to_owned())),
         };
         document.check_models()?;

@@ -10,6 +10,9 @@ use servoid_identify::fit;
 use servoid_identify::truth::ParameterError;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
+/// What a fit calls itself.
+pub const SCHEMA: &str = "servoid.fit/1";
+
 /// `servoid.fit/1`: a model fitted to a recording.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Fit {
@@ -151,7 +154,7 @@ impl Fit {
     /// From a fit of `data`, judged also on the recording called `validate`.
     pub fn new(fit: &fit::Fit, data: &Data, validate: Option<&str>) -> Self {
         Fit {
-            schema: "servoid.fit/1".to_owned(),
+            schema: SCHEMA.to_owned(),
             algorithm: fit.algorithm.clone(),
             seed: fit.seed,
             evaluations: fit.evaluations,

@@ -1,6 +1,6 @@
 //! The models of a diagnosis, from the JSON that `servoid diagnose --json` writes.
 
-use super::diagnosis::Alternative;
+use super::diagnosis::{Alternative, SCHEMA};
 use super::hypotheses_fault::{DiagnosisError, DiagnosisFault};
 use super::model::terms;
 use super::partial::Partial;
@@ -8,9 +8,6 @@ use super::{ModelFault, json_place, number};
 use servoid_identify::plan::{Hypothesis, Setup};
 use std::fs;
 use std::path::Path;
-
-/// What a diagnosis calls itself.
-pub(super) const SCHEMA: &str = "servoid.diagnosis/1";
 
 /// The models of the diagnosis in `path` that differ in their effects, and what they run on.
 ///

@@ -1,7 +1,7 @@
 //! What can be wrong with a diagnosis that a plan is to be made from, each with its remedy.
 
 use super::ModelFault;
-use super::hypotheses::SCHEMA;
+use super::diagnosis::SCHEMA;
 use std::io;
 use std::path::PathBuf;
 

@@ -1,9 +1,8 @@
 //! What a fit, a diagnosis, a verification or a device found, from the JSON that it wrote.
 
-use super::device::{FILE as DEVICE, SCHEMA as DEVICE_SCHEMA};
 use super::identified_fault::{ResultError, ResultFault};
 use super::partial::{Found, Partial};
-use super::{Estimate, Machine, Model, ModelParameter};
+use super::{Estimate, Machine, Model, ModelParameter, device, diagnosis, fit, verification};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use servoid_io::recording::Drive;
@@ -49,7 +48,7 @@ impl Identified {
     /// A file that cannot be read, is no such result, or holds no model; with its place.
     pub fn read(path: &Path) -> Result<Self, ResultError> {
         let path = if path.is_dir() {
-            path.join(DEVICE)
+            path.join(device::FILE)
         } else {
             path.to_path_buf()
         };
@@ -72,13 +71,13 @@ impl Identified {
         let schema = json::<Named>(text)?.schema.unwrap_or_default();
         let file = || json::<Partial>(text);
         let result = match schema.as_str() {
-            "servoid.fit/1" => Identified::fitted(schema, file()?),
-            "servoid.diagnosis/1" => Identified::diagnosed(schema, file()?),
-            "servoid.verify/1" => {
+            fit::SCHEMA => Identified::fitted(schema, file()?),
+            diagnosis::SCHEMA => Identified::diagnosed(schema, file()?),
+            verification::SCHEMA => {
                 let diagnosis = file()?.diagnosis.ok_or(ResultFault::Undiagnosed)?;
                 Identified::diagnosed(schema, *diagnosis)
             }
-            DEVICE_SCHEMA => Identified::device(schema, file()?),
+            device::SCHEMA => Identified::device(schema, file()?),
             _ => return Err(ResultFault::Schema(shown(&schema))),
         }?;
         result.check()

@@ -4,6 +4,9 @@ use super::diagnosis::Diagnosis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// What a verification calls itself.
+pub const SCHEMA: &str = "servoid.verify/1";
+
 /// `servoid.verify/1`.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Verification {

@@ -15,7 +15,7 @@ use servoid_identify::fit::{self, Fit, Options};
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_results::device_run::{Folder, FolderError};
 use servoid_results::schema::device::Outcome;
-use servoid_results::schema::verification::Stronger;
+use servoid_results::schema::verification::{self, Stronger};
 use servoid_results::schema::{DeviceRun, Diagnosis, Verification};
 use shared::effects::Kind;
 use shared::wire::Stage;
@@ -74,7 +74,7 @@ pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
     }
     text += &format!("{verdict}\n");
     let json = Verification {
-        schema: "servoid.verify/1".to_owned(),
+        schema: verification::SCHEMA.to_owned(),
         same_bits: same,
         differ: replayed.differ,
         stronger: Some(stronger),

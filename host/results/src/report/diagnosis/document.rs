@@ -1,7 +1,7 @@
 //! A diagnosis as the document that is written.
 
 use super::DiagnosisReport;
-use crate::schema::diagnosis::{Alternative, Base, Candidate, Final, HeldOut, Step};
+use crate::schema::diagnosis::{Alternative, Base, Candidate, Final, HeldOut, SCHEMA, Step};
 use crate::schema::residual::{Residual, Where};
 use crate::schema::{Diagnosis, Model, VERSION, finite};
 use servoid_identify::diagnose::{self, Refit, Remark};
@@ -16,7 +16,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
         let no_load = (gain * report.data.supply).max(report.data.units.speed);
         let models = report.models();
         Diagnosis {
-            schema: "servoid.diagnosis/1".to_owned(),
+            schema: SCHEMA.to_owned(),
             quantization_floor_counts: Some(FLOOR_RMS_COUNTS),
             base: Base::from(&diagnosis.base),
             verdict: report.verdict().name().to_owned(),

@@ -3,6 +3,7 @@
 use super::text::verdict;
 use crate::report::style::{HEADING, painted};
 use crate::report::text::wrapped;
+use crate::schema::diagnosis::SCHEMA;
 use crate::schema::steady::{Curve, NotSimulated};
 use crate::schema::{Steady, VERSION, finite};
 use servoid_identify::diagnose::Verdict;
@@ -85,7 +86,7 @@ impl From<&SteadyReport<'_>> for Steady {
         let diagnosis = report.diagnosis;
         let owned = |name: &str| name.to_owned();
         Steady {
-            schema: "servoid.diagnosis/1".to_owned(),
+            schema: SCHEMA.to_owned(),
             quantization_floor_counts: None,
             base: NotSimulated::default(),
             verdict: diagnosis.verdict.name().to_owned(),
