@@ -6,6 +6,7 @@
 //! | `device_run` | a run of a device as a folder of files |
 //! | `report` | one result, one writer a format: text, JSON, page |
 //! | `number_text` | numbers as people read them |
+//! | `palette` | colours of all drawings |
 //! | `page`, `picture` | an HTML file of words, tables and interactive drawings |
 //! | `plot` | drawings as SVG |
 //! | `export` | what was found for other programs |
@@ -17,6 +18,7 @@ pub mod error;
 pub mod export;
 pub mod number_text;
 pub mod page;
+pub(crate) mod palette;
 pub mod picture;
 pub mod plot;
 pub mod report;

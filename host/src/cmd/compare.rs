@@ -40,13 +40,13 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let bar = session.progress(args.seeds * solvers.len() as u64, "compare");
     let rows = compare::run(&contest, &solvers, session.stop(), &|| bar.inc(1));
     bar.finish_and_clear();
+    let json = schema::Contest::new(&contest, &rows);
     if let Some(path) = &args.plot {
-        let drawing = plot::cost_curves(&rows, contest.budget, args.model.cost.name())?;
+        let drawing = plot::cost_curves(&json.rows, contest.budget, args.model.cost.name())?;
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
         session.remark(&format!("plot: {}", path.display()));
     }
     let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
-    let json = schema::Contest::new(&contest, &rows);
     sheet::write(session, &args.sheet, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }

@@ -20,7 +20,7 @@ pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<
     ]);
     let mut any = false;
     for (k, row) in rows.iter().enumerate() {
-        let colour = colour::LIST[k % 8];
+        let colour = colour::of(k);
         let Some(runs) = row.runs.as_ref().filter(|runs| !runs.curve.is_empty()) else {
             continue;
         };

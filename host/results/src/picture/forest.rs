@@ -47,7 +47,7 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
             Scatter::new(x, y)
                 .name(&source.name)
                 .mode(Mode::Markers)
-                .marker(Marker::new().color(colour::LIST[k % 8]).size(9))
+                .marker(Marker::new().color(colour::of(k)).size(9))
                 .error_x(ErrorData::new(ErrorType::Data).array(wide).thickness(2.0)),
         );
     }
