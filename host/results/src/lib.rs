@@ -10,6 +10,7 @@
 //! | `page`, `picture` | an HTML file of words, tables and interactive drawings |
 //! | `plot` | drawings as SVG |
 //! | `export` | what was found for other programs |
+//! | `reference` | the JSON as JSON Schema |
 //! | `error` | why a result cannot be shown |
 #![forbid(unsafe_code)]
 
@@ -21,6 +22,7 @@ pub mod page;
 pub(crate) mod palette;
 pub mod picture;
 pub mod plot;
+pub mod reference;
 pub mod report;
 pub mod schema;
 

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 pub const SCHEMA: &str = "servoid.compare/1";
 
 /// `servoid.compare/1`: search methods at an equal budget.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Contest {
     /// `servoid.compare/1`.
     #[serde(default)]
@@ -34,7 +34,7 @@ pub struct Contest {
 }
 
 /// Costs that the methods of the paper's contest are compared with.
-#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct KnownCosts {
     /// Least cost that anything found.
     pub optimum_cost: Option<f64>,
@@ -43,7 +43,7 @@ pub struct KnownCosts {
 }
 
 /// The paper's contest under all treatments.
-#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Rounds {
     /// All treatments of the quantiser and both steps; the first is `rows` again.
@@ -53,7 +53,7 @@ pub struct Rounds {
 }
 
 /// One treatment of the paper's contest.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Variant {
     /// Its name.
     pub name: String,
@@ -64,7 +64,7 @@ pub struct Variant {
 }
 
 /// One method.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Row {
     /// Its name; `actual` for the paper's true motor.
     pub algorithm: String,
@@ -77,7 +77,7 @@ pub struct Row {
 }
 
 /// The runs of one method.
-#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Runs {
     /// Over the seeds.
@@ -108,7 +108,7 @@ pub struct Runs {
 }
 
 /// A column of the paper's table.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Printed {
     /// Cost, deg·s.
     pub cost: Option<f64>,
@@ -121,7 +121,7 @@ pub struct Printed {
 }
 
 /// A method that needs few evaluations, on the paper's recording.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Strong {
     /// Its name.
     pub algorithm: String,

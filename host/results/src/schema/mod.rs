@@ -19,7 +19,6 @@
 //! | `identified` | what an export needs of any of these: the model, and how well each number is known |
 //! | `hypotheses` | what a plan needs of a diagnosis: the models that explain the data alike |
 //! | `partial` | the keys that these two look for in files of any version |
-//! | `reference` | all of these as JSON Schema |
 
 pub mod contest;
 pub mod device;
@@ -36,7 +35,6 @@ mod model_fault;
 mod partial;
 pub mod plan;
 pub mod proof;
-pub mod reference;
 pub mod residual;
 pub mod steady;
 pub mod verification;
@@ -69,10 +67,86 @@ pub(crate) fn finite(x: f64) -> Option<f64> {
     Some(x).filter(|x| x.is_finite())
 }
 
-/// Keys that stand in the object itself and only some verbs write. Serde alone would take a wrong type among them for
-/// their absence.
-fn flattened<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
-    from: D,
-) -> Result<Option<T>, D::Error> {
-    T::deserialize(from).map(Some)
+/// Keys that stand in the object itself and only some verbs write: `None` where there are none. Serde alone would take a
+/// wrong type among them for their absence.
+fn flattened<'de, T, D>(from: D) -> Result<Option<T>, D::Error>
+where
+    T: Deserialize<'de> + Default + PartialEq,
+    D: Deserializer<'de>,
+{
+    let keys = T::deserialize(from)?;
+    Ok(Some(keys).filter(|keys| *keys != T::default()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Serialize;
+
+    /// Results as the first version wrote them, with fewer elements in their lists. Never to be written anew: they stand
+    /// for the files that users have.
+    macro_rules! document {
+        ($name:literal) => {
+            include_str!(concat!("../../tests/documents/", $name, ".json"))
+        };
+    }
+
+    fn again<T: Serialize + for<'de> Deserialize<'de>>(name: &str, text: &str) {
+        let read: T = serde_json::from_str(text).expect(name);
+        let mut written = serde_json::to_string_pretty(&read).expect(name);
+        written.push('\n');
+        for (line, (is, was)) in written.lines().zip(text.lines()).enumerate() {
+            assert_eq!(is, was, "{name}.json:{}", line + 1);
+        }
+        assert_eq!(written.len(), text.len(), "{name}");
+    }
+
+    #[test]
+    fn what_was_written_is_read_and_written_again_to_the_byte() {
+        again::<Fit>("fit", document!("fit"));
+        again::<Demo>("demo", document!("demo"));
+        again::<Diagnosis>("diagnosis", document!("diagnosis"));
+        again::<Steady>("steady", document!("steady"));
+        again::<Plan>("plan", document!("plan"));
+        again::<Proof>("prove", document!("prove"));
+        again::<DeviceRun>("device", document!("device"));
+        again::<Verification>("verify", document!("verify"));
+        again::<Contest>("compare", document!("compare"));
+        again::<Contest>("paper", document!("paper"));
+    }
+
+    #[test]
+    fn every_document_is_known_by_its_schema() {
+        let kinds = [
+            (document!("fit"), "Fit"),
+            (document!("demo"), "Demo"),
+            (document!("diagnosis"), "Diagnosis"),
+            (document!("steady"), "Steady"),
+            (document!("compare"), "Contest"),
+            (document!("paper"), "Contest"),
+            (document!("verify"), "Verification"),
+        ];
+        for (text, kind) in kinds {
+            let value = serde_json::from_str(text).expect("JSON");
+            let document = format!("{:?}", Document::from_json(value).expect(kind));
+            assert!(document.starts_with(kind), "{kind}: {document}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_type_is_refused_with_the_path_to_its_key() {
+        let mut value: serde_json::Value = serde_json::from_str(document!("paper")).expect("JSON");
+        value["rows"][1]["median_cost"] = "much".into();
+        let fault = Document::from_json(value)
+            .expect_err("a wrong type")
+            .to_string();
+        assert!(fault.contains("rows[1]"), "{fault}");
+        let mut value: serde_json::Value =
+            serde_json::from_str(document!("diagnosis")).expect("JSON");
+        value["steps"][0]["candidates"][0]["effect"] = 1.into();
+        let fault = Document::from_json(value)
+            .expect_err("a wrong type")
+            .to_string();
+        assert!(fault.contains("steps[0].candidates[0].effect"), "{fault}");
+    }
 }
