@@ -3,7 +3,7 @@
 use super::diagnosis::{Alternative, SCHEMA};
 use super::hypotheses_fault::{DiagnosisError, DiagnosisFault};
 use super::model::terms;
-use super::partial::Partial;
+use super::partial::Alike;
 use super::{ModelFault, json_place, number};
 use servoid_identify::plan::{Hypothesis, Setup};
 use std::fs;
@@ -24,7 +24,7 @@ pub fn read(path: &Path) -> Result<(Vec<Hypothesis>, Setup), DiagnosisError> {
 }
 
 fn parse(text: &str) -> Result<(Vec<Hypothesis>, Setup), DiagnosisFault> {
-    let diagnosis: Partial = serde_json::from_str(text).map_err(json_fault)?;
+    let diagnosis: Alike = serde_json::from_str(text).map_err(json_fault)?;
     match diagnosis.schema.as_deref() {
         Some(SCHEMA) => {}
         other => return Err(DiagnosisFault::Schema(other.unwrap_or("missing").into())),
@@ -52,7 +52,7 @@ fn json_fault(error: serde_json::Error) -> DiagnosisFault {
     DiagnosisFault::Json { line, column, what }
 }
 
-fn setup(diagnosis: &Partial) -> Result<Setup, DiagnosisFault> {
+fn setup(diagnosis: &Alike) -> Result<Setup, DiagnosisFault> {
     let positive = |key: &'static str, value: Option<f64>| {
         let value = value.ok_or(DiagnosisFault::Missing(key))?;
         number(key, value, value > 0.0, "a positive number").map_err(DiagnosisFault::from)

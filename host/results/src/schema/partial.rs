@@ -6,14 +6,23 @@ use super::{Estimate, Model, device};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// Any result that holds a model.
+/// A diagnosis, as far as a plan follows from it.
+#[derive(Deserialize)]
+pub(super) struct Alike {
+    pub schema: Option<String>,
+    pub models: Option<Vec<Alternative>>,
+    pub supply_v: Option<f64>,
+    pub no_load_rad_s: Option<f64>,
+    pub counts_per_rev: Option<f64>,
+    pub sample_s: Option<f64>,
+}
+
+/// Any result that holds a model, as far as an export follows from it.
 #[derive(Deserialize)]
 pub(super) struct Partial {
-    pub schema: Option<String>,
     pub recording: Option<String>,
     pub drive: Option<String>,
     pub supply_v: Option<f64>,
-    pub no_load_rad_s: Option<f64>,
     pub counts_per_rev: Option<f64>,
     pub sample_s: Option<f64>,
     /// Of a fit.
@@ -25,8 +34,6 @@ pub(super) struct Partial {
     /// Of a diagnosis.
     #[serde(rename = "final")]
     pub last: Option<Found>,
-    /// Of a diagnosis.
-    pub models: Option<Vec<Alternative>>,
     /// Of the diagnosis of a curve of steady speeds.
     pub steady: Option<IgnoredAny>,
     /// Of a verification.

@@ -189,8 +189,8 @@ fn every_text_is_of_its_language() {
 
 #[test]
 fn no_file_of_the_repository_lists_other_formats_than_there_are() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let json = fs::read_to_string(root.join("docs/json.md")).expect("the documentation");
+    let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/book/src");
+    let json = fs::read_to_string(book.join("reference/json.md")).expect("the documentation");
     for format in FORMATS {
         assert!(
             json.contains(&format!("`{}`", format.name)),
