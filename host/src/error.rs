@@ -8,7 +8,7 @@ use servoid_io::output::{CommandsError, WriteError};
 use servoid_plant::BenchError;
 use servoid_results::device_run::FolderError;
 use servoid_results::export::ExportError;
-use servoid_results::kept::{KeptError, ResultError};
+use servoid_results::schema::{DocumentError, ResultError};
 use shared::error::ModelError;
 use thiserror::Error;
 
@@ -47,7 +47,7 @@ pub enum Error {
     Steady(#[from] SteadyError),
     /// A result of another verb that cannot be read.
     #[error(transparent)]
-    Kept(#[from] KeptError),
+    Document(#[from] DocumentError),
     /// A device, or the link to it.
     #[error(transparent)]
     Device(#[from] DeviceError),

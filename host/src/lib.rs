@@ -16,4 +16,4 @@ pub use servoid_engine::{block_cost, compare, data, lanes, problem, simulation, 
 pub use servoid_identify::{diagnose, fit, paper, plan, truth};
 pub use servoid_io::{input, output, recording, showcase};
 pub use servoid_plant as bench;
-pub use servoid_results::{export, kept, page, picture, plot, report};
+pub use servoid_results::{export, page, picture, plot, report, schema};

@@ -11,7 +11,8 @@ use servoid_identify::bounded_problem;
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
-use servoid_results::report::sheet::Recordings;
+use servoid_results::report::html::Recordings;
+use servoid_results::schema;
 
 pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
@@ -38,13 +39,13 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let bar = session.progress(args.seeds * solvers.len() as u64, "compare");
     let rows = compare::run(&contest, &solvers, session.stop(), &|| bar.inc(1));
     bar.finish_and_clear();
+    let json = schema::Contest::new(&contest, &rows);
     if let Some(path) = &args.plot {
-        let drawing = plot::cost_curves(&rows, contest.budget, options.cost_name())?;
+        let drawing = plot::cost_curves(&json.rows, contest.budget, options.cost_name())?;
         write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
         session.remark(&format!("plot: {}", path.display()));
     }
     let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
-    let json = report::json::CompareJson::new(&contest, &rows);
     sheet::write(session, &args.sheet, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }

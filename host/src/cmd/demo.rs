@@ -17,9 +17,10 @@ use servoid_identify::diagnose_data;
 use servoid_identify::fit::Options;
 use servoid_io::output::write_whole;
 use servoid_io::showcase;
-use servoid_results::report::demo::{DemoJson, DemoReport};
+use servoid_results::report::demo::DemoReport;
 use servoid_results::report::diagnosis::DiagnosisReport;
-use servoid_results::report::sheet::{self, Recordings};
+use servoid_results::report::html::{self, Recordings};
+use servoid_results::schema::Demo;
 
 pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
     session.check_outputs(&[("--out", &args.out)], &[])?;
@@ -53,12 +54,12 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         blind: args.blind,
         counts_per_rev: showcase::COUNTS_PER_REV,
     };
-    let json = DemoJson::from(&story);
+    let json = Demo::from(&story);
     let drawn = Recordings {
         fitted: Some(&data),
         held_out: Some(&held_out),
     };
-    let page = sheet::page(&report::kept(&json)?, drawn)?;
+    let page = html::page(&report::document(&json)?, drawn)?;
     write_whole(&args.out, |out| out.write_all(page.render().as_bytes()))?;
     let text = format!(
         "{}\npage with the drawings: {}\n",

@@ -10,10 +10,9 @@ use servoid_identify::diagnose::steady;
 use servoid_identify::fit::Options;
 use servoid_identify::{Datasets, diagnose_datasets};
 use servoid_io::input::SteadyCurve;
-use servoid_results::report::diagnosis::{
-    DiagnosisJson, DiagnosisReport, SteadyJson, SteadyReport,
-};
-use servoid_results::report::sheet;
+use servoid_results::report::diagnosis::{DiagnosisReport, SteadyReport};
+use servoid_results::report::html;
+use servoid_results::schema::{Diagnosis, Steady};
 
 /// The unit of --budget, steps of a model.
 const MILLION: u64 = 1_000_000;
@@ -48,8 +47,8 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     drop(watched);
     let Datasets { fitted, kind, .. } = &datasets;
     let told = DiagnosisReport::new(&found, fitted, kind, session.seed, session.json_file());
-    let json = DiagnosisJson::from(&told);
-    let drawn = sheet::Recordings {
+    let json = Diagnosis::from(&told);
+    let drawn = html::Recordings {
         fitted: Some(datasets.whole.as_deref().unwrap_or(fitted)),
         held_out: kind.source().map(|_| &datasets.held_out),
     };
@@ -72,7 +71,7 @@ fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         diagnosis: &diagnosis,
         seed: session.seed,
     };
-    let json = SteadyJson::from(&told);
-    report::write(session, &args.sheet, &json, sheet::Recordings::default())?;
+    let json = Steady::from(&told);
+    report::write(session, &args.sheet, &json, html::Recordings::default())?;
     session.deliver(&told.text(), &json)
 }

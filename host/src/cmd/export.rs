@@ -9,7 +9,7 @@ use servoid_results::export::gains::Asked;
 use servoid_results::export::{
     Format, Lack, Mapped, Options, Side, Subject, SubjectError, Written,
 };
-use servoid_results::kept::{KeptResult, ResultError, ResultFault};
+use servoid_results::schema::{Identified, ResultError, ResultFault};
 
 /// Ratios of gears, generously.
 const RATIOS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
@@ -41,9 +41,9 @@ pub(super) fn run(session: &Session, args: &ExportArgs) -> Result<(), Error> {
     let options = options(args)?;
     let unknown = || Error::Usage(format!("--to {}: no such format", args.to));
     let format = Format::by_name(&args.to).ok_or_else(unknown)?;
-    let kept = KeptResult::read(&args.result)?;
+    let identified = Identified::read(&args.result)?;
     let source = args.result.display().to_string();
-    let subject = Subject::new(&kept, &source, side).map_err(|error| match error {
+    let subject = Subject::new(&identified, &source, side).map_err(|error| match error {
         SubjectError::Export(error) => Error::from(error),
         SubjectError::Model(fault) => Error::from(ResultError {
             path: args.result.clone(),

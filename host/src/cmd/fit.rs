@@ -10,8 +10,8 @@ use servoid_identify::fit::Options;
 use servoid_identify::identify_data;
 use servoid_io::output::write_whole;
 use servoid_results::plot;
-use servoid_results::report::json::FitJson;
-use servoid_results::report::{sheet, text};
+use servoid_results::report::{html, text};
+use servoid_results::schema;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
@@ -46,8 +46,8 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         session.remark(&format!("plot: {}", path.display()));
     }
     let source = validation.as_ref().map(|data| data.source.as_str());
-    let json = FitJson::new(&fit, &data, source);
-    let drawn = sheet::Recordings {
+    let json = schema::Fit::new(&fit, &data, source);
+    let drawn = html::Recordings {
         fitted: Some(&data),
         held_out: validation.as_ref(),
     };

@@ -5,7 +5,7 @@ use super::report as sheet;
 use crate::cli::PaperArgs;
 use crate::error::Error;
 use crate::session::Session;
-use servoid_engine::compare::{self, Contest, Row};
+use servoid_engine::compare::{self, Contest};
 use servoid_engine::problem::{Candidate, Data, FitProblem};
 use servoid_engine::solve::{self, Objective};
 use servoid_identify::fit::margins::Loop;
@@ -13,9 +13,9 @@ use servoid_identify::paper::{self, Experiment, PRINTED, Variant};
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
-use servoid_results::report::json::{PaperJson, least_cost};
+use servoid_results::report::html::Recordings;
 use servoid_results::report::paper::{PrintedCosts, Round, Strong};
-use servoid_results::report::sheet::Recordings;
+use servoid_results::schema::{self, contest::least_cost};
 use shared::effects::EffectSet;
 use std::path::Path;
 
@@ -86,11 +86,11 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     let strong = strong(session, &data, &seeds, &|| bar.inc(1))?;
     bar.finish_and_clear();
 
+    let json = report::paper::document(&rounds, &strong);
     if let Some(folder) = &args.plots {
-        draw(folder, &rounds, budget, session)?;
+        draw(folder, &rounds, &json, session)?;
     }
     let text = report::paper::text(&rounds, &strong, &printed_costs(&data));
-    let json = PaperJson::new(&rounds, &strong);
     sheet::write(session, &args.sheet, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }
@@ -166,7 +166,7 @@ fn strong(
 fn draw(
     folder: &Path,
     rounds: &[Round<'_>],
-    budget: usize,
+    json: &schema::Contest,
     session: &Session,
 ) -> Result<(), Error> {
     let mut loops: Vec<(String, Loop)> = PRINTED
@@ -198,9 +198,8 @@ fn draw(
     }
     write(folder, "bode.svg", &plot::bode(&loops, 0.1, 1e3)?, session)?;
     // A round that the user stopped before its first run has no curves.
-    for round in rounds
-        .iter()
-        .filter(|round| least_cost(&round.rows).is_finite())
+    for (round, variant) in (rounds.iter().zip(json.variants()))
+        .filter(|(round, _)| least_cost(&round.rows).is_finite())
     {
         let name = format!(
             "cost-curves-{}.svg",
@@ -210,7 +209,7 @@ fn draw(
         write(
             folder,
             &name,
-            &plot::cost_curves(&round.rows as &[Row], budget, &cost)?,
+            &plot::cost_curves(&variant.rows, json.budget, &cost)?,
             session,
         )?;
     }

@@ -6,8 +6,8 @@ use crate::session::Session;
 use servoid_identify::plan::{Hypothesis, Limits, PlanTask, Setup, candidate_count, rank};
 use servoid_io::output::{CommandSequence, write_commands};
 use servoid_plant::Machine;
-use servoid_results::kept::hypotheses;
 use servoid_results::report::plan::Plan;
+use servoid_results::schema::hypotheses;
 use shared::effects::Kind;
 use std::path::Path;
 
@@ -61,7 +61,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         let commands = commands(&plan);
         write_commands(out, &commands, &plan.provenance())?;
     }
-    session.deliver(&plan.text(), &plan.json())
+    session.deliver(&plan.text(), &plan.document())
 }
 
 /// The best excitation, sample by sample.

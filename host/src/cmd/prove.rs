@@ -2,7 +2,7 @@
 
 use crate::cli::ProveArgs;
 use crate::error::Error;
-use crate::prove::report::{ProveJson, text};
+use crate::prove::report::{document, text};
 use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError, Tally};
 use crate::session::Session;
 use std::collections::BTreeSet;
@@ -117,5 +117,5 @@ fn missing(args: &ProveArgs, done: &[Outcome]) -> Vec<u64> {
 fn deliver(session: &Session, header: &Header, outcomes: &[Outcome]) -> Result<(), Error> {
     let tally = Tally::new(header, outcomes);
     let interrupted = session.stop().load(Ordering::Relaxed);
-    session.deliver(&text(&tally), &ProveJson::new(&tally, interrupted))
+    session.deliver(&text(&tally), &document(&tally, interrupted))
 }

@@ -8,9 +8,10 @@ use serde::Serialize;
 use servoid_engine::problem::Data;
 use servoid_io::output::write_whole;
 use servoid_io::recording::Recording;
-use servoid_results::kept::{Kept, KeptDiagnosis};
+use servoid_results::device_run::Folder;
 use servoid_results::report::fold::folded;
-use servoid_results::report::sheet::{self, Recordings};
+use servoid_results::report::html::{self, Recordings};
+use servoid_results::schema::{Diagnosis, Document, Fit};
 use shared::wire::Stage;
 use std::path::{Path, PathBuf};
 
@@ -32,8 +33,8 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
         let validate = args.validate.as_deref();
         motor::check_outputs(session, &outputs, &args.motor, recording, validate)?;
     }
-    let kept = Kept::read(&args.result)?;
-    let (fitted, held_out) = sources(&kept);
+    let document = Document::read(&args.result)?;
+    let (fitted, held_out) = sources(&document);
     let fitted = place(session, args, "--recording", &args.recording, fitted);
     let held_out = place(session, args, "--validate", &args.validate, held_out);
     // The recordings that the result names must not be written over either.
@@ -46,14 +47,14 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
         Ok(recording.transpose()?.map(|(recording, _)| recording))
     };
     let (fitted, held_out) = (read(fitted)?, read(held_out)?);
-    let doubts = sheet::doubts(&kept, fitted.as_ref(), held_out.as_ref())?;
+    let doubts = html::doubts(&document, fitted.as_ref(), held_out.as_ref())?;
     let data = |recording: Option<Recording>| recording.map(|r| Data::new(&r)).transpose();
     let (fitted, held_out) = (data(fitted)?, data(held_out)?);
     let recordings = Recordings {
         fitted: fitted.as_ref(),
         held_out: held_out.as_ref(),
     };
-    let mut page = sheet::page(&kept, recordings)?;
+    let mut page = html::page(&document, recordings)?;
     for doubt in doubts {
         session.remark(&folded(&doubt, "  "));
         page.lead.push(doubt);
@@ -90,45 +91,52 @@ pub(super) fn write(
     let Some(path) = &args.report else {
         return Ok(());
     };
-    let page = sheet::page(&kept(json)?, recordings)?;
+    let page = html::page(&document(json)?, recordings)?;
     write_whole(path, |out| out.write_all(page.render().as_bytes()))?;
     session.remark(&format!("page: {}", path.display()));
     Ok(())
 }
 
 /// A result as it will be read again from its file: a page made now is the page made from the file.
-pub(super) fn kept(json: &impl Serialize) -> Result<Kept, Error> {
+pub(super) fn document(json: &impl Serialize) -> Result<Document, Error> {
     let failed = |error: &dyn std::fmt::Display| {
         Error::Failed(format!("the result cannot be made a page: {error}"))
     };
     let value = serde_json::to_value(json).map_err(|error| failed(&error))?;
-    Kept::from_json(value).map_err(|fault| failed(&fault))
+    Document::from_json(value).map_err(|fault| failed(&fault))
 }
 
 /// The recordings that a result was made from.
-fn sources(kept: &Kept) -> (Option<PathBuf>, Option<PathBuf>) {
-    let diagnosed = |diagnosis: &KeptDiagnosis| {
+fn sources(document: &Document) -> (Option<PathBuf>, Option<PathBuf>) {
+    let diagnosed = |diagnosis: &Diagnosis| {
         let source = diagnosis.held_out.source.as_ref();
         (
             Some(PathBuf::from(&diagnosis.recording)),
             source.map(PathBuf::from),
         )
     };
-    match kept {
-        Kept::Fit(fit) => (
+    let fitted = |fit: &Fit| {
+        (
             Some(PathBuf::from(&fit.recording)),
             fit.validate.as_ref().map(PathBuf::from),
-        ),
-        Kept::Diagnosis(diagnosis) => diagnosed(diagnosis),
-        Kept::Verification(verification) => verification
+        )
+    };
+    match document {
+        Document::Fit(fit) => fitted(fit),
+        Document::Demo(demo) => fitted(&demo.fit),
+        Document::Diagnosis(diagnosis) => diagnosed(diagnosis),
+        Document::Verification(verification) => verification
             .diagnosis
             .as_ref()
             .map_or((None, None), |diagnosis| diagnosed(diagnosis)),
-        Kept::Device(_, folder) => (
-            folder.recording_of(Stage::Record),
-            folder.recording_of(Stage::Verify),
-        ),
-        Kept::Steady(_) | Kept::Contest(_) => (None, None),
+        Document::Device(_, folder) => {
+            let folder = Folder::at(folder);
+            (
+                folder.recording_of(Stage::Record),
+                folder.recording_of(Stage::Verify),
+            )
+        }
+        Document::Steady(_) | Document::Contest(_) => (None, None),
     }
 }
 

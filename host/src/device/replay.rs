@@ -1,6 +1,6 @@
 //! The device's fit once more on the host: same recording, seed and number format, and so the same bits.
 
-use servoid_results::device_run::Saved;
+use servoid_results::schema::DeviceRun;
 use shared::fit::{Arithmetic, Fit, Outcome};
 use shared::scalar::Fixed;
 use shared::trace::Trace;
@@ -15,7 +15,7 @@ pub struct Replayed {
 }
 
 /// Fits what the device fitted, as the device fitted it.
-pub fn replay(saved: &Saved, duties: &[i16], steps: &[i16]) -> Replayed {
+pub fn replay(saved: &DeviceRun, duties: &[i16], steps: &[i16]) -> Replayed {
     let trace = Trace::new(duties, steps);
     let outcome = if saved.format == "fixed" {
         fit::<Fixed>(saved, &trace)
@@ -28,7 +28,7 @@ pub fn replay(saved: &Saved, duties: &[i16], steps: &[i16]) -> Replayed {
     }
 }
 
-fn fit<S: Arithmetic>(saved: &Saved, trace: &Trace<'_>) -> Option<Outcome> {
+fn fit<S: Arithmetic>(saved: &DeviceRun, trace: &Trace<'_>) -> Option<Outcome> {
     let mut fit = Fit::<S>::idle();
     if !fit.begin(trace, saved.fit) {
         return None;
@@ -40,7 +40,7 @@ fn fit<S: Arithmetic>(saved: &Saved, trace: &Trace<'_>) -> Option<Outcome> {
     }
 }
 
-fn differences(saved: &Saved, host: Option<&Outcome>) -> Vec<String> {
+fn differences(saved: &DeviceRun, host: Option<&Outcome>) -> Vec<String> {
     let (Some(reported), Some(host)) = (&saved.outcome, host) else {
         return match (&saved.outcome, host) {
             (None, None) => Vec::new(),

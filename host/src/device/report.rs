@@ -1,12 +1,14 @@
 //! What a device sent, as the report that is written.
 
 use super::{Order, Run};
-use servoid_results::device_run::{Recorded, Saved, SavedFailure, SavedOutcome, SavedParameter};
+use servoid_results::device_run::Recorded;
+use servoid_results::schema::DeviceRun;
+use servoid_results::schema::device;
 use shared::fit::{Outcome, Stop};
 use shared::wire::{About, Fault, Format};
 
 /// Of a run that came to its end.
-pub fn report(run: &Run, order: &Order) -> Saved {
+pub fn report(run: &Run, order: &Order) -> DeviceRun {
     let failure = run.outcome.as_ref().err();
     let report = run
         .outcome
@@ -16,7 +18,7 @@ pub fn report(run: &Run, order: &Order) -> Saved {
     let mut saved = broken(&run.about, order, &run.recorded);
     saved.partial =
         saved.missing > 0 || failure.is_some_and(|failure| failure.fault != Fault::NotVerified);
-    saved.failure = failure.map(|failure| SavedFailure {
+    saved.failure = failure.map(|failure| device::Failure {
         fault: format!("{:?}", failure.fault),
         message: failure.fault.to_string(),
         stage: format!("{:?}", failure.stage).to_lowercase(),
@@ -41,8 +43,8 @@ pub fn report(run: &Run, order: &Order) -> Saved {
 }
 
 /// Of a run whose end is not known.
-pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> Saved {
-    Saved {
+pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun {
+    DeviceRun {
         schema: "servoid.device/1".to_owned(),
         board: about.board.to_string(),
         firmware: about.firmware.to_string(),
@@ -65,7 +67,7 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> Saved {
     }
 }
 
-fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> SavedOutcome {
+fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> device::Outcome {
     let per_count = std::f64::consts::TAU / order.counts_per_rev;
     let gain = per_count / period_s / unit_v;
     let mut measures = vec![
@@ -86,14 +88,14 @@ fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> Save
             .zip(measures)
             .map(|(estimate, (name, scale, unit))| {
                 let std = f64::from(estimate.std) * scale;
-                SavedParameter {
+                device::Parameter {
                     name: name.to_owned(),
                     value: f64::from(estimate.value) * scale,
                     unit: unit.to_owned(),
                     std: std.is_finite().then_some(std),
                 }
             });
-    SavedOutcome {
+    device::Outcome {
         parameters: parameters.collect(),
         bits: outcome
             .estimates

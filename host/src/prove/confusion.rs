@@ -2,33 +2,12 @@
 
 use super::Outcome;
 use super::interval::Count;
-use serde::Serialize;
 use servoid_plant::effects::CATALOGUE;
+use servoid_results::schema::proof::Confusion;
 use std::collections::BTreeMap;
 
 /// What is said of a case in which no effect is named.
 pub const NOTHING: &str = "nothing";
-
-/// One hidden effect, over the cases in which it could be found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Confusion {
-    /// The effect.
-    pub effect: &'static str,
-    /// Cases that hide it alone.
-    pub alone: u64,
-    /// Of these, with it named first.
-    pub right: u64,
-    /// Of these, with it in the first printed set.
-    pub in_set: u64,
-    /// What it was called where it was not named first, with how often, the most frequent first.
-    pub called: Vec<(String, u64)>,
-    /// Cases that hide it with another.
-    pub paired: u64,
-    /// Of these, with it named.
-    pub paired_named: u64,
-    /// Numbers of the cases in which it is not named.
-    pub missed_cases: Vec<u64>,
-}
 
 /// The table over `outcomes`, the effect that fares worst first.
 pub fn confusions(outcomes: &[Outcome]) -> Vec<Confusion> {
@@ -37,7 +16,7 @@ pub fn confusions(outcomes: &[Outcome]) -> Vec<Confusion> {
         .map(|kind| confusion(kind.name, outcomes))
         .filter(|row| row.alone + row.paired > 0)
         .collect();
-    rows.sort_by(|a, b| a.part().total_cmp(&b.part()));
+    rows.sort_by(|a, b| part(a).total_cmp(&part(b)));
     rows
 }
 
@@ -67,7 +46,7 @@ fn confusion(effect: &'static str, outcomes: &[Outcome]) -> Confusion {
         .chain(&paired)
         .filter(|outcome| !named(outcome));
     Confusion {
-        effect,
+        effect: effect.to_owned(),
         alone: alone.len() as u64,
         right: Count::of(alone.iter().copied(), Outcome::right_first).hits,
         in_set: Count::of(alone.iter().copied(), Outcome::right_in_set).hits,
@@ -78,9 +57,7 @@ fn confusion(effect: &'static str, outcomes: &[Outcome]) -> Confusion {
     }
 }
 
-impl Confusion {
-    /// Part of the cases in which it is named.
-    fn part(&self) -> f64 {
-        (self.right + self.paired_named) as f64 / (self.alone + self.paired).max(1) as f64
-    }
+/// Part of the cases in which it is named.
+fn part(row: &Confusion) -> f64 {
+    (row.right + row.paired_named) as f64 / (row.alone + row.paired).max(1) as f64
 }

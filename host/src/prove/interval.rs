@@ -1,6 +1,6 @@
 //! How well a count determines a rate.
 
-use serde::Serialize;
+use servoid_results::schema::proof::Rate;
 use statrs::distribution::{Beta, ContinuousCDF};
 
 /// Chance that the interval misses the rate.
@@ -13,17 +13,6 @@ pub struct Count {
     pub hits: u64,
     /// Of how many.
     pub of: u64,
-}
-
-/// A rate with the interval of 95 % about it, as parts of one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Rate {
-    /// The count over its total.
-    pub part: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
 }
 
 impl Count {

@@ -38,18 +38,17 @@ mod tally;
 mod tests;
 
 pub use case::{Case, Drawn};
-pub use confusion::Confusion;
 pub use content::{Content, merge, read};
 pub use header::Header;
 pub use hide::surprise;
-pub use interval::{Count, Rate};
+pub use interval::Count;
 pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
 pub use shard::{BadShard, Shard};
 pub use store::Store;
 pub use store_error::{Fault, StoreError};
-pub use tally::{Group, Share, Spread, Tally};
+pub use tally::{Group, Share, Tally};
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};

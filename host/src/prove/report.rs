@@ -1,7 +1,8 @@
-//! The table of the proving ground, as text and as JSON.
+//! The table of the proving ground, as text and as a document.
 
-use super::{Confusion, Count, DETECTABLE_COUNTS, Group, Rate, SetUp, Spread, Tally};
-use serde::Serialize;
+use super::{Count, DETECTABLE_COUNTS, Group, Tally};
+use servoid_results::schema::Proof;
+use servoid_results::schema::proof::{self, Confusion, Failure, Rate, Spread};
 
 /// Width of the text, columns.
 const WIDTH: usize = 80;
@@ -169,98 +170,56 @@ fn folded(text: &str, indent: &str) -> String {
     out
 }
 
-/// `servoid.prove/1`.
-#[derive(Debug, Serialize)]
-pub struct ProveJson<'a> {
-    schema: &'static str,
-    version: &'a str,
-    set_up: &'a SetUp,
-    cases: u64,
-    failures: Vec<FailureJson<'a>>,
-    shares: Vec<ShareJson>,
-    groups: Vec<GroupJson>,
-    size_errors_percent: Spread,
-    shape_errors_percent: Spread,
-    confusions: &'a [Confusion],
-    interrupted: bool,
-}
-
-#[derive(Debug, Serialize)]
-struct FailureJson<'a> {
-    case: u64,
-    reason: &'a str,
-}
-
-#[derive(Debug, Serialize)]
-struct GroupJson {
-    hidden: usize,
-    cases: u64,
-    detectable: u64,
-    shares: Vec<ShareJson>,
-    seconds: Spread,
-    refits: Spread,
-}
-
-#[derive(Debug, Serialize)]
-struct ShareJson {
-    name: &'static str,
-    count: u64,
-    of: u64,
-    rate: Option<Rate>,
-}
-
-impl ShareJson {
-    fn new(name: &'static str, count: &Count) -> Self {
-        ShareJson {
-            name,
-            count: count.hits,
-            of: count.of,
-            rate: count.rate(),
-        }
+/// As the document that is written; `interrupted` where the user stopped the work.
+pub fn document(tally: &Tally, interrupted: bool) -> Proof {
+    let failures = tally.failures.iter();
+    Proof {
+        schema: "servoid.prove/1".to_owned(),
+        version: tally.version.clone(),
+        set_up: proof::SetUp {
+            seed: tally.set_up.seed,
+            hidden: tally.set_up.hidden.name(),
+            excite: tally.set_up.excite.name(),
+            effects: tally.set_up.effects.clone(),
+        },
+        cases: tally.cases,
+        failures: failures
+            .map(|(case, reason)| Failure {
+                case: *case,
+                reason: reason.clone(),
+            })
+            .collect(),
+        shares: vec![
+            counted("quite_wrong_name", &tally.invented),
+            counted("worse_than_base", &tally.worse_than_base),
+        ],
+        groups: tally.groups.iter().map(group).collect(),
+        size_errors_percent: tally.size_errors,
+        shape_errors_percent: tally.shape_errors,
+        confusions: tally.confusions.clone(),
+        interrupted,
     }
 }
 
-impl From<&Group> for GroupJson {
-    fn from(group: &Group) -> Self {
-        GroupJson {
-            hidden: group.hidden,
-            cases: group.cases,
-            detectable: group.detectable,
-            shares: group
-                .shares
-                .iter()
-                .map(|share| ShareJson::new(share.name, &share.count))
-                .collect(),
-            seconds: group.seconds,
-            refits: group.refits,
-        }
+fn group(group: &Group) -> proof::Group {
+    let shares = group.shares.iter();
+    proof::Group {
+        hidden: group.hidden,
+        cases: group.cases,
+        detectable: group.detectable,
+        shares: shares
+            .map(|share| counted(share.name, &share.count))
+            .collect(),
+        seconds: group.seconds,
+        refits: group.refits,
     }
 }
 
-impl<'a> ProveJson<'a> {
-    /// From the table; `interrupted` where the user stopped the work.
-    pub fn new(tally: &'a Tally, interrupted: bool) -> Self {
-        let failures = tally.failures.iter();
-        ProveJson {
-            schema: "servoid.prove/1",
-            version: &tally.version,
-            set_up: &tally.set_up,
-            cases: tally.cases,
-            failures: failures
-                .map(|(case, reason)| FailureJson {
-                    case: *case,
-                    reason,
-                })
-                .collect(),
-            shares: vec![
-                ShareJson::new("quite_wrong_name", &tally.invented),
-                ShareJson::new("worse_than_base", &tally.worse_than_base),
-            ],
-            groups: tally.groups.iter().map(GroupJson::from).collect(),
-            size_errors_percent: tally.size_errors,
-            shape_errors_percent: tally.shape_errors,
-            confusions: &tally.confusions,
-            interrupted,
-        }
+fn counted(name: &str, count: &Count) -> proof::Share {
+    proof::Share {
+        name: name.to_owned(),
+        count: count.hits,
+        of: count.of,
+        rate: count.rate(),
     }
 }

@@ -1,11 +1,11 @@
 //! How often the diagnosis is right, over many cases.
 
-use super::confusion::{Confusion, confusions};
+use super::confusion::confusions;
 use super::interval::Count;
 use super::{Header, Outcome, SetUp};
-use serde::Serialize;
 use servoid_engine::compare::quantile;
 use servoid_identify::truth::ParameterError;
+use servoid_results::schema::proof::{Confusion, Spread};
 
 /// The whole table.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,19 +58,6 @@ pub struct Share {
     pub says: &'static str,
     /// How often the answer is yes.
     pub count: Count,
-}
-
-/// Middle and upper end of many numbers; none of no numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Spread {
-    /// How many.
-    pub count: usize,
-    /// Half are below.
-    pub median: Option<f64>,
-    /// Nine of ten are below.
-    pub p90: Option<f64>,
-    /// The largest.
-    pub max: Option<f64>,
 }
 
 type Question = (&'static str, &'static str, fn(&Outcome) -> bool);
@@ -136,7 +123,7 @@ impl Tally {
         let failure = |o: &Outcome| Some((o.case, o.failure.clone()?));
         let errors = |size: bool| {
             let all = outcomes.iter().flat_map(|outcome| &outcome.parameters);
-            Spread::of(
+            spread(
                 all.filter(|error| error.size == size)
                     .map(|error: &ParameterError| error.percent),
             )
@@ -194,22 +181,20 @@ impl Group {
             cases: cases.len() as u64,
             detectable: seen.len() as u64,
             shares,
-            seconds: Spread::of(seen.iter().map(|o| o.seconds)),
-            refits: Spread::of(seen.iter().map(|o| o.refits as f64)),
+            seconds: spread(seen.iter().map(|o| o.seconds)),
+            refits: spread(seen.iter().map(|o| o.refits as f64)),
         })
     }
 }
 
-impl Spread {
-    fn of(values: impl Iterator<Item = f64>) -> Spread {
-        let mut sorted: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-        sorted.sort_by(f64::total_cmp);
-        let at = |q| Some(quantile(&sorted, q)).filter(|value| value.is_finite());
-        Spread {
-            count: sorted.len(),
-            median: at(0.5),
-            p90: at(0.9),
-            max: at(1.0),
-        }
+fn spread(values: impl Iterator<Item = f64>) -> Spread {
+    let mut sorted: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let at = |q| Some(quantile(&sorted, q)).filter(|value| value.is_finite());
+    Spread {
+        count: sorted.len(),
+        median: at(0.5),
+        p90: at(0.9),
+        max: at(1.0),
     }
 }

@@ -6,7 +6,7 @@ use super::state::Bench;
 use crate::error::Error;
 use serde_json::Value;
 use servoid_results::export::{Format, Options, Side, Subject};
-use servoid_results::kept::KeptResult;
+use servoid_results::schema::Identified;
 
 /// The file's name, and its text.
 pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Error> {
@@ -38,7 +38,7 @@ pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Erro
             let format = Format::by_name(other)
                 .ok_or_else(|| Error::Usage(format!("there is no format `{other}`")))?;
             let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-            let kept = KeptResult::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
+            let kept = Identified::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
             let subject = Subject::new(&kept, "the workbench", Side::Motor)
                 .map_err(|error| failed(&error))?;
             let written = (format.write)(&subject, &Options::default())?;

@@ -9,8 +9,7 @@ use servoid_engine::solve::Found;
 use servoid_identify::diagnose::HeldOut;
 use servoid_identify::fit::scores::whole;
 use servoid_identify::fit::{self, Fit, Options, validation_errors};
-use servoid_results::kept::KeptModel;
-use servoid_results::report::json::FitJson;
+use servoid_results::schema;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
@@ -75,7 +74,7 @@ impl Model {
     /// A model that was kept, with its errors and intervals found again.
     pub(super) fn again(
         id: usize,
-        kept: &KeptModel,
+        kept: &schema::Model,
         algorithm: &str,
         recordings: &Recordings,
     ) -> Result<Self, Error> {
@@ -124,7 +123,7 @@ impl Model {
     pub(super) fn json(&self, recordings: &Recordings) -> Result<Value, Error> {
         let other = recordings.held_out.as_ref();
         let validate = other.map(|loaded| loaded.source.name.as_str());
-        let json = FitJson::new(&self.fit, &recordings.fitted.data, validate);
+        let json = schema::Fit::new(&self.fit, &recordings.fitted.data, validate);
         serde_json::to_value(json).map_err(|error| Error::Failed(error.to_string()))
     }
 

@@ -10,7 +10,7 @@ use serde_json::Value;
 use servoid_io::output::write_whole;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
-use servoid_results::kept::{Kept, KeptModel};
+use servoid_results::schema::{self, Document};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ struct SavedModel {
     algorithm: String,
     evaluations: usize,
     foreseen_rms_counts: Option<f64>,
-    model: KeptModel,
+    model: schema::Model,
 }
 
 impl SessionFile {
@@ -71,7 +71,7 @@ impl SessionFile {
                     algorithm: model.fit.algorithm.clone(),
                     evaluations: model.fit.evaluations,
                     foreseen_rms_counts: model.foreseen,
-                    model: KeptModel::of(&model.fit.candidate, model.fit.method),
+                    model: schema::Model::of(&model.fit.candidate, model.fit.method),
                 })
                 .collect(),
             chosen: place(state.chosen),
@@ -164,9 +164,9 @@ impl SessionFile {
         state.against = id("against", self.against).filter(|other| state.chosen != Some(*other));
         // A bench with models always looks at one.
         state.chosen = (state.chosen).or_else(|| state.models.last().map(|model| model.id));
-        let race = |kept: &Kept| matches!(kept, Kept::Contest(_));
+        let race = |document: &Document| matches!(document, Document::Contest(_));
         state.race = result("race", self.race, race, &mut faults);
-        let diagnosis = |kept: &Kept| matches!(kept, Kept::Diagnosis(_));
+        let diagnosis = |document: &Document| matches!(document, Document::Diagnosis(_));
         state.diagnosis = result("diagnosis", self.diagnosis, diagnosis, &mut faults);
         state.secret = self.blind.and_then(|(seed, told)| {
             let hidden: Hidden = surprise(&showcase::machine(), seed).ok()?;
@@ -197,12 +197,12 @@ impl SavedModel {
 fn result(
     key: &str,
     value: Option<Value>,
-    is_kind: impl Fn(&Kept) -> bool,
+    is_kind: impl Fn(&Document) -> bool,
     faults: &mut Vec<String>,
 ) -> Option<Value> {
     let value = value?;
-    match Kept::from_json(value.clone()) {
-        Ok(kept) if is_kind(&kept) => return Some(value),
+    match Document::from_json(value.clone()) {
+        Ok(document) if is_kind(&document) => return Some(value),
         Ok(_) => faults.push(format!("{key}: is a result of another kind")),
         Err(fault) => faults.push(format!("{key}{fault}")),
     }

@@ -8,10 +8,10 @@ use serde_json::{Map, Value, json};
 use servoid_engine::problem::Candidate;
 use servoid_identify::fit::margins::Loop;
 use servoid_results::export::FORMATS;
-use servoid_results::kept::{Kept, KeptEstimate};
 use servoid_results::page::{Block, Section, drawing, drawings, section};
 use servoid_results::picture::{self, Estimates, Rung};
-use servoid_results::report::sheet::{self, Model as Drawn, failing};
+use servoid_results::report::html::{self, Model as Drawn, failing};
+use servoid_results::schema::{Document, Estimate};
 use shared::effects::{EffectSet, Kind};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -232,7 +232,7 @@ pub(super) fn pictures(bench: &Bench) -> Result<Value, Error> {
     if let Some(model) = &chosen {
         sections.push(parameters(model, against.as_ref()));
     }
-    if let Some(Ok(Kept::Contest(contest))) = race.map(Kept::from_json) {
+    if let Some(Ok(Document::Contest(contest))) = race.map(Document::from_json) {
         let mut section = Section::new("bench-race", "The race");
         let title = "Best cost so far";
         let seeds = contest.seeds.len();
@@ -261,17 +261,9 @@ fn ladder(models: &[Model]) -> Section {
 }
 
 fn parameters(model: &Model, against: Option<&Model>) -> Section {
-    let estimates = |model: &Model| -> Vec<KeptEstimate> {
+    let estimates = |model: &Model| -> Vec<Estimate> {
         let parameters = model.fit.parameters.iter();
-        parameters
-            .map(|p| KeptEstimate {
-                name: p.name.clone(),
-                value: p.value,
-                unit: p.unit.to_owned(),
-                std: p.std,
-                identifiable: p.identifiable,
-            })
-            .collect()
+        parameters.map(Estimate::from).collect()
     };
     let mut found = vec![(model.name(), estimates(model))];
     let mut loops = vec![(model.name(), Loop::from(&model.fit.candidate.machine))];
@@ -308,10 +300,10 @@ pub(super) fn report(bench: &Bench) -> Result<String, Error> {
         };
         (recordings, json)
     };
-    let kept = Kept::from_json(json).map_err(|fault| Error::Failed(fault.to_string()))?;
-    let drawn = sheet::Recordings {
+    let document = Document::from_json(json).map_err(|fault| Error::Failed(fault.to_string()))?;
+    let drawn = html::Recordings {
         fitted: Some(&recordings.fitted.data),
         held_out: recordings.held_out.as_ref().map(|other| &*other.data),
     };
-    Ok(sheet::page(&kept, drawn)?.render())
+    Ok(html::page(&document, drawn)?.render())
 }

@@ -11,9 +11,8 @@ use servoid_engine::solve::{self, Objective};
 use servoid_identify::diagnose::{self, Budget, Diagnosis, Suggestion};
 use servoid_identify::fit::{Fit, Options};
 use servoid_identify::{Diagnosed, Progress, bounded_problem, diagnose_data, identify_data};
-use servoid_results::kept::KeptModel;
-use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
-use servoid_results::report::json::CompareJson;
+use servoid_results::report::diagnosis::DiagnosisReport;
+use servoid_results::schema;
 use shared::effects::Kind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -128,7 +127,7 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let budget = Budget::usual(bench.job.flag());
     let found = diagnose_data(data, held_out, &kind, &options, &budget, &watched)?;
     let report = DiagnosisReport::new(&found, data, &kind, options.seed, None);
-    let json = serde_json::to_value(DiagnosisJson::from(&report))
+    let json = serde_json::to_value(schema::Diagnosis::from(&report))
         .map_err(|error| Error::Failed(error.to_string()))?;
     let Diagnosed {
         diagnosis,
@@ -200,7 +199,7 @@ fn on_the_way(
 /// The first and the last model of a diagnosis that was stopped, as they were found: there is no time to fit those
 /// between.
 fn as_found(recordings: &Recordings, found: &Diagnosis, last: Fit) -> Result<Vec<Model>, Error> {
-    let base = KeptModel::of(&found.base.candidate, found.base.method);
+    let base = schema::Model::of(&found.base.candidate, found.base.method);
     let mut models = vec![Model::again(0, &base, USUAL, recordings)?];
     let effects: Vec<Kind> = last
         .candidate
@@ -264,7 +263,7 @@ pub(super) fn race(
         seeds,
     };
     let rows = compare::run(&contest, &solvers, bench.job.flag(), &|| {});
-    let json = serde_json::to_value(CompareJson::new(&contest, &rows))
+    let json = serde_json::to_value(schema::Contest::new(&contest, &rows))
         .map_err(|error| Error::Failed(error.to_string()))?;
     bench.change(|state| state.race = Some(json));
     Ok(())

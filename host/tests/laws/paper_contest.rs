@@ -2,7 +2,7 @@
 
 use host::compare::{Contest, quantile, run};
 use host::paper::{BOX, Experiment, Variant, identifiable_problem, paper_problem, solvers};
-use host::report::json::least_cost;
+use host::schema::contest::least_cost;
 use host::solve;
 use std::sync::atomic::AtomicBool;
 

@@ -1,5 +1,6 @@
 //! Duties of a device as volts.
 
+use crate::schema::DeviceRun;
 use shared::trace::DUTY;
 
 /// What a device's duties are worth.
@@ -30,6 +31,16 @@ impl DutyScale {
     /// The voltage that the device's model has for its unit, V: its arithmetic takes every duty for a Q15 fraction.
     pub fn unit_v(self) -> f64 {
         self.supply_v / (f64::from(self.full) * DUTY)
+    }
+}
+
+impl DeviceRun {
+    /// What the device's duties are worth.
+    pub fn scale(&self) -> DutyScale {
+        DutyScale {
+            supply_v: self.supply_v,
+            full: self.full_duty,
+        }
     }
 }
 

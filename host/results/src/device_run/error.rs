@@ -1,5 +1,6 @@
 //! Why the folder of a run cannot be used, with the remedy.
 
+use crate::schema::device::ReportError;
 use servoid_io::input::{MotorFileError, ReadError};
 use servoid_io::output::WriteError;
 use std::path::PathBuf;
@@ -24,4 +25,10 @@ pub enum FolderError {
     /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+}
+
+impl From<ReportError> for FolderError {
+    fn from(ReportError { path, why }: ReportError) -> Self {
+        FolderError::Unusable { path, why }
+    }
 }

@@ -1,6 +1,8 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
-use super::{FolderError, Recorded, Saved};
+use super::{FolderError, Recorded};
+use crate::schema::DeviceRun;
+use crate::schema::device::FILE as DEVICE;
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_io::output::{write_recording, write_whole};
 use servoid_io::recording::{Drive, Recording};
@@ -21,7 +23,6 @@ const RECORDINGS: [(&str, Stage); 3] = [
     ("fitted.csv", Stage::Record),
     ("verify.csv", Stage::Verify),
 ];
-const DEVICE: &str = "device.json";
 const MOTOR: &str = "motor.toml";
 
 impl Folder {
@@ -68,7 +69,7 @@ impl Folder {
     /// A file that cannot be written.
     pub fn write(
         &self,
-        saved: &Saved,
+        saved: &DeviceRun,
         recorded: &[Recorded],
         current: bool,
     ) -> Result<Vec<&'static str>, FolderError> {
@@ -114,33 +115,15 @@ impl Folder {
     ///
     /// # Errors
     /// A file that is missing or is no report.
-    pub fn saved(&self) -> Result<Saved, FolderError> {
-        let path = self.path.join(DEVICE);
-        let wrong = |why: String| FolderError::Unusable {
-            path: path.clone(),
-            why,
-        };
-        let text = fs::read_to_string(&path).map_err(|error| {
-            wrong(format!(
-                "{error}; name a folder that `servoid device commission --out` wrote"
-            ))
-        })?;
-        let saved: Saved = serde_json::from_str(&text)
-            .map_err(|error| wrong(format!("is no report of a device: {error}")))?;
-        if saved.schema != "servoid.device/1" {
-            return Err(wrong(format!(
-                "is of the schema `{}`; this program reads servoid.device/1",
-                saved.schema
-            )));
-        }
-        Ok(saved)
+    pub fn saved(&self) -> Result<DeviceRun, FolderError> {
+        Ok(DeviceRun::read(&self.path)?)
     }
 
     /// What the device fitted, read back: duties and steps of whole periods.
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn fitted(&self, saved: &Saved) -> Result<(Vec<i16>, Vec<i16>), FolderError> {
+    pub fn fitted(&self, saved: &DeviceRun) -> Result<(Vec<i16>, Vec<i16>), FolderError> {
         let path = self.path.join("fitted.csv");
         let motor = MotorFile::read(&self.path.join(MOTOR))?;
         let recording = read_recording(&path, &motor)?;
@@ -168,7 +151,7 @@ impl Folder {
 }
 
 /// Rows as a recording; the reading after the last period is a row of its own, with no drive.
-fn recording(count: i32, rows: &[Row], saved: &Saved, current: bool) -> Recording {
+fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Recording {
     let period_s = f64::from(saved.period_us) * 1e-6;
     let coasts = rows.iter().any(|row| row.duty == OPEN);
     let volts = |duty: i16| {

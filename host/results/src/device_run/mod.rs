@@ -3,7 +3,6 @@
 //! | file | holds |
 //! |---|---|
 //! | `folder` | the files, written and read |
-//! | `saved` | the report, `servoid.device/1` |
 //! | `recorded` | the periods that arrived, put together |
 //! | `duty` | what a device's duties are worth in volts |
 //! | `error` | why a folder cannot be used |
@@ -12,10 +11,8 @@ mod duty;
 mod error;
 mod folder;
 mod recorded;
-mod saved;
 
 pub use duty::DutyScale;
 pub use error::FolderError;
 pub use folder::Folder;
 pub use recorded::Recorded;
-pub use saved::{Saved, SavedFailure, SavedOutcome, SavedParameter};

@@ -2,7 +2,7 @@
 
 use super::discrete;
 use super::error::ExportError;
-use super::format::Options;
+use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
 use servoid_io::recording::Drive;

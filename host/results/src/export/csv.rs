@@ -2,7 +2,7 @@
 
 use super::comment::{head, marked};
 use super::error::ExportError;
-use super::format::Options;
+use super::options::Options;
 use super::subject::Subject;
 use super::table::rows;
 use super::written::Written;

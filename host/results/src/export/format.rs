@@ -1,19 +1,10 @@
 //! The list of formats: the command line, the help, the tests and the documentation follow from it.
 
 use super::error::ExportError;
-use super::gains::Asked;
+use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
 use super::{c, csv, gains, json, modelica, mujoco, rust, toml, urdf, wpilib};
-
-/// What a user chooses beside the format.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
-    /// Period of the program that the export is for, s; the recording's if none.
-    pub sample_s: Option<f64>,
-    /// Controllers.
-    pub gains: Asked,
-}
 
 /// One format.
 pub struct Format {
@@ -83,22 +74,5 @@ impl Format {
     /// The format of this name.
     pub fn by_name(name: &str) -> Option<&'static Format> {
         FORMATS.iter().find(|format| format.name == name)
-    }
-}
-
-impl Options {
-    /// The period, s.
-    ///
-    /// # Errors
-    /// Neither the user nor the result says it.
-    pub fn period(&self, subject: &Subject, format: &'static str) -> Result<f64, ExportError> {
-        // The recording's is the median of rounded times; nine digits of it mean something.
-        let rounded = |s: f64| format!("{s:.8e}").parse().unwrap_or(s);
-        let period = self.sample_s.or(subject.sample_s.map(rounded));
-        period.ok_or_else(|| ExportError::Undetermined {
-            format,
-            needs: "the sample interval".to_owned(),
-            remedy: "give it with --sample S",
-        })
     }
 }

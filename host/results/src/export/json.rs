@@ -1,26 +1,40 @@
 //! All parameters as JSON.
 
 use super::error::ExportError;
-use super::format::Options;
+use super::options::Options;
 use super::side::Side;
 use super::subject::Subject;
 use super::table::{Row, rows};
 use super::written::{Lack, Written};
+use schemars::JsonSchema;
 use serde::Serialize;
 
-#[derive(Serialize)]
-struct Motor<'a> {
+/// `servoid.motor/1`: a motor for other programs.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct Motor<'a> {
+    /// `servoid.motor/1`.
     schema: &'static str,
+    /// The file it was read from.
     source: &'a str,
+    /// The recording behind it.
     recording: Option<&'a str>,
+    /// What the command drives: `voltage` or `current`.
     drive: &'static str,
+    /// The shaft that all numbers speak of.
     side: Side,
+    /// Supply, V.
     supply_v: Option<f64>,
+    /// Encoder counts a turn of the shaft on this side.
     counts_per_rev: Option<f64>,
+    /// Sample interval of the recording, s.
     sample_s: Option<f64>,
+    /// Effects beside the linear motor.
     effects: Vec<&'static str>,
+    /// Every number.
     parameters: Vec<Row>,
+    /// Numbers that the data do not determine.
     cannot_carry: &'a [Lack],
+    /// Version of the program.
     version: &'static str,
 }
 

@@ -5,6 +5,7 @@
 //! | `subject` | what is exported: the model with its numbers, on one side of a gear |
 //! | `side` | from the motor's side of a gear to the output's |
 //! | `format` | the list of formats: everything else follows from it |
+//! | `options` | what a user chooses beside the format |
 //! | `written` | what a format wrote, where each number went, and what it has no place for |
 //! | `friction` | friction in the two numbers that most programs have for it |
 //! | `discrete` | the exact step of the linear machine, in SI |
@@ -28,6 +29,7 @@ pub mod gains;
 mod json;
 mod modelica;
 mod mujoco;
+mod options;
 mod rust;
 mod side;
 mod subject;
@@ -38,7 +40,9 @@ mod wpilib;
 mod written;
 
 pub use error::ExportError;
-pub use format::{FORMATS, Format, Options};
+pub use format::{FORMATS, Format};
+pub(crate) use json::Motor;
+pub use options::Options;
 pub use side::Side;
 pub use subject::{Subject, SubjectError, Term, Value};
 pub use written::{Lack, Mapped, Written};

@@ -10,8 +10,8 @@
 use super::comment::{head, xml};
 use super::digits::rounded;
 use super::error::{ExportError, FIT_AGAIN};
-use super::format::Options;
 use super::friction::{self, Friction};
+use super::options::Options;
 use super::subject::{Subject, Term};
 use super::written::{Carried, Written};
 use shared::effects::Kind;

@@ -3,7 +3,7 @@
 use super::comment::{head, marked, plain};
 use super::constants::constants;
 use super::error::ExportError;
-use super::format::Options;
+use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
 

@@ -1,7 +1,7 @@
 //! Results to try exporters on: every effect, with much and with little known.
 
 use super::{Side, Subject};
-use crate::kept::{KeptEstimate, KeptModel, KeptResult};
+use crate::schema::{Estimate, Identified, Model};
 use servoid_engine::simulation::Method;
 use servoid_identify::plan::Hypothesis;
 use servoid_io::recording::Drive;
@@ -36,12 +36,12 @@ pub const UNDETERMINED: f64 = 0.773_462_519_1;
 pub const DIGITS: &str = "77346";
 
 /// A motor of the bench without effects of its own.
-pub fn linear(motor: &bench::Machine, known: Known) -> KeptResult {
+pub fn linear(motor: &bench::Machine, known: Known) -> Identified {
     result(motor, &[], known)
 }
 
 /// A result with these effects, typical for the motor.
-pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> KeptResult {
+pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> Identified {
     let mut hypothesis = Hypothesis::typical(Kind::Coulomb, motor);
     (hypothesis.effects, hypothesis.values) = (Vec::new(), Vec::new());
     for &kind in kinds {
@@ -54,7 +54,7 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> KeptResul
         hypothesis.machine.electrical = 0.0;
     }
     let machine = hypothesis.machine;
-    let mut model = KeptModel::of(&hypothesis.candidate().expect("a model"), Method::default());
+    let mut model = Model::of(&hypothesis.candidate().expect("a model"), Method::default());
     if matches!(known, Known::Response | Known::Nothing) {
         for parameter in &mut model.parameters {
             parameter.value = UNDETERMINED;
@@ -62,7 +62,7 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> KeptResul
     }
     let mut parameters = Vec::new();
     let mut add = |name: &str, value: f64, unit: &str, determined: bool| {
-        parameters.push(KeptEstimate {
+        parameters.push(Estimate {
             name: name.to_owned(),
             value: if determined { value } else { UNDETERMINED },
             unit: unit.to_owned(),
@@ -100,7 +100,7 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> KeptResul
         add("inertia", motor.inertia_kg_m2, "kg*m^2", true);
         add("viscous", motor.viscous_n_m_s, "N*m*s/rad", true);
     }
-    KeptResult {
+    Identified {
         schema: "servoid.fit/1".to_owned(),
         // As hostile as a name can be.
         recording: Some("a */ b --> <c> \"d\n.csv".to_owned()),
@@ -119,6 +119,6 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> KeptResul
 }
 
 /// The subject of a result.
-pub fn subject(kept: &KeptResult, side: Side) -> Subject {
-    Subject::new(kept, "fit --> */.json", side).expect("a subject")
+pub fn subject(result: &Identified, side: Side) -> Subject {
+    Subject::new(result, "fit --> */.json", side).expect("a subject")
 }

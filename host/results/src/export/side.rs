@@ -6,10 +6,11 @@
 //! So the power of `N` follows from a unit: one for each radian below the line, less one for each above, where N·m
 //! counts as one per radian (it is work per angle) and kg·m² as two.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Which shaft the numbers speak of.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "lowercase")]
 pub enum Side {
     /// The shaft whose encoder was recorded.

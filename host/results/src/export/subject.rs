@@ -2,7 +2,7 @@
 
 use super::error::{ExportError, FIT_AGAIN, NAME_RESISTANCE};
 use super::side::Side;
-use crate::kept::{KeptResult, ModelFault};
+use crate::schema::{Identified, ModelFault};
 use servoid_io::recording::Drive;
 use shared::effects::Kind;
 use shared::motor::{Machine, Response};
@@ -69,11 +69,11 @@ const LEAST: f64 = 1e-30;
 const NUISANCES: [&str; 2] = ["start_speed", "start_offset"];
 
 impl Subject {
-    /// What `kept` says, on `side`. `source` is the file it was read from.
+    /// What `result` says, on `side`. `source` is the file it was read from.
     ///
     /// # Errors
     /// A model that is none, or a unit that cannot be referred to the output.
-    pub fn new(kept: &KeptResult, source: &str, side: Side) -> Result<Self, SubjectError> {
+    pub fn new(result: &Identified, source: &str, side: Side) -> Result<Self, SubjectError> {
         let refer = |name: &str, value: f64, unit: &str| {
             let factor = side.factor(unit).ok_or_else(|| ExportError::Unit {
                 name: name.to_owned(),
@@ -82,7 +82,7 @@ impl Subject {
             factor.map(|factor| value * factor)
         };
         let mut values = Vec::new();
-        for found in &kept.parameters {
+        for found in &result.parameters {
             if NUISANCES.contains(&found.name.as_str()) {
                 continue;
             }
@@ -97,17 +97,17 @@ impl Subject {
                 determined: found.identifiable && std.is_some(),
             });
         }
-        let machine = kept.model.machine.machine(kept.place)?;
+        let machine = result.model.machine.machine(result.place)?;
         let machine = Machine {
             kb: refer("kb", machine.kb, "V*s/rad")?,
             damping: refer("damping", machine.damping, "V*s/rad")?,
             inertia: refer("inertia", machine.inertia, "V*s^2/rad")?,
             electrical: machine.electrical,
         };
-        let terms = kept.model.terms(kept.place)?;
+        let terms = result.model.terms(result.place)?;
         let terms = terms.into_iter().enumerate().map(|(index, (kind, own))| {
             // An effect that stands there twice has each of its names twice, in the same order.
-            let earlier = kept.model.effects[..index]
+            let earlier = result.model.effects[..index]
                 .iter()
                 .filter(|name| name.as_str() == kind.name())
                 .count();
@@ -126,18 +126,18 @@ impl Subject {
             Ok(term)
         });
         let terms = terms.collect::<Result<_, ExportError>>()?;
-        let turns = kept
+        let turns = result
             .counts_per_rev
             .map(|n| refer("counts_per_rev", n, "count/rev"));
         let mut subject = Subject {
             source: source.to_owned(),
-            schema: kept.schema.clone(),
-            recording: kept.recording.clone(),
-            drive: kept.drive,
-            supply_v: kept.supply_v,
+            schema: result.schema.clone(),
+            recording: result.recording.clone(),
+            drive: result.drive,
+            supply_v: result.supply_v,
             counts_per_rev: turns.transpose()?,
-            sample_s: kept.sample_s,
-            converged: kept.converged,
+            sample_s: result.sample_s,
+            converged: result.converged,
             side,
             values,
             machine,

@@ -2,10 +2,11 @@
 
 use super::subject::Subject;
 use super::written::Written;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// One row.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Row {
     /// Name.
     pub name: String,

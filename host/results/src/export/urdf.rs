@@ -3,8 +3,8 @@
 
 use super::comment::{head, xml};
 use super::error::ExportError;
-use super::format::Options;
 use super::friction::{Friction, carried};
+use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
 

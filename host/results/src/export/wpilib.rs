@@ -4,8 +4,8 @@
 
 use super::comment::{head, marked};
 use super::error::ExportError;
-use super::format::Options;
 use super::gains::feed_forward::FeedForward;
+use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
 use std::f64::consts::TAU;

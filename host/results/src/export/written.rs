@@ -2,6 +2,7 @@
 
 use super::side::Side;
 use super::subject::Subject;
+use schemars::JsonSchema;
 use serde::Serialize;
 use shared::effects::Kind;
 
@@ -19,7 +20,7 @@ pub struct Mapped {
 }
 
 /// Something that was left out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Lack {
     /// What: an effect, a parameter, or a part of one.
     pub what: String,

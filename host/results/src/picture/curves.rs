@@ -1,14 +1,14 @@
 //! Best cost against model evaluations: median over the seeds and the middle half as a band.
 
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use crate::kept::KeptRow;
-use crate::report::text::short;
+use crate::number_text::short;
+use crate::schema::contest::Row;
 use plotly::common::{Fill, Line, Mode};
 use plotly::layout::AxisType;
 use plotly::{Plot, Scatter};
 
 /// Draws the curves of all methods, both axes logarithmic; `None` where no method has one.
-pub fn cost_curves(id: &str, title: &str, rows: &[KeptRow], seeds: usize) -> Option<Picture> {
+pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<Picture> {
     let mut plot = Plot::new();
     let mut table = Table::new(&[
         "method",
@@ -20,14 +20,14 @@ pub fn cost_curves(id: &str, title: &str, rows: &[KeptRow], seeds: usize) -> Opt
     ]);
     let mut any = false;
     for (k, row) in rows.iter().enumerate() {
-        let colour = colour::LIST[k % 8];
-        if row.curve.is_empty() {
+        let colour = colour::of(k);
+        let Some(runs) = row.runs.as_ref().filter(|runs| !runs.curve.is_empty()) else {
             continue;
-        }
+        };
         any = true;
-        if !row.curve_band.is_empty() {
-            let forth = row.curve_band.iter().map(|p| (p.0, p.1));
-            let back = row.curve_band.iter().rev().map(|p| (p.0, p.2));
+        if !runs.curve_band.is_empty() {
+            let forth = runs.curve_band.iter().map(|p| (p.0, p.1));
+            let back = runs.curve_band.iter().rev().map(|p| (p.0, p.2));
             let (x, y): (Vec<usize>, Vec<f64>) =
                 forth.chain(back).map(|(n, c)| (n, rounded(c))).unzip();
             plot.add_trace(
@@ -42,7 +42,7 @@ pub fn cost_curves(id: &str, title: &str, rows: &[KeptRow], seeds: usize) -> Opt
             );
         }
         let (x, y): (Vec<usize>, Vec<f64>) =
-            row.curve.iter().map(|&(n, c)| (n, rounded(c))).unzip();
+            runs.curve.iter().map(|&(n, c)| (n, rounded(c))).unzip();
         plot.add_trace(
             Scatter::new(x, y)
                 .name(&row.algorithm)
@@ -53,13 +53,13 @@ pub fn cost_curves(id: &str, title: &str, rows: &[KeptRow], seeds: usize) -> Opt
         let cell = |x: Option<f64>| x.map_or("-".to_owned(), short);
         table.row([
             row.algorithm.clone(),
-            cell(row.median_cost),
-            row.quartiles_cost.map_or("-".to_owned(), |[low, high]| {
+            cell(runs.median_cost),
+            runs.quartiles_cost.map_or("-".to_owned(), |[low, high]| {
                 format!("{} to {}", short(low), short(high))
             }),
-            cell(row.worst_cost),
-            cell(row.best_cost),
-            row.median_evaluations_to_1pct
+            cell(runs.worst_cost),
+            cell(runs.best_cost),
+            runs.median_evaluations_to_1pct
                 .map_or("never".to_owned(), |n| format!("{n:.0}")),
         ]);
     }

@@ -2,8 +2,8 @@
 //! sizes differ.
 
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use crate::kept::KeptEstimate;
-use crate::report::text::with_error;
+use crate::number_text::with_error;
+use crate::schema::Estimate;
 use plotly::common::{ErrorData, ErrorType, Marker, Mode};
 use plotly::{Plot, Scatter};
 
@@ -15,7 +15,7 @@ pub struct Estimates<'a> {
     /// The source, as in `device`.
     pub name: String,
     /// The parameters.
-    pub parameters: &'a [KeptEstimate],
+    pub parameters: &'a [Estimate],
 }
 
 /// Draws the parameters of all sources that are determined; the table has all.
@@ -47,7 +47,7 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
             Scatter::new(x, y)
                 .name(&source.name)
                 .mode(Mode::Markers)
-                .marker(Marker::new().color(colour::LIST[k % 8]).size(9))
+                .marker(Marker::new().color(colour::of(k)).size(9))
                 .error_x(ErrorData::new(ErrorType::Data).array(wide).thickness(2.0)),
         );
     }
@@ -77,16 +77,16 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
     })
 }
 
-fn cells(source: &str, parameter: &KeptEstimate) -> [String; 5] {
+fn cells(source: &str, parameter: &Estimate) -> [String; 5] {
     let (value, interval) = match (parameter.std, parameter.identifiable) {
         (Some(std), true) => (
             with_error(parameter.value, parameter.std),
-            format!("± {}", crate::report::text::short(WIDE * std)),
+            format!("± {}", crate::number_text::short(WIDE * std)),
         ),
         (Some(std), false) => (
             format!(
                 "below {}",
-                crate::report::text::short(parameter.value.abs() + 2.0 * std)
+                crate::number_text::short(parameter.value.abs() + 2.0 * std)
             ),
             "not seen".to_owned(),
         ),

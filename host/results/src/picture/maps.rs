@@ -1,7 +1,7 @@
 //! The volts that a model's equation misses along the measured motion, against everything that could tell why.
 
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use crate::report::text::short;
+use crate::number_text::short;
 use plotly::common::{ErrorData, ErrorType, Line, Marker, Mode};
 use plotly::{Plot, Scatter, Trace};
 use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, ResidualAnalysis};

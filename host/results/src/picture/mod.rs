@@ -38,6 +38,7 @@ pub use orders::orders;
 pub use steady::{SteadyLine, steady_curve, steady_residual};
 pub use timeline::{FROM_THE_BENCH, IN_A_FILE, Run, Timeline, timeline};
 
+use crate::palette as colour;
 use plotly::Plot;
 use plotly::common::{Font, Title};
 use plotly::layout::{Axis, Legend, Margin};
@@ -88,20 +89,6 @@ impl Table {
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
-}
-
-/// Colours that are told apart by the colour-blind (Okabe and Ito, 2008) and show on white and on black.
-pub(crate) mod colour {
-    pub const MEASURED: &str = "#0072b2";
-    pub const BASE: &str = "#cc79a7";
-    pub const MODEL: &str = "#d55e00";
-    pub const FLOOR: &str = "#009e73";
-    pub const OTHER: &str = "#e69f00";
-    pub const QUIET: &str = "#7f8790";
-    /// For as many series as come.
-    pub const LIST: [&str; 8] = [
-        MEASURED, MODEL, FLOOR, BASE, OTHER, "#56b4e9", "#8a6d3b", QUIET,
-    ];
 }
 
 /// An axis with its title; the page gives it the colours of light or dark.

@@ -1,7 +1,8 @@
 //! Bode plot of several position loops, with the lines at which margins are read.
 
-use super::{COLOURS, failed, legend};
+use super::{failed, legend, rgb};
 use crate::error::Error;
+use crate::palette;
 use plotters::prelude::*;
 use servoid_identify::fit::margins::Loop;
 
@@ -57,7 +58,7 @@ pub fn bode(loops: &[(String, Loop)], from: f64, to: f64) -> Result<String, Erro
                 .draw_series(LineSeries::new([(from, mark), (to, mark)], BLACK.mix(0.5)))
                 .map_err(failed)?;
             for (k, (label, l)) in loops.iter().enumerate() {
-                let colour = COLOURS[k % COLOURS.len()];
+                let colour = rgb(palette::of(k));
                 // Drawn one over the other, the wide ones first, so that equal ones all show.
                 let width = 2 + 2 * (loops.len() - k) as u32 / loops.len().max(1) as u32;
                 chart

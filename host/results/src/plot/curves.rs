@@ -1,9 +1,10 @@
 //! Best cost against model evaluations: median over the seeds and the middle half as a band.
 
-use super::{COLOURS, FONT, failed, legend};
+use super::{FONT, failed, legend, rgb};
 use crate::error::Error;
+use crate::palette;
+use crate::schema::contest::Row;
 use plotters::prelude::*;
-use servoid_engine::compare::Row;
 
 const SIZE: (u32, u32) = (960, 520);
 
@@ -12,16 +13,23 @@ const SIZE: (u32, u32) = (960, 520);
 /// # Errors
 /// [`Error::Failed`] where nothing can be drawn (no finite cost at all).
 pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Error> {
-    let finite = |costs: Vec<(usize, f64)>| -> Vec<(f64, f64)> {
-        costs
-            .into_iter()
-            .filter(|(_, c)| c.is_finite() && *c > 0.0)
-            .map(|(n, c)| (n as f64, c))
-            .collect()
+    let runs = || {
+        rows.iter()
+            .filter_map(|row| Some((row, row.runs.as_ref()?)))
     };
-    let curves: Vec<[Vec<(f64, f64)>; 3]> = rows
-        .iter()
-        .map(|row| [0.25, 0.5, 0.75].map(|q| finite(row.curve(budget, q))))
+    // The axis is logarithmic.
+    let shown = |n: usize, cost: f64| (cost > 0.0).then_some((n as f64, cost));
+    let curves: Vec<[Vec<(f64, f64)>; 3]> = runs()
+        .map(|(_, runs)| {
+            let band = || runs.curve_band.iter();
+            [
+                band().filter_map(|&(n, low, _)| shown(n, low)).collect(),
+                (runs.curve.iter())
+                    .filter_map(|&(n, cost)| shown(n, cost))
+                    .collect(),
+                band().filter_map(|&(n, _, high)| shown(n, high)).collect(),
+            ]
+        })
         .collect();
     let all = || curves.iter().flatten().flatten();
     let low = all().fold(f64::INFINITY, |m, p| m.min(p.1));
@@ -51,11 +59,11 @@ pub fn cost_curves(rows: &[Row], budget: usize, cost: &str) -> Result<String, Er
             .light_line_style(TRANSPARENT)
             .x_desc("model evaluations")
             .y_desc(format!("cost ({cost})"))
-            .y_label_formatter(&|y| crate::report::text::short(*y))
+            .y_label_formatter(&|y| crate::number_text::short(*y))
             .draw()
             .map_err(failed)?;
-        for (k, (row, [lower, median, upper])) in rows.iter().zip(curves).enumerate() {
-            let colour = COLOURS[k % COLOURS.len()];
+        for (k, ((row, _), [lower, median, upper])) in runs().zip(curves).enumerate() {
+            let colour = rgb(palette::of(k));
             // Where a quarter of the runs has no finite cost yet, the band has no upper edge.
             let band = lower
                 .iter()

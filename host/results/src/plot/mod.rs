@@ -1,5 +1,4 @@
-//! Drawings as SVG text: measured against model, cost curves, Bode plots. Colours are safe for the
-//! colour-blind (Okabe, Ito, 2008).
+//! Drawings as SVG text: measured against model, cost curves, Bode plots.
 
 mod bode;
 mod curves;
@@ -10,19 +9,14 @@ pub use curves::cost_curves;
 pub use overlay::overlay;
 
 use crate::error::Error;
+use crate::palette;
 use plotters::prelude::RGBColor;
 
-/// Blue, vermilion, green, purple, orange, sky blue, black, brownish grey.
-pub(crate) const COLOURS: [RGBColor; 8] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(170, 90, 150),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(30, 30, 30),
-    RGBColor(130, 120, 110),
-];
+/// A colour of the palette as plotters takes it.
+pub(crate) fn rgb(colour: &str) -> RGBColor {
+    let (red, green, blue) = palette::rgb(colour);
+    RGBColor(red, green, blue)
+}
 
 /// Fonts by family, as a browser or viewer finds them.
 pub(crate) const FONT: &str = "sans-serif";
@@ -30,14 +24,6 @@ pub(crate) const FONT: &str = "sans-serif";
 /// A drawing that fails leaves the numbers untouched; say so.
 pub(crate) fn failed(error: impl std::fmt::Display) -> Error {
     Error::Failed(format!("the drawing could not be made: {error}"))
-}
-
-/// At most about `most` of `count` indices, the last included.
-pub(crate) fn thinned(count: usize, most: usize) -> impl Iterator<Item = usize> {
-    let step = count.div_ceil(most.max(1)).max(1);
-    (0..count)
-        .step_by(step)
-        .chain(count.checked_sub(1).filter(|last| last % step != 0))
 }
 
 /// The legend of a chart, in its upper right corner.

@@ -1,7 +1,8 @@
 //! Measured against model, with the residual beneath and the quantiser's band in it.
 
-use super::{COLOURS, FONT, failed, legend, thinned};
+use super::{FONT, failed, legend, rgb};
 use crate::error::Error;
+use crate::palette::{FLOOR, MEASURED, MODEL};
 use plotters::prelude::*;
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
@@ -34,6 +35,7 @@ pub fn overlay(data: &Data, candidate: &Candidate, method: Method) -> Result<Str
         .collect();
     let end = data.time_s.last().copied().unwrap_or(1.0);
 
+    let (measured_colour, model_colour) = (rgb(MEASURED), rgb(MODEL));
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
@@ -53,15 +55,19 @@ pub fn overlay(data: &Data, candidate: &Candidate, method: Method) -> Result<Str
             .draw()
             .map_err(failed)?;
         chart
-            .draw_series(LineSeries::new(measured, COLOURS[0].stroke_width(4)))
+            .draw_series(LineSeries::new(measured, measured_colour.stroke_width(4)))
             .map_err(failed)?
             .label("measured")
-            .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], COLOURS[0].stroke_width(4)));
+            .legend(move |(x, y)| {
+                PathElement::new([(x, y), (x + 18, y)], measured_colour.stroke_width(4))
+            });
         chart
-            .draw_series(LineSeries::new(model, COLOURS[1].stroke_width(1)))
+            .draw_series(LineSeries::new(model, model_colour.stroke_width(1)))
             .map_err(failed)?
             .label("model")
-            .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], COLOURS[1].stroke_width(1)));
+            .legend(move |(x, y)| {
+                PathElement::new([(x, y), (x + 18, y)], model_colour.stroke_width(1))
+            });
         legend!(chart);
         draw_residual(&lower, residual, end)?;
         root.present().map_err(failed)?;
@@ -74,6 +80,7 @@ fn draw_residual(
     residual: Vec<(f64, f64)>,
     end: f64,
 ) -> Result<(), Error> {
+    let (floor_colour, model_colour) = (rgb(FLOOR), rgb(MODEL));
     let span = range(&residual);
     let span = span.start.min(-0.7)..span.end.max(0.7);
     let mut chart = ChartBuilder::on(area)
@@ -92,15 +99,18 @@ fn draw_residual(
     chart
         .draw_series([Rectangle::new(
             [(0.0, -0.5), (end, 0.5)],
-            COLOURS[2].mix(0.2).filled(),
+            floor_colour.mix(0.2).filled(),
         )])
         .map_err(failed)?
         .label("half a count: the encoder's own")
-        .legend(|(x, y)| {
-            Rectangle::new([(x, y - 5), (x + 18, y + 5)], COLOURS[2].mix(0.3).filled())
+        .legend(move |(x, y)| {
+            Rectangle::new(
+                [(x, y - 5), (x + 18, y + 5)],
+                floor_colour.mix(0.3).filled(),
+            )
         });
     chart
-        .draw_series(LineSeries::new(residual, COLOURS[1].stroke_width(1)))
+        .draw_series(LineSeries::new(residual, model_colour.stroke_width(1)))
         .map_err(failed)?;
     legend!(chart);
     Ok(())
@@ -111,4 +121,12 @@ fn range(points: &[(f64, f64)]) -> std::ops::Range<f64> {
     let high = points.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.1));
     let room = (0.05 * (high - low)).max(1e-9);
     low - room..high + room
+}
+
+/// At most about `most` of `count` indices, the last included.
+fn thinned(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let step = count.div_ceil(most.max(1)).max(1);
+    (0..count)
+        .step_by(step)
+        .chain(count.checked_sub(1).filter(|last| last % step != 0))
 }

@@ -1,9 +1,9 @@
-//! The story of the demonstration, as text, as a page and as JSON.
+//! The story of the demonstration, as text and as a document.
 
-use super::diagnosis::{DiagnosisJson, DiagnosisReport};
+use super::diagnosis::DiagnosisReport;
 use super::fold::folded;
-use super::json::FitJson;
-use serde::Serialize;
+use crate::schema::fit::Miss;
+use crate::schema::{Demo, Diagnosis, Fit, finite};
 use servoid_identify::diagnose::evidence::values;
 use servoid_identify::truth::{self, ParameterError};
 use servoid_plant::{Hidden, Machine};
@@ -25,35 +25,22 @@ pub struct DemoReport<'a> {
     pub counts_per_rev: u32,
 }
 
-/// `servoid.fit/1` of the last model, with the diagnosis and the truth beside it.
-#[derive(Debug, Serialize)]
-pub struct DemoJson {
-    #[serde(flatten)]
-    fit: FitJson,
-    hidden: String,
-    named: bool,
-    parameter_errors: Vec<ParameterError>,
-    gain_error_percent: Option<f64>,
-    a1_error_percent: Option<f64>,
-    diagnosis: DiagnosisJson,
-}
-
-impl From<&DemoReport<'_>> for DemoJson {
+impl From<&DemoReport<'_>> for Demo {
     fn from(report: &DemoReport<'_>) -> Self {
-        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let [gain, a1] = report.response_errors();
-        DemoJson {
-            fit: FitJson::new(
+        let misses = report.parameter_errors().into_iter();
+        Demo {
+            fit: Fit::new(
                 report.diagnosis.last,
                 report.diagnosis.data,
                 report.diagnosis.held_out.source(),
             ),
-            hidden: report.described.clone(),
+            hidden: Some(report.described.clone()),
             named: report.named(),
-            parameter_errors: report.parameter_errors(),
+            parameter_errors: misses.map(Miss::from).collect(),
             gain_error_percent: finite(gain),
             a1_error_percent: finite(a1),
-            diagnosis: DiagnosisJson::from(&report.diagnosis),
+            diagnosis: Some(Box::new(Diagnosis::from(&report.diagnosis))),
         }
     }
 }

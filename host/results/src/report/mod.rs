@@ -3,9 +3,8 @@
 pub mod demo;
 pub mod diagnosis;
 pub mod fold;
-pub mod json;
-pub mod paint;
+pub mod html;
 pub mod paper;
 pub mod plan;
-pub mod sheet;
+pub mod style;
 pub mod text;

@@ -1,8 +1,12 @@
-//! The paper's table beside ours, as text.
+//! The paper's table beside ours, as text and as a document.
 
 use super::fold::folded;
-use super::json::least_cost;
-use super::text::short;
+use crate::number_text::short;
+use crate::schema::contest::{
+    KnownCosts, Printed, Rounds, Row as Method, Runs, Strong as StrongMethod, Variant as Treatment,
+    least_cost,
+};
+use crate::schema::{self, finite};
 use servoid_engine::compare::{Contest, Row, quantile};
 use servoid_identify::fit::margins::{Loop, Margins};
 use servoid_identify::paper::{PRINTED, Variant};
@@ -187,6 +191,42 @@ fn short_count(count: f64) -> String {
         format!("{count:.0}")
     } else {
         "never".to_owned()
+    }
+}
+
+/// As the document that is written.
+pub fn document(rounds: &[Round<'_>], strong: &Strong) -> schema::Contest {
+    let optimum = optimum(rounds, strong);
+    let first = rounds.first();
+    let runs = |name: &str| {
+        let round = first?;
+        let row = round.rows.iter().find(|row| row.algorithm == name)?;
+        Some(Runs::new(round.contest, row, optimum))
+    };
+    let printed = PRINTED.iter().map(|column| Method {
+        algorithm: column.algorithm.to_owned(),
+        runs: runs(column.algorithm),
+        paper: Some(Printed::from(column)),
+    });
+    let treatment = |round: &Round<'_>| Treatment {
+        name: round.variant.name(),
+        truth_cost: finite(round.truth_cost),
+        rows: Method::all(round.contest, &round.rows, least_cost(&round.rows)),
+    };
+    let strong = strong.rows.iter();
+    schema::Contest {
+        schema: schema::contest::SCHEMA.to_owned(),
+        budget: first.map_or(0, |round| round.contest.budget),
+        seeds: first.map_or(Vec::new(), |round| round.contest.seeds.clone()),
+        known: Some(KnownCosts {
+            optimum_cost: finite(optimum),
+            truth_cost: first.and_then(|round| finite(round.truth_cost)),
+        }),
+        rows: printed.collect(),
+        rounds: Some(Rounds {
+            variants: rounds.iter().map(treatment).collect(),
+            strong: strong.map(|row| StrongMethod::new(row, optimum)).collect(),
+        }),
     }
 }
 

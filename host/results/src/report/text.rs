@@ -1,46 +1,15 @@
 //! Results as text for a terminal of 80 columns.
 
 use super::diagnosis::bars;
-use super::json::least_cost;
-use super::paint::{GOOD, HEADING, painted};
+use super::style::{GOOD, HEADING, painted};
+use crate::number_text::{short, with_error};
+use crate::schema::contest::least_cost;
 use servoid_engine::compare::{Row, quantile};
 use servoid_engine::problem::Data;
 use servoid_identify::fit::{Fit, LadderEntry, Parameter};
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
-
-/// A value with as many digits as its standard error deserves: `58.35908(3)`.
-pub fn with_error(value: f64, std: Option<f64>) -> String {
-    let Some(std) = std.filter(|std| *std > 0.0 && std.is_finite()) else {
-        return if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-            format!("{value}")
-        } else {
-            format!("{value:e}")
-        };
-    };
-    let size = value.abs().max(std).max(f64::MIN_POSITIVE);
-    let exponent = size.log10().floor() as i32;
-    // Plain notation for what reads well plainly, else a power of ten.
-    let shift = if (-3..6).contains(&exponent) {
-        0
-    } else {
-        exponent
-    };
-    let (value, std) = (value / 10f64.powi(shift), std / 10f64.powi(shift));
-    let digits = (1 - std.log10().floor() as i32).clamp(0, 12) as usize;
-    let uncertain = (std * 10f64.powi(digits as i32)).round();
-    let tail = if shift == 0 {
-        String::new()
-    } else {
-        format!("e{shift}")
-    };
-    if digits == 0 {
-        format!("{value:.0}({std:.0}){tail}")
-    } else {
-        format!("{value:.digits$}({uncertain:.0}){tail}")
-    }
-}
 
 pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
     let value = match (p.std, p.identifiable) {
@@ -263,18 +232,4 @@ fn curves(rows: &[Row], budget: usize) -> String {
         out += &format!("  {name:14}{}\n", painted(GOOD, line));
     }
     out
-}
-
-/// Four significant digits or more in at most ten columns.
-pub fn short(x: f64) -> String {
-    if !x.is_finite() {
-        "-".to_owned()
-    } else if x == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e6).contains(&x.abs()) {
-        let digits = (4 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 7) as usize;
-        format!("{x:.digits$}")
-    } else {
-        format!("{x:.3e}")
-    }
 }

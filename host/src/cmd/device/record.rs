@@ -9,7 +9,8 @@ use crate::error::Error;
 use crate::session::{Session, print};
 use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
-use servoid_results::device_run::{DutyScale, Folder, Recorded, Saved};
+use servoid_results::device_run::{DutyScale, Folder, Recorded};
+use servoid_results::schema::DeviceRun;
 use shared::fit::{Method, Settings};
 use shared::wire::{About, Kind, Segment, Stage};
 use std::path::Path;
@@ -182,7 +183,7 @@ fn into_folder(
     }
 }
 
-fn summary(saved: &Saved, run: &Run, path: &Path, written: &[&str]) -> String {
+fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> String {
     let period_s = f64::from(saved.period_us) * 1e-6;
     let mut text = String::new();
     for part in &run.recorded {

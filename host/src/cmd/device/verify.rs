@@ -9,14 +9,16 @@ use crate::cli::VerifyArgs;
 use crate::device::{Replayed, replay};
 use crate::error::Error;
 use crate::session::Session;
-use serde::Serialize;
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::{self, Budget};
 use servoid_identify::fit::Options;
 use servoid_identify::{Datasets, diagnose_datasets, identify_data};
 use servoid_io::input::{MotorFile, read_recording};
-use servoid_results::device_run::{Folder, FolderError, Saved, SavedOutcome};
-use servoid_results::report::diagnosis::{DiagnosisJson, DiagnosisReport};
+use servoid_results::device_run::{Folder, FolderError};
+use servoid_results::report::diagnosis::DiagnosisReport;
+use servoid_results::schema::device::Outcome;
+use servoid_results::schema::verification::{self, Stronger};
+use servoid_results::schema::{DeviceRun, Diagnosis, Verification};
 use shared::effects::Kind;
 use shared::wire::Stage;
 use std::path::Path;
@@ -24,32 +26,11 @@ use std::path::Path;
 /// Values that differ by less than this part are the same answer.
 const SAME: f64 = 0.01;
 
-#[derive(Serialize)]
-struct VerifyJson {
-    schema: &'static str,
-    same_bits: bool,
-    differ: Vec<String>,
-    stronger: Option<Stronger>,
-    stands: bool,
-    verdict: String,
-    diagnosis: Option<DiagnosisJson>,
-}
-
-/// The same model on the same recording, fitted by least squares in double precision.
-#[derive(Clone, Debug, Serialize)]
-struct Stronger {
-    rms_counts: f64,
-    device_rms_counts: f64,
-    gain_rad_s_v: f64,
-    a1_s: f64,
-    gain_off: f64,
-    a1_off: f64,
-}
-
-impl Stronger {
-    fn agrees(&self) -> bool {
-        self.gain_off.abs() < SAME && self.a1_off.abs() < SAME
-    }
+/// Whether it is the device's answer.
+fn agrees(stronger: &Stronger) -> bool {
+    [stronger.gain_off, stronger.a1_off]
+        .iter()
+        .all(|off| off.is_some_and(|off| off.abs() < SAME))
 }
 
 pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
@@ -94,14 +75,14 @@ pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
         text += &format!("\n{}\n", diagnosed.text);
     }
     text += &format!("{verdict}\n");
-    let json = VerifyJson {
-        schema: "servoid.verify/1",
+    let json = Verification {
+        schema: verification::SCHEMA.to_owned(),
         same_bits: same,
         differ: replayed.differ,
         stronger: Some(stronger),
         stands,
         verdict: verdict.clone(),
-        diagnosis: diagnosed.map(|diagnosed| diagnosed.json),
+        diagnosis: diagnosed.map(|diagnosed| Box::new(diagnosed.json)),
     };
     session.deliver(&text, &json)?;
     if same {
@@ -113,7 +94,7 @@ pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
     }
 }
 
-fn fitted_effects(saved: &Saved) -> Vec<Kind> {
+fn fitted_effects(saved: &DeviceRun) -> Vec<Kind> {
     let flags = [
         (saved.fit.coulomb, Kind::Coulomb),
         (saved.fit.load, Kind::LoadTorque),
@@ -125,7 +106,7 @@ fn fitted_effects(saved: &Saved) -> Vec<Kind> {
         .collect()
 }
 
-fn bits(saved: &Saved, outcome: &SavedOutcome, replayed: &Replayed, periods: usize) -> String {
+fn bits(saved: &DeviceRun, outcome: &Outcome, replayed: &Replayed, periods: usize) -> String {
     let what = format!(
         "{periods} periods, {} models, {}, seed {}",
         outcome.evaluations, saved.format, saved.fit.seed
@@ -144,8 +125,8 @@ fn stronger(
     session: &Session,
     folder: &Folder,
     motor: &MotorFile,
-    outcome: &SavedOutcome,
-    saved: &Saved,
+    outcome: &Outcome,
+    saved: &DeviceRun,
 ) -> Result<Stronger, Error> {
     let path = folder.recording_of(Stage::Record).ok_or_else(|| {
         Error::Failed(
@@ -167,33 +148,38 @@ fn stronger(
     let off = |name: &str, truth: f64| {
         outcome
             .value(name)
-            .map_or(f64::NAN, |value| value / truth - 1.0)
+            .and_then(|value| finite(value / truth - 1.0))
     };
     Ok(Stronger {
-        rms_counts: fit.rms_counts,
-        device_rms_counts: outcome.rms_counts,
-        gain_rad_s_v: response.gain,
-        a1_s: response.a1,
+        rms_counts: finite(fit.rms_counts),
+        device_rms_counts: finite(outcome.rms_counts),
+        gain_rad_s_v: finite(response.gain),
+        a1_s: finite(response.a1),
         gain_off: off("gain", response.gain),
         a1_off: off("a1", response.a1),
     })
 }
 
-fn search(outcome: &SavedOutcome, stronger: &Stronger) -> String {
+fn finite(x: f64) -> Option<f64> {
+    Some(x).filter(|x| x.is_finite())
+}
+
+fn search(outcome: &Outcome, stronger: &Stronger) -> String {
+    let number = |x: Option<f64>| x.unwrap_or(f64::NAN);
     format!(
         "search: least squares in double precision leaves {:.4} counts RMS, the device {:.4}; its gain is off by {:+.3} %, its \
          time constant by {:+.3} %\n",
-        stronger.rms_counts,
+        number(stronger.rms_counts),
         outcome.rms_counts,
-        stronger.gain_off * 100.0,
-        stronger.a1_off * 100.0
+        number(stronger.gain_off) * 100.0,
+        number(stronger.a1_off) * 100.0
     )
 }
 
 /// What the diagnosis says, already written.
 struct Account {
     text: String,
-    json: DiagnosisJson,
+    json: Diagnosis,
     names: Vec<Kind>,
     explained: bool,
     base: f64,
@@ -223,7 +209,7 @@ fn diagnose(
     let diagnosis = &found.diagnosis;
     Ok(Account {
         text: report.text(),
-        json: DiagnosisJson::from(&report),
+        json: Diagnosis::from(&report),
         names: diagnosis.steps.iter().map(|step| step.added).collect(),
         explained: matches!(
             diagnosis.verdict,
@@ -246,7 +232,7 @@ fn verdict(
             "The device's answer does not stand: its arithmetic cannot be repeated.".to_owned(),
         );
     }
-    if !stronger.agrees() {
+    if !agrees(stronger) {
         return (
             false,
             "The device's answer does not stand: on its own recording a stronger search finds another motor. Commission \

@@ -2,6 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `asked` | what a user asks of them |
 //! | `loops` | a sampled loop at its frequencies: margins and bandwidth, exactly |
 //! | `cascade`, `alone` | a speed loop around a current loop; one without |
 //! | `text` | the TOML |
@@ -12,18 +13,19 @@
 //! speed loop gives volts. Behind an amplifier with a current loop its output is in units of the command.
 
 mod alone;
+pub(super) mod asked;
 mod cascade;
 pub mod design;
 pub mod feed_forward;
 pub mod loops;
 mod text;
 
+pub use asked::{Asked, Loops};
 pub(super) use text::write;
 
 use super::error::{ExportError, NAME_RESISTANCE};
-use super::format::Options;
+use super::options::Options;
 use super::subject::Subject;
-use clap::ValueEnum;
 use design::Method;
 use loops::{Closed, Plant};
 use servoid_io::recording::Drive;
@@ -31,28 +33,6 @@ use shared::effects::Place;
 use std::f64::consts::TAU;
 
 const FORMAT: &str = "gains";
-
-/// What a user asks of the controllers; everything has a usual value.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Asked {
-    /// Crossover of the current loop, Hz.
-    pub current_hz: Option<f64>,
-    /// Crossover of the speed loop, Hz.
-    pub speed_hz: Option<f64>,
-    /// How the speed loop's zero is placed.
-    pub method: Option<Method>,
-    /// Which loops.
-    pub loops: Option<Loops>,
-}
-
-/// Which loops are closed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Loops {
-    /// A current loop, and a speed loop around it
-    Cascade,
-    /// One speed loop that gives volts
-    Voltage,
-}
 
 /// A closed loop with its units.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use super::super::comment::{head, marked};
 use super::super::digits::rounded;
 use super::super::error::ExportError;
-use super::super::format::Options;
+use super::super::options::Options;
 use super::super::subject::Subject;
 use super::super::written::{Lack, Written};
 use super::design::Method;

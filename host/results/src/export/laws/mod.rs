@@ -5,7 +5,7 @@ mod numbers;
 
 use super::samples::{DIGITS, KNOWN, Known, linear, result, subject};
 use super::{ExportError, FORMATS, Format, Options, Side, Subject, Written};
-use crate::kept::KeptResult;
+use crate::schema::Identified;
 use servoid_io::input::MotorFile;
 use servoid_plant as bench;
 use shared::effects::Kind;
@@ -15,7 +15,7 @@ use std::path::Path;
 const OUTPUT: Side = Side::Output { ratio: 30.0 };
 
 /// Every result of a list: the linear motors of the bench and each effect, all that is known and little.
-fn results() -> Vec<(String, KeptResult)> {
+fn results() -> Vec<(String, Identified)> {
     let mut results = Vec::new();
     for known in KNOWN {
         for name in bench::PRESETS {
@@ -189,8 +189,8 @@ fn every_text_is_of_its_language() {
 
 #[test]
 fn no_file_of_the_repository_lists_other_formats_than_there_are() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let json = fs::read_to_string(root.join("docs/json.md")).expect("the documentation");
+    let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/book/src");
+    let json = fs::read_to_string(book.join("reference/json.md")).expect("the documentation");
     for format in FORMATS {
         assert!(
             json.contains(&format!("`{}`", format.name)),

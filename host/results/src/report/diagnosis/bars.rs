@@ -1,6 +1,6 @@
 //! Errors as bars, on a logarithmic scale from the encoder's own.
 
-use crate::report::paint::{GOOD, HEADING, painted};
+use crate::report::style::{GOOD, HEADING, painted};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// Widest bar, characters.

@@ -1,15 +1,14 @@
-//! A diagnosis as text and as JSON.
+//! A diagnosis as text and as a document.
 
 pub mod bars;
+mod document;
 mod evidence;
-mod json;
 mod steady;
 mod text;
 mod verdict;
 mod whereabouts;
 
-pub use json::DiagnosisJson;
-pub use steady::{SteadyJson, SteadyReport};
+pub use steady::SteadyReport;
 
 use servoid_engine::problem::Data;
 use servoid_identify::Diagnosed;
@@ -180,12 +179,6 @@ impl DiagnosisReport<'_> {
             bars::counts(self.diagnosis.base.rms_counts),
             whereabouts::table(first.unwrap_or(&self.findings.base))
         )
-    }
-
-    /// Effects of the last model.
-    fn effects(&self) -> Vec<&'static str> {
-        let effects = self.diagnosis.last.effects.iter();
-        effects.map(|kind| kind.name()).collect()
     }
 
     /// The fault of the recordings by which any model must fail, where they are not explained; the one that was found

@@ -1,9 +1,11 @@
-//! What a curve of steady speeds says, as text and as JSON.
+//! What a curve of steady speeds says, as text and as a document.
 
 use super::text::verdict;
-use crate::report::paint::{HEADING, painted};
+use crate::report::style::{HEADING, painted};
 use crate::report::text::wrapped;
-use serde::Serialize;
+use crate::schema::diagnosis::SCHEMA;
+use crate::schema::steady::{Curve, NotSimulated};
+use crate::schema::{Steady, VERSION, finite};
 use servoid_identify::diagnose::Verdict;
 use servoid_identify::diagnose::steady::{SteadyDiagnosis, SteadyFit};
 use servoid_io::input::SteadyCurve;
@@ -79,93 +81,31 @@ impl SteadyReport<'_> {
     }
 }
 
-/// The keys of `servoid.diagnosis/1` that a curve can fill, and its own.
-#[derive(Debug, Serialize)]
-pub struct SteadyJson {
-    schema: &'static str,
-    quantization_floor_counts: Option<f64>,
-    base: ModelJson,
-    verdict: &'static str,
-    summary: String,
-    steps: [(); 0],
-    #[serde(rename = "final")]
-    last: ModelJson,
-    advice: Vec<&'static str>,
-    steady: CurveJson,
-    recording: String,
-    seed: u64,
-    interrupted: bool,
-    version: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-struct ModelJson {
-    effects: [&'static str; 0],
-    rms_counts: Option<f64>,
-    validate_rms_counts: Option<f64>,
-    parameters: [(); 0],
-}
-
-#[derive(Debug, Serialize)]
-struct CurveJson {
-    points: usize,
-    /// Voltage, V, and speed, rad/s.
-    curve: Vec<(f64, f64)>,
-    linear: FitJson,
-    with_drop: FitJson,
-    p_value: f64,
-    indistinguishable: Vec<&'static str>,
-}
-
-#[derive(Debug, Serialize)]
-struct FitJson {
-    slope_v_s_rad: f64,
-    drop_v: f64,
-    relative: f64,
-}
-
-impl From<&SteadyFit> for FitJson {
-    fn from(fit: &SteadyFit) -> Self {
-        FitJson {
-            slope_v_s_rad: fit.slope,
-            drop_v: fit.drop_v,
-            relative: fit.relative,
-        }
-    }
-}
-
-/// A curve has no encoder and no run to simulate.
-const NOTHING_SIMULATED: ModelJson = ModelJson {
-    effects: [],
-    rms_counts: None,
-    validate_rms_counts: None,
-    parameters: [],
-};
-
-impl From<&SteadyReport<'_>> for SteadyJson {
+impl From<&SteadyReport<'_>> for Steady {
     fn from(report: &SteadyReport<'_>) -> Self {
         let diagnosis = report.diagnosis;
-        SteadyJson {
-            schema: "servoid.diagnosis/1",
+        let owned = |name: &str| name.to_owned();
+        Steady {
+            schema: SCHEMA.to_owned(),
             quantization_floor_counts: None,
-            base: NOTHING_SIMULATED,
-            verdict: diagnosis.verdict.name(),
+            base: NotSimulated::default(),
+            verdict: diagnosis.verdict.name().to_owned(),
             summary: report.summary(),
             steps: [],
-            last: NOTHING_SIMULATED,
-            advice: diagnosis.advice.into_iter().collect(),
-            steady: CurveJson {
+            last: NotSimulated::default(),
+            advice: diagnosis.advice.into_iter().map(owned).collect(),
+            steady: Curve {
                 points: report.curve.points.len(),
                 curve: report.curve.points.clone(),
                 linear: (&diagnosis.linear).into(),
                 with_drop: (&diagnosis.with_drop).into(),
-                p_value: diagnosis.p_value,
-                indistinguishable: report.names(),
+                p_value: finite(diagnosis.p_value),
+                indistinguishable: report.names().into_iter().map(owned).collect(),
             },
             recording: report.curve.source.clone(),
             seed: report.seed,
             interrupted: false,
-            version: env!("CARGO_PKG_VERSION"),
+            version: VERSION.to_owned(),
         }
     }
 }

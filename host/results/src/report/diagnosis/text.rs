@@ -4,7 +4,7 @@ use super::bars::{counts, sparkline};
 use super::whereabouts::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::report::fold::folded;
-use crate::report::paint::{BAD, GOOD, HEADING, painted};
+use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, wrapped};
 use anstyle::Style;
 use servoid_identify::diagnose::{HeldOut, Step, Verdict};

@@ -1,9 +1,7 @@
-//! A plan as text, as JSON, and as the comments above its commands.
+//! A plan as text, as a document, and as the comments above its commands.
 
-mod json;
+mod document;
 mod text;
-
-pub use json::PlanJson;
 
 use servoid_identify::plan::{
     Hypothesis, Limits, PlanTask, Ranked, SEPARABLE_COUNTS, Usage, remedy, why,

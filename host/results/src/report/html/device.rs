@@ -1,0 +1,184 @@
+//! The page of a motor that commissioned itself, and of the host's check of it.
+
+use super::{Model, Recordings, diagnosis, failing, no_recording, recording_facts};
+use crate::error::Error;
+use crate::page::{Block, Page, Section};
+use crate::picture::{self, Estimates};
+use crate::report::diagnosis::bars::counts;
+use crate::schema::device::Outcome;
+use crate::schema::{DeviceRun, Estimate, Verification};
+use servoid_engine::problem::Candidate;
+use servoid_engine::simulation::Method;
+use servoid_identify::fit::margins::Loop;
+use shared::effects::{EffectSet, Kind};
+use shared::motor::Machine;
+
+pub(super) fn page(run: &DeviceRun, recordings: Recordings<'_>) -> Result<Page, Error> {
+    let mut sections = Vec::new();
+    if let Some(outcome) = &run.outcome {
+        let model = model(outcome)?;
+        let mut seen = Section::new("overlay", "Measured and the device's model");
+        match recordings.fitted {
+            Some(data) => {
+                let runs = [model.run(data)?];
+                let title = "What the device recorded and fitted";
+                let drawn =
+                    picture::timeline("timeline", title, data, &runs, None, picture::IN_A_FILE);
+                seen.blocks.push(Block::Picture(drawn));
+            }
+            None => seen.blocks.push(Block::Text(no_recording("fitted.csv"))),
+        }
+        if let Some(data) = recordings.held_out {
+            let runs = [model.run_unseen(data)?];
+            let title = "What it verified on, never fitted";
+            let drawn = picture::timeline(
+                "timeline-held-out",
+                title,
+                data,
+                &runs,
+                None,
+                picture::IN_A_FILE,
+            );
+            seen.blocks.push(Block::Picture(drawn));
+        }
+        sections.push(seen);
+        let position_loop = Loop::from(&model.candidate.machine);
+        if let Some(data) = recordings.fitted {
+            sections.extend(failing("model", data, &[model])?);
+        }
+        let mut parameters = Section::new("parameters", "Parameters");
+        let found = estimates(outcome);
+        let sources = [Estimates {
+            name: "the device".to_owned(),
+            parameters: &found,
+        }];
+        let forest = picture::forest("forest", &sources);
+        parameters.blocks.extend(forest.map(Block::Picture));
+        let loops = [("the device's model".to_owned(), position_loop)];
+        let drawn = picture::bode("bode", &loops);
+        parameters.blocks.push(Block::Picture(drawn));
+        sections.push(parameters);
+    }
+    let mut facts = recording_facts(recordings, "fitted.csv");
+    facts.extend([
+        (
+            "board".to_owned(),
+            format!("{}, firmware {}", run.board, run.firmware),
+        ),
+        ("supply".to_owned(), format!("{} V", run.supply_v)),
+        ("control period".to_owned(), format!("{} µs", run.period_us)),
+        ("number format".to_owned(), run.format.clone()),
+        (
+            "first moved at".to_owned(),
+            format!("{:.3} V", run.breakaway_v),
+        ),
+        ("periods lost".to_owned(), run.missing.to_string()),
+    ]);
+    Ok(Page {
+        title: format!("Commissioning on {}", run.board),
+        lead: vec![lead(run)],
+        facts,
+        sections,
+    })
+}
+
+/// The host's check: its verdict above the page of its diagnosis.
+pub(super) fn verification(
+    verification: &Verification,
+    recordings: Recordings<'_>,
+) -> Result<Page, Error> {
+    let mut page = match &verification.diagnosis {
+        Some(found) => diagnosis::page(found, recordings)?,
+        None => Page {
+            title: String::new(),
+            lead: Vec::new(),
+            facts: Vec::new(),
+            sections: Vec::new(),
+        },
+    };
+    page.title = "The device's answer, checked by the host".to_owned();
+    page.lead.insert(0, verification.verdict.clone());
+    let same = if verification.same_bits {
+        "the same bits"
+    } else {
+        "other bits"
+    };
+    page.facts
+        .push(("the fit, repeated".to_owned(), same.to_owned()));
+    Ok(page)
+}
+
+fn lead(run: &DeviceRun) -> String {
+    if let Some(failure) = &run.failure {
+        return format!(
+            "The run was given up {:.3} s after its start, in {}: {}",
+            failure.at_s, failure.stage, failure.message
+        );
+    }
+    let Some(outcome) = &run.outcome else {
+        return "The device recorded and did not fit.".to_owned();
+    };
+    let verified = run.verified_rms_counts.map_or(String::new(), |rms| {
+        format!(
+            " What it had not seen it predicts to {} counts RMS.",
+            counts(rms)
+        )
+    });
+    format!(
+        "The device fitted its own motor to {} counts RMS in {} model runs.{verified} Whether that stands, `servoid device \
+         verify` says.",
+        counts(outcome.rms_counts),
+        outcome.evaluations
+    )
+}
+
+fn estimates(outcome: &Outcome) -> Vec<Estimate> {
+    outcome
+        .parameters
+        .iter()
+        .map(|p| Estimate {
+            name: p.name.clone(),
+            value: p.value,
+            unit: p.unit.clone(),
+            std: p.std,
+            identifiable: p.std.is_some_and(|std| 2.0 * std < p.value.abs()),
+        })
+        .collect()
+}
+
+/// The device's model: its damping is all back-EMF, since voltage and angle do not tell the two apart.
+fn model(outcome: &Outcome) -> Result<Model, Error> {
+    let of = |name: &str| {
+        outcome.value(name).ok_or_else(|| {
+            Error::Failed(format!(
+                "device.json lacks the parameter `{name}`; commission the motor again"
+            ))
+        })
+    };
+    let gain = of("gain")?;
+    let kb = 1.0 / gain;
+    let mut effects = EffectSet::default();
+    for (name, kind) in [("coulomb", Kind::Coulomb), ("load", Kind::LoadTorque)] {
+        if let Some(value) = outcome.value(name) {
+            effects.push(kind, &[value])?;
+        }
+    }
+    Ok(Model {
+        name: "device's model".to_owned(),
+        candidate: Candidate {
+            machine: Machine {
+                kb,
+                damping: 0.0,
+                inertia: of("a1")? * kb,
+                electrical: of("electrical")?,
+            },
+            effects,
+            start_speed: 0.0,
+            start_offset: 0.0,
+        },
+        method: Method {
+            substeps: 2,
+            ..Method::default()
+        },
+    })
+}

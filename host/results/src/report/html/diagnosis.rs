@@ -1,0 +1,289 @@
+//! The page of a diagnosis.
+
+use super::fit::{model, named};
+use super::{Model, Recordings, failing, no_recording, recording_facts};
+use crate::error::Error;
+use crate::page::{Block, Page, Section};
+use crate::picture::{self, Estimates, Rung, Table};
+use crate::report::diagnosis::bars::counts;
+use crate::schema::diagnosis::Step;
+use crate::schema::{Demo, Diagnosis};
+use servoid_engine::problem::Data;
+use servoid_identify::fit::margins::Loop;
+use shared::effects::Kind;
+
+/// Candidates that are listed for each step.
+const LISTED: usize = 8;
+
+pub(super) fn page(diagnosis: &Diagnosis, recordings: Recordings<'_>) -> Result<Page, Error> {
+    let base = model("linear motor", &diagnosis.base.model, "base.model")?;
+    let last = model(
+        &named(&diagnosis.last.effects),
+        &diagnosis.last.model,
+        "final.model",
+    )?;
+    let loops = [&base, &last].map(|m| (m.name.clone(), Loop::from(&m.candidate.machine)));
+    // A linear motor that explains all stands alone.
+    let models: Vec<Model> = if diagnosis.last.effects.is_empty() {
+        vec![last]
+    } else {
+        vec![base, last]
+    };
+    let mut sections = vec![ladder(diagnosis), seen(diagnosis, recordings, &models)?];
+    sections.extend(named_effects(diagnosis));
+    sections.push(next(diagnosis));
+    if let Some(data) = recordings.fitted {
+        sections.extend(failing("model", data, &models)?);
+    }
+    sections.push(parameters(diagnosis, &loops[2 - models.len()..]));
+    let mut facts = recording_facts(recordings, &diagnosis.recording);
+    facts.push(("held out, never fitted".to_owned(), held_out(diagnosis)));
+    facts.push(("verdict".to_owned(), diagnosis.verdict.replace('_', " ")));
+    facts.push(("seed".to_owned(), diagnosis.seed.to_string()));
+    Ok(Page {
+        title: format!("Diagnosis of {}", diagnosis.recording),
+        lead: lead(diagnosis),
+        facts,
+        sections,
+    })
+}
+
+/// What a demonstration hid, and how near the diagnosis came.
+pub(super) fn truth(demo: &Demo) -> Section {
+    let mut truth = Section::new("truth", "The truth");
+    truth.blocks.push(Block::Text(format!(
+        "This motor was made by the virtual bench, which shares no code with the model. Hidden in it was {}.",
+        demo.hidden.as_deref().unwrap_or("nothing")
+    )));
+    if !demo.parameter_errors.is_empty() {
+        let mut table = Table::new(&["parameter", "off by, %"]);
+        for miss in &demo.parameter_errors {
+            let name = format!("{}.{}", miss.effect, miss.parameter);
+            table.row([name, format!("{:.4}", miss.percent)]);
+        }
+        let caption = "How far off the diagnosis is".to_owned();
+        truth.blocks.push(Block::Table(caption, table));
+    }
+    truth
+}
+
+fn lead(diagnosis: &Diagnosis) -> Vec<String> {
+    let mut lead = vec![diagnosis.summary.clone()];
+    if diagnosis.interrupted {
+        lead.push("The work was stopped by the user: this is the best so far.".to_owned());
+    }
+    lead
+}
+
+fn held_out(diagnosis: &Diagnosis) -> String {
+    let held_out = &diagnosis.held_out;
+    match (&held_out.source, held_out.from_s) {
+        (Some(source), _) => source.clone(),
+        (None, Some(from)) => format!("its end, from {from:.3} s on"),
+        (None, None) => "nothing".to_owned(),
+    }
+}
+
+fn ladder(diagnosis: &Diagnosis) -> Section {
+    let mut rungs = vec![Rung {
+        name: "linear motor".to_owned(),
+        fitted: diagnosis.base.rms_counts,
+        held_out: diagnosis.base.validate_rms_counts,
+    }];
+    rungs.extend(diagnosis.steps.iter().map(|step| Rung {
+        name: format!("+ {}", step.added),
+        fitted: step.rms_counts,
+        held_out: step.validate_rms_counts,
+    }));
+    if let Some(last) = rungs.last_mut() {
+        last.fitted = diagnosis.last.rms_counts;
+        last.held_out = diagnosis.last.validate_rms_counts;
+    }
+    let mut section = Section::new("ladder", "The error falls");
+    if diagnosis.steps.is_empty() {
+        section.heading = "The error".to_owned();
+    }
+    section
+        .blocks
+        .push(Block::Picture(picture::ladder("error-ladder", &rungs)));
+    section
+}
+
+fn seen(
+    diagnosis: &Diagnosis,
+    recordings: Recordings<'_>,
+    models: &[Model],
+) -> Result<Section, Error> {
+    let mut section = Section::new("overlay", "Measured and model");
+    let runs = |of: &dyn Fn(&Model) -> Result<picture::Run, Error>| -> Result<Vec<_>, Error> {
+        models.iter().map(of).collect()
+    };
+    let mut draw = |id: &str, title: &str, data: &Data, runs: &[picture::Run], from| {
+        let drawn = picture::timeline(id, title, data, runs, from, picture::IN_A_FILE);
+        section.blocks.push(Block::Picture(drawn));
+    };
+    if let Some(data) = recordings.fitted {
+        let runs = runs(&|model| model.run(data))?;
+        let from = diagnosis.held_out.from_s;
+        draw("timeline", "The fitted recording", data, &runs, from);
+    }
+    if let Some(data) = recordings.held_out {
+        let runs = runs(&|model| model.run_unseen(data))?;
+        let title = "The recording that was never fitted";
+        draw("timeline-held-out", title, data, &runs, None);
+    }
+    if recordings.fitted.is_none() {
+        let text = no_recording(&diagnosis.recording);
+        section.blocks.push(Block::Text(text));
+    }
+    if !diagnosis.remarks.is_empty() {
+        section.blocks.push(Block::List(diagnosis.remarks.clone()));
+    }
+    Ok(section)
+}
+
+/// One section for each effect that was added.
+fn named_effects(diagnosis: &Diagnosis) -> Vec<Section> {
+    let steps = diagnosis.steps.iter().enumerate();
+    steps.map(|(k, step)| effect(k, step)).collect()
+}
+
+fn effect(index: usize, step: &Step) -> Section {
+    let description = Kind::by_name(&step.added).map(|kind| kind.description());
+    let title = description.map_or("", |d| d.title);
+    let heading = format!("{}. {}: {title}", index + 1, step.added);
+    let mut section = Section::new(&format!("effect-{}", index + 1), &heading);
+    let mut facts = Table::new(&["", ""]);
+    let mut say = |name: &str, text: String| facts.row([name.to_owned(), text]);
+    if let Some(description) = description {
+        say("equation", description.equation.to_owned());
+    }
+    say("evidence", step.evidence.clone());
+    say("looks alike here", company(step));
+    if let Some(confidence) = step.confidence {
+        say("confidence", format!("{:.0} %", 100.0 * confidence));
+    }
+    if let (Some(foreseen), Some(reached)) = (step.foreseen_rms_counts, step.rms_counts) {
+        say(
+            "foreseen",
+            format!(
+                "{} counts RMS before the refit; {} reached",
+                counts(foreseen),
+                counts(reached)
+            ),
+        );
+    }
+    section.blocks.push(Block::Table(String::new(), facts));
+    if !step.candidates.is_empty() {
+        section.blocks.push(Block::Table(
+            "What was tried here, best first".to_owned(),
+            candidates(step),
+        ));
+    }
+    section
+}
+
+/// Other effects that explain the data as well, in the words of the terminal.
+fn company(step: &Step) -> String {
+    let refines = |name: &&String| step.refined_by.contains(name);
+    let alike: Vec<String> = (step.indistinguishable_from.iter())
+        .filter(|name| !refines(name))
+        .cloned()
+        .collect();
+    let mut text = if alike.is_empty() {
+        "nothing else of the catalogue explains these data as well".to_owned()
+    } else {
+        format!("{} would explain these data as well", alike.join(", "))
+    };
+    if !step.refined_by.is_empty() {
+        text += &format!(
+            "; {} would refine it, and these data do not ask for that",
+            step.refined_by.join(" or ")
+        );
+    }
+    text
+}
+
+fn candidates(step: &Step) -> Table {
+    let mut table = Table::new(&[
+        "effect",
+        "fitted, counts RMS",
+        "held out, counts RMS",
+        "foreseen",
+        "chance",
+    ]);
+    for candidate in step.candidates.iter().take(LISTED) {
+        let cell = |value: Option<f64>| value.map_or("-".to_owned(), counts);
+        table.row([
+            candidate.effect.clone(),
+            cell(candidate.rms_counts),
+            cell(candidate.validate_rms_counts),
+            cell(candidate.foreseen_rms_counts),
+            candidate.p_value.map_or("-".to_owned(), chance),
+        ]);
+    }
+    table
+}
+
+/// A chance, which may be far smaller than any number that is worth its digits.
+fn chance(p: f64) -> String {
+    if p < 1e-9 {
+        "below 1e-9".to_owned()
+    } else {
+        format!("{p:.1e}")
+    }
+}
+
+fn next(diagnosis: &Diagnosis) -> Section {
+    let mut section = Section::new("next", "What to do next, and what stays open");
+    if let Some(effect) = &diagnosis.not_named {
+        section.blocks.push(Block::Text(format!(
+            "{effect} would reduce what is left the most, but not beyond doubt: it is not named."
+        )));
+    }
+    if diagnosis.advice.is_empty() {
+        section.blocks.push(Block::Text(
+            match diagnosis.verdict.as_str() {
+                "complete" | "missing_effects" => {
+                    "Nothing more needs to be recorded to name what is missing."
+                }
+                _ => {
+                    "What is missing is not named, and these data do not tell which recording would name it: see below where \
+                     the last model fails."
+                }
+            }
+            .to_owned(),
+        ));
+    } else {
+        section.blocks.push(Block::List(diagnosis.advice.clone()));
+    }
+    if !diagnosis.cannot_tell.is_empty() {
+        section
+            .blocks
+            .push(Block::Text("These recordings cannot tell:".to_owned()));
+        section
+            .blocks
+            .push(Block::List(diagnosis.cannot_tell.clone()));
+    }
+    section
+}
+
+fn parameters(diagnosis: &Diagnosis, loops: &[(String, Loop)]) -> Section {
+    let mut section = Section::new("parameters", "Parameters");
+    let sources = [Estimates {
+        name: "this diagnosis".to_owned(),
+        parameters: &diagnosis.last.parameters,
+    }];
+    section
+        .blocks
+        .extend(picture::forest("forest", &sources).map(Block::Picture));
+    if !diagnosis.last.notes.is_empty() {
+        section
+            .blocks
+            .push(Block::List(diagnosis.last.notes.clone()));
+    }
+    section
+        .blocks
+        .push(Block::Picture(picture::bode("bode", loops)));
+    section
+}

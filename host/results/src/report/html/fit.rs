@@ -1,0 +1,156 @@
+//! The page of a fit.
+
+use super::{Model, Recordings, failing, no_recording, recording_facts};
+use crate::error::Error;
+use crate::page::{Block, Page, Section};
+use crate::picture::{self, Estimates, Rung};
+use crate::report::diagnosis::bars::counts;
+use crate::schema::{self, Fit};
+use servoid_identify::fit::margins::Loop;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error> {
+    let model = model(&fit.name(), &fit.model, "model")?;
+    let mut sections = Vec::new();
+    if let Some(data) = recordings.fitted {
+        let mut seen = Section::new("overlay", "Measured and model");
+        let title = "The fitted recording";
+        let runs = [model.run(data)?];
+        seen.blocks.push(Block::Picture(picture::timeline(
+            "timeline",
+            title,
+            data,
+            &runs,
+            None,
+            picture::IN_A_FILE,
+        )));
+        if let Some(other) = recordings.held_out {
+            let runs = [model.run_unseen(other)?];
+            let title = "The recording that was never fitted";
+            seen.blocks.push(Block::Picture(picture::timeline(
+                "timeline-held-out",
+                title,
+                other,
+                &runs,
+                None,
+                picture::IN_A_FILE,
+            )));
+        }
+        sections.push(seen);
+    } else {
+        let mut missing = Section::new("overlay", "Measured and model");
+        missing
+            .blocks
+            .push(Block::Text(no_recording(&fit.recording)));
+        sections.push(missing);
+    }
+    if fit.ladder.len() > 1 {
+        let mut ladder = Section::new("ladder", "What each effect brings");
+        ladder
+            .blocks
+            .push(Block::Picture(picture::ladder("error-ladder", &rungs(fit))));
+        sections.push(ladder);
+    }
+    let position_loop = Loop::from(&model.candidate.machine);
+    if let Some(data) = recordings.fitted {
+        sections.extend(failing("model", data, &[model])?);
+    }
+    sections.push(parameters(fit, position_loop));
+    let mut facts = recording_facts(recordings, &fit.recording);
+    facts.extend([
+        ("method".to_owned(), fit.algorithm.clone()),
+        ("evaluations".to_owned(), fit.evaluations.to_string()),
+        (
+            format!("cost, {}", fit.cost_kind),
+            crate::number_text::short(fit.cost),
+        ),
+        ("seed".to_owned(), fit.seed.to_string()),
+    ]);
+    Ok(Page {
+        title: format!("Fit of {}", fit.recording),
+        lead: vec![lead(fit)],
+        facts,
+        sections,
+    })
+}
+
+/// A model of the result with its name.
+pub(super) fn model(name: &str, saved: &schema::Model, place: &str) -> Result<Model, Error> {
+    let candidate = saved
+        .candidate(place)
+        .map_err(|fault| Error::Failed(format!("{fault}; write the result again with --json")))?;
+    Ok(Model {
+        name: name.to_owned(),
+        candidate,
+        method: saved.method(),
+    })
+}
+
+impl Fit {
+    fn name(&self) -> String {
+        named(&self.effects)
+    }
+}
+
+/// What a model with these effects is called.
+pub(super) fn named(effects: &[String]) -> String {
+    match effects {
+        [] => "linear motor".to_owned(),
+        some => format!("motor with {}", some.join(", ")),
+    }
+}
+
+fn lead(fit: &Fit) -> String {
+    let floor = format!("the encoder alone leaves {FLOOR_RMS_COUNTS:.3}");
+    let held_out = fit.validate_rms_counts.map_or(String::new(), |rms| {
+        format!(", and by {} where it was never fitted", counts(rms))
+    });
+    let verdict = if fit.rms_counts > 2.0 * FLOOR_RMS_COUNTS {
+        " What is left is more than the encoder's: servoid diagnose says which physics is missing."
+    } else {
+        " Nothing but the encoder is left."
+    };
+    let stopped = if fit.interrupted {
+        " The search was stopped by the user: this is the best so far."
+    } else if !fit.converged {
+        " The search did not come to its end, so the errors of the parameters are not known."
+    } else {
+        ""
+    };
+    format!(
+        "The {} misses this recording by {} counts RMS on its own from start to end{held_out}; {floor}.{verdict}{stopped}",
+        fit.name(),
+        counts(fit.rms_counts)
+    )
+}
+
+fn rungs(fit: &Fit) -> Vec<Rung> {
+    fit.ladder
+        .iter()
+        .map(|rung| Rung {
+            name: rung
+                .added
+                .as_ref()
+                .map_or("linear motor".to_owned(), |name| format!("+ {name}")),
+            fitted: rung.rms_counts,
+            held_out: rung.validate_rms_counts,
+        })
+        .collect()
+}
+
+fn parameters(fit: &Fit, position_loop: Loop) -> Section {
+    let mut section = Section::new("parameters", "Parameters");
+    let sources = [Estimates {
+        name: fit.algorithm.clone(),
+        parameters: &fit.parameters,
+    }];
+    section
+        .blocks
+        .extend(picture::forest("forest", &sources).map(Block::Picture));
+    section.blocks.push(Block::List(fit.notes.clone()));
+    section.blocks.push(Block::Picture(picture::bode(
+        "bode",
+        &[(fit.name(), position_loop)],
+    )));
+    section
+}

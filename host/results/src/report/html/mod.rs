@@ -1,0 +1,87 @@
+//! A result as a page: the verdict in words, then the drawings, from the result's JSON and its recordings. So a page
+//! made today and one made from a file next year are the same.
+//!
+//! | file | makes the page of |
+//! |---|---|
+//! | `diagnosis` | `diagnose`, and of `demo` and `device verify`, which hold one |
+//! | `fit` | `fit` |
+//! | `steady` | `diagnose` of a curve of steady speeds |
+//! | `contest` | `compare` and `paper` |
+//! | `device` | a motor that commissioned itself |
+//! | `belongs` | whether recordings are those that a result was made from |
+//! | `waves` | lines of the missing volts in the angle |
+//! | `failing` | drawings of where models fail, for several of these |
+
+mod belongs;
+mod contest;
+mod device;
+mod diagnosis;
+mod failing;
+mod fit;
+mod steady;
+mod waves;
+
+pub use belongs::doubts;
+pub use failing::{Model, failing};
+
+use crate::error::Error;
+use crate::page::Page;
+use crate::schema::Document;
+use servoid_engine::problem::Data;
+
+/// The recordings that a result was made from, as far as they are at hand.
+#[derive(Clone, Copy, Default)]
+pub struct Recordings<'a> {
+    /// The fitted one.
+    pub fitted: Option<&'a Data>,
+    /// The one that was never fitted.
+    pub held_out: Option<&'a Data>,
+}
+
+/// The page of a result.
+///
+/// # Errors
+/// A model in it that is none, or that cannot run along the recordings.
+pub fn page(document: &Document, recordings: Recordings<'_>) -> Result<Page, Error> {
+    match document {
+        Document::Fit(fit) => fit::page(fit, recordings),
+        Document::Demo(demo) => match &demo.diagnosis {
+            Some(diagnosis) => {
+                let mut page = diagnosis::page(diagnosis, recordings)?;
+                page.sections.push(diagnosis::truth(demo));
+                Ok(page)
+            }
+            None => fit::page(&demo.fit, recordings),
+        },
+        Document::Diagnosis(diagnosis) => diagnosis::page(diagnosis, recordings),
+        Document::Steady(steady) => Ok(steady::page(steady)),
+        Document::Contest(contest) => Ok(contest::page(contest)),
+        Document::Verification(verification) => device::verification(verification, recordings),
+        Document::Device(run, _) => device::page(run, recordings),
+    }
+}
+
+/// What a page says of a recording.
+fn recording_facts(recordings: Recordings<'_>, source: &str) -> Vec<(String, String)> {
+    let mut facts = vec![("recording".to_owned(), source.to_owned())];
+    if let Some(data) = recordings.fitted {
+        let seconds = data.time_s.last().copied().unwrap_or(0.0);
+        facts.push((
+            "length".to_owned(),
+            format!("{seconds:.3} s, {} samples", data.len()),
+        ));
+        facts.push((
+            "encoder".to_owned(),
+            format!("{} counts a revolution", data.units.counts_per_rev),
+        ));
+    }
+    facts
+}
+
+/// A remark in the place of the drawings of a recording that is not at hand.
+fn no_recording(source: &str) -> String {
+    format!(
+        "The drawings of the recording itself are left out: {source} was not found when this page was made. Name it with \
+         --recording."
+    )
+}

@@ -1,0 +1,199 @@
+//! `servoid.device/1`: the report of a device's run, as its folder holds it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use shared::fit::{Estimate, Settings, Stop};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What a device's report calls itself.
+pub const SCHEMA: &str = "servoid.device/1";
+/// The file of the report in the folder of a run.
+pub(crate) const FILE: &str = "device.json";
+
+/// What the device reported: `servoid.device/1`. Numbers that must keep their bits are written as bits too.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DeviceRun {
+    /// `servoid.device/1`.
+    pub schema: String,
+    /// Name of the board.
+    pub board: String,
+    /// Version of its firmware.
+    pub firmware: String,
+    /// Length of a control period, µs.
+    pub period_us: u32,
+    /// Format that its model runs in: `f32` or `fixed`.
+    pub format: String,
+    /// V.
+    pub supply_v: f64,
+    /// Duty that puts the whole supply across the winding.
+    pub full_duty: u16,
+    /// Counts a revolution.
+    pub counts_per_rev: f64,
+    /// How the device fitted.
+    #[schemars(with = "Order")]
+    pub fit: Settings,
+    /// Voltage at which the shaft first moved, V.
+    pub breakaway_v: f64,
+    /// Largest voltage of the excitation, V.
+    pub amplitude_v: f64,
+    /// What it found; null if it did not fit.
+    pub outcome: Option<Outcome>,
+    /// Error of the verification on the device, counts RMS.
+    pub verified_rms_counts: Option<f64>,
+    /// Why the run was given up; null if it was not.
+    pub failure: Option<Failure>,
+    /// Periods that never arrived, in all files.
+    pub missing: usize,
+    /// Whether the run is incomplete: periods are missing, or it was given up or broke off.
+    pub partial: bool,
+}
+
+/// What the device found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Outcome {
+    /// In SI, for people.
+    pub parameters: Vec<Parameter>,
+    /// Bits of value and standard deviation of each, in the device's own measure.
+    pub bits: Vec<[u32; 2]>,
+    /// Error, counts RMS.
+    pub rms_counts: f64,
+    /// Bits of the mean squared error.
+    pub mean_square_bits: u32,
+    /// Models that were run.
+    pub evaluations: u32,
+    /// Whether the search came to its end.
+    pub converged: bool,
+}
+
+/// A parameter that the device found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// In SI, referred to the winding.
+    pub value: f64,
+    /// Its unit.
+    pub unit: String,
+    /// Standard deviation; null where the recording does not determine the value.
+    pub std: Option<f64>,
+}
+
+/// Why a run was given up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Failure {
+    /// The fault's name.
+    pub fault: String,
+    /// What it means, and what to do.
+    pub message: String,
+    /// In which stage.
+    pub stage: String,
+    /// When, s since the start of the run.
+    pub at_s: f64,
+    /// The number that broke the limit.
+    pub seen: i32,
+    /// The limit, in the same unit.
+    pub limit: i32,
+}
+
+/// The keys of [`Settings`], which the firmware shares and which knows nothing of schemas.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "Settings")]
+struct Order {
+    /// The method.
+    method: SearchMethod,
+    /// Particles or fireflies.
+    population: u8,
+    /// Evaluations of the search; those of the polish come on top.
+    evaluations: u16,
+    /// Seed of the search.
+    seed: u64,
+    /// Whether Coulomb friction is searched for.
+    coulomb: bool,
+    /// Whether a constant load is searched for.
+    load: bool,
+}
+
+/// The device's search methods.
+#[derive(Serialize, Deserialize, JsonSchema)]
+enum SearchMethod {
+    /// Particle swarm.
+    Pso,
+    /// Fireflies.
+    Firefly,
+}
+
+/// A report that cannot be used, with the remedy.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {why}", .path.display())]
+pub struct ReportError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it, and what to do.
+    pub why: String,
+}
+
+impl DeviceRun {
+    /// Reads the report of the run in `folder`.
+    ///
+    /// # Errors
+    /// A file that is missing or is no report.
+    pub fn read(folder: &Path) -> Result<Self, ReportError> {
+        let path = folder.join(FILE);
+        DeviceRun::parse(fs::read_to_string(&path)).map_err(|why| ReportError { path, why })
+    }
+
+    fn parse(text: std::io::Result<String>) -> Result<Self, String> {
+        let text = text.map_err(|error| {
+            format!("{error}; name a folder that `servoid device commission --out` wrote")
+        })?;
+        let run: DeviceRun = serde_json::from_str(&text)
+            .map_err(|error| format!("is no report of a device: {error}"))?;
+        match run.schema.as_str() {
+            SCHEMA => Ok(run),
+            other => Err(format!(
+                "is of the schema `{other}`; this program reads {SCHEMA}"
+            )),
+        }
+    }
+}
+
+impl Outcome {
+    /// As the device said it.
+    pub fn outcome(&self) -> shared::fit::Outcome {
+        let estimates = self.bits.iter().map(|[value, std]| Estimate {
+            value: f32::from_bits(*value),
+            std: f32::from_bits(*std),
+        });
+        shared::fit::Outcome {
+            estimates: estimates.take(shared::fit::MOST).collect(),
+            mean_square: f32::from_bits(self.mean_square_bits),
+            evaluations: self.evaluations,
+            stop: if self.converged {
+                Stop::Converged
+            } else {
+                Stop::NoModel
+            },
+        }
+    }
+
+    /// The value of a parameter in SI.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
+            .map(|parameter| parameter.value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_keys_of_the_order_are_those_of_the_settings() {
+        let settings = serde_json::to_value(Settings::USUAL).expect("JSON");
+        let order: Order = serde_json::from_value(settings.clone()).expect("the same keys");
+        assert_eq!(serde_json::to_value(order).expect("JSON"), settings);
+    }
+}

@@ -1,0 +1,337 @@
+//! `servoid.diagnosis/1` of two recordings.
+
+use super::estimate::{Estimate, Identifiable, Margins};
+use super::residual::{Residual, Where};
+use super::{Machine, Model, ModelParameter, finite};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use servoid_identify::diagnose;
+use servoid_identify::diagnose::FittedModel;
+use servoid_identify::fit;
+
+/// What a diagnosis calls itself.
+pub const SCHEMA: &str = "servoid.diagnosis/1";
+
+/// `servoid.diagnosis/1`: where the model fails, and which effects are missing.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Diagnosis {
+    /// `servoid.diagnosis/1`.
+    #[serde(default)]
+    pub schema: String,
+    /// RMS of the encoder's own error, 1/√12 counts.
+    pub quantization_floor_counts: Option<f64>,
+    /// The linear motor.
+    pub base: Base,
+    /// `complete`, `missing_effects`, `unexplained` or `inconclusive`.
+    pub verdict: String,
+    /// The verdict in two sentences.
+    #[serde(default)]
+    pub summary: String,
+    /// The effects in the order in which they were added.
+    pub steps: Vec<Step>,
+    /// The model with all of them, fitted to its end.
+    #[serde(rename = "final")]
+    pub last: Final,
+    /// The effect that would reduce the error most and was not believed.
+    pub not_named: Option<String>,
+    /// What to do next.
+    #[serde(default)]
+    pub advice: Vec<String>,
+    /// The command that plans the recording which separates the look-alikes.
+    pub next_command: Option<String>,
+    /// What these recordings cannot tell, whatever the verdict.
+    #[serde(default)]
+    pub cannot_tell: Vec<String>,
+    /// The fault of the recordings by which any model must fail.
+    pub cause: Option<String>,
+    /// What to know about the recordings before believing anything.
+    #[serde(default)]
+    pub remarks: Vec<String>,
+    /// Where models fail.
+    #[serde(default)]
+    pub residual: Residual,
+    /// What was held out.
+    pub held_out: HeldOut,
+    /// Length of the windows that models were judged in, s; null where whole runs were.
+    pub window_s: Option<f64>,
+    /// Why windows.
+    pub window_reason: Option<String>,
+    /// The chosen model and one for each look-alike.
+    #[serde(default)]
+    pub models: Vec<Alternative>,
+    /// Supply, V.
+    pub supply_v: Option<f64>,
+    /// Fastest speed of the linear motor on its supply, or the fastest seen, rad/s.
+    pub no_load_rad_s: Option<f64>,
+    /// Encoder counts per revolution.
+    pub counts_per_rev: Option<f64>,
+    /// Sample interval, s.
+    pub sample_s: Option<f64>,
+    /// The fitted recording.
+    pub recording: String,
+    /// What the command drives: `voltage` or `current`.
+    #[serde(default)]
+    pub drive: String,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Whether the user stopped the work.
+    #[serde(default)]
+    pub interrupted: bool,
+    /// Whether the work ran out before all was tried.
+    #[serde(default)]
+    pub ran_out: bool,
+    /// Steps of a model that it took.
+    #[serde(default)]
+    pub model_steps: u64,
+    /// Version of the program.
+    #[serde(default)]
+    pub version: String,
+}
+
+/// The linear motor of a diagnosis.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Base {
+    /// Always empty.
+    #[serde(default)]
+    pub effects: Vec<String>,
+    /// The model with all its numbers.
+    pub model: Model,
+    /// On what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// On what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+}
+
+/// Errors of a model.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Errors {
+    /// On what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// On what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+}
+
+/// One effect that was added.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Step {
+    /// The effect.
+    pub added: String,
+    /// Effects that explain the data as well.
+    #[serde(default)]
+    pub indistinguishable_from: Vec<String>,
+    /// Those of them that only refine it: they can do what it does, and the data do not ask for more.
+    #[serde(default)]
+    pub refined_by: Vec<String>,
+    /// From one half (no lead over the best rival that is no look-alike) to one.
+    pub confidence: Option<f64>,
+    /// Of the refit with it, on what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// Of the refit with it, on what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+    /// What was foreseen before the refit, counts RMS.
+    pub foreseen_rms_counts: Option<f64>,
+    /// Errors that are soon forgotten, where free runs are chaotic and models are judged by these instead.
+    pub tracked: Option<Errors>,
+    /// How long these are remembered, s.
+    pub tracked_memory_s: Option<f64>,
+    /// Part of the recording, from its begin, over which a chaotic free run keeps to the readings.
+    pub followed: Option<f64>,
+    /// Errors in windows, each run from the measured state, where whole runs say little.
+    pub windowed: Option<Errors>,
+    /// What was measured that speaks for it.
+    #[serde(default)]
+    pub evidence: String,
+    /// The refit with it; counts that were lost are not put back in it.
+    pub model: Option<Model>,
+    /// Where the recording asks for the effect: what the model with it misses without it, its other constants kept.
+    #[serde(rename = "where")]
+    pub whereabouts: Option<Where>,
+    /// Everything that was tried, best first.
+    #[serde(default)]
+    pub candidates: Vec<Candidate>,
+}
+
+/// One effect that was tried.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Candidate {
+    /// The effect.
+    pub effect: String,
+    /// All effects of the model with it.
+    #[serde(default)]
+    pub effects: Vec<String>,
+    /// On what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// On what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+    /// What was foreseen before the refit, counts RMS.
+    pub foreseen_rms_counts: Option<f64>,
+    /// As in a step.
+    pub tracked: Option<Errors>,
+    /// As in a step.
+    pub windowed: Option<Errors>,
+    /// Chance of so large a gain if the effect were absent.
+    pub p_value: Option<f64>,
+    /// Model evaluations of its refit.
+    #[serde(default)]
+    pub evaluations: usize,
+}
+
+/// The last model of a diagnosis, fitted to its end.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Final {
+    /// Its effects.
+    pub effects: Vec<String>,
+    /// On what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// On what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+    /// Parameters with their errors.
+    pub parameters: Vec<Estimate>,
+    /// Whether its fit came to its end.
+    pub converged: bool,
+    /// What a user should know.
+    #[serde(default)]
+    pub notes: Vec<String>,
+    /// The model with all its numbers.
+    pub model: Model,
+    /// What voltage and angle determine.
+    #[serde(default)]
+    pub identifiable: Identifiable,
+    /// Margins of the position loop.
+    pub margins: Option<Margins>,
+}
+
+/// What was held out.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct HeldOut {
+    /// `recording`, `end` (of the fitted one, cut at `from_s`) or `nothing` (the same recording twice).
+    pub kind: String,
+    /// The other recording.
+    pub source: Option<String>,
+    /// Where the held-out end begins, s.
+    pub from_s: Option<f64>,
+    /// How long it is, s.
+    pub seconds: Option<f64>,
+    /// Whether the motor rests where it begins.
+    pub at_rest: Option<bool>,
+}
+
+/// A model that explains the recording; torques and inertia referred to the winding.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Alternative {
+    /// Its effects.
+    pub effects: Vec<String>,
+    /// `chosen` or `alternative`.
+    #[serde(default)]
+    pub role: String,
+    /// The linear machine.
+    pub machine: Machine,
+    /// The effects' parameters, torques in V.
+    #[serde(default)]
+    pub parameters: Vec<ModelParameter>,
+    /// On what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// On what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+}
+
+impl From<&FittedModel> for Base {
+    fn from(refit: &FittedModel) -> Self {
+        Base {
+            effects: Vec::new(),
+            model: Model::of(&refit.candidate, refit.method),
+            rms_counts: finite(refit.rms_counts),
+            validate_rms_counts: finite(refit.validate_rms_counts),
+        }
+    }
+}
+
+impl From<diagnose::Errors> for Errors {
+    fn from(errors: diagnose::Errors) -> Self {
+        Errors {
+            rms_counts: finite(errors.fitted),
+            validate_rms_counts: finite(errors.held_out),
+        }
+    }
+}
+
+impl Candidate {
+    /// A refit of a step, with the chance of its gain.
+    pub fn new(refit: &FittedModel, p_value: f64) -> Self {
+        let effects = effects(refit);
+        Candidate {
+            effect: effects.last().cloned().unwrap_or_default(),
+            effects,
+            rms_counts: finite(refit.rms_counts),
+            validate_rms_counts: finite(refit.validate_rms_counts),
+            foreseen_rms_counts: finite(refit.predicted_rms_counts),
+            tracked: refit.observed.map(|t| t.errors.into()),
+            windowed: refit.windowed.map(Errors::from),
+            p_value: finite(p_value),
+            evaluations: refit.evaluations,
+        }
+    }
+}
+
+impl Final {
+    /// From the fit of the last model and its errors on both recordings, counts RMS.
+    pub fn new(fit: &fit::Fit, effects: Vec<String>, (fitted, held_out): (f64, f64)) -> Self {
+        Final {
+            effects,
+            rms_counts: finite(fitted),
+            validate_rms_counts: finite(held_out),
+            parameters: fit.parameters.iter().map(Into::into).collect(),
+            converged: fit.converged,
+            notes: fit.notes.clone(),
+            model: Model::of(&fit.candidate, fit.method),
+            identifiable: fit.response.into(),
+            margins: fit.margins.map(Margins::from),
+        }
+    }
+}
+
+impl From<&diagnose::HeldOut> for HeldOut {
+    fn from(held_out: &diagnose::HeldOut) -> Self {
+        let mut found = HeldOut {
+            kind: held_out.name().to_owned(),
+            source: None,
+            from_s: None,
+            seconds: None,
+            at_rest: None,
+        };
+        match held_out {
+            diagnose::HeldOut::Recording(source) => found.source = Some(source.clone()),
+            diagnose::HeldOut::End {
+                from_s,
+                seconds,
+                at_rest,
+                ..
+            } => {
+                found.from_s = Some(*from_s);
+                found.seconds = Some(*seconds);
+                found.at_rest = Some(*at_rest);
+            }
+            diagnose::HeldOut::Nothing => {}
+        }
+        found
+    }
+}
+
+impl Alternative {
+    /// A refit, as `chosen` or `alternative`.
+    pub fn new(role: &str, refit: &FittedModel) -> Self {
+        Alternative {
+            effects: effects(refit),
+            role: role.to_owned(),
+            machine: Machine::from(&refit.candidate.machine),
+            parameters: ModelParameter::all(&refit.effects, &refit.parameters),
+            rms_counts: finite(refit.rms_counts),
+            validate_rms_counts: finite(refit.validate_rms_counts),
+        }
+    }
+}
+
+fn effects(refit: &FittedModel) -> Vec<String> {
+    let effects = refit.effects.iter();
+    effects.map(|kind| kind.name().to_owned()).collect()
+}

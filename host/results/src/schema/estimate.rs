@@ -1,0 +1,97 @@
+//! What a fit says of a motor: parameters with their errors, response, margins.
+
+use super::finite;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use servoid_identify::fit::Parameter;
+use servoid_identify::fit::margins;
+use shared::motor::Response;
+
+/// One number of a result with its error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Estimate {
+    /// Its name; an effect's parameters carry its name before a point.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// Its unit.
+    pub unit: String,
+    /// Standard deviation; null where the data do not determine one.
+    pub std: Option<f64>,
+    /// Whether the data (with the known facts) determine it.
+    pub identifiable: bool,
+}
+
+impl From<&Parameter> for Estimate {
+    fn from(p: &Parameter) -> Self {
+        Estimate {
+            name: p.name.clone(),
+            value: p.value,
+            unit: p.unit.to_owned(),
+            std: p.std,
+            identifiable: p.identifiable,
+        }
+    }
+}
+
+/// What voltage and angle determine of the linear motor.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Identifiable {
+    /// Speed per volt, rad/(s·V).
+    pub gain_rad_s_v: Option<f64>,
+    /// Coefficient of `s`, s.
+    pub a1_s: Option<f64>,
+    /// Coefficient of `s²`, s².
+    pub a2_s2: Option<f64>,
+}
+
+impl From<Response<f64>> for Identifiable {
+    fn from(response: Response<f64>) -> Self {
+        Identifiable {
+            gain_rad_s_v: finite(response.gain),
+            a1_s: finite(response.a1),
+            a2_s2: finite(response.a2),
+        }
+    }
+}
+
+/// Margins of the position loop in radians with unity feedback.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Margins {
+    /// Gain margin, dB; null where infinite.
+    pub gain_db: Option<f64>,
+    /// Phase margin, degrees.
+    pub phase_deg: f64,
+}
+
+impl From<margins::Margins> for Margins {
+    fn from(margins: margins::Margins) -> Self {
+        Margins {
+            gain_db: finite(margins.gain_db),
+            phase_deg: margins.phase_deg,
+        }
+    }
+}
+
+/// Coefficients of the position loop's denominator `s·(a3·s² + a2·s + a1)`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PositionLoop {
+    /// V·s³/rad.
+    pub a3: f64,
+    /// V·s²/rad.
+    pub a2: f64,
+    /// V·s/rad.
+    pub a1: f64,
+}
+
+impl From<margins::Loop> for PositionLoop {
+    fn from(margins::Loop { a3, a2, a1 }: margins::Loop) -> Self {
+        PositionLoop { a3, a2, a1 }
+    }
+}
+
+impl From<PositionLoop> for margins::Loop {
+    fn from(PositionLoop { a3, a2, a1 }: PositionLoop) -> Self {
+        margins::Loop { a3, a2, a1 }
+    }
+}

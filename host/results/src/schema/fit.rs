@@ -1,0 +1,197 @@
+//! `servoid.fit/1`, of `fit`, and of `demo` with its truth and its diagnosis.
+
+use super::diagnosis::Diagnosis;
+use super::estimate::{Estimate, Identifiable, Margins};
+use super::{Model, VERSION, finite};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use servoid_engine::problem::Data;
+use servoid_identify::fit;
+use servoid_identify::truth::ParameterError;
+use shared::encoder::FLOOR_RMS_COUNTS;
+
+/// What a fit calls itself.
+pub const SCHEMA: &str = "servoid.fit/1";
+
+/// `servoid.fit/1`: a model fitted to a recording.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Fit {
+    /// `servoid.fit/1`.
+    #[serde(default)]
+    pub schema: String,
+    /// Search method.
+    pub algorithm: String,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Model evaluations that it took.
+    pub evaluations: usize,
+    /// Least cost.
+    pub cost: f64,
+    /// Name of the cost: `squared`, `iae`, `iae_floored`, `interval`.
+    pub cost_kind: String,
+    /// RMS of model minus reading over the whole recording, open loop, counts.
+    pub rms_counts: f64,
+    /// The same on the recording of `--validate`, never fitted.
+    pub validate_rms_counts: Option<f64>,
+    /// RMS of the encoder's own error, 1/√12 counts.
+    pub quantization_floor_counts: Option<f64>,
+    /// Free runs of windows, each started from the measured state.
+    pub windowed: Option<Windowed>,
+    /// Part of the drive that is unexplained along the measured motion.
+    pub equation_error_relative: Option<f64>,
+    /// Effects beside the linear motor.
+    pub effects: Vec<String>,
+    /// Parameters with their errors.
+    pub parameters: Vec<Estimate>,
+    /// What voltage and angle determine.
+    #[serde(default)]
+    pub identifiable: Identifiable,
+    /// Margins of the position loop.
+    pub margins: Option<Margins>,
+    /// Whether the search ended near a minimum; if not, no `std` is given.
+    pub converged: bool,
+    /// Samples that are worth as much as independent ones.
+    pub effective_samples: Option<f64>,
+    /// What a user should know.
+    #[serde(default)]
+    pub notes: Vec<String>,
+    /// Errors as the effects of `--with` are added one by one; empty without effects.
+    #[serde(default)]
+    pub ladder: Vec<Addition>,
+    /// The model with all its numbers, which runs again.
+    pub model: Model,
+    /// The fitted recording.
+    pub recording: String,
+    /// The recording of `--validate`.
+    pub validate: Option<String>,
+    /// What the command drives: `voltage` or `current`.
+    #[serde(default)]
+    pub drive: String,
+    /// Supply, V.
+    pub supply_v: Option<f64>,
+    /// Encoder counts per revolution.
+    pub counts_per_rev: Option<f64>,
+    /// Sample interval, s.
+    pub sample_s: Option<f64>,
+    /// Whether the user stopped the search.
+    #[serde(default)]
+    pub interrupted: bool,
+    /// Version of the program.
+    #[serde(default)]
+    pub version: String,
+}
+
+/// Errors of free runs in windows.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Windowed {
+    /// Length of a window, s.
+    pub window_s: Option<f64>,
+    /// RMS error, counts.
+    pub rms_counts: Option<f64>,
+    /// RMS error as a part of the motion's.
+    pub relative: Option<f64>,
+}
+
+/// Errors of a model to which one effect more was added.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Addition {
+    /// The effect that was added last; null for the linear motor.
+    pub added: Option<String>,
+    /// On what was fitted, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// On what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+}
+
+/// `servoid.fit/1` of the last model of `demo`, with the diagnosis and the truth beside it.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Demo {
+    /// The last model.
+    #[serde(flatten)]
+    pub fit: Fit,
+    /// What the bench hides.
+    pub hidden: Option<String>,
+    /// Whether the diagnosis found it.
+    #[serde(default)]
+    pub named: bool,
+    /// How far off its parameters are, which only a bench can tell.
+    #[serde(default)]
+    pub parameter_errors: Vec<Miss>,
+    /// Error of the gain, per cent.
+    pub gain_error_percent: Option<f64>,
+    /// Error of `a1`, per cent.
+    pub a1_error_percent: Option<f64>,
+    /// The diagnosis, `servoid.diagnosis/1`.
+    pub diagnosis: Option<Box<Diagnosis>>,
+}
+
+/// How far off a parameter is from the truth.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Miss {
+    /// The effect.
+    pub effect: String,
+    /// Its parameter.
+    pub parameter: String,
+    /// Whether it is the effect's size; else it is its shape.
+    #[serde(default)]
+    pub size: bool,
+    /// Distance from the truth, per cent of the truth.
+    pub percent: f64,
+}
+
+impl From<ParameterError> for Miss {
+    fn from(error: ParameterError) -> Self {
+        Miss {
+            effect: error.effect,
+            parameter: error.parameter,
+            size: error.size,
+            percent: error.percent,
+        }
+    }
+}
+
+impl Fit {
+    /// From a fit of `data`, judged also on the recording called `validate`.
+    pub fn new(fit: &fit::Fit, data: &Data, validate: Option<&str>) -> Self {
+        Fit {
+            schema: SCHEMA.to_owned(),
+            algorithm: fit.algorithm.clone(),
+            seed: fit.seed,
+            evaluations: fit.evaluations,
+            cost: fit.cost,
+            cost_kind: fit.cost_kind.to_owned(),
+            rms_counts: fit.rms_counts,
+            validate_rms_counts: fit.validate_rms_counts,
+            quantization_floor_counts: Some(FLOOR_RMS_COUNTS),
+            windowed: fit.windowed.map(|w| Windowed {
+                window_s: finite(w.window_s),
+                rms_counts: finite(w.rms_counts),
+                relative: finite(w.relative),
+            }),
+            equation_error_relative: fit.equation_error,
+            effects: fit.effects.iter().map(|&name| name.to_owned()).collect(),
+            parameters: fit.parameters.iter().map(Estimate::from).collect(),
+            identifiable: fit.response.into(),
+            margins: fit.margins.map(Margins::from),
+            converged: fit.converged,
+            effective_samples: finite(fit.effective_samples),
+            notes: fit.notes.clone(),
+            ladder: (fit.error_ladder.iter())
+                .map(|rung| Addition {
+                    added: rung.added.map(str::to_owned),
+                    rms_counts: finite(rung.rms_counts),
+                    validate_rms_counts: rung.validate_rms_counts.and_then(finite),
+                })
+                .collect(),
+            model: Model::of(&fit.candidate, fit.method),
+            recording: data.source.clone(),
+            validate: validate.map(str::to_owned),
+            drive: data.drive.name().to_owned(),
+            supply_v: finite(data.supply),
+            counts_per_rev: finite(data.units.counts_per_rev),
+            sample_s: finite(data.units.interval),
+            interrupted: fit.interrupted,
+            version: VERSION.to_owned(),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! `servoid.prove/1`: how often the diagnosis is right.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `servoid.prove/1`.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Proof {
+    /// `servoid.prove/1`.
+    pub schema: String,
+    /// Version of the program that proved the cases.
+    pub version: String,
+    /// What the cases follow from.
+    pub set_up: SetUp,
+    /// How many.
+    pub cases: u64,
+    /// The cases without a diagnosis; they count as detectable and not right.
+    pub failures: Vec<Failure>,
+    /// Over all cases: `quite_wrong_name` and `worse_than_base`.
+    pub shares: Vec<Share>,
+    /// The cases that hide nothing, one and two effects.
+    pub groups: Vec<Group>,
+    /// Errors of parameters that are sizes of effects named rightly, per cent.
+    pub size_errors_percent: Spread,
+    /// Errors of those that are shapes, per cent.
+    pub shape_errors_percent: Spread,
+    /// What each hidden effect was called, worst first.
+    pub confusions: Vec<Confusion>,
+    /// Whether the user stopped the work.
+    pub interrupted: bool,
+}
+
+/// What cases follow from, as on the command line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SetUp {
+    /// Seed of everything random.
+    pub seed: u64,
+    /// How many effects a case hides: `none`, `one`, `two` or `mix`.
+    pub hidden: String,
+    /// How the motor is driven: `commissioning` or `mixed`.
+    pub excite: String,
+    /// Effects to choose from; empty for all.
+    pub effects: Vec<String>,
+}
+
+/// A case without a diagnosis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Failure {
+    /// Its number.
+    pub case: u64,
+    /// Why.
+    pub reason: String,
+}
+
+/// The cases that hide so many effects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Group {
+    /// How many effects they hide.
+    pub hidden: usize,
+    /// How many cases.
+    pub cases: u64,
+    /// Of these, with each hidden effect alone leaving more than one count RMS to the linear motor.
+    pub detectable: u64,
+    /// Over the detectable cases.
+    pub shares: Vec<Share>,
+    /// Time of the diagnosis in one thread, s.
+    pub seconds: Spread,
+    /// Candidates refitted.
+    pub refits: Spread,
+}
+
+/// How often the answer to one question is yes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Share {
+    /// The question's name.
+    pub name: String,
+    /// How often.
+    pub count: u64,
+    /// Of how many.
+    pub of: u64,
+    /// The rate; null of nothing.
+    pub rate: Option<Rate>,
+}
+
+/// A rate with its exact interval of 95 % (Clopper and Pearson, Biometrika 26, 1934), as parts of one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Rate {
+    /// The count over its total.
+    pub part: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+/// Middle and upper end of many numbers; null of no numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Spread {
+    /// How many.
+    pub count: usize,
+    /// Half are below.
+    pub median: Option<f64>,
+    /// Nine of ten are below.
+    pub p90: Option<f64>,
+    /// The largest.
+    pub max: Option<f64>,
+}
+
+/// One hidden effect, over the cases in which it could be found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Confusion {
+    /// The effect.
+    pub effect: String,
+    /// Cases that hide it alone.
+    pub alone: u64,
+    /// Of these, with it named first.
+    pub right: u64,
+    /// Of these, with it in the first printed set.
+    pub in_set: u64,
+    /// What it was called where it was not named first, with how often, the most frequent first.
+    pub called: Vec<(String, u64)>,
+    /// Cases that hide it with another.
+    pub paired: u64,
+    /// Of these, with it named.
+    pub paired_named: u64,
+    /// Numbers of the cases in which it is not named.
+    pub missed_cases: Vec<u64>,
+}
