@@ -5,6 +5,7 @@ use super::super::side::Side;
 use super::loops::{C, Pi, hz};
 use super::*;
 use servoid_plant as bench;
+use shared::effects::Kind;
 use shared::model::{Model, Plan, State};
 use shared::rng;
 use shared::units::PerUnit;
