@@ -71,12 +71,15 @@ pub struct Kind {
     pub build: fn(&[f64], &Machine) -> Box<dyn Effect>,
     /// Draws the parameters that give the effect its form rather than its size, by name, from their typical
     /// values on a machine; those that are not drawn stay typical.
-    pub draw: fn(&[f64], &Machine, &mut dyn Random) -> Vec<(&'static str, f64)>,
+    pub draw: fn(&[f64], &Machine, &mut dyn Random) -> Form,
     /// States the parameters of a model that is referred to the winding, in its documented order and units: a
     /// torque `T` is the voltage `T·R/Kt`, a current the voltage across the resistance. From the values of
     /// this effect's parameters, the machine and the encoder's counts per revolution.
     pub truth: fn(&[f64], &Machine, u32) -> Vec<f64>,
 }
+
+/// Values of some parameters, by name.
+pub type Form = Vec<(&'static str, f64)>;
 
 /// A stalled armature under a steady command.
 #[derive(Clone, Copy, Debug)]
@@ -123,7 +126,7 @@ pub struct Param {
 }
 
 /// [`Kind::draw`] of an effect that has only a size, or a form that the model does not know.
-fn only_its_size(_: &[f64], _: &Machine, _: &mut dyn Random) -> Vec<(&'static str, f64)> {
+fn only_its_size(_: &[f64], _: &Machine, _: &mut dyn Random) -> Form {
     Vec::new()
 }
 
