@@ -1,5 +1,5 @@
 //! The book's catalogue of effects is what the effects say about themselves. After a change, write it anew with
-//! `SERVOID_WRITE_REFERENCE=1 cargo test -p shared --test effect_reference`.
+//! `UPDATE_REFERENCE=1 cargo test -p shared --test effect_reference`.
 
 use shared::effects::{Description, Kind, Place};
 use std::{env, fs, path::Path};
@@ -57,12 +57,12 @@ fn the_book_lists_every_effect_as_it_describes_itself() {
         .map(|effect| format!("| `{}` | {} |\n", effect.name, effect.source));
     let text = BEGIN.to_owned() + &rows + SOURCES + &sources.collect::<String>();
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/book/src/reference/effects.md");
-    if env::var_os("SERVOID_WRITE_REFERENCE").is_some() {
+    if env::var_os("UPDATE_REFERENCE").is_some() {
         fs::write(&page, &text).expect("the book is beside this crate");
     }
     let book = fs::read_to_string(&page).expect("the book is beside this crate");
     assert!(
         book == text,
-        "docs/book/src/reference/effects.md is not what the effects say: run this test with SERVOID_WRITE_REFERENCE=1"
+        "docs/book/src/reference/effects.md is not what the effects say: run this test with UPDATE_REFERENCE=1"
     );
 }
