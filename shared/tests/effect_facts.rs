@@ -164,14 +164,14 @@ fn an_effect_does_what_it_contains_when_its_further_parameters_are_at_rest() {
         let linear = readings(bench, None);
         for &general in Kind::ALL {
             for contained in general.facts().contains {
-                let plainer = counterpart(contained.name, general);
+                let simpler = counterpart(contained.name, general);
                 let values = at_rest(bench, general, contained);
                 let special: Vec<f64> = contained.values_from(&values).expect("values").collect();
-                assert_eq!(special.len(), plainer.parameters().len());
+                assert_eq!(special.len(), simpler.parameters().len());
                 let reached = readings(bench, Some((general, &values)));
-                let expected = readings(bench, Some((plainer, &special)));
+                let expected = readings(bench, Some((simpler, &special)));
                 let (off, changes) = (furthest(&reached, &expected), furthest(&linear, &expected));
-                let case = format!("{}: {general:?} as {plainer:?}", bench.name);
+                let case = format!("{}: {general:?} as {simpler:?}", bench.name);
                 println!("{case}: {off:.4} counts of {changes:.0}");
                 let part = if contained.whole { MET.0 } else { MET.1 };
                 assert!(off < 1.0 + part * changes, "{case} is {off} counts off");
@@ -184,7 +184,7 @@ fn an_effect_does_what_it_contains_when_its_further_parameters_are_at_rest() {
 fn an_effect_contains_the_whole_of_another_only_if_its_search_ranges_do() {
     for &general in Kind::ALL {
         for contained in general.facts().contains {
-            let plainer = counterpart(contained.name, general);
+            let simpler = counterpart(contained.name, general);
             let covers = |(value, parameter): (&Value, &Parameter)| {
                 let (low, high) = parameter.range;
                 let within = |index: usize| {
@@ -196,9 +196,9 @@ fn an_effect_contains_the_whole_of_another_only_if_its_search_ranges_do() {
             let whole = contained
                 .values
                 .iter()
-                .zip(plainer.parameters())
+                .zip(simpler.parameters())
                 .all(covers);
-            assert_eq!(contained.whole, whole, "{general:?} contains {plainer:?}");
+            assert_eq!(contained.whole, whole, "{general:?} contains {simpler:?}");
         }
     }
 }

@@ -9,7 +9,7 @@ use servoid_engine::problem::Candidate;
 use servoid_identify::fit::margins::Loop;
 use servoid_results::export::FORMATS;
 use servoid_results::page::{Block, Section, drawing, drawings, section};
-use servoid_results::picture::{self, Estimates, Rung};
+use servoid_results::picture::{self, Estimates, LadderBar};
 use servoid_results::report::html::{self, Model as Drawn, failing};
 use servoid_results::schema::{Document, Estimate};
 use shared::effects::{EffectSet, Kind};
@@ -246,16 +246,16 @@ pub(super) fn pictures(bench: &Bench) -> Result<Value, Error> {
 }
 
 fn ladder(models: &[Model]) -> Section {
-    let rungs: Vec<Rung> = models
+    let entries: Vec<LadderBar> = models
         .iter()
-        .map(|model| Rung {
+        .map(|model| LadderBar {
             name: model.name(),
             fitted: Some(model.fit.rms_counts),
             held_out: model.fit.validate_rms_counts,
         })
         .collect();
     let mut section = Section::new("bench-ladder", "The error");
-    let drawn = picture::ladder("bench-error-ladder", &rungs);
+    let drawn = picture::ladder("bench-error-ladder", &entries);
     section.blocks.push(Block::Picture(drawn));
     section
 }

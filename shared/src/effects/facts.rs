@@ -6,7 +6,7 @@ use super::{Kind, Place};
 /// Facts about an effect, all of them data.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
-    /// The plainer effects that this one does as well, with some of its parameters at rest.
+    /// The simpler effects that this one does as well, with some of its parameters at rest.
     pub contains: &'static [Contained],
     /// Where a search for its parameters starts.
     pub starts: Starts,
@@ -48,22 +48,22 @@ impl Facts {
     };
 }
 
-/// A plainer effect that a more general one does as well.
+/// A simpler effect that a more general one does as well.
 #[derive(Clone, Copy, Debug)]
 pub struct Contained {
-    /// The plainer effect.
+    /// The simpler effect.
     pub name: &'static str,
     /// Its parameters, from those of the general one.
     pub values: &'static [Value],
-    /// Parameters of the general one, with the values (SI) at which it comes nearest to the plainer one;
+    /// Parameters of the general one, with the values (SI) at which it comes nearest to the simpler one;
     /// parameters of which a [`Value::Mean`] is taken are equal then.
     pub at_rest: &'static [(usize, f64)],
-    /// Whether the general one does all that the plainer one can, so that no recording speaks for the plainer
+    /// Whether the general one does all that the simpler one can, so that no recording speaks for the simpler
     /// one but its fewer parameters. Else search ranges or shapes differ.
     pub whole: bool,
 }
 
-/// One parameter of a plainer effect, from those of a more general one.
+/// One parameter of a simpler effect, from those of a more general one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// This parameter.
@@ -228,15 +228,15 @@ impl Kind {
         &self.description().facts
     }
 
-    /// The special case `plainer` of this effect, if it is one.
-    pub fn containing(self, plainer: Kind) -> Option<&'static Contained> {
+    /// The special case `simpler` of this effect, if it is one.
+    pub fn containing(self, simpler: Kind) -> Option<&'static Contained> {
         let mut all = self.facts().contains.iter();
-        all.find(|contained| contained.name == plainer.name())
+        all.find(|contained| contained.name == simpler.name())
     }
 
-    /// Whether this effect does all that `plainer` can, with some parameters at rest.
-    pub fn refines(self, plainer: Kind) -> bool {
-        self.containing(plainer)
+    /// Whether this effect does all that `simpler` can, with some parameters at rest.
+    pub fn refines(self, simpler: Kind) -> bool {
+        self.containing(simpler)
             .is_some_and(|special| special.whole)
     }
 
@@ -254,7 +254,7 @@ impl Kind {
 }
 
 impl Contained {
-    /// The plainer effect.
+    /// The simpler effect.
     pub fn kind(&self) -> Option<Kind> {
         Kind::by_name(self.name)
     }

@@ -41,7 +41,7 @@ pub fn built_up(
 
 fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<FittedModel> {
     let first = kind.facts().starts.after();
-    let first = first.and_then(|plainer| screen(context, model, plainer, &[]));
+    let first = first.and_then(|simpler| screen(context, model, simpler, &[]));
     let screened = screen(context, model, kind, first.as_slice())?;
     let fitted = fit_screened(context, &screened).ok()?;
     if fitted.judged().at_floor() {

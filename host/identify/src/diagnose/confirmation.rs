@@ -1,5 +1,5 @@
 //! Stage 4: every effect that was selected must still hold beside the others, against its look-alikes, and against
-//! plainer effects in its place. What was selected first was judged without the rest.
+//! simpler effects in its place. What was selected first was judged without the rest.
 
 use super::context::Context;
 use super::lost_counts;

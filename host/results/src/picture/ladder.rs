@@ -9,7 +9,7 @@ use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// One model on the way.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rung {
+pub struct LadderBar {
     /// What was added, as in `+ coulomb`.
     pub name: String,
     /// On what was fitted, counts RMS.
@@ -19,13 +19,13 @@ pub struct Rung {
 }
 
 /// Draws the ladder.
-pub fn ladder(id: &str, rungs: &[Rung]) -> Picture {
-    let names: Vec<String> = rungs.iter().map(|rung| rung.name.clone()).collect();
+pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
+    let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
     let mut plot = Plot::new();
-    let mut bars = |name: &str, colour: &'static str, of: fn(&Rung) -> Option<f64>| {
-        if rungs.iter().any(|rung| of(rung).is_some()) {
-            let values: Vec<Option<f64>> = rungs.iter().map(|r| of(r).map(rounded)).collect();
-            let shown = rungs.iter().map(|r| of(r).map_or(String::new(), counts));
+    let mut bars = |name: &str, colour: &'static str, of: fn(&LadderBar) -> Option<f64>| {
+        if entries.iter().any(|entry| of(entry).is_some()) {
+            let values: Vec<Option<f64>> = entries.iter().map(|r| of(r).map(rounded)).collect();
+            let shown = entries.iter().map(|r| of(r).map_or(String::new(), counts));
             plot.add_trace(
                 Bar::new(names.clone(), values)
                     .name(name)
@@ -35,9 +35,9 @@ pub fn ladder(id: &str, rungs: &[Rung]) -> Picture {
             );
         }
     };
-    bars("fitted recording", colour::MEASURED, |rung| rung.fitted);
-    bars("held out, never fitted", colour::MODEL, |rung| {
-        rung.held_out
+    bars("fitted recording", colour::MEASURED, |entry| entry.fitted);
+    bars("held out, never fitted", colour::MODEL, |entry| {
+        entry.held_out
     });
     plot.add_trace(
         Scatter::new(names.clone(), vec![rounded(FLOOR_RMS_COUNTS); names.len()])
@@ -66,9 +66,9 @@ pub fn ladder(id: &str, rungs: &[Rung]) -> Picture {
             .y_axis(axis("error of the free run, counts RMS").type_(AxisType::Log)),
     );
     let mut table = Table::new(&["model", "fitted, counts RMS", "held out, counts RMS"]);
-    for rung in rungs {
+    for entry in entries {
         let cell = |value: Option<f64>| value.map_or("-".to_owned(), counts);
-        table.row([rung.name.clone(), cell(rung.fitted), cell(rung.held_out)]);
+        table.row([entry.name.clone(), cell(entry.fitted), cell(entry.held_out)]);
     }
     Picture {
         id: id.to_owned(),

@@ -32,7 +32,7 @@ pub use correlations::correlations;
 pub use curves::cost_curves;
 pub use forest::{Estimates, forest};
 pub use intervals::intervals;
-pub use ladder::{Rung, ladder};
+pub use ladder::{LadderBar, ladder};
 pub use maps::maps;
 pub use orders::orders;
 pub use steady::{SteadyLine, steady_curve, steady_residual};

@@ -133,16 +133,18 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
 }
 
 /// Errors as effects were added, and the encoder's own.
-fn ladder(rungs: &[LadderEntry]) -> String {
-    let name = |rung: &LadderEntry| match rung.added {
+fn ladder(entries: &[LadderEntry]) -> String {
+    let name = |entry: &LadderEntry| match entry.added {
         Some(effect) => format!("+ {effect}"),
         None => "linear motor".to_owned(),
     };
-    let held_out = |rung: &LadderEntry| rung.validate_rms_counts.unwrap_or(f64::NAN);
-    let mut lines: Vec<_> = (rungs.iter())
-        .map(|rung| (name(rung), rung.rms_counts, held_out(rung)))
+    let held_out = |entry: &LadderEntry| entry.validate_rms_counts.unwrap_or(f64::NAN);
+    let mut lines: Vec<_> = (entries.iter())
+        .map(|entry| (name(entry), entry.rms_counts, held_out(entry)))
         .collect();
-    let floor = rungs.iter().all(|rung| rung.validate_rms_counts.is_some());
+    let floor = entries
+        .iter()
+        .all(|entry| entry.validate_rms_counts.is_some());
     lines.push((
         "encoder's own".to_owned(),
         FLOOR_RMS_COUNTS,

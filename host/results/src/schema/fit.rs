@@ -177,10 +177,10 @@ impl Fit {
             effective_samples: finite(fit.effective_samples),
             notes: fit.notes.clone(),
             ladder: (fit.error_ladder.iter())
-                .map(|rung| Addition {
-                    added: rung.added.map(str::to_owned),
-                    rms_counts: finite(rung.rms_counts),
-                    validate_rms_counts: rung.validate_rms_counts.and_then(finite),
+                .map(|entry| Addition {
+                    added: entry.added.map(str::to_owned),
+                    rms_counts: finite(entry.rms_counts),
+                    validate_rms_counts: entry.validate_rms_counts.and_then(finite),
                 })
                 .collect(),
             model: Model::of(&fit.candidate, fit.method),

@@ -52,17 +52,17 @@ pub fn starts(
     }
 }
 
-/// Typical values, but what the effect has in common with a plainer one as the best screened model with that has it.
+/// Typical values, but what the effect has in common with a simpler one as the best screened model with that has it.
 fn fitted_first(
     parent: &FittedModel,
     kind: Kind,
     typical: Vec<f64>,
     first: &[ScreenedModel],
 ) -> Option<Vec<f64>> {
-    let plainer = kind.facts().starts.after()?;
-    let contained = kind.containing(plainer)?;
+    let simpler = kind.facts().starts.after()?;
+    let contained = kind.containing(simpler)?;
     let screened = first.iter().find(|screened| {
-        screened.newest() == Some(plainer)
+        screened.newest() == Some(simpler)
             && screened.structure.effects.starts_with(&parent.effects)
     })?;
     let found = screened.structure.values(&screened.x);

@@ -101,7 +101,7 @@ fn look_again(
 }
 
 /// A friction with many parameters may have taken on what another effect does, and then leaves that one nothing to
-/// explain. So the plainer frictions within the `parents` are built on as well, however far they are behind.
+/// explain. So the simpler frictions within the `parents` are built on as well, however far they are behind.
 fn from_nested(
     context: &Context<'_>,
     parents: &[&FittedModel],

@@ -1,5 +1,5 @@
-//! A friction with more parameters does whatever a plainer one does, and where runs are chaotic its search finds
-//! ways that the plainer one's misses. So each effect of a chosen model is tried once more as the plainer ones
+//! A friction with more parameters does whatever a simpler one does, and where runs are chaotic its search finds
+//! ways that the simpler one's misses. So each effect of a chosen model is tried once more as the simpler ones
 //! that it contains, from where it stands, and must be worth its further parameters.
 
 use super::judge::removes;
@@ -12,7 +12,7 @@ use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::screening::{free_run_error, restart};
 use shared::effects::Kind;
 
-/// A plainer model is brought to its end if its score is no further behind than this.
+/// A simpler model is brought to its end if its score is no further behind than this.
 const NEAR: f64 = 3.0;
 
 /// `chosen` with the plainest effects that do as well. Every model that was fitted for it goes to `known`.
@@ -48,7 +48,7 @@ pub fn simplify(
     }
 }
 
-/// `chosen` with each plainer effect in the place of one that contains it.
+/// `chosen` with each simpler effect in the place of one that contains it.
 pub fn all(context: &Context<'_>, chosen: &FittedModel) -> Vec<FittedModel> {
     chosen
         .effects

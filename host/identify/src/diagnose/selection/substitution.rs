@@ -48,7 +48,7 @@ pub fn substituted(
         return None;
     }
     let first = kind.facts().starts.after();
-    let first = first.and_then(|plainer| screen(context, &without, plainer, &[]));
+    let first = first.and_then(|simpler| screen(context, &without, simpler, &[]));
     let screened = screen(context, &without, kind, first.as_slice())?;
     if !screened.may_rival(chosen) {
         return None;

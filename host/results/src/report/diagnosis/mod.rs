@@ -3,10 +3,10 @@
 pub mod bars;
 mod document;
 mod evidence;
+mod residual;
 mod steady;
 mod text;
 mod verdict;
-mod whereabouts;
 
 pub use steady::SteadyReport;
 
@@ -177,7 +177,7 @@ impl DiagnosisReport<'_> {
         format!(
             "the linear motor misses the recording by {} counts RMS; where:\n{}",
             bars::counts(self.diagnosis.base.rms_counts),
-            whereabouts::table(first.unwrap_or(&self.findings.base))
+            residual::table(first.unwrap_or(&self.findings.base))
         )
     }
 

@@ -1,7 +1,7 @@
 //! A diagnosis as text for a terminal of 80 columns.
 
 use super::bars::{counts, sparkline};
-use super::whereabouts::{table, whiteness_text};
+use super::residual::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::report::fold::folded;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
@@ -94,7 +94,7 @@ impl DiagnosisReport<'_> {
     /// Errors from the linear motor to the last model, and the encoder's own.
     fn ladder(&self, out: &mut String) -> std::fmt::Result {
         let diagnosis = self.diagnosis;
-        let mut rungs = vec![(
+        let mut entries = vec![(
             "linear motor".to_owned(),
             diagnosis.base.rms_counts,
             diagnosis.base.validate_rms_counts,
@@ -102,18 +102,18 @@ impl DiagnosisReport<'_> {
         for step in &diagnosis.steps {
             if let Some(after) = step.candidates.first() {
                 let name = format!("+ {}", step.added.name());
-                rungs.push((name, after.rms_counts, after.validate_rms_counts));
+                entries.push((name, after.rms_counts, after.validate_rms_counts));
             }
         }
-        if let Some(last) = rungs.last_mut().filter(|_| !diagnosis.steps.is_empty()) {
+        if let Some(last) = entries.last_mut().filter(|_| !diagnosis.steps.is_empty()) {
             (last.1, last.2) = self.last_errors();
         }
-        rungs.push((
+        entries.push((
             "encoder's own".to_owned(),
             FLOOR_RMS_COUNTS,
             FLOOR_RMS_COUNTS,
         ));
-        out.push_str(&super::bars::ladder(&rungs));
+        out.push_str(&super::bars::ladder(&entries));
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use super::fit::{model, named};
 use super::{Model, Recordings, failing, no_recording, recording_facts};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Estimates, Rung, Table};
+use crate::picture::{self, Estimates, LadderBar, Table};
 use crate::report::diagnosis::bars::counts;
 use crate::schema::diagnosis::Step;
 use crate::schema::{Demo, Diagnosis};
@@ -85,17 +85,17 @@ fn held_out(diagnosis: &Diagnosis) -> String {
 }
 
 fn ladder(diagnosis: &Diagnosis) -> Section {
-    let mut rungs = vec![Rung {
+    let mut entries = vec![LadderBar {
         name: "linear motor".to_owned(),
         fitted: diagnosis.base.rms_counts,
         held_out: diagnosis.base.validate_rms_counts,
     }];
-    rungs.extend(diagnosis.steps.iter().map(|step| Rung {
+    entries.extend(diagnosis.steps.iter().map(|step| LadderBar {
         name: format!("+ {}", step.added),
         fitted: step.rms_counts,
         held_out: step.validate_rms_counts,
     }));
-    if let Some(last) = rungs.last_mut() {
+    if let Some(last) = entries.last_mut() {
         last.fitted = diagnosis.last.rms_counts;
         last.held_out = diagnosis.last.validate_rms_counts;
     }
@@ -105,7 +105,7 @@ fn ladder(diagnosis: &Diagnosis) -> Section {
     }
     section
         .blocks
-        .push(Block::Picture(picture::ladder("error-ladder", &rungs)));
+        .push(Block::Picture(picture::ladder("error-ladder", &entries)));
     section
 }
 

@@ -3,7 +3,7 @@
 use super::{Model, Recordings, failing, no_recording, recording_facts};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Estimates, Rung};
+use crate::picture::{self, Estimates, LadderBar};
 use crate::report::diagnosis::bars::counts;
 use crate::schema::{self, Fit};
 use servoid_identify::fit::margins::Loop;
@@ -46,9 +46,10 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
     }
     if fit.ladder.len() > 1 {
         let mut ladder = Section::new("ladder", "What each effect brings");
-        ladder
-            .blocks
-            .push(Block::Picture(picture::ladder("error-ladder", &rungs(fit))));
+        ladder.blocks.push(Block::Picture(picture::ladder(
+            "error-ladder",
+            &entries(fit),
+        )));
         sections.push(ladder);
     }
     let position_loop = Loop::from(&model.candidate.machine);
@@ -124,16 +125,16 @@ fn lead(fit: &Fit) -> String {
     )
 }
 
-fn rungs(fit: &Fit) -> Vec<Rung> {
+fn entries(fit: &Fit) -> Vec<LadderBar> {
     fit.ladder
         .iter()
-        .map(|rung| Rung {
-            name: rung
+        .map(|entry| LadderBar {
+            name: entry
                 .added
                 .as_ref()
                 .map_or("linear motor".to_owned(), |name| format!("+ {name}")),
-            fitted: rung.rms_counts,
-            held_out: rung.validate_rms_counts,
+            fitted: entry.rms_counts,
+            held_out: entry.validate_rms_counts,
         })
         .collect()
 }
