@@ -56,10 +56,10 @@ pub fn diagnose(
     diagnose_datasets(&datasets, options, &budget, progress)
 }
 
-/// As [`diagnose`], for recordings that are checked and lowered, within a budget.
+/// As [`diagnose()`], for recordings that are checked and lowered, within a budget.
 ///
 /// # Errors
-/// As [`diagnose`].
+/// As [`diagnose()`].
 pub fn diagnose_datasets(
     datasets: &Datasets,
     options: &Options,
@@ -83,7 +83,7 @@ pub fn diagnose_datasets(
 /// As [`diagnose_datasets`], of recordings that the caller has lowered and checked; the remarks are on the pair alone.
 ///
 /// # Errors
-/// As [`diagnose`].
+/// As [`diagnose()`].
 pub fn diagnose_data(
     fitted: &Data,
     held_out: &Data,

@@ -51,10 +51,10 @@ pub fn identify(
     identify_data(&Data::new(recording)?, None, options, progress)
 }
 
-/// As [`identify`], for a recording that is ready for simulation; `validation` is scored and never fitted.
+/// As [`identify()`], for a recording that is ready for simulation; `validation` is scored and never fitted.
 ///
 /// # Errors
-/// As [`identify`].
+/// As [`identify()`].
 pub fn identify_data(
     data: &Data,
     validation: Option<&Data>,
@@ -91,7 +91,7 @@ pub fn identify_data(
 /// The problem that `options` state, with the bounds that they set; a start outside moves to the nearest bound.
 ///
 /// # Errors
-/// As [`identify`].
+/// As [`identify()`].
 pub fn bounded_problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
     let mut problem = fit::problem(data, options)?;
     if options.bounds.is_empty() {

@@ -187,7 +187,7 @@ impl Model {
     /// Each effect with its parameters in the catalogue's order.
     ///
     /// # Errors
-    /// As [`terms`].
+    /// An effect or unit that is unknown, a parameter that is not there, too many effects.
     pub fn terms(&self, place: &str) -> Result<Vec<(Kind, Vec<f64>)>, ModelFault> {
         terms(&self.effects, &self.parameters, place)
     }
