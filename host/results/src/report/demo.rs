@@ -4,7 +4,6 @@ use super::diagnosis::DiagnosisReport;
 use super::fold::folded;
 use crate::schema::fit::Miss;
 use crate::schema::{Demo, Diagnosis, Fit, finite};
-use servoid_identify::diagnose::evidence::values;
 use servoid_identify::truth::{self, ParameterError};
 use servoid_plant::{Hidden, Machine};
 use shared::effects::Kind;
@@ -122,6 +121,6 @@ fn values_of(report: &DemoReport<'_>, kind: Kind) -> Vec<f64> {
     let found = effects.find(|(own, _)| *own == kind);
     match found {
         Some((_, values)) => values.to_vec(),
-        None => values(&report.diagnosis.diagnosis.last, kind),
+        None => report.diagnosis.diagnosis.last.values_of(kind),
     }
 }

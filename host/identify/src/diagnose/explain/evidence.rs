@@ -47,13 +47,6 @@ pub fn asked_for(
     residual_analysis::analyse_residual(data, &without, &after.candidate, after.method).map(Some)
 }
 
-/// Values of the parameters that `refit` found for one of its effects.
-pub fn values(refit: &FittedModel, kind: Kind) -> Vec<f64> {
-    let mut effects = refit.candidate.effects.iter();
-    let found = effects.find(|(own, _)| *own == kind);
-    found.map_or(Vec::new(), |(_, values)| values.to_vec())
-}
-
 /// The model less one effect.
 pub(crate) fn without(candidate: &Candidate, kind: Kind) -> Candidate {
     let mut effects = EffectSet::default();

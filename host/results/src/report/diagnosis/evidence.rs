@@ -2,7 +2,7 @@
 
 use super::DiagnosisReport;
 use super::bars::counts;
-use servoid_identify::diagnose::evidence::{before, sentence, values};
+use servoid_identify::diagnose::evidence::{before, sentence};
 
 impl DiagnosisReport<'_> {
     /// The evidence for step `index`.
@@ -16,7 +16,7 @@ impl DiagnosisReport<'_> {
             counts(after.validate_rms_counts)
         );
         let missing = self.findings.steps.get(index).and_then(Option::as_ref);
-        match missing.and_then(|m| sentence(step.added, &values(after, step.added), m)) {
+        match missing.and_then(|m| sentence(step.added, &after.values_of(step.added), m)) {
             Some(shown) => format!("{shown}; {falls}"),
             None => falls,
         }
