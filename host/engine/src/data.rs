@@ -182,6 +182,31 @@ impl Data {
             .count()
     }
 
+    /// Half the number of samples that a measured state is taken from. Whole counts carry the encoder's rounding only; an
+    /// angle that is no plain count carries the noise of its sensor, which takes more samples to average.
+    pub fn state_half_width(&self) -> usize {
+        if self.quantised {
+            return COUNTER_HALF_WIDTH;
+        }
+        let samples = (STATE_HALF_TIME_S / self.units.interval).round() as usize;
+        samples.max(COUNTER_HALF_WIDTH)
+    }
+
+    /// Angle in counts and speed in counts per second at sample `k`: the reading's centre where it is a whole count, else the
+    /// value of the parabola that gives the speed.
+    pub fn measured_state(&self, k: usize) -> (f64, f64) {
+        let half = self.state_half_width();
+        let (from, to) = (k.saturating_sub(half), (k + half + 1).min(self.len()));
+        let still = self.counts[from..to].iter().all(|count| *count == self.counts[k]);
+        if self.quantised || still {
+            return (self.centre(k), self.speed_counts_s(k, half));
+        }
+        let origin = self.time_s[k];
+        let points = (from..to).map(|j| (self.time_s[j] - origin, self.centre(j) - self.centre(k)));
+        let (angle, speed) = local_parabola(points);
+        (self.centre(k) + angle, speed)
+    }
+
     /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
     /// `2·half + 1` samples, fewer at the ends.
     pub fn speed_counts_s(&self, k: usize, half: usize) -> f64 {
@@ -194,6 +219,11 @@ impl Data {
         .1
     }
 }
+
+/// Half the number of samples that the speed of a counted angle is taken from.
+const COUNTER_HALF_WIDTH: usize = 4;
+/// Half the time that the state of an angle with sensor noise is taken from, s: below a motor's mechanical time constant.
+const STATE_HALF_TIME_S: f64 = 0.008;
 
 /// Value and slope at zero of the parabola through the points in the least-squares sense; a straight
 /// line where there are too few of them.

@@ -44,6 +44,8 @@ pub struct Structure {
 
 /// Name of the unknown speed at the first sample.
 pub const START_SPEED: &str = "start_speed";
+/// Name of the unknown electrical time constant.
+pub const ELECTRICAL_TIME_CONSTANT: &str = "electrical_time_constant";
 /// Name of the unknown start angle within the first cell.
 pub const START_OFFSET: &str = "start_offset";
 /// Search range of the start angle about the middle of its cell, counts: a little beyond the edges.
@@ -99,6 +101,15 @@ impl Structure {
             start_offset,
             unknowns,
         }
+    }
+
+    /// The same with an unknown that stays at `value`.
+    #[must_use]
+    pub fn with_fixed(mut self, name: &str, value: f64) -> Self {
+        for unknown in self.unknowns.iter_mut().filter(|unknown| unknown.name == name) {
+            unknown.range = (value, value);
+        }
+        self
     }
 
     /// Number of unknowns.
@@ -263,7 +274,7 @@ fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown>
                 Unknown::new("gain", "rad/(s*V)", around(gain), Scale::Log),
                 Unknown::new("a1", "s", around(a1), Scale::Log),
                 Unknown::new(
-                    "electrical_time_constant",
+                    ELECTRICAL_TIME_CONSTANT,
                     "s",
                     (0.0, slowest),
                     Scale::Linear,

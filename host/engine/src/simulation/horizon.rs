@@ -20,7 +20,9 @@ pub enum Horizon {
 pub struct Window {
     /// Its samples.
     pub range: Range<usize>,
-    /// Measured speed at its first sample, rad/s.
+    /// Measured angle at its first sample, counts.
+    pub angle: f64,
+    /// Measured speed there, rad/s.
     pub speed: f64,
 }
 
@@ -33,8 +35,8 @@ impl Horizon {
         }
     }
 
-    /// Windows of `seconds`, s, each started at a speed that is measured over `2·half + 1` samples.
-    pub fn windows(data: &Data, seconds: f64, half: usize) -> Self {
+    /// Windows of `seconds`, s, each started at the [measured state](Data::measured_state) of its first sample.
+    pub fn windows(data: &Data, seconds: f64) -> Self {
         let mut windows = Vec::new();
         let mut from = 0;
         while from + 1 < data.len() {
@@ -43,10 +45,11 @@ impl Horizon {
             let to = to.max(from + 2);
             // A last sample alone would be in no window.
             let to = if to + 1 < data.len() { to } else { data.len() };
-            let counts_s = data.speed_counts_s(from, half);
+            let (angle, counts_s) = data.measured_state(from);
             let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
             windows.push(Window {
                 range: from..to,
+                angle,
                 speed,
             });
             from = to;

@@ -45,7 +45,7 @@ pub fn segments(
         Horizon::Windows(windows) => {
             let segment = |window: &Window| Segment {
                 range: window.range.clone(),
-                angle: data.centre(window.range.start),
+                angle: window.angle,
                 speed: window.speed,
             };
             windows.iter().map(segment).collect()

@@ -39,7 +39,8 @@ pub fn built_up(
     Some(model.candidate)
 }
 
-fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<FittedModel> {
+/// `model` with one effect more, brought to its end. `None` where it cannot be added.
+pub(super) fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<FittedModel> {
     let first = kind.facts().starts.after();
     let first = first.and_then(|simpler| screen(context, model, simpler, &[]));
     let screened = screen(context, model, kind, first.as_slice())?;

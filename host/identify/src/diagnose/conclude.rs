@@ -17,6 +17,7 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
         last: named.last,
         rivals: named.rivals,
         not_named: named.not_named,
+        predicts: named.predicts,
         advice: Vec::new(),
         ran_out: budget.ran_out(),
         steps_taken: budget.spent(),

@@ -1,6 +1,7 @@
 //! Stage 4: every effect that was selected must still hold beside the others, against its look-alikes, and against
 //! simpler effects in its place. What was selected first was judged without the rest.
 
+use super::baseline::Prediction;
 use super::context::Context;
 use super::lost_counts;
 use super::models::FittedModel;
@@ -21,6 +22,10 @@ pub struct Confirmed<'a> {
     pub known: Vec<FittedModel>,
     /// The newest effect of the first level beyond those, which was not believed.
     pub not_named: Option<Kind>,
+    /// What the chosen model predicts, where it was held against the baseline.
+    pub predicts: Option<Prediction>,
+    /// Whether the chosen effects are named together although others would do as well in the place of one.
+    pub as_one: bool,
 }
 
 /// Takes the last level that was believed, and tries its best model without each effect and with others in its place.
@@ -52,6 +57,8 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
         chosen,
         known,
         not_named,
+        predicts: None,
+        as_one: false,
     }
 }
 

@@ -13,6 +13,7 @@
 //! | fit the linear motor | `Context` | `Linear`: the span of the runs, the motor, where the search starts | `linear` |
 //! | select effects | `Linear` | `Selected`: models with one effect, with two, and so on | `selection` |
 //! | confirm them | `Selected` | `Confirmed`: the model whose effects all hold, and its rivals | `confirmation` |
+//! | hold to the baseline | `Confirmed` | `Confirmed`: predicts no worse than the linear motor with Coulomb friction, offset and delay | `baseline` |
 //! | name them | `Confirmed` | `Named`: the steps that may be named | `naming` |
 //! | conclude | `Named` | [`Diagnosis`]: verdict and advice | `conclude`, `outcome` |
 //!
@@ -33,6 +34,7 @@
 //! [`settle()`] (the last model with intervals), [`steady`] (a curve of steady speeds), and `explain`: what is said of a
 //! diagnosis ([`evidence`], [`advice`], [`findings()`], [`pair`]).
 
+mod baseline;
 mod built_up;
 mod candidate;
 mod conclude;
@@ -53,6 +55,7 @@ mod spectrum;
 pub mod steady;
 mod suggest;
 
+pub use baseline::Prediction;
 pub use built_up::{built_up, is_lost};
 pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways};
 pub use explain::{Findings, advice, evidence, findings, pair};
@@ -65,6 +68,7 @@ pub use suggest::{Suggestion, Suggestions, suggest};
 
 use crate::error::Error;
 use crate::fit::Options;
+use baseline::hold_to_baseline;
 use conclude::conclude;
 use confirmation::confirm;
 use context::Context;
@@ -88,6 +92,7 @@ pub fn diagnose(
     let linear = fit_linear_motor(prepared, options)?;
     let selected = select_effects(linear, done);
     let confirmed = confirm(selected);
-    let named = name_effects(confirmed);
+    let held = hold_to_baseline(confirmed);
+    let named = name_effects(held);
     Ok(conclude(named))
 }

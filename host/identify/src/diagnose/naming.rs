@@ -1,6 +1,7 @@
 //! Stage 5: the steps from the linear motor to the model that was confirmed. An effect is named only where not too many
 //! others do as well in its place.
 
+use super::baseline::Prediction;
 use super::candidate::observer::observe_like;
 use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
@@ -25,6 +26,8 @@ pub struct Named<'a> {
     pub rivals: Vec<FittedModel>,
     /// The best candidate that was not believed.
     pub not_named: Option<Kind>,
+    /// What the last model predicts, where it was held against the baseline.
+    pub predicts: Option<Prediction>,
 }
 
 /// Writes down the steps to the model that was confirmed, up to the first effect that may not be named.
@@ -36,9 +39,11 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         chosen,
         known,
         not_named,
+        predicts,
+        as_one,
     } = confirmed;
     let (steps, last) = match &chosen {
-        Some(chosen) => steps_to(&context, &base, &levels, chosen, &known),
+        Some(chosen) => steps_to(&context, &base, &levels, chosen, &known, as_one),
         None => (Vec::new(), base.clone()),
     };
     Named {
@@ -48,6 +53,7 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         last,
         rivals: known,
         not_named,
+        predicts,
     }
 }
 
@@ -58,13 +64,14 @@ fn steps_to(
     levels: &[Level],
     chosen: &FittedModel,
     known: &[FittedModel],
+    as_one: bool,
 ) -> (Vec<Step>, FittedModel) {
     let mut observed_base = base.clone();
     // A motor that no observer can hold to the readings keeps the errors of its free run.
     let _ = observe_like(context, &mut observed_base, chosen);
     let explained = judge::explained(&observed_base, chosen);
     // A motor that never reverses cannot tell any of them apart: they are named as one.
-    let as_one = context.span.window_s.is_some() && !moves_both_ways(context.data);
+    let as_one = as_one || context.span.window_s.is_some() && !moves_both_ways(context.data);
     let (mut steps, mut before) = (Vec::new(), base.clone());
     for (depth, &added) in chosen.effects.iter().enumerate() {
         let rivals = judge::rivals(chosen, added, known);

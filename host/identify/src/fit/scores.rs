@@ -45,7 +45,7 @@ pub fn whole(data: &Data, candidate: &Candidate, method: Method) -> Result<Vec<f
 /// Scores of short free runs. `None` where a window holds too few samples.
 pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option<Windowed> {
     let window_s = options.window_s.unwrap_or(USUAL_WINDOW_S);
-    let windows = Horizon::windows(data, window_s, SPEED_HALF_WIDTH);
+    let windows = Horizon::windows(data, window_s);
     let Horizon::Windows(list) = &windows else {
         return None;
     };

@@ -124,7 +124,7 @@ fn starts<'a>(data: &'a Data, options: &Options) -> Starts<'a> {
         cost: options.cost,
         weight: 1.0,
         horizon: match options.window_s {
-            Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
+            Some(seconds) => Horizon::windows(data, seconds),
             None => Horizon::Whole,
         },
         start_angle: StartAngle::Free,

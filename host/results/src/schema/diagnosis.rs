@@ -9,6 +9,33 @@ use servoid_identify::diagnose;
 use servoid_identify::diagnose::FittedModel;
 use servoid_identify::fit;
 
+/// RMS errors of the last model in windows and over whole runs, counts.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Prediction {
+    /// Length of the windows, each run from the measured state, s.
+    pub window_s: f64,
+    /// In windows of the fitted recording.
+    pub windowed_rms_counts: f64,
+    /// Over the whole fitted recording, from the best start angle.
+    pub whole_rms_counts: f64,
+    /// In windows of what was held out.
+    pub validate_windowed_rms_counts: f64,
+    /// Over the whole of what was held out.
+    pub validate_whole_rms_counts: f64,
+}
+
+impl From<diagnose::Prediction> for Prediction {
+    fn from(prediction: diagnose::Prediction) -> Self {
+        Prediction {
+            window_s: prediction.window_s,
+            windowed_rms_counts: prediction.windowed,
+            whole_rms_counts: prediction.whole,
+            validate_windowed_rms_counts: prediction.held_out_windowed,
+            validate_whole_rms_counts: prediction.held_out_whole,
+        }
+    }
+}
+
 /// What a diagnosis calls itself.
 pub const SCHEMA: &str = "servoid.diagnosis/1";
 
@@ -56,6 +83,9 @@ pub struct Diagnosis {
     pub window_s: Option<f64>,
     /// Why windows.
     pub window_reason: Option<String>,
+    /// What the last model predicts; null where it reaches the encoder's floor.
+    #[serde(default)]
+    pub prediction: Option<Prediction>,
     /// The chosen model and one for each look-alike.
     #[serde(default)]
     pub models: Vec<Alternative>,

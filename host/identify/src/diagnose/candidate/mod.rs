@@ -8,3 +8,4 @@ pub mod observer;
 pub mod polish;
 pub mod score;
 pub mod search;
+pub mod several_horizons;

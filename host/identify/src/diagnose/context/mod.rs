@@ -8,7 +8,7 @@ pub use budget::{Budget, USUAL_STEPS};
 pub use motion::Motion;
 pub use span::{Span, floor_counts, moves_both_ways};
 
-use crate::fit::{Options, SPEED_HALF_WIDTH};
+use crate::fit::Options;
 use servoid_engine::problem::{Data, Horizon};
 use servoid_engine::simulation::Method;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -95,7 +95,7 @@ impl<'a> Context<'a> {
 /// How far models run along data on their own.
 fn horizon(span: &Span, data: &Data) -> Horizon {
     match span.window_s {
-        Some(seconds) => Horizon::windows(data, seconds, SPEED_HALF_WIDTH),
+        Some(seconds) => Horizon::windows(data, seconds),
         None => Horizon::Whole,
     }
 }

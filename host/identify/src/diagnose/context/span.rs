@@ -52,6 +52,11 @@ impl Span {
         )
     }
 
+    /// Length of the windows where the user chose none, s.
+    pub fn usual_window_s(data: &Data) -> f64 {
+        USUAL_WINDOW_S.max(FEWEST_SAMPLES * data.units.interval)
+    }
+
     /// Windows instead of whole runs, where the linear motor run over the whole recording says little, even
     /// beside a constant that drives it: then it leaves `steadied` counts RMS.
     pub fn after(self, data: &Data, base: Errors, steadied: f64) -> Self {
@@ -98,7 +103,7 @@ pub fn moves_both_ways(data: &Data) -> bool {
 }
 
 fn usual(data: &Data) -> Option<f64> {
-    Some(USUAL_WINDOW_S.max(FEWEST_SAMPLES * data.units.interval))
+    Some(Span::usual_window_s(data))
 }
 
 /// Standard deviation of the readings, counts.
@@ -117,6 +122,8 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
         return FLOOR_RMS_COUNTS;
     };
     let noise = noise_counts(data);
+    // What the start angle keeps of a reading's noise.
+    let start = if data.quantised { 1.0 } else { own_part(data.state_half_width()) };
     let slowest = machine.response().a1;
     let mut squares = 0.0;
     for window in windows {
@@ -129,7 +136,7 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
             } else {
                 t
             };
-            squares += 2.0 * noise * noise + (speed * carried).powi(2);
+            squares += (1.0 + start) * noise * noise + (speed * carried).powi(2);
         }
     }
     (squares / data.len().max(1) as f64).sqrt()
@@ -137,12 +144,19 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
 
 /// Standard deviation of the slope at sample `k` for noise of one count, 1/s.
 fn slope_gain(data: &Data, k: usize) -> f64 {
-    let from = k.saturating_sub(SPEED_HALF_WIDTH);
-    let to = (k + SPEED_HALF_WIDTH + 1).min(data.len());
+    let half = data.state_half_width();
+    let from = k.saturating_sub(half);
+    let to = (k + half + 1).min(data.len());
     let n = (to - from) as f64;
     let mean = (from..to).map(|j| data.time_s[j]).sum::<f64>() / n;
     let squares: f64 = (from..to).map(|j| (data.time_s[j] - mean).powi(2)).sum();
     1.0 / squares.sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// The part of its own point's noise that the middle of a parabola through `2·half + 1` even points follows.
+fn own_part(half: usize) -> f64 {
+    let n = (2 * half + 1) as f64;
+    3.0 * (3.0 * n * n - 7.0) / (4.0 * n * (n * n - 4.0))
 }
 
 /// Noise of a reading, counts RMS: that of rounding, or what local parabolas leave.
@@ -154,9 +168,7 @@ fn noise_counts(data: &Data) -> f64 {
     if data.len() <= 2 * side {
         return FLOOR_RMS_COUNTS;
     }
-    // The middle of a parabola through 2h + 1 points follows this part of its own point's noise.
-    let n = (2 * side + 1) as f64;
-    let own = 3.0 * (3.0 * n * n - 7.0) / (4.0 * n * (n * n - 4.0));
+    let own = own_part(side);
     let middles = side..data.len() - side;
     let count = middles.len() as f64;
     let squares: f64 = middles

@@ -1,6 +1,7 @@
 //! All that a diagnosis found.
 
 use super::step::Step;
+use crate::diagnose::baseline::Prediction;
 use super::verdict::Verdict;
 use crate::diagnose::context::Span;
 use crate::diagnose::models::{FittedModel, NOISE_COUNTS};
@@ -23,6 +24,8 @@ pub struct Diagnosis {
     pub rivals: Vec<FittedModel>,
     /// The best candidate that was not added, if one reduced the error but not beyond doubt.
     pub not_named: Option<Kind>,
+    /// What the last model predicts over windows and whole runs, where it does not explain the recordings.
+    pub predicts: Option<Prediction>,
     /// What to do next, in words.
     pub advice: Vec<String>,
     /// Whether the steps that it may take did not suffice: then not all effects were tried.

@@ -1,6 +1,7 @@
 //! The verdict in the words of a motor engineer.
 
 use super::bars::counts;
+use super::evidence::changed;
 use super::{DiagnosisReport, names};
 use servoid_identify::diagnose::evidence::largest;
 use servoid_identify::diagnose::{HeldOut, Verdict, moves_both_ways};
@@ -58,9 +59,9 @@ impl DiagnosisReport<'_> {
                 let begins = match diagnosis.steps.len() {
                     0 => format!("The linear motor misses this recording by {base} counts RMS"),
                     _ => format!(
-                        "With {} the error falls from {base} to {} counts RMS",
+                        "With {} {}",
                         self.titles(),
-                        counts(fitted)
+                        changed("the error", diagnosis.base.rms_counts, fitted)
                     ),
                 };
                 if let Some(cause) = self.cause() {

@@ -1,0 +1,105 @@
+//! The linear motor with Coulomb friction, an offset and a delay, singly and together.
+
+use crate::diagnose::built_up::added;
+use crate::diagnose::candidate::fit::fit_screened;
+use crate::diagnose::candidate::polish::polish;
+use crate::diagnose::context::Context;
+use crate::diagnose::models::{FittedModel, ScreenedModel};
+use crate::fit::base_for;
+use rayon::prelude::*;
+use servoid_engine::problem::{ELECTRICAL_TIME_CONSTANT, Structure};
+use servoid_io::recording::Drive;
+use shared::effects::Kind;
+
+/// Where the fits start: Coulomb friction in parts of the supply, and delays in s.
+const FRICTION: f64 = 0.05;
+const DELAYS_S: [f64; 2] = [0.0, 0.004];
+
+/// What the baseline adds to the linear motor; behind a current loop an offset acts as a torque.
+fn terms(context: &Context<'_>) -> [Kind; 3] {
+    let constant = match context.data.drive {
+        Drive::Voltage => Kind::OffsetVoltage,
+        Drive::Current => Kind::LoadTorque,
+    };
+    [Kind::Coulomb, constant, Kind::Delay]
+}
+
+/// The models with one, two and three of the terms; the one with all of them last. None has an electrical time constant:
+/// beside a delay no recording without edges tells the two apart.
+pub fn baseline_models(context: &Context<'_>, base: &FittedModel) -> Vec<FittedModel> {
+    let terms = terms(context);
+    // The sets in the order of their size.
+    let sets: [&[usize]; 7] = [&[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]];
+    let fitted = |set: &&[usize]| {
+        let effects: Vec<Kind> = set.iter().map(|&at| terms[at]).collect();
+        let delays = if effects.contains(&Kind::Delay) {
+            &DELAYS_S[..]
+        } else {
+            &DELAYS_S[..1]
+        };
+        let starts = delays.par_iter();
+        let models = starts.filter_map(|&delay_s| fit_terms(context, base, &effects, delay_s));
+        models.min_by(|a, b| a.ran().fitted.total_cmp(&b.ran().fitted))
+    };
+    sets.par_iter().filter_map(fitted).collect()
+}
+
+/// The linear motor with `effects`, which are among the baseline's terms.
+fn fit_terms(
+    context: &Context<'_>,
+    base: &FittedModel,
+    effects: &[Kind],
+    delay_s: f64,
+) -> Option<FittedModel> {
+    if context.budget.exhausted() {
+        return None;
+    }
+    let data = context.data;
+    let machine = &base.candidate.machine;
+    let speed = base.structure.start_speed;
+    let structure = Structure::around(data, base_for(data, effects), effects, machine, speed)
+        .with_fixed(ELECTRICAL_TIME_CONSTANT, 0.0);
+    let parameters: Vec<f64> = effects
+        .iter()
+        .map(|kind| match kind {
+            Kind::Coulomb => FRICTION * data.supply,
+            Kind::Delay => delay_s,
+            _ => 0.0,
+        })
+        .collect();
+    let start = ScreenedModel::standing(structure, &base.candidate, &parameters);
+    let fitted = fit_screened(context, &start).ok()?;
+    polish(context, &fitted).ok()
+}
+
+/// `model` with each of the terms that it lacks, one after the other and all together.
+pub fn with_baseline_terms(context: &Context<'_>, model: &FittedModel) -> Vec<FittedModel> {
+    if model.effects.is_empty() {
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    let mut level = vec![model.clone()];
+    while let Some(best) = level
+        .iter()
+        .min_by(|a, b| a.ran().fitted.total_cmp(&b.ran().fitted))
+    {
+        level = extended(context, best);
+        all.extend(level.iter().cloned());
+    }
+    all
+}
+
+/// `model` with each of the terms that neither it nor one of its effects has.
+fn extended(context: &Context<'_>, model: &FittedModel) -> Vec<FittedModel> {
+    let has = |kind: Kind| {
+        model.effects.iter().any(|own| {
+            *own == kind
+                || (own.facts().contains.iter()).any(|simpler| simpler.name == kind.name())
+        })
+    };
+    terms(context)
+        .into_par_iter()
+        .filter(|&kind| !has(kind) && !context.budget.exhausted())
+        .filter_map(|kind| added(context, model, kind))
+        .collect()
+}
