@@ -197,7 +197,9 @@ impl Data {
     pub fn measured_state(&self, k: usize) -> (f64, f64) {
         let half = self.state_half_width();
         let (from, to) = (k.saturating_sub(half), (k + half + 1).min(self.len()));
-        let still = self.counts[from..to].iter().all(|count| *count == self.counts[k]);
+        let still = self.counts[from..to]
+            .iter()
+            .all(|count| *count == self.counts[k]);
         if self.quantised || still {
             return (self.centre(k), self.speed_counts_s(k, half));
         }

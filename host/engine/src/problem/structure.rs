@@ -7,6 +7,7 @@ use super::unknown::{Scale, Unknown};
 use crate::data::Data;
 use crate::simulation::Candidate;
 use shared::effects::{EffectSet, Kind};
+use shared::model::MAX_DELAY;
 use shared::motor::{Machine, Physical, Response};
 
 /// The coordinates of the linear machine.
@@ -48,6 +49,8 @@ pub const START_SPEED: &str = "start_speed";
 pub const ELECTRICAL_TIME_CONSTANT: &str = "electrical_time_constant";
 /// Name of the unknown start angle within the first cell.
 pub const START_OFFSET: &str = "start_offset";
+/// No delay is looked for beyond this, s.
+const LONGEST_DELAY_S: f64 = 0.15;
 /// Search range of the start angle about the middle of its cell, counts: a little beyond the edges.
 const FARTHEST_START: f64 = 0.7;
 
@@ -65,10 +68,14 @@ impl Structure {
         for &kind in effects {
             for parameter in kind.description().parameters {
                 let scaled = |x| parameter.scaled(x, data.supply, no_load);
+                let most = match kind {
+                    Kind::Delay => longest_delay(data, parameter.range.1),
+                    _ => scaled(parameter.range.1),
+                };
                 unknowns.push(Unknown::new(
                     &format!("{}.{}", kind.name(), parameter.name),
                     parameter.quantity.unit(),
-                    (scaled(parameter.range.0), scaled(parameter.range.1)),
+                    (scaled(parameter.range.0), most),
                     if parameter.amplitude || parameter.range.0 <= 0.0 {
                         Scale::Linear
                     } else {
@@ -106,7 +113,11 @@ impl Structure {
     /// The same with an unknown that stays at `value`.
     #[must_use]
     pub fn with_fixed(mut self, name: &str, value: f64) -> Self {
-        for unknown in self.unknowns.iter_mut().filter(|unknown| unknown.name == name) {
+        for unknown in self
+            .unknowns
+            .iter_mut()
+            .filter(|unknown| unknown.name == name)
+        {
             unknown.range = (value, value);
         }
         self
@@ -264,6 +275,17 @@ fn base_len(base: Base) -> usize {
 /// Search ranges reach this factor to both sides of the first guess.
 const REACH: f64 = 20.0;
 
+/// Most of a delay that is searched for, s: `usual`, or as many samples as the model remembers where those last much longer. A log
+/// of 200 Hz over a bus may be late by a tenth of a second.
+fn longest_delay(data: &Data, usual: f64) -> f64 {
+    let remembered = (MAX_DELAY - 1) as f64 * data.units.interval;
+    if remembered > 2.0 * usual {
+        remembered.min(LONGEST_DELAY_S)
+    } else {
+        usual
+    }
+}
+
 fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown> {
     let around = |value: f64| (value / REACH, value * REACH);
     match base {
@@ -273,12 +295,7 @@ fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown>
             let mut unknowns = vec![
                 Unknown::new("gain", "rad/(s*V)", around(gain), Scale::Log),
                 Unknown::new("a1", "s", around(a1), Scale::Log),
-                Unknown::new(
-                    ELECTRICAL_TIME_CONSTANT,
-                    "s",
-                    (0.0, slowest),
-                    Scale::Linear,
-                ),
+                Unknown::new(ELECTRICAL_TIME_CONSTANT, "s", (0.0, slowest), Scale::Linear),
             ];
             if damping {
                 unknowns.push(Unknown::new(

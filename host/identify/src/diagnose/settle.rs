@@ -45,9 +45,8 @@ pub fn settle(
         method: last.method,
         start: Some(start.clone()),
     };
-    let judged_otherwise = last.windowed.is_some()
-        || last.losses.is_some()
-        || diagnosis.predicts.is_some();
+    let judged_otherwise =
+        last.windowed.is_some() || last.losses.is_some() || diagnosis.predicts.is_some();
     let chaotic = last.observed.is_some() && !last.ran().at_floor();
     // As far as it was followed it was fitted to its end.
     let followed = last.followed_fraction > 0.0;

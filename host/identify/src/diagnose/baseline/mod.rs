@@ -10,7 +10,7 @@ mod prediction;
 
 use super::candidate::several_horizons::fit_over_horizons;
 use super::confirmation::Confirmed;
-use super::context::{Context, moves_both_ways};
+use super::context::{Budget, Context};
 use super::models::{FittedModel, same};
 use models::{baseline_models, with_baseline_terms};
 pub use prediction::Prediction;
@@ -18,6 +18,9 @@ use prediction::Windows;
 
 /// A model may predict worse than the baseline by this part before it is given up: less is chance.
 const AS_GOOD: f64 = 0.01;
+
+/// Part of a diagnosis' budget that the comparison may take besides.
+const PART: f64 = 0.25;
 
 /// A model and what it predicts.
 struct Rated {
@@ -29,17 +32,21 @@ struct Rated {
 pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     let mut confirmed = confirmed;
     let chosen = confirmed.chosen.as_ref().unwrap_or(&confirmed.base).clone();
-    if chosen.explains() || chosen.losses.is_some() {
+    if is_explained(&confirmed.context, &chosen) || chosen.losses.is_some() {
         return confirmed;
     }
-    let context = &confirmed.context;
+    // The search may have used up its own.
+    let budget = confirmed.context.budget;
+    let own = Budget::of((PART * budget.most() as f64) as u64, budget.stop());
+    let context = &confirmed.context.with_budget(&own);
     let windows = Windows::of(context);
     let rate = |model: FittedModel| -> Option<Rated> {
         let prediction = windows.prediction(context, &model)?;
         Some(Rated { model, prediction })
     };
     let baseline = baseline_models(context, &confirmed.base);
-    let Some(limit) = baseline.last().cloned().and_then(rate) else {
+    let by_score = |a: &Rated, b: &Rated| a.prediction.score().total_cmp(&b.prediction.score());
+    let Some(limit) = baseline.iter().cloned().filter_map(rate).min_by(by_score) else {
         return confirmed;
     };
     let further = with_baseline_terms(context, &chosen);
@@ -49,9 +56,10 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         rated.extend(refitted.and_then(rate));
         rated.extend(rate(model.clone()));
     }
+    budget.book(own.spent());
     confirmed.known.extend(further);
     confirmed.known.extend(baseline);
-    if let Some(best) = select(context, rated, &chosen, &limit.prediction) {
+    if let Some(best) = select(rated, &chosen, &limit.prediction) {
         confirmed.predicts = Some(best.prediction);
         if best.model.effects.is_empty() {
             confirmed.base = best.model;
@@ -64,19 +72,17 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     confirmed
 }
 
+/// Whether nothing is left to explain. In windows the floor is that of the start states, which a noisy sensor raises: there
+/// only a whole run at the encoder's own error is sure.
+fn is_explained(context: &Context<'_>, chosen: &FittedModel) -> bool {
+    chosen.explains() && (context.span.window_s.is_none() || chosen.free().at_floor())
+}
+
 /// The best of those that predict no worse than the baseline; of these the ones with the chosen effects first.
-fn select(
-    context: &Context<'_>,
-    rated: Vec<Rated>,
-    chosen: &FittedModel,
-    limit: &Prediction,
-) -> Option<Rated> {
-    // A motor that never reverses tells friction from an offset only where something else does: the fewest terms.
-    let penalty = |rated: &Rated| {
-        let terms = rated.model.parameters.len() as f64;
-        let price = if moves_both_ways(context.data) { AS_GOOD } else { 4.0 * AS_GOOD };
-        rated.prediction.score() + price * terms
-    };
+fn select(rated: Vec<Rated>, chosen: &FittedModel, limit: &Prediction) -> Option<Rated> {
+    // Each parameter has its price: of models that predict alike the simplest is taken.
+    let penalty =
+        |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.parameters.len() as f64;
     let (feasible, others): (Vec<Rated>, Vec<Rated>) = rated
         .into_iter()
         .partition(|rated| rated.prediction.no_worse_than(limit, AS_GOOD));

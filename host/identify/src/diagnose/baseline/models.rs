@@ -3,7 +3,7 @@
 use crate::diagnose::built_up::added;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::polish::polish;
-use crate::diagnose::context::Context;
+use crate::diagnose::context::{Context, moves_both_ways};
 use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::fit::base_for;
 use rayon::prelude::*;
@@ -13,25 +13,32 @@ use shared::effects::Kind;
 
 /// Where the fits start: Coulomb friction in parts of the supply, and delays in s.
 const FRICTION: f64 = 0.05;
-const DELAYS_S: [f64; 2] = [0.0, 0.004];
+const DELAYS_S: [f64; 3] = [0.0, 0.004, 0.04];
 
-/// What the baseline adds to the linear motor; behind a current loop an offset acts as a torque.
-fn terms(context: &Context<'_>) -> [Kind; 3] {
+/// What the baseline adds to the linear motor; behind a current loop an offset acts as a torque. A motor that never reverses
+/// shows only the sum of Coulomb friction and offset, along which a fit would run away: it gets no offset.
+fn terms(context: &Context<'_>) -> Vec<Kind> {
     let constant = match context.data.drive {
         Drive::Voltage => Kind::OffsetVoltage,
         Drive::Current => Kind::LoadTorque,
     };
-    [Kind::Coulomb, constant, Kind::Delay]
+    if moves_both_ways(context.data) {
+        vec![Kind::Coulomb, Kind::Delay, constant]
+    } else {
+        vec![Kind::Coulomb, Kind::Delay]
+    }
 }
 
-/// The models with one, two and three of the terms; the one with all of them last. None has an electrical time constant:
+/// The models with every set of the terms. None has an electrical time constant:
 /// beside a delay no recording without edges tells the two apart.
 pub fn baseline_models(context: &Context<'_>, base: &FittedModel) -> Vec<FittedModel> {
     let terms = terms(context);
-    // The sets in the order of their size.
-    let sets: [&[usize]; 7] = [&[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]];
-    let fitted = |set: &&[usize]| {
-        let effects: Vec<Kind> = set.iter().map(|&at| terms[at]).collect();
+    let fitted = |set: u32| {
+        let chosen = terms
+            .iter()
+            .enumerate()
+            .filter(|(at, _)| set >> at & 1 == 1);
+        let effects: Vec<Kind> = chosen.map(|(_, &kind)| kind).collect();
         let delays = if effects.contains(&Kind::Delay) {
             &DELAYS_S[..]
         } else {
@@ -41,7 +48,8 @@ pub fn baseline_models(context: &Context<'_>, base: &FittedModel) -> Vec<FittedM
         let models = starts.filter_map(|&delay_s| fit_terms(context, base, &effects, delay_s));
         models.min_by(|a, b| a.ran().fitted.total_cmp(&b.ran().fitted))
     };
-    sets.par_iter().filter_map(fitted).collect()
+    let sets = 1..1u32 << terms.len();
+    sets.into_par_iter().filter_map(fitted).collect()
 }
 
 /// The linear motor with `effects`, which are among the baseline's terms.
@@ -93,8 +101,7 @@ pub fn with_baseline_terms(context: &Context<'_>, model: &FittedModel) -> Vec<Fi
 fn extended(context: &Context<'_>, model: &FittedModel) -> Vec<FittedModel> {
     let has = |kind: Kind| {
         model.effects.iter().any(|own| {
-            *own == kind
-                || (own.facts().contains.iter()).any(|simpler| simpler.name == kind.name())
+            *own == kind || (own.facts().contains.iter()).any(|simpler| simpler.name == kind.name())
         })
     };
     terms(context)

@@ -84,7 +84,9 @@ pub fn fit_over_horizons(
     };
     let logarithms = |weighted: &Weighted<'_>, x: &[f64]| -> f64 {
         let costs = weighted.problems.iter().map(|(problem, _)| problem.cost(x));
-        costs.map(|cost| 0.5 * cost.max(f64::MIN_POSITIVE).ln()).sum()
+        costs
+            .map(|cost| 0.5 * cost.max(f64::MIN_POSITIVE).ln())
+            .sum()
     };
     let mut x = model.x.clone();
     let mut left = logarithms(&weighted, &x);

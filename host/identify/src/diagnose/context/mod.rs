@@ -73,6 +73,17 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// The same with another budget.
+    pub fn with_budget<'b>(&self, budget: &'b Budget<'b>) -> Context<'b>
+    where
+        'a: 'b,
+    {
+        Context {
+            budget,
+            ..self.with_recordings(self.data, self.held_out)
+        }
+    }
+
     /// The same for two other recordings with the same times.
     pub fn with_recordings<'b>(&self, data: &'b Data, held_out: &'b Data) -> Context<'b>
     where

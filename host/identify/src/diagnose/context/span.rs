@@ -123,7 +123,11 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
     };
     let noise = noise_counts(data);
     // What the start angle keeps of a reading's noise.
-    let start = if data.quantised { 1.0 } else { own_part(data.state_half_width()) };
+    let start = if data.quantised {
+        1.0
+    } else {
+        own_part(data.state_half_width())
+    };
     let slowest = machine.response().a1;
     let mut squares = 0.0;
     for window in windows {

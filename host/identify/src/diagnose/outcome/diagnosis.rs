@@ -1,8 +1,8 @@
 //! All that a diagnosis found.
 
 use super::step::Step;
-use crate::diagnose::baseline::Prediction;
 use super::verdict::Verdict;
+use crate::diagnose::baseline::Prediction;
 use crate::diagnose::context::Span;
 use crate::diagnose::models::{FittedModel, NOISE_COUNTS};
 use shared::effects::Kind;
