@@ -34,12 +34,12 @@ impl Datasets {
     ) -> Result<Self, Error> {
         match validation {
             Some(other) => Self::of_two(recording, other, options),
-            None => Self::of_one(recording),
+            None => Self::of_one(recording, options),
         }
     }
 
-    fn of_one(recording: Recording) -> Result<Self, Error> {
-        let remarks = usable::check(&recording)?;
+    fn of_one(recording: Recording, options: &Options) -> Result<Self, Error> {
+        let remarks = usable::check(&recording, options.force)?;
         let (first, rest, kind) = holdout::cut(&recording).ok_or_else(|| {
             Error::Failed(format!(
                 "{}: {:.3} s are too short to hold a part of them out; give another recording of the same motor with \
@@ -61,7 +61,7 @@ impl Datasets {
     }
 
     fn of_two(recording: Recording, other: Recording, options: &Options) -> Result<Self, Error> {
-        let mut remarks = usable::check(&recording)?;
+        let mut remarks = usable::check(&recording, options.force)?;
         let copied = other.counts == recording.counts && other.command == recording.command;
         let kind = if copied {
             remarks.push(Remark::aside(
@@ -71,7 +71,7 @@ impl Datasets {
             ));
             HeldOut::Nothing
         } else {
-            remarks.extend(usable::check(&other)?);
+            remarks.extend(usable::check(&other, options.force)?);
             HeldOut::Recording(other.source.clone())
         };
         let (fitted, held_out) = (Data::taken(recording)?, Data::taken(other)?);

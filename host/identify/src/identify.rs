@@ -1,5 +1,6 @@
 //! The front door of a fit: every face (command line, workbench, check of a device, library user) comes through here.
 
+use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
@@ -48,6 +49,7 @@ pub fn identify(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Fit, Error> {
+    check::passed(recording, options.force)?;
     identify_data(&Data::new(recording)?, None, options, progress)
 }
 

@@ -4,6 +4,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | `check` | what a recording can be trusted for, before anything is fitted to it |
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
 //! | `diagnose` | which physical effects a recording shows that the model lacks |
 //! | `plan` | the excitation that separates models which explain a recording alike |
@@ -11,6 +12,7 @@
 //! | `truth` | what the virtual bench hides, in the model's terms |
 #![forbid(unsafe_code)]
 
+pub mod check;
 mod datasets;
 pub mod diagnose;
 mod diagnosed;

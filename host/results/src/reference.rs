@@ -1,6 +1,7 @@
 //! The results as JSON Schema, made from their types.
 
 use crate::export::Motor;
+use crate::schema::check::Check;
 use crate::schema::{Contest, Demo, DeviceRun, Diagnosis, Fit, Plan, Proof, Steady, Verification};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
@@ -16,6 +17,7 @@ pub struct Reference {
 /// The schemas of all results.
 pub fn all() -> Vec<Reference> {
     vec![
+        of::<Check>("check"),
         of::<Fit>("fit"),
         of::<Demo>("demo"),
         of::<Diagnosis>("diagnosis"),

@@ -71,6 +71,8 @@ pub enum Verb {
     Demo(DemoArgs),
     /// The virtual bench makes recordings
     Simulate(SimulateArgs),
+    /// What recordings can be trusted for, before anything is fitted to them
+    Check(CheckArgs),
     /// Fits the model to a recording
     Fit(FitArgs),
     /// Finds where the linear motor fails, names the missing effects and adds them one by one
@@ -270,6 +272,17 @@ pub struct ModelArgs {
     pub bounds: Vec<String>,
 }
 
+/// `servoid check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The recordings
+    #[arg(required = true)]
+    pub recordings: Vec<PathBuf>,
+    /// The motor.
+    #[command(flatten)]
+    pub motor: MotorArgs,
+}
+
 /// `servoid fit`.
 #[derive(Debug, Args)]
 pub struct FitArgs {
@@ -284,6 +297,9 @@ pub struct FitArgs {
     /// Model evaluations at most
     #[arg(long, default_value_t = 20_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub budget: u64,
+    /// Fit a recording that `servoid check` refuses
+    #[arg(long)]
+    pub force: bool,
     /// Plot of measured against model (SVG)
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
@@ -311,6 +327,9 @@ pub struct DiagnoseArgs {
     /// and two minutes of one processor core, and few recordings need a tenth of it
     #[arg(long, default_value_t = USUAL_STEPS / 1_000_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub budget: u64,
+    /// Diagnose recordings that `servoid check` refuses
+    #[arg(long)]
+    pub force: bool,
     /// The page.
     #[command(flatten)]
     pub sheet: SheetArgs,

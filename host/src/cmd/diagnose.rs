@@ -38,6 +38,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let options = Options {
         known: motor_file.known,
         seed: session.seed,
+        force: args.force,
         ..Options::default()
     };
     let datasets = Datasets::new(recording, other.map(|(other, _)| other), &options)?;

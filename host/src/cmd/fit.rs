@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
-use servoid_identify::identify_data;
+use servoid_identify::{check, identify_data};
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report::{html, text};
@@ -27,6 +27,9 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         args.validate.as_deref(),
     )?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
+    for finding in check::passed(&recording, args.force)? {
+        session.remark(&finding.text());
+    }
     let data = Data::taken(recording)?;
     let validation = match &args.validate {
         Some(path) => Some(Data::taken(motor::recording(&args.motor, path)?.0)?),
@@ -35,6 +38,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let options = Options {
         algorithm: args.algorithm.clone(),
         error_ladder: true,
+        force: args.force,
         ..model::options(&args.model, motor_file.known, session.seed, args.budget)?
     };
     let watched = Watched::search(session, options.budget);

@@ -1,6 +1,7 @@
 //! One verb a file: read, call, write.
 
 mod bench;
+mod check;
 mod compare;
 mod completions;
 mod demo;
@@ -33,6 +34,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Demo(args) => demo::run(&session, &args),
         Verb::Simulate(args) => simulate::run(&session, &args),
         Verb::Diagnose(args) => diagnose::run(&session, &args),
+        Verb::Check(args) => check::run(&session, &args),
         Verb::Fit(args) => fit::run(&session, &args),
         Verb::Export(args) => export::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),

@@ -9,6 +9,7 @@ mod diagnoses;
 mod fits;
 mod kept;
 mod limits;
+mod program;
 mod recordings;
 mod source;
 mod steady;

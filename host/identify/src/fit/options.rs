@@ -33,6 +33,8 @@ pub struct Options {
     pub start: Option<Candidate>,
     /// Whether the result has the errors of the models that lead to it, effect by effect.
     pub error_ladder: bool,
+    /// Whether recordings are fitted that the [check](crate::check) refuses.
+    pub force: bool,
 }
 
 impl Options {
@@ -68,6 +70,7 @@ impl Default for Options {
             bounds: Vec::new(),
             start: None,
             error_ladder: false,
+            force: false,
         }
     }
 }

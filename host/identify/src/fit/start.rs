@@ -2,6 +2,7 @@
 
 use super::options::Options;
 use super::regression::{self, Guess};
+use crate::check::{DriveResponse, Driven, drive_response};
 use crate::error::Error;
 use servoid_engine::block_cost::BlockCost;
 use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
@@ -19,8 +20,13 @@ pub const SPEED_HALF_WIDTH: usize = 4;
 /// [`Error::Failed`] where no regression gives a machine: the recording does not excite the motor.
 pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
     check(data, options)?;
-    let starts = starts(data, options);
-    let still = starts.best(false);
+    let mut starts = starts(data, options);
+    let mut still = starts.best(false);
+    let follows = || options.force || response(data) == DriveResponse::Follows;
+    if still.is_none() && options.method.discretisation != Discretisation::Euler && follows() {
+        starts.guesses = usual_machines(data, &starts.problem.structure);
+        still = starts.best(false);
+    }
     let moving = if may_start_moving(data) && options.window_s.is_none() {
         starts.best(true)
     } else {
@@ -70,14 +76,71 @@ fn check(data: &Data, options: &Options) -> Result<(), Error> {
     }
 }
 
-/// Whether only the negated angle gives a motor.
+/// Whether no regression gives a motor, and the motor surely speeds up against its command.
 pub fn is_reversed(data: &Data, options: &Options) -> bool {
-    let mut reversed = data.clone();
-    for count in &mut reversed.counts {
-        *count = -*count;
-    }
-    starts(data, options).best(false).is_none() && starts(&reversed, options).best(false).is_some()
+    starts(data, options).best(false).is_none() && response(data) == DriveResponse::Reversed
 }
+
+fn response(data: &Data) -> DriveResponse {
+    drive_response(&Driven {
+        time_s: &data.time_s,
+        command: &data.command,
+        counts: &data.counts,
+        counts_per_rev: data.units.counts_per_rev,
+        closed: &|k| !data.is_open(k),
+    })
+}
+
+/// Guesses where no regression gives a machine although the motor follows its command: a load that the model lacks hides the
+/// machine. Mechanical time constants in steps, s, each with the gain that makes the supply the fastest speed, and less.
+fn usual_machines(data: &Data, structure: &Structure) -> Vec<Guess> {
+    let mut speeds: Vec<f64> = (0..data.len())
+        .map(|k| data.speed_counts_s(k, SPEED_HALF_WIDTH).abs())
+        .collect();
+    speeds.sort_by(f64::total_cmp);
+    let fast = speeds[speeds.len() * 95 / 100] / data.units.counts_per_rev * core::f64::consts::TAU;
+    let fast = if fast > 0.0 { fast } else { data.units.speed };
+    let largest = data.command.iter().fold(0.0f64, |m, u| m.max(u.abs())) * data.units.volts;
+    let dampings = [1.0, 0.3].map(|part| part * largest / fast);
+    let machine = |damping: f64, time_constant: f64| match structure.base {
+        Base::CurrentDriven => Machine {
+            kb: 0.0,
+            damping,
+            inertia: damping * time_constant,
+            electrical: 0.0,
+        },
+        Base::Response { .. } | Base::Physical { .. } => Machine {
+            kb: damping,
+            damping: 0.0,
+            inertia: damping * time_constant,
+            electrical: 0.0,
+        },
+    };
+    let effects: Vec<f64> = structure
+        .effects
+        .iter()
+        .flat_map(|kind| kind.description().parameters)
+        .map(|parameter| {
+            let share = if parameter.amplitude {
+                0.0
+            } else {
+                parameter.typical
+            };
+            parameter.scaled(share, data.supply, data.units.speed)
+        })
+        .collect();
+    dampings
+        .iter()
+        .flat_map(|&damping| TIME_CONSTANTS_S.map(|tau| machine(damping, tau)))
+        .map(|machine| Guess {
+            machine,
+            effects: effects.clone(),
+        })
+        .collect()
+}
+
+/// Mechanical time constants from which a search begins where no regression tells one, s.
+const TIME_CONSTANTS_S: [f64; 4] = [0.01, 0.03, 0.1, 0.3];
 
 /// Why no regression gave a machine.
 fn no_motor(data: &Data, options: &Options) -> Error {

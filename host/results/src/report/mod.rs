@@ -1,5 +1,6 @@
 //! One result, one writer a format.
 
+pub mod check;
 pub mod demo;
 pub mod diagnosis;
 pub mod fold;

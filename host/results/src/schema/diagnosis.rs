@@ -83,8 +83,8 @@ pub struct Diagnosis {
     pub window_s: Option<f64>,
     /// Why windows.
     pub window_reason: Option<String>,
-    /// What the last model predicts; null where it reaches the encoder's floor.
-    #[serde(default)]
+    /// What the last model predicts; absent where it reaches the encoder's floor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prediction: Option<Prediction>,
     /// The chosen model and one for each look-alike.
     #[serde(default)]

@@ -1,0 +1,218 @@
+//! Whether the motor follows its command, in which sense, and how late.
+//!
+//! Two regressions tell. The acceleration over short blocks is regressed on the command, the speed, its sign, a constant and gravity's sine and
+//! cosine: what a load or friction explains is not taken for the command's. The command's coefficient over its standard error
+//! says whether the motor is driven at all, and its sign whether the angle counts the right way. Where the motion is too steady
+//! for that, the command is regressed on the motion: an equation of motion that holds explains it.
+
+use super::{Finding, Severity};
+use nalgebra::{DMatrix, DVector};
+use servoid_io::recording::Recording;
+
+/// Blocks, in samples; the clearest answer counts.
+const BLOCKS: [usize; 4] = [2, 5, 12, 30];
+/// Fewest blocks that say anything.
+const FEWEST: usize = 30;
+/// Standard errors from which on a coefficient is no chance.
+const SURE: f64 = 6.0;
+/// Part of the command's spread that an equation of motion explains where it holds.
+const MOST: f64 = 0.5;
+/// Rest before an edge after which the first motion is timed, s.
+const REST_S: f64 = 0.03;
+/// Edges of at least this part of the largest command.
+const EDGE: f64 = 0.3;
+/// Longest time in which a motor must answer, s.
+const ANSWER_S: f64 = 0.3;
+/// Counts of motion that are no jitter.
+const BEGUN: f64 = 2.0;
+/// A motor that answers later than this, and than so many samples, is late.
+const LATE: (f64, f64) = (0.003, 2.0);
+
+/// How the motor answers its command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DriveResponse {
+    /// A rising command speeds it up.
+    Follows,
+    /// A rising command slows it down: the angle or the command has the wrong sign.
+    Reversed,
+    /// Neither is sure.
+    Unclear,
+}
+
+/// What is driven and how it moves, of a recording in any form.
+pub(crate) struct Driven<'a> {
+    pub time_s: &'a [f64],
+    pub command: &'a [f64],
+    pub counts: &'a [f64],
+    pub counts_per_rev: f64,
+    /// Whether the bridge is closed after a sample.
+    pub closed: &'a dyn Fn(usize) -> bool,
+}
+
+pub(super) fn findings(recording: &Recording) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let driven = Driven {
+        time_s: &recording.time_s,
+        command: &recording.command,
+        counts: &recording.counts,
+        counts_per_rev: recording.counts_per_rev,
+        closed: &|k| recording.enabled.as_ref().is_none_or(|on| on[k]),
+    };
+    match drive_response(&driven) {
+        DriveResponse::Follows => {}
+        DriveResponse::Reversed => findings.push(Finding::new(
+            "reversed",
+            Severity::Refusal,
+            "the angle falls where the voltage should raise it, whatever gravity and friction do: the sign of the angle (or of \
+             the voltage) is reversed",
+            "swap the encoder's channels or negate the column",
+        )),
+        DriveResponse::Unclear => findings.push(Finding::new(
+            "no_response",
+            Severity::Warning,
+            "the acceleration does not follow the command",
+            "check the columns, their units and time stamps, and that the motor was driven",
+        )),
+    }
+    if let Some((late_s, edges)) = first_motion(recording) {
+        findings.push(Finding::new(
+            "late",
+            Severity::Remark,
+            format!(
+                "after rest the motion begins {:.1} ms after the command (median of {edges} edges)",
+                1e3 * late_s
+            ),
+            "a bus, a driver or the log delays it; fit with --with delay, or log both at the same instant",
+        ));
+    }
+    findings
+}
+
+/// How the motor answers its command.
+pub(crate) fn drive_response(driven: &Driven<'_>) -> DriveResponse {
+    let scores = BLOCKS
+        .iter()
+        .filter_map(|&block| command_score(driven, block));
+    let clearest = scores.fold(
+        0.0f64,
+        |best, t| if t.abs() > best.abs() { t } else { best },
+    );
+    if clearest > SURE {
+        DriveResponse::Follows
+    } else if clearest < -SURE {
+        DriveResponse::Reversed
+    } else if BLOCKS.iter().any(|&block| motion_explains(driven, block)) {
+        DriveResponse::Follows
+    } else {
+        DriveResponse::Unclear
+    }
+}
+
+/// The motion over blocks of samples, those left out in which the bridge was open or the motor stood still.
+struct Blocks {
+    /// Command, speed, its sign, one, and gravity's sine and cosine.
+    rows: Vec<[f64; 6]>,
+    accelerations: Vec<f64>,
+}
+
+/// Whether the motion explains most of the command, at a steady speed that rises with it or by a weight.
+fn motion_explains(driven: &Driven<'_>, block: usize) -> bool {
+    let Some(Blocks { rows, .. }) = blocks(driven, block) else {
+        return false;
+    };
+    let commands = DVector::from_iterator(rows.len(), rows.iter().map(|row| row[0]));
+    let spread = commands.add_scalar(-commands.mean()).norm_squared();
+    // The speed may be left out; then gravity and friction alone must do.
+    let explained = |columns: &[usize]| -> Option<(f64, f64)> {
+        let matrix = DMatrix::from_fn(rows.len(), columns.len(), |i, j| rows[i][columns[j]]);
+        let inverse = (matrix.transpose() * &matrix).pseudo_inverse(1e-12).ok()?;
+        let solution = inverse * (matrix.transpose() * &commands);
+        let left = (&commands - matrix * &solution).norm_squared();
+        Some((1.0 - left / spread, solution[0]))
+    };
+    let moving = explained(&[1, 2, 3]).is_some_and(|(part, damping)| part > MOST && damping > 0.0);
+    let lifting = explained(&[2, 3, 4, 5]).is_some_and(|(part, _)| part > MOST);
+    spread > 0.0 && (moving || lifting)
+}
+
+/// The command's coefficient in the regression of the acceleration, over its standard error.
+fn command_score(driven: &Driven<'_>, block: usize) -> Option<f64> {
+    let Blocks {
+        rows,
+        accelerations,
+    } = blocks(driven, block)?;
+    let width = 6;
+    let matrix = DMatrix::from_fn(rows.len(), width, |i, j| rows[i][j]);
+    let right = DVector::from_vec(accelerations);
+    let inverse = (matrix.transpose() * &matrix).pseudo_inverse(1e-12).ok()?;
+    let solution = &inverse * (matrix.transpose() * &right);
+    let left = (&right - &matrix * &solution).norm_squared();
+    // Neighbouring blocks share half of their readings.
+    let freedom = 0.5 * (rows.len() - width) as f64;
+    let error = (left / freedom * inverse[(0, 0)]).sqrt();
+    let score = solution[0] / error;
+    score.is_finite().then_some(score)
+}
+
+/// The motion block by block; `None` where there are too few.
+fn blocks(driven: &Driven<'_>, block: usize) -> Option<Blocks> {
+    let (time, counts, closed) = (driven.time_s, driven.counts, driven.closed);
+    let radians = core::f64::consts::TAU / driven.counts_per_rev;
+    let mut rows: Vec<[f64; 6]> = Vec::new();
+    let mut accelerations = Vec::new();
+    let mut begin = 0;
+    while begin + 2 * block < counts.len() {
+        let (middle, end) = (begin + block, begin + 2 * block);
+        let speed = |a: usize, b: usize| (counts[b] - counts[a]) * radians / (time[b] - time[a]);
+        let (before, after) = (speed(begin, middle), speed(middle, end));
+        let apart = 0.5 * (time[end] - time[begin]);
+        // The speeds are those of the halves' middles: what acts between them is the command there.
+        let (from, to) = (
+            begin + block / 2,
+            (middle + block.div_ceil(2)).max(begin + block / 2 + 1),
+        );
+        let command = driven.command[from..to].iter().sum::<f64>() / (to - from) as f64;
+        let (now, angle) = (0.5 * (before + after), counts[middle] * radians);
+        if (begin..end).all(closed) && (before != 0.0 || after != 0.0) {
+            rows.push([command, now, sign(now), 1.0, angle.sin(), angle.cos()]);
+            accelerations.push((after - before) / apart);
+        }
+        begin = middle;
+    }
+    (rows.len() >= FEWEST).then_some(Blocks {
+        rows,
+        accelerations,
+    })
+}
+
+fn sign(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.signum() }
+}
+
+/// The median time from an edge of the command, after rest, to the first motion, s, and of how many edges; `None` where there is
+/// none or it is not late.
+fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
+    let (time, counts, command) = (&recording.time_s, &recording.counts, &recording.command);
+    let largest = command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let mut still_since = 0;
+    let mut late: Vec<f64> = Vec::new();
+    for k in 1..counts.len() {
+        if (counts[k] - counts[still_since]).abs() >= BEGUN {
+            still_since = k;
+        }
+        let edge = (command[k] - command[k - 1]).abs() >= EDGE * largest;
+        let rested = time[k] - time[still_since] >= REST_S && command[k - 1] == 0.0;
+        if !(edge && rested) {
+            continue;
+        }
+        let moved = (k..counts.len())
+            .take_while(|&j| time[j] - time[k] <= ANSWER_S)
+            .find(|&j| (counts[j] - counts[k]).abs() >= BEGUN);
+        late.extend(moved.map(|j| time[j] - time[k]));
+    }
+    late.sort_by(f64::total_cmp);
+    let median = *late.get(late.len() / 2)?;
+    let (seconds, samples) = LATE;
+    let is_late = median > seconds && median > samples * recording.median_interval_s();
+    is_late.then_some((median, late.len()))
+}

@@ -1,0 +1,35 @@
+//! The findings on recordings as text.
+
+use super::fold::folded;
+use crate::schema::check::{Check, Checked};
+
+/// All recordings, a block each.
+pub fn text(check: &Check) -> String {
+    let blocks: Vec<String> = check.recordings.iter().map(block).collect();
+    blocks.join("\n")
+}
+
+fn block(checked: &Checked) -> String {
+    let unit = if checked.drive == "current" { "A" } else { "V" };
+    let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let mut out = format!(
+        "{}: {} samples, {:.3} s, every {:.6} s, commands to {:.2} {unit}\n",
+        checked.recording,
+        checked.samples,
+        number(checked.duration_s),
+        number(checked.interval_s),
+        number(checked.largest_command),
+    );
+    if checked.findings.is_empty() {
+        out.push_str("  nothing to remark\n");
+    }
+    for finding in &checked.findings {
+        let line = format!(
+            "  {:8} {}: {}",
+            finding.severity, finding.seen, finding.remedy
+        );
+        out.push_str(&folded(&line, "           "));
+        out.push('\n');
+    }
+    out
+}

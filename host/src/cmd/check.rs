@@ -1,0 +1,32 @@
+//! `servoid check`: what recordings can be trusted for, before anything is fitted to them.
+
+use super::motor;
+use crate::cli::CheckArgs;
+use crate::error::Error;
+use crate::session::Session;
+use servoid_identify::check::{Severity, examine};
+use servoid_results::report::check;
+use servoid_results::schema::check::{Check, Checked};
+
+pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
+    let mut recordings = Vec::new();
+    let mut refused = Vec::new();
+    for path in &args.recordings {
+        motor::check_outputs(session, &[], &args.motor, path, None)?;
+        let (recording, _) = motor::recording(&args.motor, path)?;
+        let findings = examine(&recording);
+        if findings.iter().any(|f| f.severity == Severity::Refusal) {
+            refused.push(recording.source.clone());
+        }
+        recordings.push(Checked::new(&recording, &findings));
+    }
+    let json = Check::new(recordings);
+    session.deliver(&check::text(&json), &json)?;
+    if refused.is_empty() {
+        return Ok(());
+    }
+    Err(Error::Failed(format!(
+        "{} cannot be fitted as it stands: see the refusals, or override them with --force",
+        refused.join(", ")
+    )))
+}
