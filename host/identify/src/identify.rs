@@ -63,6 +63,13 @@ pub fn identify_data(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Fit, Error> {
+    if validation.is_some_and(|other| other.counts == data.counts && other.command == data.command)
+    {
+        return Err(Error::Usage(
+            "--validate is the recording itself, so that nothing is held out; give another recording of the same motor"
+                .to_owned(),
+        ));
+    }
     let solver = solve::by_name(&options.algorithm)
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;

@@ -199,7 +199,7 @@ fn what_is_compressed_is_what_all_residuals_say() {
                     continue;
                 };
                 let x = problem.start.clone().expect("a start");
-                let windows = Horizon::windows(&data, 0.25, 4);
+                let windows = Horizon::windows(&data, 0.25);
                 let modes = [
                     (Horizon::Whole, StartAngle::Free),
                     (Horizon::Whole, StartAngle::Known),

@@ -71,7 +71,7 @@ fn modes<'a>(
     seen: &'a [MeasuredInterval<f64>],
     turns: &'a [f64],
 ) -> [(Mode<'a>, Horizon, &'static str); 4] {
-    let windows = |data: &Data| Horizon::windows(data, 0.5, 4);
+    let windows = |data: &Data| Horizon::windows(data, 0.5);
     [
         (Mode::Free, Horizon::Whole, "free"),
         (Mode::Free, windows(&data()), "in windows"),

@@ -2,6 +2,7 @@
 
 use super::context::moves_both_ways;
 use super::explain::advice::advise;
+use super::models::Errors;
 use super::naming::Named;
 use super::outcome::{Diagnosis, Verdict};
 
@@ -34,9 +35,24 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
     diagnosis
 }
 
+/// A whole run further from the readings than so many times the floor of its windows says that the floor was none: a sensor that
+/// holds its value looks like noise from which no window can stray.
+const STRAYED: f64 = 10.0;
+
+/// Whether a model that is at the floor in windows runs away over the whole recording.
+fn strays(diagnosis: &Diagnosis) -> bool {
+    let whole = diagnosis.last.free();
+    let floor = |windowed: Errors| STRAYED * windowed.floor;
+    diagnosis
+        .last
+        .windowed
+        .is_some_and(|windowed| whole.fitted.max(whole.held_out) > floor(windowed))
+}
+
 /// What the recording says of the last model.
 fn verdict(diagnosis: &Diagnosis, both_ways: bool) -> Verdict {
-    let verdict = match (diagnosis.last.explains(), diagnosis.steps.is_empty()) {
+    let explains = diagnosis.last.explains() && !strays(diagnosis);
+    let verdict = match (explains, diagnosis.steps.is_empty()) {
         (true, true) => Verdict::Complete,
         (true, false) => Verdict::MissingEffects,
         (false, _) => Verdict::Unexplained,

@@ -83,6 +83,9 @@ pub struct Diagnosis {
     pub window_s: Option<f64>,
     /// Why windows.
     pub window_reason: Option<String>,
+    /// Part of the fitted motion's variance that the last model explains in one run over the whole recording, per cent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explained_percent: Option<f64>,
     /// What the last model predicts; absent where it reaches the encoder's floor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prediction: Option<Prediction>,

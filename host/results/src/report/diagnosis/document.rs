@@ -39,6 +39,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             held_out: HeldOut::from(report.held_out),
             window_s: diagnosis.span.window_s.and_then(finite),
             window_reason: (diagnosis.span.window_s).map(|_| diagnosis.span.reason.clone()),
+            explained_percent: finite(report.explained_percent()),
             prediction: diagnosis.predicts.map(Into::into),
             models: (models.iter())
                 .map(|role| Alternative::new(role.name, role.model))

@@ -8,6 +8,15 @@ use servoid_identify::diagnose::{HeldOut, Verdict, moves_both_ways};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
+/// A percentage with as many digits as what is missing from the whole needs: 99.98, 97, 12.
+fn percent(part: f64) -> String {
+    let missing = (100.0 - part).max(1e-9);
+    let digits = (1.0 - missing.log10()).ceil().clamp(0.0, 6.0) as usize;
+    // Rounding up to the whole would deny what is missing.
+    let scale = 10f64.powi(digits as i32);
+    format!("{:.digits$}", (part * scale).floor() / scale)
+}
+
 impl DiagnosisReport<'_> {
     /// Two sentences.
     pub(super) fn verdict_text(&self) -> String {
@@ -72,10 +81,11 @@ impl DiagnosisReport<'_> {
                     );
                 }
                 format!(
-                    "{begins} ({} {}), and no effect of the catalogue explains the rest, which is {:.0} times what the \
-                     encoder alone leaves.{}",
+                    "{begins} ({} {}); {} % of the motion's variance is explained. No effect of the catalogue explains \
+                     the rest, which is {:.0} times what the encoder alone leaves.{}",
                     counts(held_out),
                     self.where_held_out(),
+                    percent(self.explained_percent()),
                     fitted.max(held_out) / FLOOR_RMS_COUNTS,
                     largest(&self.findings.last)
                         .map_or(String::new(), |text| format!(" Of what is left, {text}."))
@@ -102,6 +112,16 @@ impl DiagnosisReport<'_> {
     pub(super) fn last_errors(&self) -> (f64, f64) {
         let held_out = self.last.validate_rms_counts.unwrap_or(f64::NAN);
         (self.last.rms_counts, held_out)
+    }
+
+    /// Part of the fitted motion's variance that the last model explains in one run over the whole recording, per cent; none where
+    /// it strays further than the motion itself.
+    pub(super) fn explained_percent(&self) -> f64 {
+        let counts = &self.data.counts;
+        let n = counts.len().max(1) as f64;
+        let mean = counts.iter().sum::<f64>() / n;
+        let variance = counts.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / n;
+        (100.0 * (1.0 - self.last.rms_counts.powi(2) / variance)).max(0.0)
     }
 
     fn where_held_out(&self) -> &'static str {
