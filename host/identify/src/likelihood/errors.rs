@@ -5,13 +5,13 @@
 
 use super::objective::{Evaluated, Objective};
 use super::parameters::{Coordinate, Scale};
-use super::slopes::slopes;
+use super::slopes::{Differences, slopes};
 use nalgebra::{DMatrix, DVector};
 
 /// Length of a block, s.
 const BLOCK_S: f64 = 0.5;
 /// Part of the largest eigenvalue below which the data hold no direction, of the matrix scaled to a diagonal of one.
-const FLAT: f64 = 1e-10;
+const FLAT: f64 = 1e-13;
 
 /// Standard errors and correlations of the coordinates.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub(super) fn errors(
     here: &Evaluated,
     coordinates: &[(Coordinate, Scale)],
 ) -> Option<Errors> {
-    let slopes = slopes(objective, here, coordinates, false)?;
+    let slopes = slopes(objective, here, coordinates, Differences::WIDE)?;
     let count = coordinates.len();
     let mut unknown: Vec<bool> = (coordinates.iter())
         .map(|(c, scale)| c.is_noise() && scale.at_least(*c, &here.parameters))

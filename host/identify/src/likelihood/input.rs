@@ -59,14 +59,16 @@ impl Command {
             .collect()
     }
 
-    /// Largest change from one value to the next, part of the range of all.
-    pub(super) fn steepest_edge(&self) -> f64 {
+    /// Largest change from one value to the next before `end`, s, part of the range of all.
+    pub(super) fn steepest_edge(&self, end: f64) -> f64 {
         let (mut low, mut high, mut steepest) = (self.before, self.before, 0.0f64);
         let mut last = self.before;
-        for &value in &self.values {
+        for (&value, &edge) in self.values.iter().zip(&self.edges) {
             low = low.min(value);
             high = high.max(value);
-            steepest = steepest.max((value - last).abs());
+            if edge < end {
+                steepest = steepest.max((value - last).abs());
+            }
             last = value;
         }
         if high > low {

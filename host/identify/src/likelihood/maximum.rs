@@ -5,6 +5,7 @@ use super::objective::{Evaluated, Objective};
 use super::observed::Observed;
 use super::parameters::{Coordinate, Parameters, Scale};
 use super::scoring::{Effort, descend};
+use super::slopes::Differences;
 use super::start::starts;
 use super::terms::{Delays, Terms};
 use super::whiteness::{Whiteness, whiteness};
@@ -17,6 +18,11 @@ const NORMAL_95: f64 = 1.96;
 const FOLLOWED: usize = 2;
 /// Iterations by which starts are told apart, the delay held.
 const TASTED: usize = 2;
+/// Coulomb friction, part of the found one, from which the search starts once more: where a motor reverses, whether it rests for
+/// a moment makes corners and small hollows in the likelihood.
+const FRICTIONS: [f64; 5] = [0.5, 0.8, 1.2, 2.0, 4.0];
+/// A standard error larger than this many times the number says that it is not determined.
+const UNDETERMINED: f64 = 10.0;
 /// Least readings to a coordinate.
 const LEAST_READINGS: usize = 4;
 
@@ -100,20 +106,31 @@ pub fn fit_from(
     begun.truncate(FOLLOWED);
     let effort = Effort {
         iterations: settings.iterations,
-        forward: true,
+        differences: Differences::COARSE,
     };
-    let (best, _) = (begun.into_iter())
-        .map(|start| {
-            let scaled = scaled(&coordinates, &start.parameters, recordings);
-            descend(&objective, start, &scaled, effort, stop)
-        })
-        .min_by(|a, b| a.0.posterior.total_cmp(&b.0.posterior))?;
-    let near = scaled(&coordinates, &best.parameters, recordings);
+    let follow = |start: Evaluated, effort: Effort| {
+        let scaled = scaled(&coordinates, &start.parameters, recordings);
+        descend(&objective, start, &scaled, effort, stop)
+    };
+    let least = |a: &Evaluated, b: &Evaluated| a.posterior.total_cmp(&b.posterior);
+    let mut best = (begun.into_iter())
+        .map(|start| follow(start, effort).0)
+        .min_by(least)?;
+    if terms.coulomb {
+        for part in FRICTIONS {
+            let mut p = best.parameters.clone();
+            p.coulomb *= part;
+            let other = follow(objective.at(p, Some(&best)), effort).0;
+            if other.posterior < best.posterior {
+                best = other;
+            }
+        }
+    }
     let effort = Effort {
-        forward: false,
+        differences: Differences::FINE,
         ..effort
     };
-    let (best, converged) = descend(&objective, best, &near, effort, stop);
+    let (best, converged) = follow(best, effort);
     let near = scaled(&coordinates, &best.parameters, recordings);
     let errors = errors(&objective, &best, &near);
     let readings = objective.count();
@@ -150,7 +167,7 @@ fn tasted(
     let scaled = scaled(&held, &start.parameters, recordings);
     let effort = Effort {
         iterations: TASTED,
-        forward: true,
+        differences: Differences::COARSE,
     };
     Some(descend(objective, start, &scaled, effort, stop).0)
 }
@@ -194,8 +211,15 @@ impl Maximum {
     /// not determine it.
     pub fn std(&self, c: Coordinate) -> Option<f64> {
         let at = self.place(c)?;
-        let error = self.errors.as_ref()?.of(&self.weights(&[(at, 1.0)]));
-        (error.is_finite() && error > 0.0).then_some(error)
+        let errors = self.errors.as_ref()?;
+        let error = errors.of(&self.weights(&[(at, 1.0)]));
+        let p = &self.parameters;
+        let most = match c {
+            Coordinate::Inertia | Coordinate::Damping => UNDETERMINED * c.get(p),
+            _ if c.is_delay() => UNDETERMINED * c.get(p).max(p.time_constant()),
+            _ => f64::INFINITY,
+        };
+        (!errors.unknown[at] && error > 0.0 && error < most).then_some(error)
     }
 
     /// The 95 % interval, SI; what cannot be negative ends at zero.
@@ -241,9 +265,7 @@ impl Maximum {
     }
 
     fn place(&self, c: Coordinate) -> Option<usize> {
-        let at = self.coordinates.iter().position(|&own| own == c)?;
-        let unknown = self.errors.as_ref()?.unknown[at];
-        (!unknown).then_some(at)
+        self.coordinates.iter().position(|&own| own == c)
     }
 
     fn weights(&self, each: &[(usize, f64)]) -> DVector<f64> {

@@ -56,6 +56,8 @@ mod slopes;
 mod start;
 mod step;
 mod terms;
+#[cfg(test)]
+mod tests;
 mod whiteness;
 
 pub use maximum::{Maximum, Settings, fit, fit_from};

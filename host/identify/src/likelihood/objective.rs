@@ -2,20 +2,22 @@
 
 use super::kalman::{Innovations, innovations};
 use super::observed::Observed;
-use super::parameters::Parameters;
+use super::parameters::{Coordinate, Parameters};
 use std::sync::Arc;
 
 /// Standard deviations from which an innovation counts by its size, no longer by its square.
 pub(super) const HUBER: f64 = 4.0;
 /// Standard deviation of the prior on the offset, part of the largest command. It is weak: it keeps Coulomb friction and offset
 /// from running away along their sum where the motor turns one way.
-const OFFSET_PRIOR: f64 = 0.1;
+const OFFSET_PRIOR: f64 = 0.03;
+/// The same for Coulomb friction. A step of one level shows inertia, damping and what is left of the command only by their ratios.
+const COULOMB_PRIOR: f64 = 0.2;
 
 /// Recordings with the readings that are used.
 #[derive(Clone, Debug)]
 pub(super) struct Objective<'a> {
     recordings: Vec<(&'a Observed, Vec<usize>)>,
-    offset_deviation: f64,
+    largest: f64,
 }
 
 /// A model with what the filter says of it.
@@ -38,7 +40,7 @@ impl<'a> Objective<'a> {
             .fold(0.0f64, |most, r| most.max(r.largest));
         Objective {
             recordings: recordings.iter().map(|&r| (r, r.used(update_s))).collect(),
-            offset_deviation: OFFSET_PRIOR * largest,
+            largest,
         }
     }
 
@@ -53,9 +55,13 @@ impl<'a> Objective<'a> {
             .flat_map(|(k, (r, used))| used.iter().map(move |&at| (k, r.time_s[at])))
     }
 
-    /// Curvature of the prior on the offset, 1/V².
-    pub(super) fn offset_weight(&self) -> f64 {
-        self.offset_deviation.powi(-2)
+    /// Curvature of the prior on a number, SI; nothing where it has none.
+    pub(super) fn prior_weight(&self, c: Coordinate) -> f64 {
+        match c {
+            Coordinate::Offset => (OFFSET_PRIOR * self.largest).powi(-2),
+            Coordinate::Coulomb => (COULOMB_PRIOR * self.largest).powi(-2),
+            _ => 0.0,
+        }
     }
 
     /// `near` has inputs that are taken where the delay is the same.
@@ -79,13 +85,14 @@ impl<'a> Objective<'a> {
             inputs.push((delay, volts));
             all.push(found);
         }
-        let prior = 0.5 * parameters.offset.powi(2) * self.offset_weight();
+        let prior = [Coordinate::Offset, Coordinate::Coulomb]
+            .map(|c| 0.5 * c.get(&parameters).powi(2) * self.prior_weight(c));
         Evaluated {
             parameters,
             inputs,
             innovations: all,
             cost,
-            posterior: cost + prior,
+            posterior: cost + prior.iter().sum::<f64>(),
         }
     }
 }

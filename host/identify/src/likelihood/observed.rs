@@ -1,8 +1,8 @@
 //! A recording in SI, with the readings that are used.
 
 use super::input::Command;
-use servoid_engine::problem::Data;
 use servoid_engine::data::local_parabola;
+use servoid_engine::problem::Data;
 use std::f64::consts::TAU;
 
 /// Longest step, s: within a step the delayed command counts by its mean. At 5 ms the edges of a motor of 13 ms already
@@ -12,6 +12,10 @@ const LONGEST_STEP_S: f64 = 2.5e-3;
 const OVERDUE: f64 = 1.5;
 /// Samples between changes of the reading, median while it moves fast, from which the sensor counts as slower than the log.
 const HELD_SAMPLES: f64 = 1.5;
+/// Time from the last change of the reading, and to the next, from which a standstill counts as one, s.
+const SETTLED_S: f64 = 0.05;
+/// Time between the readings that are used of a standstill, s.
+const STANDSTILL_S: f64 = 0.5;
 /// Time over which the speed at the first sample is taken, s.
 const START_S: f64 = 0.02;
 /// Its standard deviation, part of itself.
@@ -100,8 +104,8 @@ impl Observed {
         })
     }
 
-    /// Indices of the points whose readings are used, no nearer to each other than `update_s`; without the first, which is
-    /// where the filter starts.
+    /// Indices of the points whose readings are used, no nearer to each other than `update_s`, and at a standstill only now and
+    /// then; without the first, which is where the filter starts.
     pub(super) fn used(&self, update_s: f64) -> Vec<usize> {
         // Sample times are never exact; half a step early is on time.
         let early = 0.5
@@ -109,21 +113,50 @@ impl Observed {
                 .lengths_s
                 .iter()
                 .fold(f64::INFINITY, |least, l| least.min(*l));
+        let resting = self.resting();
         let mut next = update_s - early;
+        let mut rested = f64::NEG_INFINITY;
         (1..self.angle.len())
             .filter(|&k| {
-                let used = self.time_s[k] >= next && self.angle[k].is_finite();
+                let time = self.time_s[k];
+                let due = time >= next && self.angle[k].is_finite();
+                let used = due && (!resting[k] || time >= rested + STANDSTILL_S);
                 if used {
-                    next = self.time_s[k] + update_s - early;
+                    next = time + update_s - early;
+                    rested = time;
                 }
                 used
             })
             .collect()
     }
 
-    /// Largest change of the command between two samples, part of its range. Of a smooth command it is small.
+    /// Which points are within a standstill, and not near its ends. There a quantised reading repeats itself, and its error is
+    /// anything but white.
+    fn resting(&self) -> Vec<bool> {
+        let count = self.angle.len();
+        let mut since = vec![0.0; count];
+        let (mut last, mut changed) = (0.0, 0.0);
+        for k in 0..count {
+            if (self.angle[k] - last).abs() > 0.5 * self.lsb {
+                (last, changed) = (self.angle[k], self.time_s[k]);
+            }
+            since[k] = self.time_s[k] - changed;
+        }
+        let mut next = self.duration_s();
+        let mut resting = vec![false; count];
+        for k in (0..count).rev() {
+            resting[k] = since[k] > SETTLED_S && next - self.time_s[k] > SETTLED_S;
+            if since[k] == 0.0 {
+                next = self.time_s[k];
+            }
+        }
+        resting
+    }
+
+    /// Largest change of the command between two samples, part of its range, where there are readings after it. Of a smooth
+    /// command it is small.
     pub fn steepest_edge(&self) -> f64 {
-        self.command.steepest_edge()
+        self.command.steepest_edge(self.duration_s() - SETTLED_S)
     }
 
     /// Duration, s.

@@ -4,7 +4,7 @@
 
 use super::objective::{Evaluated, Objective};
 use super::parameters::{Coordinate, Scale};
-use super::slopes::slopes;
+use super::slopes::{Differences, slopes};
 use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -21,8 +21,7 @@ const LEFT: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
     pub(super) iterations: usize,
-    /// One-sided differences, at half the cost.
-    pub(super) forward: bool,
+    pub(super) differences: Differences,
 }
 
 /// Descends from `start`; the flag says whether it has converged.
@@ -39,15 +38,26 @@ pub(super) fn descend(
         if stop.load(Ordering::Relaxed) {
             return (here, false);
         }
-        let Some(slopes) = slopes(objective, &here, coordinates, effort.forward) else {
+        let Some(slopes) = slopes(objective, &here, coordinates, effort.differences) else {
             return (here, false);
         };
+        let mut gradient = slopes.gradient.clone();
+        let mut information = slopes.information.clone();
+        // What stands at its bound and would leave it is held: the others' steps do not count on it.
+        for (i, (c, scale)) in coordinates.iter().enumerate() {
+            if gradient[i] > 0.0 && scale.at_least(*c, &here.parameters) {
+                gradient[i] = 0.0;
+                information.row_mut(i).fill(0.0);
+                information.column_mut(i).fill(0.0);
+                information[(i, i)] = 1.0;
+            }
+        }
         let better = (0..TRIALS).find_map(|_| {
-            let mut matrix = slopes.information.clone();
+            let mut matrix = information.clone();
             for i in 0..coordinates.len() {
                 matrix[(i, i)] += damping * matrix[(i, i)] + 1e-9;
             }
-            let found = step(&matrix, &slopes.gradient)
+            let found = step(&matrix, &gradient)
                 .map(|step| moved(objective, &here, coordinates, step.as_slice()))
                 .filter(|next| next.posterior < here.posterior);
             if found.is_none() {

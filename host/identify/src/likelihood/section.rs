@@ -18,9 +18,11 @@ const MOST_SAMPLES: usize = 200_000;
 /// Least change of the command from one sample to the next, part of its range, that is an edge.
 const EDGE: f64 = 0.1;
 /// Correlation of delay and inertia beyond which they are one number.
-const CORRELATED: f64 = 0.95;
+const CORRELATED: f64 = 0.9;
 /// Change of the delay with the time between readings, part of delay and time constant together, beyond which it is no delay.
-const UNSTEADY: f64 = 0.1;
+const UNSTEADY: f64 = 0.25;
+/// Standard error of the delay, part of delay and time constant together, beyond which it is not known.
+const UNKNOWN: f64 = 0.5;
 
 /// A number with its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +59,7 @@ pub struct Check {
 /// A number on which likelihood and free run differ by more than their 95 % intervals: an error of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disagreement {
-    /// The number.
+    /// The number: `inertia`, `back_emf_viscous`, `coulomb`, `offset` or `delay`.
     pub name: &'static str,
     /// By the likelihood, SI.
     pub likelihood: f64,
@@ -193,19 +195,25 @@ fn check(update_s: f64, m: &Maximum) -> Check {
     }
 }
 
-/// Only edges of the command show a delay by itself, and only if it stays what it is at another distance of readings.
+/// Edges of the command show a delay by itself; without any it must be apart from inertia at both distances. In either case it
+/// must stay what it is at another distance, as far as its errors tell.
 fn is_separable(observed: &Observed, usual: &Maximum, checked: Option<&Maximum>) -> bool {
+    let delay = |m: &Maximum| (m.parameters.delays[0], m.std(Coordinate::Delay(0)));
+    let (own, Some(error)) = delay(usual) else {
+        return false;
+    };
+    let lag = own + usual.parameters.time_constant();
+    let correlated = |m: &Maximum| {
+        let correlation = m.correlation(Coordinate::Inertia, Coordinate::Delay(0));
+        correlation.is_none_or(|r| r.abs() > CORRELATED)
+    };
     let edges = observed.steepest_edge() >= EDGE;
-    let correlation = usual.correlation(Coordinate::Inertia, Coordinate::Delay(0));
-    let apart = correlation.is_some_and(|r| r.abs() < CORRELATED);
-    let delay = |m: &Maximum| m.parameters.delays[0];
-    let steady = checked.is_none_or(|checked| {
-        let spread = (delay(usual) - delay(checked)).abs();
-        let total = delay(usual) + usual.parameters.time_constant();
-        let errors = [usual, checked].map(|m| m.std(Coordinate::Delay(0)).unwrap_or(0.0));
-        spread <= (UNSTEADY * total).max(2.0 * errors[0].hypot(errors[1]))
+    let apart = edges || !(correlated(usual) || checked.is_some_and(correlated));
+    let steady = checked.map(delay).is_none_or(|(other, other_error)| {
+        let both = error.hypot(other_error.unwrap_or(lag));
+        (own - other).abs() <= (UNSTEADY * lag).max(2.0 * both)
     });
-    edges && apart && steady
+    apart && steady && error < UNKNOWN * lag
 }
 
 fn unit(c: Coordinate, drive: Drive) -> &'static str {
@@ -248,12 +256,12 @@ fn disagreements(found: &Likelihood, free: &Fit) -> Vec<Disagreement> {
     [
         ("inertia", found.inertia, inertia),
         (
-            "back-EMF and viscous",
+            "back_emf_viscous",
             found.damping,
             gain.map(|g| (total, total * g)),
         ),
         (
-            "Coulomb friction",
+            "coulomb",
             found.coulomb,
             of_effect(Kind::Coulomb, "coulomb.torque"),
         ),

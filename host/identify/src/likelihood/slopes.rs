@@ -5,6 +5,33 @@ use super::parameters::{Coordinate, Scale};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+/// How differences are taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Differences {
+    /// To one side, at half the cost.
+    pub(super) forward: bool,
+    /// Width, of the usual one.
+    pub(super) width: f64,
+}
+
+impl Differences {
+    /// For a search from afar.
+    pub(super) const COARSE: Differences = Differences {
+        forward: true,
+        width: 2.0,
+    };
+    /// For its end.
+    pub(super) const FINE: Differences = Differences {
+        forward: false,
+        width: 1.0,
+    };
+    /// For the curvature, over the corners that reversals make in the likelihood of friction.
+    pub(super) const WIDE: Differences = Differences {
+        forward: false,
+        width: 10.0,
+    };
+}
+
 /// Derivatives of innovations and of the logarithms of their variances by one coordinate, for each innovation.
 #[derive(Clone, Debug)]
 struct Slope {
@@ -28,11 +55,11 @@ pub(super) fn slopes(
     objective: &Objective<'_>,
     here: &Evaluated,
     coordinates: &[(Coordinate, Scale)],
-    forward: bool,
+    differences: Differences,
 ) -> Option<Slopes> {
     let each: Vec<Slope> = coordinates
         .par_iter()
-        .map(|(c, scale)| slope(objective, here, *c, scale, forward))
+        .map(|(c, scale)| slope(objective, here, *c, scale, differences))
         .collect::<Option<_>>()?;
     let count = coordinates.len();
     let mut information = DMatrix::zeros(count, count);
@@ -57,10 +84,9 @@ pub(super) fn slopes(
     }
     let mut gradient = DVector::from_iterator(count, scores.iter().map(|s| s.iter().sum::<f64>()));
     for (i, (c, scale)) in coordinates.iter().enumerate() {
-        if *c == Coordinate::Offset {
-            gradient[i] += here.parameters.offset * objective.offset_weight() * scale.unit;
-            information[(i, i)] += objective.offset_weight() * scale.unit * scale.unit;
-        }
+        let weight = objective.prior_weight(*c) * scale.unit;
+        gradient[i] += c.get(&here.parameters) * weight;
+        information[(i, i)] += weight * scale.unit;
         for j in 0..i {
             information[(j, i)] = information[(i, j)];
         }
@@ -81,17 +107,17 @@ fn slope(
     here: &Evaluated,
     c: Coordinate,
     scale: &Scale,
-    forward: bool,
+    differences: Differences,
 ) -> Option<Slope> {
     let at = |units: f64| {
         let mut p = here.parameters.clone();
         let moved = scale.moved(c, &mut p, units);
         (moved, objective.at(p, Some(here)))
     };
-    let (up, above) = at(scale.difference);
+    let (up, above) = at(differences.width * scale.difference);
     // At a bound the difference is to one side.
-    let below = (!forward)
-        .then(|| at(-scale.difference))
+    let below = (!differences.forward)
+        .then(|| at(-differences.width * scale.difference))
         .filter(|(moved, _)| *moved < 0.0);
     let (down, below) = match &below {
         Some((down, below)) => (*down, below),

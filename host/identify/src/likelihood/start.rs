@@ -20,8 +20,8 @@ const WINDOW_S: f64 = 0.05;
 const HALF_S: f64 = 0.01;
 /// Least windows.
 const LEAST_WINDOWS: usize = 8;
-/// Weight of the ridge on Coulomb friction, offset, asymmetry and gravity, so that one-way motion has a solution.
-const RIDGE: f64 = 1e-3;
+/// Weights of the ridges of the unknowns, so that one-way motion has a solution: there Coulomb friction takes all of the offset.
+const RIDGES: [f64; 7] = [1e-12, 1e-12, 1e-4, 1e-2, 1e-2, 1e-4, 1e-4];
 
 /// A window of a recording.
 struct Window {
@@ -141,11 +141,7 @@ fn regression(
     let right = DVector::from_vec(right);
     let mut square = matrix.transpose() * &matrix;
     for k in 0..columns.len() {
-        square[(k, k)] *= if columns[k] < 2 {
-            1.0 + 1e-12
-        } else {
-            1.0 + RIDGE
-        };
+        square[(k, k)] *= 1.0 + RIDGES[columns[k]];
     }
     let solution = square.cholesky()?.solve(&(matrix.transpose() * &right));
     let residual = &right - &matrix * &solution;
@@ -165,7 +161,11 @@ fn regression(
     let noise = residual.norm() / (count as f64 * mean_window).sqrt();
     let damping = value(1);
     let p = Parameters {
-        inertia: value(0),
+        inertia: if value(0) > 0.0 {
+            value(0)
+        } else {
+            damping * HALF_S
+        },
         damping,
         asymmetry: value(4).clamp(-0.5 * damping.abs(), 0.5 * damping.abs()),
         coulomb: value(2).clamp(0.0, 0.5 * largest),
