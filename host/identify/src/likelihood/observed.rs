@@ -8,6 +8,8 @@ use std::f64::consts::TAU;
 /// Longest step, s: within a step the delayed command counts by its mean. At 5 ms the edges of a motor of 13 ms already
 /// bent its inertia by a quarter.
 const LONGEST_STEP_S: f64 = 2.5e-3;
+/// Most steps to a sample interval, for gaps.
+const MOST_PARTS: usize = 16;
 /// A reading that equals the last is a held one where a fresh one is overdue by less than this part of the sensor's interval.
 const OVERDUE: f64 = 1.5;
 /// Samples between changes of the reading, median while it moves fast, from which the sensor counts as slower than the log.
@@ -54,18 +56,10 @@ impl Observed {
             return None;
         }
         let lsb = TAU / data.units.counts_per_rev;
-        let fresh = fresh(data);
-        let interval_s = {
-            let count = fresh.iter().filter(|&&fresh| fresh).count();
-            let typical = data.units.interval * held_for(data);
-            if count < 3 { return None } else { typical }
-        };
+        let held = held_for(data);
+        let fresh = fresh(data, held);
         let parts: Vec<usize> = (data.lengths.iter())
-            .map(|length| {
-                (length * data.units.interval / LONGEST_STEP_S - 1e-6)
-                    .ceil()
-                    .max(1.0) as usize
-            })
+            .map(|length| parts(length * data.units.interval))
             .collect();
         let lengths_s: Vec<f64> = (data.lengths.iter().zip(&parts))
             .map(|(length, &parts)| length * data.units.interval / parts as f64)
@@ -99,7 +93,7 @@ impl Observed {
             command: Command::new(edges, volts, standing),
             lsb,
             start_speed,
-            interval_s,
+            interval_s: data.units.interval * held,
             largest,
         })
     }
@@ -165,6 +159,11 @@ impl Observed {
     }
 }
 
+/// Steps to a sample interval.
+pub(super) fn parts(seconds: f64) -> usize {
+    ((seconds / LONGEST_STEP_S - 1e-6).ceil().max(1.0) as usize).min(MOST_PARTS)
+}
+
 /// Samples from one fresh reading to the next, median over the quarter of the changes with the fastest motion.
 fn held_for(data: &Data) -> f64 {
     let mut last = 0;
@@ -188,8 +187,7 @@ fn held_for(data: &Data) -> f64 {
 
 /// Which readings are new. A sensor that is slower than the log repeats its reading, and a repeated one says nothing of the
 /// angle at its time.
-fn fresh(data: &Data) -> Vec<bool> {
-    let held = held_for(data);
+fn fresh(data: &Data, held: f64) -> Vec<bool> {
     // A coarse encoder that turns slowly repeats readings too, but each is true: there a change is one count.
     let coarse = data
         .counts

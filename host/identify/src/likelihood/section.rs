@@ -1,7 +1,7 @@
 //! What `fit` says of the likelihood beside its free run.
 
 use super::maximum::{Maximum, Settings, fit_from};
-use super::observed::Observed;
+use super::observed::{Observed, parts};
 use super::parameters::{Coordinate, Parameters};
 use super::terms::Terms;
 use super::whiteness::Whiteness;
@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Least time between the readings of the check, s.
 const CHECK_S: f64 = 0.05;
-/// Most samples; of a longer recording the first ones count. A fit of so many takes some seconds.
-const MOST_SAMPLES: usize = 200_000;
+/// Most steps; of a longer recording the first ones count. A fit of so many takes some seconds.
+const MOST_STEPS: usize = 100_000;
 /// Least change of the command from one sample to the next, part of its range, that is an edge.
 const EDGE: f64 = 0.1;
 /// Correlation of delay and inertia beyond which they are one number.
@@ -114,7 +114,8 @@ pub fn section(data: &Data, free: &Fit, effects: &[Kind], stop: &AtomicBool) -> 
     if data.quantised && free.rms_counts <= EXPLAINED_COUNTS {
         return None;
     }
-    let short = (data.len() > MOST_SAMPLES).then(|| data.first(MOST_SAMPLES));
+    let most = MOST_STEPS / parts(data.units.interval);
+    let short = (data.len() > most).then(|| data.first(most));
     let observed = Observed::new(short.as_ref().unwrap_or(data))?;
     let terms = Terms {
         asymmetric_viscous: effects.contains(&Kind::AsymViscous),

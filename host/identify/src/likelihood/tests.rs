@@ -194,10 +194,7 @@ fn intervals_cover_the_truth_under_torque_noise_and_free_runs_err_several_times_
     for seed in 1..=SEEDS {
         let mut rng = rng::seeded(100 + seed);
         let mut uniform = || -> f64 { rng::uniform(&mut rng) };
-        let motor = Motor::drawn(
-            &mut uniform,
-            std::env::var("NOISE").map_or(0.015, |x| x.parse().expect("z")),
-        );
+        let motor = Motor::drawn(&mut uniform, 0.015);
         let data = Data::taken(motor.recorded(8.0, &mut uniform)).expect("a recording");
         let found = likely(&data);
         let by_windows = windowed(&data);
@@ -207,40 +204,7 @@ fn intervals_cover_the_truth_under_torque_noise_and_free_runs_err_several_times_
             likelihood[k].push(values(&found)[k] - truth);
             windows[k].push(by_windows[k] - truth);
         }
-        if std::env::var("TRUTH").is_ok() {
-            let observed = Observed::new(&data).expect("x");
-            let mut p = found.parameters.clone();
-            p.inertia = motor.inertia;
-            p.damping = motor.damping;
-            p.coulomb = motor.coulomb;
-            p.offset = motor.offset;
-            p.delays = vec![motor.delay];
-            p.process_noise = motor.noise;
-            let again = super::fit_from(
-                &[&observed],
-                Terms::USUAL,
-                &Settings::default(),
-                &[p],
-                &AtomicBool::new(false),
-            )
-            .expect("y");
-            println!(
-                "LL found {:.2} from truth {:.2} c {:.3} {:.3}",
-                found.log_likelihood,
-                again.log_likelihood,
-                found.parameters.coulomb,
-                again.parameters.coulomb
-            );
-        }
         noise.push((found.parameters.process_noise / motor.noise).ln());
-        println!(
-            "seed {}: {:?} {:?} {:?} noise {:.2}",
-            100 + seed,
-            motor.truth(),
-            values(&found),
-            by_windows,
-            found.parameters.process_noise / motor.noise
-        );
     }
     println!("seeds 101 to {}: covered {covered:?}", 100 + SEEDS);
     for k in 0..5 {
