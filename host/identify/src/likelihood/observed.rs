@@ -128,14 +128,15 @@ impl Observed {
     /// anything but white.
     fn resting(&self) -> Vec<bool> {
         let count = self.angle.len();
-        let mut since = vec![0.0; count];
         let (mut last, mut changed) = (0.0, 0.0);
-        for k in 0..count {
-            if (self.angle[k] - last).abs() > 0.5 * self.lsb {
-                (last, changed) = (self.angle[k], self.time_s[k]);
-            }
-            since[k] = self.time_s[k] - changed;
-        }
+        let since: Vec<f64> = (self.angle.iter().zip(&self.time_s))
+            .map(|(&angle, &time)| {
+                if (angle - last).abs() > 0.5 * self.lsb {
+                    (last, changed) = (angle, time);
+                }
+                time - changed
+            })
+            .collect();
         let mut next = self.duration_s();
         let mut resting = vec![false; count];
         for k in (0..count).rev() {

@@ -19,6 +19,8 @@ const MOST_STEPS: usize = 100_000;
 const EDGE: f64 = 0.1;
 /// Correlation of delay and inertia beyond which they are one number.
 const CORRELATED: f64 = 0.9;
+/// Part of delay and time constant together that a delay may be which no edge shows.
+const SMALL: f64 = 0.1;
 /// Change of the delay with the time between readings, part of delay and time constant together, beyond which it is no delay.
 const UNSTEADY: f64 = 0.25;
 /// Standard error of the delay, part of delay and time constant together, beyond which it is not known.
@@ -196,8 +198,8 @@ fn check(update_s: f64, m: &Maximum) -> Check {
     }
 }
 
-/// Edges of the command show a delay by itself; without any it must be apart from inertia at both distances. In either case it
-/// must stay what it is at another distance, as far as its errors tell.
+/// Edges of the command show a delay by itself; without any it must be small and apart from inertia at both distances. In
+/// either case it must stay what it is at another distance, as far as its errors tell.
 fn is_separable(observed: &Observed, usual: &Maximum, checked: Option<&Maximum>) -> bool {
     let delay = |m: &Maximum| (m.parameters.delays[0], m.std(Coordinate::Delay(0)));
     let (own, Some(error)) = delay(usual) else {
@@ -209,7 +211,8 @@ fn is_separable(observed: &Observed, usual: &Maximum, checked: Option<&Maximum>)
         correlation.is_none_or(|r| r.abs() > CORRELATED)
     };
     let edges = observed.steepest_edge() >= EDGE;
-    let apart = edges || !(correlated(usual) || checked.is_some_and(correlated));
+    let small = own <= SMALL * lag;
+    let apart = edges || small && !(correlated(usual) || checked.is_some_and(correlated));
     let steady = checked.map(delay).is_none_or(|(other, other_error)| {
         let both = error.hypot(other_error.unwrap_or(lag));
         (own - other).abs() <= (UNSTEADY * lag).max(2.0 * both)

@@ -2,7 +2,6 @@
 
 use super::style::{HEADING, painted};
 use super::text::wrapped;
-use crate::number_text::short;
 use servoid_identify::likelihood::{Likelihood, Value};
 use std::fmt::Write;
 
@@ -12,28 +11,28 @@ const MOST_DIFFERENCES: usize = 2;
 pub(super) fn write(out: &mut String, own: &Likelihood) -> std::fmt::Result {
     writeln!(
         out,
-        "{}, torque noise included, 95 % intervals:",
-        painted(HEADING, "likelihood")
-    )?;
-    writeln!(
-        out,
-        "  inertia {}; EMF+viscous {}",
+        "{} (95 % intervals): inertia {},",
+        painted(HEADING, "likelihood"),
         stated(&own.inertia),
-        stated(&own.damping)
     )?;
     writeln!(
         out,
-        "  Coulomb {}; offset {}; delay {}",
-        stated(&own.coulomb),
-        stated(&own.offset),
+        "  EMF+viscous {}, delay {},",
+        stated(&own.damping),
         in_ms(&own.delay)
+    )?;
+    writeln!(
+        out,
+        "  Coulomb {}, offset {}",
+        stated(&own.coulomb),
+        stated(&own.offset)
     )?;
     if !own.disagreements.is_empty() {
         let shown = own.disagreements.iter().take(MOST_DIFFERENCES);
         let each: Vec<String> = shown
-            .map(|d| format!("{} {} {}", words(d.name), short(d.free_run), d.unit))
+            .map(|d| format!("{} {} {}", words(d.name), plain(d.free_run), d.unit))
             .collect();
-        writeln!(out, "  model error: free run has {}", each.join(", "))?;
+        writeln!(out, "  model error: free run {}", each.join(", "))?;
     }
     if !own.delay_separable {
         let lag = &own.total_lag;
@@ -55,15 +54,15 @@ fn words(key: &str) -> &str {
 
 fn stated(value: &Value) -> String {
     format!(
-        "{} {}{}",
+        "{}{} {}",
         plain(value.value),
-        value.unit,
-        interval(value, 1.0)
+        interval(value, 1.0),
+        value.unit
     )
 }
 
 fn in_ms(value: &Value) -> String {
-    format!("{} ms{}", plain(1e3 * value.value), interval(value, 1e3))
+    format!("{}{} ms", plain(1e3 * value.value), interval(value, 1e3))
 }
 
 fn interval(value: &Value, scale: f64) -> String {
