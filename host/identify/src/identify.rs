@@ -4,6 +4,7 @@ use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
 use crate::fit::{self, Fit, Options};
+use crate::likelihood;
 use crate::progress::Progress;
 use servoid_engine::problem::{Candidate, Data, FitProblem};
 use servoid_engine::solve::{self, Found, Solver};
@@ -94,6 +95,7 @@ pub fn identify_data(
     if options.error_ladder && !options.effects.is_empty() {
         fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
     }
+    fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
     Ok(fit)
 }
 

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `check` | what a recording can be trusted for, before anything is fitted to it |
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
+//! | `likelihood` | a second fit with process noise, for real motion: inertia, delay, standard errors, BIC |
 //! | `diagnose` | which physical effects a recording shows that the model lacks |
 //! | `plan` | the excitation that separates models which explain a recording alike |
 //! | `paper` | the paper's table and contest |
@@ -19,6 +20,7 @@ mod diagnosed;
 pub mod error;
 pub mod fit;
 mod identify;
+pub mod likelihood;
 pub mod paper;
 pub mod plan;
 mod progress;

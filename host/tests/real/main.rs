@@ -8,6 +8,7 @@
 mod diagnoses;
 mod fits;
 mod kept;
+mod likelihood;
 mod limits;
 mod program;
 mod recordings;

@@ -41,6 +41,7 @@ pub use bound::Bound;
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use options::Options;
+pub use remarks::EXPLAINED_COUNTS;
 pub use report::{Fit, LadderEntry, Parameter};
 pub use search::search;
 pub(crate) use start::may_start_moving;

@@ -6,7 +6,7 @@ use servoid_engine::problem::{Base, FitProblem};
 use servoid_engine::solve::Found;
 
 /// Open-loop error up to which the model explains the recording down to the encoder, counts RMS.
-const EXPLAINED_COUNTS: f64 = 0.35;
+pub const EXPLAINED_COUNTS: f64 = 0.35;
 /// Nearer than this to a wall of the search range is on it.
 const WALL: f64 = 1e-9;
 /// A sample interval this many times the usual one is a gap.

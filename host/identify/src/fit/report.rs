@@ -11,6 +11,7 @@ use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
 use super::validate::validate;
 use crate::error::Error;
+use crate::likelihood::Likelihood;
 use nalgebra::DMatrix;
 use servoid_engine::problem::rms_counts;
 use servoid_engine::problem::{Base, Candidate, Data, FitProblem};
@@ -95,6 +96,8 @@ pub struct Fit {
     pub interrupted: bool,
     /// Errors of the models that lead to this one, effect by effect; empty where nobody asked.
     pub error_ladder: Vec<LadderEntry>,
+    /// The fit with process noise, where the free run is not at the encoder's floor; only of the front door.
+    pub likelihood: Option<Likelihood>,
 }
 
 impl Fit {
@@ -179,6 +182,7 @@ impl Fit {
             curve: found.curve.clone(),
             interrupted: found.interrupted,
             error_ladder: Vec::new(),
+            likelihood: None,
         })
     }
 }

@@ -5,6 +5,7 @@ pub mod demo;
 pub mod diagnosis;
 pub mod fold;
 pub mod html;
+mod likelihood;
 pub mod paper;
 pub mod plan;
 pub mod style;

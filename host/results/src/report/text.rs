@@ -126,6 +126,9 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     for p in &fit.parameters {
         out.push_str(&parameter(p, fit.converged));
     }
+    if let Some(own) = &fit.likelihood {
+        super::likelihood::write(out, own)?;
+    }
     for note in &fit.notes {
         write!(out, "{}", wrapped(note))?;
     }

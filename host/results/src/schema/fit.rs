@@ -2,6 +2,7 @@
 
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
+use super::likelihood::Likelihood;
 use super::{Model, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,6 +77,9 @@ pub struct Fit {
     /// Whether the user stopped the search.
     #[serde(default)]
     pub interrupted: bool,
+    /// The fit with process noise; absent where the free run is at the encoder's floor or the equations do not apply.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub likelihood: Option<Likelihood>,
     /// Version of the program.
     #[serde(default)]
     pub version: String,
@@ -191,6 +195,7 @@ impl Fit {
             counts_per_rev: finite(data.units.counts_per_rev),
             sample_s: finite(data.units.interval),
             interrupted: fit.interrupted,
+            likelihood: fit.likelihood.as_ref().map(Likelihood::from),
             version: VERSION.to_owned(),
         }
     }

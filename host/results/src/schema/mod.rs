@@ -8,6 +8,7 @@
 //! | `document` | one result of any verb, read from its file |
 //! | `fit` | `servoid.fit/1`, of `fit` and of `demo` |
 //! | `diagnosis`, `residual` | `servoid.diagnosis/1` of two recordings, and where its models fail |
+//! | `likelihood` | the fit with process noise, in a `servoid.fit/1` |
 //! | `steady` | `servoid.diagnosis/1` of a curve of steady speeds |
 //! | `contest` | `servoid.compare/1`, of `compare` and of `paper` |
 //! | `plan` | `servoid.plan/1` |
@@ -31,6 +32,7 @@ pub mod hypotheses;
 mod hypotheses_fault;
 mod identified;
 mod identified_fault;
+pub mod likelihood;
 mod model;
 mod model_fault;
 mod partial;
@@ -49,6 +51,7 @@ pub use fit::{Demo, Fit};
 pub use hypotheses_fault::{DiagnosisError, DiagnosisFault};
 pub use identified::Identified;
 pub use identified_fault::{ResultError, ResultFault};
+pub use likelihood::Likelihood;
 pub use model::{Integrator, Machine, Model, ModelParameter};
 pub use model_fault::ModelFault;
 pub(crate) use model_fault::{json_place, number};
