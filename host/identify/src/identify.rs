@@ -54,7 +54,8 @@ pub fn identify(
     identify_data(&Data::new(recording)?, None, options, progress)
 }
 
-/// As [`identify()`], for a recording that is ready for simulation; `validation` is scored and never fitted.
+/// As [`identify()`], for a recording that is ready for simulation; `validation` is scored and never fitted, unless it is
+/// the recording itself.
 ///
 /// # Errors
 /// As [`identify()`].
@@ -64,13 +65,8 @@ pub fn identify_data(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Fit, Error> {
-    if validation.is_some_and(|other| other.counts == data.counts && other.command == data.command)
-    {
-        return Err(Error::Usage(
-            "--validate is the recording itself, so that nothing is held out; give another recording of the same motor"
-                .to_owned(),
-        ));
-    }
+    // A copy of the recording holds nothing out.
+    let validation = validation.filter(|other| !is_copy(data, other));
     let solver = solve::by_name(&options.algorithm)
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;
@@ -97,6 +93,11 @@ pub fn identify_data(
     }
     fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
     Ok(fit)
+}
+
+/// Whether two recordings are one and the same.
+pub fn is_copy(data: &Data, other: &Data) -> bool {
+    other.counts == data.counts && other.command == data.command
 }
 
 /// The problem that `options` state, with the bounds that they set; a start outside moves to the nearest bound.

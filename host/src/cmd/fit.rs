@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
-use servoid_identify::{check, identify_data};
+use servoid_identify::{check, identify_data, is_copy};
 use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report::{html, text};
@@ -35,6 +35,11 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         Some(path) => Some(Data::taken(motor::recording(&args.motor, path)?.0)?),
         None => None,
     };
+    let copied = |other: &Data| is_copy(&data, other);
+    if validation.as_ref().is_some_and(copied) {
+        session.remark("--validate is the recording itself: nothing is held out; give another recording of the same motor");
+    }
+    let validation = validation.filter(|other| !copied(other));
     let options = Options {
         algorithm: args.algorithm.clone(),
         error_ladder: true,

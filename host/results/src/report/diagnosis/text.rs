@@ -155,14 +155,17 @@ impl DiagnosisReport<'_> {
         say("why", &self.evidence(index))?;
         say("look-alikes", &self.company_text(step))?;
         if let Some(after) = step.candidates.first() {
-            say(
-                "foreseen",
-                &format!(
-                    "{} counts RMS before the refit; {} reached",
-                    counts(after.predicted_rms_counts),
-                    counts(after.rms_counts)
-                ),
-            )?;
+            // A model that was not screened has no prediction.
+            if after.predicted_rms_counts.is_finite() {
+                say(
+                    "foreseen",
+                    &format!(
+                        "{} counts RMS before the refit; {} reached",
+                        counts(after.predicted_rms_counts),
+                        counts(after.rms_counts)
+                    ),
+                )?;
+            }
             if let Some(windowed) = after.windowed {
                 say(
                     "judged by",
