@@ -1,8 +1,9 @@
-//! The recordings of a diagnosis, checked: the one that is fitted, and the one that judges.
+//! The recordings of a diagnosis, checked: those that are fitted, and those that judge.
 
 use crate::diagnose::{HeldOut, Remark, holdout, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
+use crate::identify::is_copy;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 pub struct Datasets {
     /// Fitted.
     pub fitted: Data,
-    /// Never fitted: another recording of the same motor, or the end of the only one.
+    /// Never fitted: other recordings of the same motor, or the end of the only one.
     pub held_out: Data,
     /// Which of the two.
     pub kind: HeldOut,
@@ -32,10 +33,70 @@ impl Datasets {
         validation: Option<Recording>,
         options: &Options,
     ) -> Result<Self, Error> {
-        match validation {
-            Some(other) => Self::of_two(recording, other, options),
-            None => Self::of_one(recording, options),
+        Self::of_several(vec![recording], validation.into_iter().collect(), options)
+    }
+
+    /// As [`new`](Self::new), for several recordings of one motor. Where none is given to judge by, the last of several is
+    /// held out, or the end of the only one.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and where the recordings have another encoder or drive.
+    pub fn of_several(
+        mut fitted: Vec<Recording>,
+        mut held_out: Vec<Recording>,
+        options: &Options,
+    ) -> Result<Self, Error> {
+        if held_out.is_empty() && fitted.len() > 1 {
+            held_out.extend(fitted.pop());
         }
+        if let (1, true) = (fitted.len(), held_out.is_empty()) {
+            return Self::of_one(fitted.swap_remove(0), options);
+        }
+        let mut remarks = Vec::new();
+        for recording in &fitted {
+            remarks.extend(usable::check(recording, options.force)?);
+        }
+        let copied = |other: &Recording| {
+            fitted.iter().any(|one| is_copy(one, other))
+        };
+        let copies = held_out.iter().filter(|other| copied(other)).count();
+        let nothing = copies == held_out.len();
+        if nothing {
+            remarks.push(Remark::aside(
+                "--validate is the recording itself: nothing is held out, and an effect that only bends itself to this one \
+                 recording would not be found out"
+                    .to_owned(),
+            ));
+        } else {
+            held_out.retain(|other| !copied(other));
+            if copies > 0 {
+                remarks.push(Remark::aside(format!(
+                    "--validate: {copies} of the recordings are fitted, too, and are not held out"
+                )));
+            }
+            for other in &held_out {
+                remarks.extend(usable::check(other, options.force)?);
+            }
+        }
+        let (fitted, held_out) = (Data::joined(fitted)?, Data::joined(held_out)?);
+        for data in [&fitted, &held_out] {
+            if fit::is_reversed(data, options) {
+                // The message with its remedy.
+                fit::problem(data, options)?;
+            }
+        }
+        let kind = if nothing {
+            HeldOut::Nothing
+        } else {
+            HeldOut::Recording(held_out.source.clone())
+        };
+        Ok(Datasets {
+            fitted,
+            held_out,
+            kind,
+            remarks,
+            whole: None,
+        })
     }
 
     fn of_one(recording: Recording, options: &Options) -> Result<Self, Error> {
@@ -57,36 +118,6 @@ impl Datasets {
             kind,
             remarks,
             whole: Some(whole),
-        })
-    }
-
-    fn of_two(recording: Recording, other: Recording, options: &Options) -> Result<Self, Error> {
-        let mut remarks = usable::check(&recording, options.force)?;
-        let copied = other.counts == recording.counts && other.command == recording.command;
-        let kind = if copied {
-            remarks.push(Remark::aside(
-                "--validate is the recording itself: nothing is held out, and an effect that only bends itself to this one \
-                 recording would not be found out"
-                    .to_owned(),
-            ));
-            HeldOut::Nothing
-        } else {
-            remarks.extend(usable::check(&other, options.force)?);
-            HeldOut::Recording(other.source.clone())
-        };
-        let (fitted, held_out) = (Data::taken(recording)?, Data::taken(other)?);
-        for data in [&fitted, &held_out] {
-            if fit::is_reversed(data, options) {
-                // The message with its remedy.
-                fit::problem(data, options)?;
-            }
-        }
-        Ok(Datasets {
-            fitted,
-            held_out,
-            kind,
-            remarks,
-            whole: None,
         })
     }
 }

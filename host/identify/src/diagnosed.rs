@@ -3,7 +3,8 @@
 use crate::datasets::Datasets;
 use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, pair};
 use crate::error::Error;
-use crate::fit::{Fit, Options};
+use crate::fit::recordings::recording_errors;
+use crate::fit::{Fit, Options, RecordingError};
 use crate::progress::Progress;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
@@ -19,6 +20,8 @@ pub struct Diagnosed {
     pub findings: Findings,
     /// Remarks on the recordings.
     pub remarks: Vec<Remark>,
+    /// The error of the last model on each recording, where there are several.
+    pub recordings: Vec<RecordingError>,
     /// Whether the search for effects was stopped.
     pub interrupted: bool,
 }
@@ -103,7 +106,9 @@ pub fn diagnose_data(
     } else {
         pair::remarks(&diagnosis, fitted, held_out, kind, options, stop)?
     };
+    let recordings = recording_errors(fitted, Some(held_out), &last.candidate, last.method)?;
     Ok(Diagnosed {
+        recordings,
         diagnosis,
         last,
         findings,

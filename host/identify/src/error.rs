@@ -1,5 +1,6 @@
 //! Why an identification gives no result, with the remedy.
 
+use servoid_engine::data::JoinError;
 use servoid_io::input::ReadError;
 use servoid_plant::BenchError;
 use shared::error::ModelError;
@@ -17,6 +18,9 @@ pub enum Error {
     /// No model can be built.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Recordings that cannot be taken together.
+    #[error(transparent)]
+    Join(#[from] JoinError),
     /// A recording that cannot be used.
     #[error(transparent)]
     Read(#[from] ReadError),

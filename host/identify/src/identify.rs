@@ -3,6 +3,7 @@
 use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
+use crate::fit::recordings::{add_spread, recording_errors};
 use crate::fit::{self, Fit, Options};
 use crate::likelihood;
 use crate::progress::Progress;
@@ -54,8 +55,7 @@ pub fn identify(
     identify_data(&Data::new(recording)?, None, options, progress)
 }
 
-/// As [`identify()`], for a recording that is ready for simulation; `validation` is scored and never fitted, unless it is
-/// the recording itself.
+/// As [`identify()`], for a recording that is ready for simulation; `validation` is scored and never fitted.
 ///
 /// # Errors
 /// As [`identify()`].
@@ -65,8 +65,6 @@ pub fn identify_data(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Fit, Error> {
-    // A copy of the recording holds nothing out.
-    let validation = validation.filter(|other| !is_copy(data, other));
     let solver = solve::by_name(&options.algorithm)
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;
@@ -91,13 +89,15 @@ pub fn identify_data(
     if options.error_ladder && !options.effects.is_empty() {
         fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
     }
+    fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
+    add_spread(&mut fit, data, options, progress.stop());
     fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
     Ok(fit)
 }
 
-/// Whether two recordings are one and the same.
-pub fn is_copy(data: &Data, other: &Data) -> bool {
-    other.counts == data.counts && other.command == data.command
+/// Whether two recordings are one and the same: a copy holds nothing out.
+pub fn is_copy(one: &Recording, other: &Recording) -> bool {
+    other.counts == one.counts && other.command == one.command
 }
 
 /// The problem that `options` state, with the bounds that they set; a start outside moves to the nearest bound.

@@ -5,6 +5,7 @@ mod device;
 mod export;
 #[cfg(test)]
 mod reference;
+mod recordings;
 mod report;
 
 pub use bench::BenchArgs;
@@ -13,6 +14,7 @@ pub use device::{
     OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
 pub use export::{ExportArgs, GainsArgs, SideName};
+pub use recordings::RecordingsArgs;
 pub use report::{ReportArgs, SheetArgs};
 
 use crate::prove::{Excite, HowMany, Shard};
@@ -286,11 +288,9 @@ pub struct CheckArgs {
 /// `servoid fit`.
 #[derive(Debug, Args)]
 pub struct FitArgs {
-    /// The recording
-    pub recording: PathBuf,
-    /// Another recording of the same motor, never fitted
-    #[arg(long, value_name = "FILE")]
-    pub validate: Option<PathBuf>,
+    /// The recordings.
+    #[command(flatten)]
+    pub recordings: RecordingsArgs,
     /// Search method
     #[arg(long, default_value = "lm", value_parser = algorithm_names())]
     pub algorithm: String,
@@ -318,11 +318,9 @@ pub struct FitArgs {
 #[derive(Debug, Args)]
 #[command(after_help = DIAGNOSE_EXAMPLES)]
 pub struct DiagnoseArgs {
-    /// The recording, or a CSV of steady speeds: voltage_V and speed_rad_s alone
-    pub recording: PathBuf,
-    /// Another recording of the same motor, never fitted; else the last quarter of the first is held out
-    #[arg(long, value_name = "FILE")]
-    pub validate: Option<PathBuf>,
+    /// The recordings.
+    #[command(flatten)]
+    pub recordings: RecordingsArgs,
     /// Steps of a model at most, in millions; what is best by then is reported. The usual number takes between one
     /// and two minutes of one processor core, and few recordings need a tenth of it
     #[arg(long, default_value_t = USUAL_STEPS / 1_000_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]

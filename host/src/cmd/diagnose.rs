@@ -13,35 +13,25 @@ use servoid_io::input::SteadyCurve;
 use servoid_results::report::diagnosis::{DiagnosisReport, SteadyReport};
 use servoid_results::report::html;
 use servoid_results::schema::{Diagnosis, Steady};
+use std::path::Path;
 
 /// The unit of --budget, steps of a model.
 const MILLION: u64 = 1_000_000;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let page = report::output(&args.sheet);
-    motor::check_outputs(
-        session,
-        page.as_slice(),
-        &args.motor,
-        &args.recording,
-        args.validate.as_deref(),
-    )?;
-    if SteadyCurve::is_in(&args.recording) {
-        return steady(session, args);
+    if let Some(curve) = args.recordings.first().filter(|path| SteadyCurve::is_in(path)) {
+        motor::check_outputs(session, page.as_slice(), &args.motor, curve, None)?;
+        return steady(session, args, curve);
     }
-    let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
-    let other = args
-        .validate
-        .as_ref()
-        .map(|path| motor::recording(&args.motor, path))
-        .transpose()?;
+    let read = motor::read(session, page.as_slice(), &args.motor, &args.recordings)?;
     let options = Options {
-        known: motor_file.known,
+        known: read.motor.known,
         seed: session.seed,
         force: args.force,
         ..Options::default()
     };
-    let datasets = Datasets::new(recording, other.map(|(other, _)| other), &options)?;
+    let datasets = Datasets::of_several(read.fitted, read.held_out, &options)?;
     let budget = Budget::of(args.budget.saturating_mul(MILLION), session.stop());
     let watched = Watched::diagnosis(session);
     let found = diagnose_datasets(&datasets, &options, &budget, &watched)?;
@@ -58,14 +48,14 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
 }
 
 /// A curve of steady speeds in the place of a recording.
-fn steady(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
-    if args.validate.is_some() {
+fn steady(session: &Session, args: &DiagnoseArgs, path: &Path) -> Result<(), Error> {
+    if !args.recordings.held_out().is_empty() || args.recordings.fitted().len() > 1 {
         return Err(Error::Usage(format!(
-            "--validate: {} is a curve of steady speeds, which is diagnosed on its own; leave --validate away",
-            args.recording.display()
+            "{} is a curve of steady speeds, which is diagnosed on its own; leave the other recordings and --validate away",
+            path.display()
         )));
     }
-    let curve = SteadyCurve::read(&args.recording)?;
+    let curve = SteadyCurve::read(path)?;
     let diagnosis = steady::diagnose(&curve)?;
     let told = SteadyReport {
         curve: &curve,

@@ -9,6 +9,7 @@ use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
 use servoid_identify::{check, identify_data, is_copy};
 use servoid_io::output::write_whole;
+use servoid_io::recording::Recording;
 use servoid_results::plot;
 use servoid_results::report::{html, text};
 use servoid_results::schema;
@@ -19,32 +20,30 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         .into_iter()
         .chain(report::output(&args.sheet))
         .collect();
-    motor::check_outputs(
-        session,
-        &outputs,
-        &args.motor,
-        &args.recording,
-        args.validate.as_deref(),
-    )?;
-    let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
-    for finding in check::passed(&recording, args.force)? {
-        session.remark(&finding.text());
+    let read = motor::read(session, &outputs, &args.motor, &args.recordings)?;
+    for recording in &read.fitted {
+        for finding in check::passed(recording, args.force)? {
+            session.remark(&finding.text());
+        }
     }
-    let data = Data::taken(recording)?;
-    let validation = match &args.validate {
-        Some(path) => Some(Data::taken(motor::recording(&args.motor, path)?.0)?),
-        None => None,
-    };
-    let copied = |other: &Data| is_copy(&data, other);
-    if validation.as_ref().is_some_and(copied) {
+    let held_out = read.held_out.len();
+    let copied = |other: &Recording| read.fitted.iter().any(|one| is_copy(one, other));
+    let others: Vec<Recording> = (read.held_out.iter().filter(|other| !copied(other)))
+        .cloned()
+        .collect();
+    if others.len() < held_out {
         session.remark("--validate is the recording itself: nothing is held out; give another recording of the same motor");
     }
-    let validation = validation.filter(|other| !copied(other));
+    let validation = match others.is_empty() {
+        true => None,
+        false => Some(joined(others)?),
+    };
+    let data = joined(read.fitted)?;
     let options = Options {
         algorithm: args.algorithm.clone(),
         error_ladder: true,
         force: args.force,
-        ..model::options(&args.model, motor_file.known, session.seed, args.budget)?
+        ..model::options(&args.model, read.motor.known, session.seed, args.budget)?
     };
     let watched = Watched::search(session, options.budget);
     let fit = identify_data(&data, validation.as_ref(), &options, &watched)?;
@@ -62,4 +61,8 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     };
     report::write(session, &args.sheet, &json, drawn)?;
     session.deliver(&text::fit(&fit, &data), &json)
+}
+
+fn joined(recordings: Vec<Recording>) -> Result<Data, Error> {
+    Ok(Data::joined(recordings).map_err(servoid_identify::Error::from)?)
 }

@@ -1,6 +1,6 @@
 //! From flags and files to recordings: `motor.toml` beside the recording or named, then the flags.
 
-use crate::cli::MotorArgs;
+use crate::cli::{MotorArgs, RecordingsArgs};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_io::input::{MotorFile, read_recording};
@@ -15,11 +15,65 @@ pub(super) fn check_outputs(
     recording: &Path,
     validate: Option<&Path>,
 ) -> Result<(), Error> {
-    let motor = motor_path(args, recording);
-    let mut inputs = vec![("the recording", recording)];
-    inputs.extend(validate.map(|path| ("the --validate recording", path)));
-    inputs.push(("the motor file", &motor));
+    let validate: Vec<&Path> = validate.into_iter().collect();
+    check_outputs_of(session, outputs, args, &[recording], &validate)
+}
+
+/// As [`check_outputs`], for several recordings.
+fn check_outputs_of(
+    session: &Session,
+    outputs: &[(&'static str, &Path)],
+    args: &MotorArgs,
+    fitted: &[&Path],
+    validate: &[&Path],
+) -> Result<(), Error> {
+    let motors: Vec<PathBuf> = fitted.iter().map(|path| motor_path(args, path)).collect();
+    let mut inputs: Vec<(&str, &Path)> = Vec::new();
+    inputs.extend(fitted.iter().map(|path| ("the recording", *path)));
+    inputs.extend(validate.iter().map(|path| ("the --validate recording", *path)));
+    inputs.extend(motors.iter().map(|path| ("the motor file", path.as_path())));
     session.check_outputs(outputs, &inputs)
+}
+
+/// The recordings of a fit or a diagnosis.
+pub(super) struct Read {
+    /// Fitted.
+    pub(super) fitted: Vec<Recording>,
+    /// Never fitted.
+    pub(super) held_out: Vec<Recording>,
+    /// What is known of the motor that made the first.
+    pub(super) motor: MotorFile,
+}
+
+/// Reads the recordings of a fit or a diagnosis, once its `outputs` replace none of them.
+pub(super) fn read(
+    session: &Session,
+    outputs: &[(&'static str, &Path)],
+    args: &MotorArgs,
+    recordings: &RecordingsArgs,
+) -> Result<Read, Error> {
+    let (fitted, held_out) = (paths(recordings.fitted()), paths(recordings.held_out()));
+    let Some(first) = recordings.first() else {
+        return Err(Error::Usage(
+            "no recording is given to fit: name it before --validate".to_owned(),
+        ));
+    };
+    check_outputs_of(session, outputs, args, &fitted, &held_out)?;
+    let all = |paths: &[&Path]| -> Result<Vec<Recording>, Error> {
+        paths
+            .iter()
+            .map(|path| Ok(recording(args, path)?.0))
+            .collect()
+    };
+    Ok(Read {
+        fitted: all(&fitted)?,
+        held_out: all(&held_out)?,
+        motor: motor_file(args, first)?,
+    })
+}
+
+fn paths(list: &[PathBuf]) -> Vec<&Path> {
+    list.iter().map(PathBuf::as_path).collect()
 }
 
 /// What is known of the motor that made `recording`.

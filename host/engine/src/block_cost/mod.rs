@@ -54,7 +54,10 @@ impl<'a> BlockCost<'a> {
             Cost::Squared => true,
             Cost::Interval { .. } => false,
         };
-        let even = data.lengths == [1.0] && !data.coasts() && problem.horizon == Horizon::Whole;
+        let even = data.lengths == [1.0]
+            && !data.coasts()
+            && !data.recordings.are_several()
+            && problem.horizon == Horizon::Whole;
         let apt = summed && even && problem.structure.effects.is_empty();
         let blocks = apt.then(|| blocks(data)).flatten();
         BlockCost { problem, blocks }

@@ -188,7 +188,7 @@ impl Objective for FitProblem<'_> {
     }
 
     fn residuals_within(&self, x: &[f64], limit: f64) -> Option<(Vec<f64>, f64)> {
-        if self.cost != Cost::Squared {
+        if self.compressed().is_none() {
             return self.residuals_and_cost(x);
         }
         self.residuals_and_cost_of(self.errors_within(&self.candidate(x), limit / self.weight)?)
@@ -200,7 +200,9 @@ impl Objective for FitProblem<'_> {
     }
 
     fn compressed(&self) -> Option<&dyn Compressed> {
-        (self.cost == Cost::Squared).then_some(self)
+        // One sum of squares knows one start angle.
+        let one = !self.data.recordings.are_several();
+        (self.cost == Cost::Squared && one).then_some(self)
     }
 
     fn start(&self) -> Option<Vec<f64>> {

@@ -46,7 +46,7 @@ pub(super) fn is_centred(
     *horizon == Horizon::Whole && start_angle == StartAngle::Free && !absolute
 }
 
-/// Shifts the errors to the best start angle where it is free: the median for absolute costs, else the mean.
+/// Shifts the errors of each recording to its best start angle where it is free: the median for absolute costs, else the mean.
 pub(super) fn centre(
     data: &Data,
     candidate: &Candidate,
@@ -55,16 +55,22 @@ pub(super) fn centre(
     cost: Cost,
     errors: &mut [f64],
 ) {
-    if !is_centred(data, candidate, horizon, start_angle) {
+    if *horizon != Horizon::Whole || start_angle != StartAngle::Free {
         return;
     }
     let centre = data.centre(0) - data.counts[0];
-    let middle = match cost {
-        Cost::Absolute { .. } => median(errors),
-        Cost::Squared | Cost::Interval { .. } => mean(errors),
-    };
-    for error in errors {
-        *error += centre - middle;
+    // Only the first recording's start angle can be an unknown of the model.
+    let known = usize::from(!is_centred(data, candidate, horizon, start_angle));
+    let ranges = data.recordings.ranges().skip(known);
+    for range in ranges.filter(|range| !range.is_empty()) {
+        let errors = &mut errors[range];
+        let middle = match cost {
+            Cost::Absolute { .. } => median(errors),
+            Cost::Squared | Cost::Interval { .. } => mean(errors),
+        };
+        for error in errors {
+            *error += centre - middle;
+        }
     }
 }
 

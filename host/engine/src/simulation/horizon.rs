@@ -7,7 +7,7 @@ use std::ops::Range;
 /// How long the model runs before it is set back to the measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Horizon {
-    /// Never: from the first sample to the last, the open-loop error.
+    /// Never: from the first sample of each recording to its last, the open-loop error.
     Whole,
     /// In windows, each started from the measured angle and speed.
     Windows(Vec<Window>),
@@ -40,11 +40,12 @@ impl Horizon {
         let mut windows = Vec::new();
         let mut from = 0;
         while from + 1 < data.len() {
+            let last = data.recordings.holding(from).end;
             let end = data.time_s[from] + seconds;
-            let to = from + data.time_s[from..].partition_point(|&t| t < end);
+            let to = from + data.time_s[from..last].partition_point(|&t| t < end);
             let to = to.max(from + 2);
             // A last sample alone would be in no window.
-            let to = if to + 1 < data.len() { to } else { data.len() };
+            let to = if to + 1 < last { to } else { last };
             let (angle, counts_s) = data.measured_state(from);
             let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
             windows.push(Window {

@@ -16,17 +16,34 @@ pub struct Segment {
     pub speed: f64,
 }
 
-/// The whole recording as one segment.
+/// The first recording as one segment, with the candidate's start.
 pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Segment {
     let angle = match start_angle {
         StartAngle::Known => data.counts[0],
         StartAngle::Free => data.centre(0) + candidate.start_offset,
     };
     Segment {
-        range: 0..data.len(),
+        range: data.recordings.holding(0),
         angle,
         speed: candidate.start_speed,
     }
+}
+
+/// The recordings after the first: each from its own measured start.
+fn further(data: &Data, start_angle: StartAngle) -> impl Iterator<Item = Segment> {
+    data.recordings.ranges().skip(1).map(move |range| {
+        let first = range.start;
+        let moving = data.may_start_moving(first);
+        let speed = if moving { data.measured_state(first).1 } else { 0.0 };
+        Segment {
+            angle: match start_angle {
+                StartAngle::Known => data.counts[first],
+                StartAngle::Free => data.centre(first),
+            },
+            speed: speed / data.units.counts_per_rev * core::f64::consts::TAU,
+            range,
+        }
+    })
 }
 
 /// The segments of a horizon, with the candidate's start.
@@ -37,11 +54,15 @@ pub fn segments(
     start_angle: StartAngle,
 ) -> Vec<Segment> {
     match horizon {
-        Horizon::Whole => vec![whole(data, candidate, start_angle)],
-        Horizon::Observer(_) => vec![Segment {
+        Horizon::Whole => std::iter::once(whole(data, candidate, start_angle))
+            .chain(further(data, start_angle))
+            .collect(),
+        Horizon::Observer(_) => std::iter::once(Segment {
             angle: data.centre(0),
             ..whole(data, candidate, start_angle)
-        }],
+        })
+        .chain(further(data, StartAngle::Free))
+        .collect(),
         Horizon::Windows(windows) => {
             let segment = |window: &Window| Segment {
                 range: window.range.clone(),

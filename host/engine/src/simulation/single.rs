@@ -155,11 +155,17 @@ impl<'a> Simulation<'a> {
         state.motion.angle = angle - error;
         state.motion.current = self.current_before(k, speed);
         // Earlier commands may still be delayed.
-        for k in k.saturating_sub(MAX_DELAY)..k {
+        for k in self.before(k, MAX_DELAY) {
             let (command, open) = (self.data.command[k], self.data.is_open(k));
             self.model(k).recall(&mut state, command, open);
         }
         state
+    }
+
+    /// At most `samples` samples of its recording before `k`.
+    fn before(&self, k: usize, samples: usize) -> Range<usize> {
+        let first = self.data.recordings.holding(k).start;
+        k.saturating_sub(samples).max(first)..k
     }
 
     /// Per-unit winding current at sample `k` from the commands before it, at a constant speed in rad/s: a motor that was
@@ -168,7 +174,7 @@ impl<'a> Simulation<'a> {
         let Machine { kb, electrical, .. } = self.machine;
         let volts = self.data.units.volts;
         let mut current = 0.0;
-        for j in k.saturating_sub(CURRENT_HISTORY)..k {
+        for j in self.before(k, CURRENT_HISTORY) {
             if self.data.is_open(j) {
                 current = 0.0;
                 continue;
@@ -181,11 +187,15 @@ impl<'a> Simulation<'a> {
         current
     }
 
-    /// Current at each sample as the voltage across the resistance, V, from rest at `angle` counts.
+    /// Current at each sample as the voltage across the resistance, V, from rest at `angle` counts;
+    /// in further recordings from where they begin.
     pub fn currents(&self, angle: f64) -> Vec<f64> {
         let mut state = self.start(0, angle, 0.0);
         (0..self.data.len())
             .map(|k| {
+                if k > 0 && self.data.recordings.is_first(k) {
+                    state = self.start(k, self.data.centre(k), 0.0);
+                }
                 let volts = state.motion.current * self.data.units.volts;
                 let model = self.model(k);
                 model.step(&mut state, self.data.command[k], self.data.is_open(k));

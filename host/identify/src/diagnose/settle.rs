@@ -88,6 +88,7 @@ fn with_losses(fit: &mut Fit, last: &FittedModel) {
                     unit: parameter.quantity.unit(),
                     std: None,
                     identifiable: false,
+                    spread: None,
                 });
             }
         }

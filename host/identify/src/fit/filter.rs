@@ -138,8 +138,12 @@ impl<'a> Passing<'a> {
         }
     }
 
-    /// What is filtered at sample `k`, where the signal is `now`, the `next` of which comes in its turn.
+    /// What is filtered at sample `k`, where the signal is `now`, the `next` of which comes in its turn. With each recording
+    /// the signal begins at rest.
     pub(super) fn at(&mut self, k: usize, now: f64, next: Option<f64>) -> Filtered {
+        if self.data.recordings.is_first(k) {
+            self.behind = Behind::default();
+        }
         let at = self.filter.output(&self.behind, [now]);
         if let Some(next) = next {
             let rise = next - now;

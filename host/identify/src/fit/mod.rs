@@ -16,6 +16,7 @@
 //! | `scores` | errors over windows and of the equation, where the open loop drifts |
 //! | `validate` | the error on another recording |
 //! | `remarks` | what a user should know before believing a fit |
+//! | `recordings` | the error on each of several recordings, and how far their parameters spread |
 //! | `report` | the fitted model with all of these |
 //! | `error_ladder` | the error as effects are added one by one |
 
@@ -27,6 +28,7 @@ pub mod margins;
 mod options;
 pub mod physical;
 pub mod regression;
+pub(crate) mod recordings;
 mod remarks;
 pub mod report;
 mod resistance;
@@ -41,9 +43,9 @@ pub use bound::Bound;
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use options::Options;
+pub use recordings::RecordingError;
 pub use remarks::EXPLAINED_COUNTS;
 pub use report::{Fit, LadderEntry, Parameter};
 pub use search::search;
-pub(crate) use start::may_start_moving;
 pub use start::{SPEED_HALF_WIDTH, base_for, is_reversed, problem};
 pub use validate::{START_OFFSETS, departure, validate, validate_roughly, validation_errors};

@@ -91,14 +91,21 @@ impl Equations {
         second_order: bool,
     ) {
         let radians = core::f64::consts::TAU / data.units.counts_per_rev;
-        let angle = |k: usize| (data.centre(k) - data.centre(0)) * radians;
+        let angle = |k: usize| data.centre(k) * radians;
         let times = FILTER_SAMPLES.map(|samples| samples * data.units.interval);
         let (mut motion_behind, mut drive_behind) = (Behind::default(), Behind::default());
         let mut taken = vec![Taken::default(); amplitudes.len()];
         let mut drive = 0.0;
+        let mut origin = 0.0;
         let mut closed_since = 0.0;
         for k in 0..data.len() {
-            let motion = filter.output(&motion_behind, [angle(k); TIMES]);
+            if data.recordings.is_first(k) {
+                // Every integral begins anew.
+                (motion_behind, drive_behind) = (Behind::default(), Behind::default());
+                taken.fill(Taken::default());
+                (drive, origin, closed_since) = (0.0, angle(k), 0.0);
+            }
+            let motion = filter.output(&motion_behind, [angle(k) - origin; TIMES]);
             let target = filter.output(&drive_behind, [drive; TIMES]);
             // Where the bridge is open the equation is another; skip those samples and the filter's tail.
             let open = data.is_open(k);
@@ -125,8 +132,8 @@ impl Equations {
                 .chain([target.value]);
             self.triangles
                 .push(row.map(|entry| from_fn(|l| entry[l] * counts[l])));
-            if k + 1 == data.len() {
-                break;
+            if data.recordings.is_last(k) {
+                continue;
             }
             let interval = data.lengths[data.length_of[k] as usize] * data.units.interval;
             for (taken, amplitude) in taken.iter_mut().zip(amplitudes) {

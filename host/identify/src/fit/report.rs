@@ -5,6 +5,7 @@ use super::options::Options;
 use super::physical::{
     CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, determined_by_data, reconcile,
 };
+use super::recordings::RecordingError;
 use super::remarks;
 use super::resistance::resistance;
 use super::scores::{self, Windowed};
@@ -35,6 +36,8 @@ pub struct Parameter {
     pub std: Option<f64>,
     /// Whether the data (with the known facts) determine it.
     pub identifiable: bool,
+    /// Standard deviation of the values that several recordings give, each fitted alone.
+    pub spread: Option<f64>,
 }
 
 /// The error of a model with some of the effects.
@@ -96,6 +99,8 @@ pub struct Fit {
     pub interrupted: bool,
     /// Errors of the models that lead to this one, effect by effect; empty where nobody asked.
     pub error_ladder: Vec<LadderEntry>,
+    /// The error on each recording, where there are several; only of the front door.
+    pub recordings: Vec<RecordingError>,
     /// The fit with process noise, where the free run is not at the encoder's floor; only of the front door.
     pub likelihood: Option<Likelihood>,
 }
@@ -182,6 +187,7 @@ impl Fit {
             curve: found.curve.clone(),
             interrupted: found.interrupted,
             error_ladder: Vec::new(),
+            recordings: Vec::new(),
             likelihood: None,
         })
     }
@@ -244,6 +250,7 @@ fn parameters(
             unit: unknown.unit,
             std,
             identifiable: std.is_some_and(|std| std < 0.5 * values[k].abs()),
+            spread: None,
         };
         if is_torque(problem, &unknown.name) {
             match torque_scale {
@@ -280,6 +287,7 @@ fn parameters(
                 unit,
                 std: Some(std),
                 identifiable: std == 0.0 || std < 0.5 * value.abs(),
+                spread: None,
             });
         }
     }

@@ -109,8 +109,8 @@ pub struct EquationResidual {
 
 /// The first and the last sample that the speed at one is taken from.
 fn around(data: &Data, k: usize) -> (usize, usize) {
-    let to = (k + SPEED_HALF_WIDTH).min(data.len() - 1);
-    (k.saturating_sub(SPEED_HALF_WIDTH), to)
+    let near = data.recordings.around(k, SPEED_HALF_WIDTH);
+    (near.start, near.end - 1)
 }
 
 /// Speed at a sample, counts/s, over as many samples to both sides as the restart of a window takes.
@@ -191,6 +191,9 @@ fn each_equation_residual(
         let net = passing_net.at(k, net_now, net_next);
         let command = passing_command.at(k, command(k), next.map(command));
         net_now = net_next.unwrap_or(net_now);
+        if data.recordings.is_first(k) {
+            (closed_since, direction) = (data.time_s[k], 0.0);
+        }
         let sliding = sliding(data, k);
         if sliding == 0.0 || sliding != direction {
             (direction, slid_since) = (sliding, data.time_s[k]);

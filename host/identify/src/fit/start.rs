@@ -27,7 +27,7 @@ pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, 
         starts.guesses = usual_machines(data, &starts.problem.structure);
         still = starts.best(false);
     }
-    let moving = if may_start_moving(data) && options.window_s.is_none() {
+    let moving = if data.may_start_moving(0) && options.window_s.is_none() {
         starts.best(true)
     } else {
         None
@@ -241,10 +241,4 @@ pub fn base_for(data: &Data, effects: &[Kind]) -> Base {
             damping: data.coasts() || effects.iter().any(separates),
         },
     }
-}
-
-/// Whether the first samples show any motion at all.
-pub(crate) fn may_start_moving(data: &Data) -> bool {
-    let per_interval = data.speed_counts_s(0, SPEED_HALF_WIDTH).abs() * data.units.interval;
-    per_interval * SPEED_HALF_WIDTH as f64 > 1.0
 }

@@ -1,7 +1,7 @@
 //! The error of a fitted model on another recording, which has a start of its own.
 
 use super::scores;
-use super::start::{SPEED_HALF_WIDTH, may_start_moving};
+use super::start::SPEED_HALF_WIDTH;
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data, StartAngle};
 use servoid_engine::problem::{Horizon, errors, rms_counts};
@@ -76,7 +76,21 @@ enum Start {
     Refined,
 }
 
+/// Each recording has a start of its own.
 fn errors_from(
+    data: &Data,
+    candidate: &Candidate,
+    method: Method,
+    start: Start,
+) -> Result<Vec<f64>, Error> {
+    if !data.recordings.are_several() {
+        return errors_of_one(data, candidate, method, start);
+    }
+    let errors = data.parts().map(|part| errors_of_one(&part, candidate, method, start));
+    Ok(errors.collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+fn errors_of_one(
     data: &Data,
     candidate: &Candidate,
     method: Method,
@@ -101,7 +115,7 @@ fn errors_from(
     let rms = |errors: &[f64]| rms_counts(data, errors);
     // At rest or in motion, whichever has the smaller error.
     let (mut best, mut start_speed) = (run(0.0, 0.0)?, 0.0);
-    if may_start_moving(data) {
+    if data.may_start_moving(0) {
         for speed in moving_starts(data, &|speed| run(speed, 0.0))? {
             let moving = run(speed, 0.0)?;
             if rms(&moving) < rms(&best) {

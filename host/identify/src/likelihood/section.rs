@@ -3,7 +3,7 @@
 use super::maximum::{Maximum, Settings, fit_from};
 use super::observed::{Observed, parts};
 use super::parameters::{Coordinate, Parameters};
-use super::terms::Terms;
+use super::terms::{Delays, Terms};
 use super::whiteness::Whiteness;
 use crate::fit::{EXPLAINED_COUNTS, Fit};
 use servoid_engine::problem::Data;
@@ -118,7 +118,12 @@ pub fn section(data: &Data, free: &Fit, effects: &[Kind], stop: &AtomicBool) -> 
     }
     let most = MOST_STEPS / parts(data.units.interval);
     let short = (data.len() > most).then(|| data.first(most));
-    let observed = Observed::new(short.as_ref().unwrap_or(data))?;
+    let alone = short.as_ref().unwrap_or(data).parts();
+    let observed: Vec<Observed> = alone.filter_map(|part| Observed::new(&part)).collect();
+    if observed.is_empty() {
+        return None;
+    }
+    let recordings: Vec<&Observed> = observed.iter().collect();
     let terms = Terms {
         asymmetric_viscous: effects.contains(&Kind::AsymViscous),
         gravity: effects.contains(&Kind::Unbalance),
@@ -127,9 +132,10 @@ pub fn section(data: &Data, free: &Fit, effects: &[Kind], stop: &AtomicBool) -> 
     let fitted = |update_s: f64, known: &[Parameters]| {
         let settings = Settings {
             update_s,
+            delays: Delays::Common,
             ..Settings::default()
         };
-        fit_from(&[&observed], terms, &settings, known, stop).map(|m| (update_s, m))
+        fit_from(&recordings, terms, &settings, known, stop).map(|m| (update_s, m))
     };
     let usual = fitted(Settings::default().update_s, &[])?;
     let checked = fitted(CHECK_S, std::slice::from_ref(&usual.1.parameters));
@@ -162,7 +168,7 @@ pub fn section(data: &Data, free: &Fit, effects: &[Kind], stop: &AtomicBool) -> 
         damping: value(Coordinate::Damping),
         coulomb: value(Coordinate::Coulomb),
         offset: value(Coordinate::Offset),
-        delay: separable(Coordinate::Delay(0)),
+        delay: separable(Coordinate::CommonDelay),
         total_lag: Value {
             value: lag,
             std: lag_std,
@@ -170,7 +176,7 @@ pub fn section(data: &Data, free: &Fit, effects: &[Kind], stop: &AtomicBool) -> 
             unit: "s",
         },
         delay_separable,
-        delay_inertia_correlation: m.correlation(Coordinate::Inertia, Coordinate::Delay(0)),
+        delay_inertia_correlation: m.correlation(Coordinate::Inertia, Coordinate::CommonDelay),
         process_noise: value(Coordinate::ProcessNoise),
         reading_noise: value(Coordinate::ReadingNoise),
         whiteness: m.whiteness,
@@ -178,7 +184,7 @@ pub fn section(data: &Data, free: &Fit, effects: &[Kind], stop: &AtomicBool) -> 
         disagreements: Vec::new(),
         bic: m.bic,
         readings: m.readings,
-        duration_s: observed.duration_s(),
+        duration_s: observed.iter().map(Observed::duration_s).sum(),
         converged: m.converged,
     };
     found.disagreements = disagreements(&found, free);
@@ -200,17 +206,17 @@ fn check(update_s: f64, m: &Maximum) -> Check {
 
 /// Edges of the command show a delay by itself; without any it must be small and apart from inertia at both distances. In
 /// either case it must stay what it is at another distance, as far as its errors tell.
-fn is_separable(observed: &Observed, usual: &Maximum, checked: Option<&Maximum>) -> bool {
-    let delay = |m: &Maximum| (m.parameters.delays[0], m.std(Coordinate::Delay(0)));
+fn is_separable(observed: &[Observed], usual: &Maximum, checked: Option<&Maximum>) -> bool {
+    let delay = |m: &Maximum| (m.parameters.delays[0], m.std(Coordinate::CommonDelay));
     let (own, Some(error)) = delay(usual) else {
         return false;
     };
     let lag = own + usual.parameters.time_constant();
     let correlated = |m: &Maximum| {
-        let correlation = m.correlation(Coordinate::Inertia, Coordinate::Delay(0));
+        let correlation = m.correlation(Coordinate::Inertia, Coordinate::CommonDelay);
         correlation.is_none_or(|r| r.abs() > CORRELATED)
     };
-    let edges = observed.steepest_edge() >= EDGE;
+    let edges = observed.iter().any(|one| one.steepest_edge() >= EDGE);
     let small = own <= SMALL * lag;
     let apart = edges || small && !(correlated(usual) || checked.is_some_and(correlated));
     let steady = checked.map(delay).is_none_or(|(other, other_error)| {

@@ -2,6 +2,7 @@
 
 use super::hypothesis::{Hypothesis, Setup};
 use crate::fit::Options;
+use servoid_engine::data::Recordings;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
@@ -99,6 +100,7 @@ pub fn record(
         supply: setup.supply_v,
         lengths: vec![1.0],
         length_of: vec![0; drive.len()],
+        recordings: Recordings::one("", drive.len()),
         end_of: None,
     })
 }

@@ -6,7 +6,7 @@ use crate::number_text::{short, with_error};
 use crate::schema::contest::least_cost;
 use servoid_engine::compare::{Row, quantile};
 use servoid_engine::problem::Data;
-use servoid_identify::fit::{Fit, LadderEntry, Parameter};
+use servoid_identify::fit::{Fit, LadderEntry, Parameter, RecordingError};
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
@@ -22,7 +22,12 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
             );
         }
         (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
-        (Some(_), true) => format!("{} {}", with_error(p.value, p.std), p.unit),
+        (Some(_), true) => format!(
+            "{} {}{}",
+            with_error(p.value, p.std),
+            p.unit,
+            spread(p.spread)
+        ),
         (Some(std), false) => {
             format!(
                 "below {} {} (twice its standard error)",
@@ -32,6 +37,11 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
         }
     };
     format!("  {:26} {value}\n", p.name)
+}
+
+/// How far the recordings differ that were fitted alone.
+fn spread(spread: Option<f64>) -> String {
+    spread.map_or_else(String::new, |s| format!(", spread {} between recordings", short(s)))
 }
 
 /// Open-loop error above which windows are shown unasked, counts.
@@ -51,12 +61,12 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     } else {
         format!("linear motor + {}", fit.effects.join(" + "))
     };
-    let end = data.time_s.last().copied().unwrap_or(0.0);
     writeln!(
         out,
-        "{}: {} samples, {end:.3} s, worth {:.0} independent ones",
+        "{}: {} samples, {:.3} s, worth {:.0} independent ones",
         data.source,
         data.len(),
+        data.duration_s(),
         fit.effective_samples
     )?;
     writeln!(
@@ -78,6 +88,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
             painted(HEADING, "held-out error")
         )?;
     }
+    out.push_str(&recordings(&fit.recordings));
     if !fit.error_ladder.is_empty() {
         write!(out, "\n{}\n", ladder(&fit.error_ladder))?;
     }
@@ -133,6 +144,16 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         write!(out, "{}", wrapped(note))?;
     }
     Ok(())
+}
+
+/// The error on each of several recordings; nothing where there is one.
+pub(super) fn recordings(errors: &[RecordingError]) -> String {
+    let mut out = String::new();
+    for error in errors {
+        let role = if error.held_out { "held out" } else { "fitted" };
+        out += &format!("  {role:9} {:>12.4} counts RMS  {}\n", error.rms_counts, error.source);
+    }
+    out
 }
 
 /// Errors as effects were added, and the encoder's own.

@@ -2,7 +2,7 @@
 
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::residual::{Residual, Where};
-use super::{Machine, Model, ModelParameter, finite};
+use super::{Machine, Model, ModelParameter, RecordingError, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose;
@@ -102,6 +102,9 @@ pub struct Diagnosis {
     pub sample_s: Option<f64>,
     /// The fitted recording.
     pub recording: String,
+    /// The error of the last model on each recording, where there are several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recordings: Vec<RecordingError>,
     /// What the command drives: `voltage` or `current`.
     #[serde(default)]
     pub drive: String,

@@ -20,6 +20,9 @@ pub struct Estimate {
     pub std: Option<f64>,
     /// Whether the data (with the known facts) determine it.
     pub identifiable: bool,
+    /// Standard deviation of the values that several recordings give, each fitted alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
 }
 
 impl From<&Parameter> for Estimate {
@@ -30,6 +33,7 @@ impl From<&Parameter> for Estimate {
             unit: p.unit.to_owned(),
             std: p.std,
             identifiable: p.identifiable,
+            spread: p.spread.and_then(finite),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::Likelihood;
-use super::{Model, VERSION, finite};
+use super::{Model, RecordingError, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
@@ -65,6 +65,9 @@ pub struct Fit {
     pub recording: String,
     /// The recording of `--validate`.
     pub validate: Option<String>,
+    /// The error on each recording, where there are several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recordings: Vec<RecordingError>,
     /// What the command drives: `voltage` or `current`.
     #[serde(default)]
     pub drive: String,
@@ -190,6 +193,7 @@ impl Fit {
             model: Model::of(&fit.candidate, fit.method),
             recording: data.source.clone(),
             validate: validate.map(str::to_owned),
+            recordings: fit.recordings.iter().map(Into::into).collect(),
             drive: data.drive.name().to_owned(),
             supply_v: finite(data.supply),
             counts_per_rev: finite(data.units.counts_per_rev),

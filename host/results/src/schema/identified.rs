@@ -187,6 +187,7 @@ impl Identified {
                 unit,
                 std: found.std,
                 identifiable: outcome.converged && found.std.is_some_and(known),
+                spread: None,
             });
         }
         Ok(Identified {

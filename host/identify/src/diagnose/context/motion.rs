@@ -31,8 +31,14 @@ impl Motion {
         let (mut speed, mut next_speed) = (0.0, slope(data, 0, half));
         let seen = (0..data.len())
             .map(|k| {
-                let next = (k + 1).min(data.len() - 1);
-                speed = next_speed;
+                let last = data.recordings.is_last(k);
+                let next = if last { k } else { k + 1 };
+                speed = if data.recordings.is_first(k) {
+                    slope(data, k, half)
+                } else {
+                    next_speed
+                };
+                next_speed = speed;
                 if next > k {
                     next_speed = slope(data, next, half);
                 }
@@ -53,14 +59,9 @@ impl Motion {
     }
 }
 
-/// Samples around interval `k`.
-fn around(data: &Data, k: usize, half: usize) -> core::ops::Range<usize> {
-    k.saturating_sub(half)..(k + half + 1).min(data.len())
-}
-
 /// Speed at sample `k`, per unit.
 fn slope(data: &Data, k: usize, half: usize) -> f64 {
-    let window = around(data, k, half);
+    let window = data.recordings.around(k, half);
     let n = window.len() as f64;
     let (mut time, mut angle) = (0.0, 0.0);
     for j in window.clone() {
@@ -81,7 +82,7 @@ fn slope(data: &Data, k: usize, half: usize) -> f64 {
 /// Whether the reading stands still around interval `k`; a shaft at rest on the edge of a cell may dither
 /// by one count.
 fn still(data: &Data, k: usize, half: usize) -> bool {
-    let window = around(data, k, half.max(3));
+    let window = data.recordings.around(k, half.max(3));
     let (low, high) = window.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), j| {
         (low.min(data.counts[j]), high.max(data.counts[j]))
     });

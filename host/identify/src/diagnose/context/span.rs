@@ -9,6 +9,7 @@ use servoid_engine::problem::{Data, Horizon};
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use shared::motor::Machine;
+use std::ops::Range;
 
 /// Length of the windows when the user chose none, s.
 const USUAL_WINDOW_S: f64 = 0.5;
@@ -91,8 +92,7 @@ const LOST: f64 = 0.8;
 /// Whether a twentieth of the travel at least goes against the prevailing direction.
 pub fn moves_both_ways(data: &Data) -> bool {
     let (mut forward, mut backward) = (0.0, 0.0);
-    for pair in data.counts.windows(2) {
-        let step = pair[1] - pair[0];
+    for step in data.steps() {
         if step > 0.0 {
             forward += step
         } else {
@@ -149,8 +149,7 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
 /// Standard deviation of the slope at sample `k` for noise of one count, 1/s.
 fn slope_gain(data: &Data, k: usize) -> f64 {
     let half = data.state_half_width();
-    let from = k.saturating_sub(half);
-    let to = (k + half + 1).min(data.len());
+    let Range { start: from, end: to } = data.recordings.around(k, half);
     let n = (to - from) as f64;
     let mean = (from..to).map(|j| data.time_s[j]).sum::<f64>() / n;
     let squares: f64 = (from..to).map(|j| (data.time_s[j] - mean).powi(2)).sum();

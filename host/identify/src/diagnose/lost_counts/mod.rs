@@ -24,7 +24,7 @@ use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, Loss, Losses};
-use crate::fit::{SPEED_HALF_WIDTH, may_start_moving};
+use crate::fit::SPEED_HALF_WIDTH;
 use detect::Depth;
 use fit_influence::FitInfluence;
 use repaired::{Repaired, lost, repaired};
@@ -262,7 +262,13 @@ fn strong(losses: &[Loss]) -> usize {
 /// The model's travel before each sample, counts.
 fn speeds(data: &Data, residual: &[f64]) -> Vec<f64> {
     let angle = |k: usize| residual[k] + data.counts[k];
-    let travel = |k: usize| if k == 0 { 0.0 } else { angle(k) - angle(k - 1) };
+    let travel = |k: usize| {
+        if data.recordings.is_first(k) {
+            0.0
+        } else {
+            angle(k) - angle(k - 1)
+        }
+    };
     (0..data.len()).map(travel).collect()
 }
 
@@ -273,7 +279,7 @@ fn starts(data: &Data, structure: &Structure, values: &[f64]) -> Vec<Vec<f64>> {
     }
     let now = data.speed_counts_s(0, SPEED_HALF_WIDTH) / data.units.counts_per_rev
         * core::f64::consts::TAU;
-    let speeds = if may_start_moving(data) {
+    let speeds = if data.may_start_moving(0) {
         vec![0.0, now]
     } else {
         vec![0.0]

@@ -51,6 +51,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             recording: (report.held_out.whole())
                 .unwrap_or(&report.data.source)
                 .to_owned(),
+            recordings: report.recordings.iter().map(Into::into).collect(),
             drive: report.data.drive.name().to_owned(),
             seed: report.seed,
             interrupted: report.interrupted,

@@ -16,7 +16,7 @@ use servoid_identify::diagnose::advice::cannot_tell;
 use servoid_identify::diagnose::{
     Diagnosis, Findings, FittedModel, HeldOut, Remark, Step, Verdict,
 };
-use servoid_identify::fit::Fit;
+use servoid_identify::fit::{Fit, RecordingError};
 use servoid_identify::plan::Hypothesis;
 use servoid_io::recording::Drive;
 use servoid_plant::Machine;
@@ -37,6 +37,8 @@ pub struct DiagnosisReport<'a> {
     pub findings: &'a Findings,
     /// What a user should know about the two recordings.
     pub remarks: Vec<Remark>,
+    /// The error of the last model on each recording, where there are several.
+    pub recordings: &'a [RecordingError],
     /// Seed of everything random.
     pub seed: u64,
     /// Whether the user stopped the work.
@@ -67,6 +69,7 @@ impl<'a> DiagnosisReport<'a> {
             last: &found.last,
             findings: &found.findings,
             remarks: found.remarks.clone(),
+            recordings: &found.recordings,
             seed,
             interrupted: found.interrupted,
             json,

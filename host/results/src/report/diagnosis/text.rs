@@ -5,7 +5,7 @@ use super::residual::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::report::fold::folded;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
-use crate::report::text::{parameter, wrapped};
+use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
 use servoid_identify::diagnose::{HeldOut, Step, Verdict};
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -30,6 +30,7 @@ impl DiagnosisReport<'_> {
         writeln!(out, "{}\n", folded(&self.held_out_text(), ""))?;
         writeln!(out, "{}\n", verdict(self.verdict(), &self.verdict_text()))?;
         self.ladder(out)?;
+        out.push_str(&recordings(self.recordings));
         self.over_time(out)?;
         for index in 0..self.diagnosis.steps.len() {
             self.step(out, index)?;

@@ -142,6 +142,7 @@ fn estimates(outcome: &Outcome) -> Vec<Estimate> {
             unit: p.unit.clone(),
             std: p.std,
             identifiable: p.std.is_some_and(|std| 2.0 * std < p.value.abs()),
+            spread: None,
         })
         .collect()
 }

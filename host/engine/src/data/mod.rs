@@ -1,8 +1,15 @@
 //! A recording in the model's units: per-unit commands, counts, and the lengths of the sample intervals.
 
+mod joined;
+mod recordings;
+
+pub use joined::JoinError;
+pub use recordings::Recordings;
+
 use servoid_io::recording::{Drive, Recording};
 use shared::error::ModelError;
 use shared::units::PerUnit;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Rounding of the sample times: the fastest motion moves less than this in it, counts.
@@ -37,6 +44,8 @@ pub struct Data {
     pub lengths: Vec<f64>,
     /// Index into `lengths` of the interval that begins at each sample.
     pub length_of: Vec<u32>,
+    /// The recordings that the samples come from.
+    pub recordings: Recordings,
     /// The whole recording, where this is its end: a model that runs from its start arrives here in a state that a few
     /// readings could not tell.
     pub end_of: Option<Arc<Data>>,
@@ -56,6 +65,15 @@ impl Data {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn taken(recording: Recording) -> Result<Self, ModelError> {
+        let one = Recordings::one(&recording.source, recording.len());
+        Data::of_recordings(recording, one)
+    }
+
+    /// Converts `recordings` that stand one after the other.
+    fn of_recordings(
+        recording: Recording,
+        recordings: Recordings,
+    ) -> Result<Self, ModelError> {
         let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let supply = recording
             .supply_v
@@ -67,10 +85,8 @@ impl Data {
             *time -= first;
         }
         let interval = median_interval(&time_s);
-        let fastest = recording
-            .counts
-            .windows(2)
-            .fold(0.0f64, |m, pair| m.max((pair[1] - pair[0]).abs()));
+        let steps = recordings.steps(&recording.counts);
+        let fastest = steps.map(f64::abs).fold(0.0, f64::max);
         let turns_per_s = fastest / recording.counts_per_rev / interval;
         let units = PerUnit::new(
             supply.max(largest),
@@ -78,7 +94,7 @@ impl Data {
             interval,
             recording.counts_per_rev,
         )?;
-        let (lengths, length_of) = interval_lengths(&time_s, interval, fastest);
+        let (lengths, length_of) = interval_lengths(&time_s, &recordings, interval, fastest);
         let mut command = recording.command;
         for command in &mut command {
             *command /= units.volts;
@@ -100,6 +116,7 @@ impl Data {
             units,
             lengths,
             length_of,
+            recordings,
             end_of: None,
         })
     }
@@ -124,6 +141,7 @@ impl Data {
             current_a: self.current_a.as_deref().map(some),
             lengths: self.lengths.clone(),
             length_of: self.length_of[..samples.min(self.len())].to_vec(),
+            recordings: self.recordings.first(samples),
             end_of: None,
             ..*self
         }
@@ -133,6 +151,19 @@ impl Data {
     pub fn at_end_of(mut self, whole: Arc<Data>) -> Self {
         self.end_of = Some(whole);
         self
+    }
+
+    /// Changes of the reading from sample to sample, counts.
+    pub fn steps(&self) -> impl Iterator<Item = f64> {
+        self.recordings.steps(&self.counts)
+    }
+
+    /// Time that the recordings took, s.
+    pub fn duration_s(&self) -> f64 {
+        let ranges = self.recordings.ranges().filter(|range| !range.is_empty());
+        ranges
+            .map(|range| self.time_s[range.end - 1] - self.time_s[range.start])
+            .sum()
     }
 
     /// Whether there are no samples.
@@ -176,10 +207,7 @@ impl Data {
     /// How many times the reading changes: the number of independent facts about the angle that a
     /// quantised recording holds, far fewer than samples when the motor is slow.
     pub fn transitions(&self) -> usize {
-        self.counts
-            .windows(2)
-            .filter(|pair| pair[0] != pair[1])
-            .count()
+        self.steps().filter(|&step| step != 0.0).count()
     }
 
     /// Half the number of samples that a measured state is taken from. Whole counts carry the encoder's rounding only; an
@@ -196,7 +224,7 @@ impl Data {
     /// value of the parabola that gives the speed.
     pub fn measured_state(&self, k: usize) -> (f64, f64) {
         let half = self.state_half_width();
-        let (from, to) = (k.saturating_sub(half), (k + half + 1).min(self.len()));
+        let Range { start: from, end: to } = self.recordings.around(k, half);
         let still = self.counts[from..to]
             .iter()
             .all(|count| *count == self.counts[k]);
@@ -209,11 +237,16 @@ impl Data {
         (self.centre(k) + angle, speed)
     }
 
+    /// Whether the samples from `k`, the first of a recording, show any motion at all.
+    pub fn may_start_moving(&self, k: usize) -> bool {
+        let speed = self.speed_counts_s(k, COUNTER_HALF_WIDTH);
+        speed.abs() * self.units.interval * COUNTER_HALF_WIDTH as f64 > 1.0
+    }
+
     /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
     /// `2·half + 1` samples, fewer at the ends.
     pub fn speed_counts_s(&self, k: usize, half: usize) -> f64 {
-        let from = k.saturating_sub(half);
-        let to = (k + half + 1).min(self.len());
+        let Range { start: from, end: to } = self.recordings.around(k, half);
         let origin = self.time_s[k];
         local_parabola(
             (from..to).map(|j| (self.time_s[j] - origin, self.centre(j) - self.centre(k))),
@@ -259,7 +292,12 @@ fn median_interval(time_s: &[f64]) -> f64 {
 
 /// Rounds the sample *times* (so that no error adds up) to a grid just fine enough for the fastest
 /// motion, and lists the interval lengths that occur. An even recording has a single one.
-fn interval_lengths(time_s: &[f64], nominal: f64, fastest_counts: f64) -> (Vec<f64>, Vec<u32>) {
+fn interval_lengths(
+    time_s: &[f64],
+    recordings: &Recordings,
+    nominal: f64,
+    fastest_counts: f64,
+) -> (Vec<f64>, Vec<u32>) {
     let mut grid = 1.0;
     while grid < FINEST_GRID && fastest_counts / grid > TIME_ERROR_COUNTS {
         grid *= 2.0;
@@ -279,9 +317,10 @@ fn interval_lengths(time_s: &[f64], nominal: f64, fastest_counts: f64) -> (Vec<f
     let mut lengths = Vec::new();
     let length_of = (0..time_s.len())
         .map(|k| {
-            // The last sample begins no interval: that of the one before, so that an even recording has one
-            // length.
-            let k = k.min(time_s.len().saturating_sub(2));
+            // The last sample of a recording begins no interval: that of the one before, so that an even recording has
+            // one length.
+            let range = recordings.holding(k);
+            let k = k.min(range.end.saturating_sub(2)).max(range.start);
             let next = (k + 1).min(time_s.len().saturating_sub(1));
             let ticks = (tick(next) - tick(k)).max(1);
             *known.entry(ticks).or_insert_with(|| {
