@@ -5,6 +5,7 @@ use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, pair};
 use crate::error::Error;
 use crate::fit::recordings::recording_errors;
 use crate::fit::{Fit, Options, RecordingError};
+use crate::likelihood;
 use crate::progress::Progress;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
@@ -99,7 +100,10 @@ pub fn diagnose_data(
     let tried = || progress.tried();
     let diagnosis = diagnose::diagnose(fitted, held_out, options, budget, &tried)?;
     let interrupted = stop.load(Ordering::Relaxed);
-    let last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
+    let mut last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
+    if !interrupted {
+        last.likelihood = likelihood::section(fitted, &last, &diagnosis.last.effects, stop);
+    }
     let findings = diagnose::findings(&diagnosis, fitted, held_out)?;
     let remarks = if interrupted || diagnosis.ran_out {
         Vec::new()

@@ -3,9 +3,9 @@
 mod bench;
 mod device;
 mod export;
+mod recordings;
 #[cfg(test)]
 mod reference;
-mod recordings;
 mod report;
 
 pub use bench::BenchArgs;

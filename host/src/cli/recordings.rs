@@ -27,7 +27,8 @@ impl RecordingsArgs {
 
     /// Those that are not.
     pub fn held_out(&self) -> &[PathBuf] {
-        self.split().map_or(&self.validate, |(held_out, _)| held_out)
+        self.split()
+            .map_or(&self.validate, |(held_out, _)| held_out)
     }
 
     /// The first that is fitted.

@@ -20,7 +20,11 @@ const MILLION: u64 = 1_000_000;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let page = report::output(&args.sheet);
-    if let Some(curve) = args.recordings.first().filter(|path| SteadyCurve::is_in(path)) {
+    if let Some(curve) = args
+        .recordings
+        .first()
+        .filter(|path| SteadyCurve::is_in(path))
+    {
         motor::check_outputs(session, page.as_slice(), &args.motor, curve, None)?;
         return steady(session, args, curve);
     }

@@ -30,7 +30,11 @@ fn check_outputs_of(
     let motors: Vec<PathBuf> = fitted.iter().map(|path| motor_path(args, path)).collect();
     let mut inputs: Vec<(&str, &Path)> = Vec::new();
     inputs.extend(fitted.iter().map(|path| ("the recording", *path)));
-    inputs.extend(validate.iter().map(|path| ("the --validate recording", *path)));
+    inputs.extend(
+        validate
+            .iter()
+            .map(|path| ("the --validate recording", *path)),
+    );
     inputs.extend(motors.iter().map(|path| ("the motor file", path.as_path())));
     session.check_outputs(outputs, &inputs)
 }

@@ -10,6 +10,7 @@ use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
 use servoid_identify::diagnose::{self, Budget, Diagnosis, FittedModel};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::truth::{self, ParameterError};
+use servoid_results::schema::diagnosis::Hypothesis;
 use shared::effects::Kind;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -57,6 +58,9 @@ pub struct Outcome {
     pub alone: Vec<Option<f64>>,
     /// What the diagnosis names, in its order.
     pub named: Vec<Naming>,
+    /// Sets of effects that it holds for possible, with their probabilities.
+    #[serde(default)]
+    pub hypotheses: Vec<Hypothesis>,
     /// Its verdict; `failed` where there is none.
     pub verdict: String,
     /// Errors of its model.
@@ -110,6 +114,7 @@ impl Outcome {
             detectable: true,
             alone: Vec::new(),
             named: Vec::new(),
+            hypotheses: Vec::new(),
             verdict: "failed".to_owned(),
             last: Errors::default(),
             parameters: Vec::new(),
@@ -161,6 +166,7 @@ impl Outcome {
             detectable: alone.iter().all(leaves_much),
             alone,
             named: named.collect(),
+            hypotheses: diagnosis.hypotheses.iter().map(Into::into).collect(),
             verdict: diagnosis.verdict.name().to_owned(),
             last: Errors::of(&diagnosis.last),
             parameters: parameter_errors(&self.drawn, &diagnosis.last)?,

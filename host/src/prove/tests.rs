@@ -40,6 +40,7 @@ fn outcome(set_up: &SetUp, case: u64, named: &[&str]) -> Outcome {
         detectable: true,
         alone: Vec::new(),
         named: named.iter().map(naming).collect(),
+        hypotheses: Vec::new(),
         verdict: "missing_effects".to_owned(),
         last: Errors::default(),
         parameters: Vec::new(),

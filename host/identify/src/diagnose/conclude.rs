@@ -3,6 +3,7 @@
 use super::context::moves_both_ways;
 use super::explain::advice::advise;
 use super::models::Errors;
+use super::hypotheses::{probability_of, probable_sets};
 use super::naming::Named;
 use super::outcome::{Diagnosis, Verdict};
 
@@ -10,15 +11,22 @@ use super::outcome::{Diagnosis, Verdict};
 pub fn conclude(named: Named<'_>) -> Diagnosis {
     let both_ways = moves_both_ways(named.context.data);
     let budget = named.context.budget;
+    let hypotheses = probable_sets(&named);
+    let mut steps = named.steps;
+    for step in &mut steps {
+        step.confidence = probability_of(step.added, &hypotheses);
+    }
     let mut diagnosis = Diagnosis {
+        hypotheses,
         span: named.context.span,
         base: named.base,
         verdict: Verdict::Complete,
-        steps: named.steps,
+        steps,
         last: named.last,
         rivals: named.rivals,
         not_named: named.not_named,
         predicts: named.predicts,
+        baseline: named.baseline,
         advice: Vec::new(),
         ran_out: budget.ran_out(),
         steps_taken: budget.spent(),

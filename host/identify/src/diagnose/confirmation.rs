@@ -1,8 +1,9 @@
 //! Stage 4: every effect that was selected must still hold beside the others, against its look-alikes, and against
 //! simpler effects in its place. What was selected first was judged without the rest.
 
-use super::baseline::Prediction;
-use super::context::Context;
+use super::baseline::{Baseline, Prediction};
+use super::built_up::added;
+use super::context::{Context, constant_drive};
 use super::lost_counts;
 use super::models::FittedModel;
 use super::selection::{Level, Selected, backward_elimination, nested_models, substitution};
@@ -24,6 +25,8 @@ pub struct Confirmed<'a> {
     pub not_named: Option<Kind>,
     /// What the chosen model predicts, where it was held against the baseline.
     pub predicts: Option<Prediction>,
+    /// The baseline that it was held against.
+    pub baseline: Option<Baseline>,
     /// Whether the chosen effects are named together although others would do as well in the place of one.
     pub as_one: bool,
 }
@@ -43,12 +46,14 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
     let (mut chosen, mut known) = (None, Vec::new());
     if let Some(last) = levels.last() {
         known = last.models.clone();
-        chosen = Some(held_against_others(
+        let held = held_against_others(
             &context,
             last.best.clone(),
             levels.len() > 1,
             &mut known,
-        ));
+        );
+        known.extend(sums(&context, &held));
+        chosen = Some(held);
     }
     Confirmed {
         context,
@@ -58,6 +63,7 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
         known,
         not_named,
         predicts: None,
+        baseline: None,
         as_one: false,
     }
 }
@@ -90,4 +96,23 @@ fn held_against_others(
     }
     let chosen = nested_models::simplify(context, chosen, known);
     backward_elimination::eliminate(context, chosen, known)
+}
+
+/// Models in which an effect is the sum of a simpler one that it contains and a constant drive: as many parameters, and the
+/// same equation under another name.
+fn sums(context: &Context<'_>, chosen: &FittedModel) -> Vec<FittedModel> {
+    let mut sums = Vec::new();
+    let constant = constant_drive(context.data.drive);
+    for &sum in &chosen.effects {
+        let parts = |kind: Kind| kind.description().parameters.len();
+        let contained = sum.facts().contains.iter();
+        for part in contained.filter_map(|simpler| Kind::by_name(simpler.name)) {
+            if parts(sum) != parts(part) + parts(constant) || chosen.effects.contains(&constant) {
+                continue;
+            }
+            let simpler = added(context, &chosen.without(sum), part);
+            sums.extend(simpler.and_then(|model| added(context, &model, constant)));
+        }
+    }
+    sums
 }

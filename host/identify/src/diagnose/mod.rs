@@ -15,6 +15,7 @@
 //! | confirm them | `Selected` | `Confirmed`: the model whose effects all hold, and its rivals | `confirmation` |
 //! | hold to the baseline | `Confirmed` | `Confirmed`: predicts no worse than the linear motor with Coulomb friction, offset and delay | `baseline` |
 //! | name them | `Confirmed` | `Named`: the steps that may be named | `naming` |
+//! | weigh them | `Named` | [`ProbableSet`]s: sets of effects with their probabilities | `hypotheses` |
 //! | conclude | `Named` | [`Diagnosis`]: verdict and advice | `conclude`, `outcome` |
 //!
 //! Below the stages, each knows only those above it in this list:
@@ -41,6 +42,7 @@ mod conclude;
 mod confirmation;
 mod context;
 mod explain;
+mod hypotheses;
 mod linear;
 mod lost_counts;
 mod models;
@@ -55,9 +57,10 @@ mod spectrum;
 pub mod steady;
 mod suggest;
 
-pub use baseline::Prediction;
+pub use baseline::{Baseline, Prediction};
 pub use built_up::{built_up, is_lost};
 pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways};
+pub use hypotheses::ProbableSet;
 pub use explain::{Findings, advice, evidence, findings, pair};
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};
 pub use outcome::{Diagnosis, Step, Verdict};

@@ -1,8 +1,7 @@
 //! Stage 5: the steps from the linear motor to the model that was confirmed. An effect is named only where not too many
 //! others do as well in its place.
 
-use super::baseline::Prediction;
-use super::candidate::observer::observe_like;
+use super::baseline::{Baseline, Prediction};
 use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
 use super::context::{Context, moves_both_ways};
@@ -28,6 +27,8 @@ pub struct Named<'a> {
     pub not_named: Option<Kind>,
     /// What the last model predicts, where it was held against the baseline.
     pub predicts: Option<Prediction>,
+    /// The baseline.
+    pub baseline: Option<Baseline>,
 }
 
 /// Writes down the steps to the model that was confirmed, up to the first effect that may not be named.
@@ -40,6 +41,7 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         known,
         not_named,
         predicts,
+        baseline,
         as_one,
     } = confirmed;
     let (steps, last) = match &chosen {
@@ -54,6 +56,7 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         rivals: known,
         not_named,
         predicts,
+        baseline,
     }
 }
 
@@ -66,10 +69,6 @@ fn steps_to(
     known: &[FittedModel],
     as_one: bool,
 ) -> (Vec<Step>, FittedModel) {
-    let mut observed_base = base.clone();
-    // A motor that no observer can hold to the readings keeps the errors of its free run.
-    let _ = observe_like(context, &mut observed_base, chosen);
-    let explained = judge::explained(&observed_base, chosen);
     // A motor that never reverses cannot tell any of them apart: they are named as one.
     let as_one = as_one || context.span.window_s.is_some() && !moves_both_ways(context.data);
     let (mut steps, mut before) = (Vec::new(), base.clone());
@@ -97,7 +96,7 @@ fn steps_to(
             .collect();
         steps.push(Step {
             added,
-            confidence: explained * rivals.confidence(),
+            confidence: f64::NAN,
             indistinguishable_from: rivals.equivalent,
             candidates,
             p_values,

@@ -2,6 +2,7 @@
 
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::residual::{Residual, Where};
+use super::likelihood::{Bounded, Likelihood};
 use super::{Machine, Model, ModelParameter, RecordingError, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -83,6 +84,20 @@ pub struct Diagnosis {
     pub window_s: Option<f64>,
     /// Why windows.
     pub window_reason: Option<String>,
+    /// The best linear motor with Coulomb friction, offset and delay, or some of them; absent where the last model reaches the
+    /// encoder's floor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<Baseline>,
+    /// Intensity of the process noise that the last model leaves, referred to the winding; absent with `likelihood`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub process_noise: Option<Bounded>,
+    /// The fit with process noise; absent where the last model reaches the encoder's floor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub likelihood: Option<Likelihood>,
+    /// Sets of effects that may be what is missing: the last model's, then the others by their probability. What they leave to
+    /// one is "none of these".
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hypotheses: Vec<Hypothesis>,
     /// Part of the fitted motion's variance that the last model explains in one run over the whole recording, per cent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explained_percent: Option<f64>,
@@ -122,6 +137,49 @@ pub struct Diagnosis {
     /// Version of the program.
     #[serde(default)]
     pub version: String,
+}
+
+/// The linear motor with Coulomb friction, offset and delay, or some of them.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Baseline {
+    /// Which of them.
+    pub effects: Vec<String>,
+    /// Over the whole fitted recording, counts RMS.
+    pub rms_counts: Option<f64>,
+    /// Over the whole of what was held out, counts RMS.
+    pub validate_rms_counts: Option<f64>,
+    /// The same, and in windows.
+    pub prediction: Prediction,
+}
+
+impl From<&diagnose::Baseline> for Baseline {
+    fn from(baseline: &diagnose::Baseline) -> Self {
+        let names = baseline.effects.iter().map(|kind| kind.name().to_owned());
+        Baseline {
+            effects: names.collect(),
+            rms_counts: finite(baseline.prediction.whole),
+            validate_rms_counts: finite(baseline.prediction.held_out_whole),
+            prediction: baseline.prediction.into(),
+        }
+    }
+}
+
+/// A set of effects that may be what is missing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Hypothesis {
+    /// The effects; empty for the linear motor alone.
+    pub effects: Vec<String>,
+    /// Its probability.
+    pub probability: f64,
+}
+
+impl From<&diagnose::ProbableSet> for Hypothesis {
+    fn from(set: &diagnose::ProbableSet) -> Self {
+        Hypothesis {
+            effects: set.effects.iter().map(|kind| kind.name().to_owned()).collect(),
+            probability: set.probability,
+        }
+    }
 }
 
 /// The linear motor of a diagnosis.

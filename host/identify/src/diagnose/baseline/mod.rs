@@ -15,12 +15,25 @@ use super::models::{FittedModel, same};
 use models::{baseline_models, with_baseline_terms};
 pub use prediction::Prediction;
 use prediction::Windows;
+use shared::effects::Kind;
 
 /// A model may predict worse than the baseline by this part before it is given up: less is chance.
 const AS_GOOD: f64 = 0.01;
+/// The same for a model that only an observer keeps to the readings: where a free run slips over a detent is chance, and so
+/// are its errors, which then prefer any friction.
+const CHAOTIC: f64 = 0.5;
 
 /// Part of a diagnosis' budget that the comparison may take besides.
 const PART: f64 = 0.25;
+
+/// The best of the baseline's models.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Baseline {
+    /// Those of Coulomb friction, offset and delay that it has.
+    pub effects: Vec<Kind>,
+    /// What it predicts.
+    pub prediction: Prediction,
+}
 
 /// A model and what it predicts.
 struct Rated {
@@ -44,22 +57,32 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         let prediction = windows.prediction(context, &model)?;
         Some(Rated { model, prediction })
     };
+    // Each as it was fitted, and fitted anew over all horizons together.
+    let rate_all = |models: &[FittedModel]| -> Vec<Rated> {
+        let refitted = models.iter().filter_map(|model| fit_over_horizons(context, model, &windows.fitted));
+        let all: Vec<FittedModel> = refitted.chain(models.iter().cloned()).collect();
+        all.into_iter().filter_map(rate).collect()
+    };
     let baseline = baseline_models(context, &confirmed.base);
-    let by_score = |a: &Rated, b: &Rated| a.prediction.score().total_cmp(&b.prediction.score());
-    let Some(limit) = baseline.iter().cloned().filter_map(rate).min_by(by_score) else {
+    let mut rated = rate_all(&baseline);
+    let by_score = |a: &&Rated, b: &&Rated| a.prediction.score().total_cmp(&b.prediction.score());
+    let Some(limit) = rated.iter().min_by(by_score) else {
         return confirmed;
     };
+    let limit = Baseline {
+        effects: limit.model.effects.clone(),
+        prediction: limit.prediction,
+    };
     let further = with_baseline_terms(context, &chosen);
-    let mut rated: Vec<Rated> = Vec::new();
-    for model in std::iter::once(&chosen).chain(&further).chain(&baseline) {
-        let refitted = fit_over_horizons(context, model, &windows.fitted);
-        rated.extend(refitted.and_then(rate));
-        rated.extend(rate(model.clone()));
-    }
+    rated.extend(rate_all(std::slice::from_ref(&chosen)));
+    rated.extend(rate_all(&further));
     budget.book(own.spent());
     confirmed.known.extend(further);
     confirmed.known.extend(baseline);
+    confirmed.baseline = Some(limit.clone());
     if let Some(best) = select(rated, &chosen, &limit.prediction) {
+        let kept = |kind: &Kind| best.model.effects.contains(kind);
+        confirmed.not_named = confirmed.not_named.filter(|kind| !kept(kind));
         confirmed.predicts = Some(best.prediction);
         if best.model.effects.is_empty() {
             confirmed.base = best.model;
@@ -83,9 +106,14 @@ fn select(rated: Vec<Rated>, chosen: &FittedModel, limit: &Prediction) -> Option
     // Each parameter has its price: of models that predict alike the simplest is taken.
     let penalty =
         |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.parameters.len() as f64;
+    let allowed = if chosen.observed.is_some() {
+        CHAOTIC
+    } else {
+        AS_GOOD
+    };
     let (feasible, others): (Vec<Rated>, Vec<Rated>) = rated
         .into_iter()
-        .partition(|rated| rated.prediction.no_worse_than(limit, AS_GOOD));
+        .partition(|rated| rated.prediction.no_worse_than(limit, allowed));
     let best = |from: Vec<Rated>| {
         from.into_iter()
             .min_by(|a, b| penalty(a).total_cmp(&penalty(b)))

@@ -3,25 +3,21 @@
 use crate::diagnose::built_up::added;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::polish::polish;
-use crate::diagnose::context::{Context, moves_both_ways};
+use crate::diagnose::context::{Context, constant_drive, moves_both_ways};
 use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::fit::base_for;
 use rayon::prelude::*;
 use servoid_engine::problem::{ELECTRICAL_TIME_CONSTANT, Structure};
-use servoid_io::recording::Drive;
 use shared::effects::Kind;
 
 /// Where the fits start: Coulomb friction in parts of the supply, and delays in s.
 const FRICTION: f64 = 0.05;
 const DELAYS_S: [f64; 3] = [0.0, 0.004, 0.04];
 
-/// What the baseline adds to the linear motor; behind a current loop an offset acts as a torque. A motor that never reverses
+/// What the baseline adds to the linear motor. A motor that never reverses
 /// shows only the sum of Coulomb friction and offset, along which a fit would run away: it gets no offset.
 fn terms(context: &Context<'_>) -> Vec<Kind> {
-    let constant = match context.data.drive {
-        Drive::Voltage => Kind::OffsetVoltage,
-        Drive::Current => Kind::LoadTorque,
-    };
+    let constant = constant_drive(context.data.drive);
     if moves_both_ways(context.data) {
         vec![Kind::Coulomb, Kind::Delay, constant]
     } else {

@@ -49,7 +49,7 @@ const AS_GOOD: f64 = 0.04;
 /// [`Error::Failed`] where the model cannot run from there.
 pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<FittedModel, Error> {
     let settings = Settings {
-        enough: (context.floor * ROOM).powi(2) * context.data.len() as f64,
+        enough: (context.floor * ROOM).powi(2) * context.samples() as f64,
         ..FULL
     };
     let predicted = screened.predicted();

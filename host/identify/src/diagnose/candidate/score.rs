@@ -76,7 +76,7 @@ pub fn run_errors(
     let rms = |data: &Data, horizon: &Horizon| {
         let cost = Cost::Squared;
         errors(data, candidate, method, horizon, StartAngle::Free, cost)
-            .map(|errors| rms_counts(data, &errors))
+            .map(|errors| context.rms_over(data, horizon, &errors))
     };
     Ok(Errors {
         fitted: rms(context.data, &context.fitted_horizon)?,

@@ -34,7 +34,7 @@ pub fn search(
     method: Method,
 ) -> Option<Descent> {
     let found = descend(problem, start, settings, context.budget)?;
-    let steps = context.data.len() * usize::from(method.substeps.max(1)) * found.evaluations;
+    let steps = context.samples() * usize::from(method.substeps.max(1)) * found.evaluations;
     context.budget.book(steps as u64);
     Some(found)
 }

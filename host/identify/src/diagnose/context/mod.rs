@@ -9,8 +9,10 @@ pub use motion::Motion;
 pub use span::{Span, floor_counts, moves_both_ways};
 
 use crate::fit::Options;
-use servoid_engine::problem::{Data, Horizon};
+use servoid_engine::problem::{Data, Horizon, rms_counts};
 use servoid_engine::simulation::Method;
+use servoid_io::recording::Drive;
+use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// The recordings and how models are run.
@@ -61,6 +63,17 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// Samples of the fitted recording that models run over.
+    pub fn samples(&self) -> usize {
+        samples(&self.fitted_horizon, self.data)
+    }
+
+    /// RMS of errors over the samples of a horizon of `data`, counts.
+    pub fn rms_over(&self, data: &Data, horizon: &Horizon, errors: &[f64]) -> f64 {
+        let part = samples(horizon, data) as f64 / data.len().max(1) as f64;
+        rms_counts(data, errors) / part.max(f64::MIN_POSITIVE).sqrt()
+    }
+
     /// The same for runs over another span.
     #[must_use]
     pub fn over(self, span: Span) -> Self {
@@ -106,7 +119,45 @@ impl<'a> Context<'a> {
 /// How far models run along data on their own.
 fn horizon(span: &Span, data: &Data) -> Horizon {
     match span.window_s {
-        Some(seconds) => Horizon::windows(data, seconds),
+        Some(seconds) => thinned(data, Horizon::windows(data, seconds)),
         None => Horizon::Whole,
+    }
+}
+
+/// Most samples of a recording that a search runs over.
+const MOST_SAMPLES: usize = 25_000;
+/// The golden section: its multiples fall in no step with anything that repeats in a recording.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// One window of each group of neighbours, where there are more samples than a search needs. Only of an angle that is no
+/// count: the windows of counts are judged by the encoder's own error, sample by sample.
+fn thinned(data: &Data, horizon: Horizon) -> Horizon {
+    let Horizon::Windows(windows) = horizon else {
+        return horizon;
+    };
+    let each = data.len().div_ceil(MOST_SAMPLES);
+    if data.quantised || each < 2 {
+        return Horizon::Windows(windows);
+    }
+    let chosen = windows.chunks(each).enumerate().map(|(group, windows)| {
+        let place = (group as f64 * GOLDEN).fract() * windows.len() as f64;
+        windows[place as usize].clone()
+    });
+    Horizon::Windows(chosen.collect())
+}
+
+/// Number of samples that are run over.
+fn samples(horizon: &Horizon, data: &Data) -> usize {
+    match horizon {
+        Horizon::Windows(windows) => windows.iter().map(|window| window.range.len()).sum(),
+        Horizon::Whole | Horizon::Observer(_) => data.len(),
+    }
+}
+
+/// The effect of a constant that adds to the command: behind a current loop it acts as a torque.
+pub fn constant_drive(drive: Drive) -> Kind {
+    match drive {
+        Drive::Voltage => Kind::OffsetVoltage,
+        Drive::Current => Kind::LoadTorque,
     }
 }

@@ -143,7 +143,8 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
             squares += (1.0 + start) * noise * noise + (speed * carried).powi(2);
         }
     }
-    (squares / data.len().max(1) as f64).sqrt()
+    let samples: usize = windows.iter().map(|window| window.range.len()).sum();
+    (squares / samples.max(1) as f64).sqrt()
 }
 
 /// Standard deviation of the slope at sample `k` for noise of one count, 1/s.

@@ -75,7 +75,7 @@ fn scored(
     structure: Structure,
     found: &Descent,
 ) -> Result<FittedModel, Error> {
-    let predicted = (found.squares / context.data.len() as f64).sqrt();
+    let predicted = (found.squares / context.samples() as f64).sqrt();
     score_candidate(context, structure, found, predicted, context.method)
 }
 

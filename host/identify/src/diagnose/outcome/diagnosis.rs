@@ -2,8 +2,9 @@
 
 use super::step::Step;
 use super::verdict::Verdict;
-use crate::diagnose::baseline::Prediction;
+use crate::diagnose::baseline::{Baseline, Prediction};
 use crate::diagnose::context::Span;
+use crate::diagnose::hypotheses::ProbableSet;
 use crate::diagnose::models::{FittedModel, NOISE_COUNTS};
 use shared::effects::Kind;
 
@@ -20,12 +21,16 @@ pub struct Diagnosis {
     pub steps: Vec<Step>,
     /// The model with all of them.
     pub last: FittedModel,
+    /// Sets of effects that may be what is missing, the last model's first.
+    pub hypotheses: Vec<ProbableSet>,
     /// Models with as many effects as the last one, and those in which one of its effects is another.
     pub rivals: Vec<FittedModel>,
     /// The best candidate that was not added, if one reduced the error but not beyond doubt.
     pub not_named: Option<Kind>,
     /// What the last model predicts over windows and whole runs, where it does not explain the recordings.
     pub predicts: Option<Prediction>,
+    /// The best linear motor with Coulomb friction, offset and delay, against which it was held.
+    pub baseline: Option<Baseline>,
     /// What to do next, in words.
     pub advice: Vec<String>,
     /// Whether the steps that it may take did not suffice: then not all effects were tried.

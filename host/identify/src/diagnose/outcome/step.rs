@@ -11,8 +11,7 @@ pub struct Step {
     pub added: Kind,
     /// Effects that explain this recording as well.
     pub indistinguishable_from: Vec<Kind>,
-    /// From one half (no lead over the best rival that is no look-alike) to one; less where look-alikes stand beside it,
-    /// and by the part of the error that the whole model leaves unexplained.
+    /// Probability that the effect is among what is missing: of all the diagnosis' sets with it.
     pub confidence: f64,
     /// All candidates with their refits, best first.
     pub candidates: Vec<FittedModel>,

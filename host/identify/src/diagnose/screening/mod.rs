@@ -179,7 +179,7 @@ pub fn screen_from(
     structure: &Structure,
     x: Vec<f64>,
 ) -> Option<ScreenedModel> {
-    let samples = context.data.len() as f64;
+    let samples = context.samples() as f64;
     if !structure.effects.iter().all(|&kind| follows(kind)) {
         let found = search(
             context,
@@ -216,7 +216,7 @@ pub fn screen_from(
 
 /// RMS error of a free run from where a screened model stands, counts; infinite where it is above `limit`.
 pub fn free_run_error(context: &Context<'_>, screened: &ScreenedModel, limit: f64) -> f64 {
-    let samples = context.data.len() as f64;
+    let samples = context.samples() as f64;
     let most = limit * limit * samples;
     fit_problem(context, &screened.structure, context.method)
         .residuals_within(&screened.x, most)

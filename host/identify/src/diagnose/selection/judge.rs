@@ -1,6 +1,6 @@
 //! Which model may be believed, and beside which others.
 
-use crate::diagnose::models::{Errors, FittedModel};
+use crate::diagnose::models::FittedModel;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -10,8 +10,6 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 const EXACT: f64 = 1.02;
 /// Part of the held-out excess over the encoder's floor that a named effect must remove.
 const MUST_REMOVE: f64 = 0.6;
-/// Lead over the best rival that is no look-alike, in the logarithm of the errors' product.
-const MUST_LEAD: f64 = 0.1;
 /// Models whose score is within this of the best explain the recording alike.
 const EQUIVALENT: f64 = 0.1;
 /// Of models within this of the best score the simplest is taken: 2 % in each error.
@@ -75,27 +73,20 @@ pub fn removes(before: &FittedModel, after: &FittedModel) -> bool {
 pub struct Rivals {
     /// Effects that explain this recording as well in the place of the one in question.
     pub equivalent: Vec<Kind>,
-    /// Lead over the best rival that is neither a look-alike nor among `equivalent`.
-    pub lead: f64,
 }
 
 /// Looks for models that differ from `chosen` in `place` alone, among `others`.
 pub fn rivals(chosen: &FittedModel, place: Kind, others: &[FittedModel]) -> Rivals {
     let mut rivals = Rivals {
         equivalent: Vec::new(),
-        lead: f64::INFINITY,
     };
     for other in others {
         let Some(instead) = instead(chosen, place, other) else {
             continue;
         };
         let behind = other.judged().score() - chosen.judged().score();
-        if behind < EQUIVALENT {
-            if !rivals.equivalent.contains(&instead) {
-                rivals.equivalent.push(instead);
-            }
-        } else if !place.looks_like(instead) {
-            rivals.lead = rivals.lead.min(behind);
+        if behind < EQUIVALENT && !rivals.equivalent.contains(&instead) {
+            rivals.equivalent.push(instead);
         }
     }
     rivals
@@ -111,34 +102,6 @@ impl Rivals {
             .filter(|&&kind| !place.looks_like(kind))
             .count();
         self.equivalent.len() <= MOST_EQUIVALENT && strangers <= 1
-    }
-
-    /// From one half (no lead) to one.
-    pub fn confidence(&self) -> f64 {
-        let sets = 1.0 / (1.0 + self.equivalent.len() as f64 * 0.1);
-        sets / (1.0 + (-self.lead.min(10.0) / MUST_LEAD).exp())
-    }
-}
-
-/// Which part of the way from the error of `base` to the reading's own the `last` model has gone, in the logarithm of
-/// the errors: what stays unexplained may be an effect for which a named one stands in.
-pub fn explained(base: &FittedModel, last: &FittedModel) -> f64 {
-    let (from, to) = match (base.observed, last.observed) {
-        _ if last.explains() => return 1.0,
-        (Some(from), Some(to)) => (from.errors, to.errors),
-        _ => (base.ran(), last.ran()),
-    };
-    let floor = Errors {
-        fitted: 0.0,
-        held_out: 0.0,
-        ..to
-    };
-    let part = (from.score() - to.score()) / (from.score() - floor.score());
-    // A base at the floor has no way to go.
-    if part.is_finite() {
-        part.clamp(0.0, 1.0)
-    } else {
-        1.0
     }
 }
 

@@ -39,6 +39,10 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             held_out: HeldOut::from(report.held_out),
             window_s: diagnosis.span.window_s.and_then(finite),
             window_reason: (diagnosis.span.window_s).map(|_| diagnosis.span.reason.clone()),
+            baseline: diagnosis.baseline.as_ref().map(Into::into),
+            process_noise: (report.last.likelihood.as_ref()).map(|own| own.process_noise.into()),
+            likelihood: report.last.likelihood.as_ref().map(Into::into),
+            hypotheses: diagnosis.hypotheses.iter().map(Into::into).collect(),
             explained_percent: finite(report.explained_percent()),
             prediction: diagnosis.predicts.map(Into::into),
             models: (models.iter())

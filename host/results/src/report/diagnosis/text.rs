@@ -4,6 +4,7 @@ use super::bars::{counts, sparkline};
 use super::residual::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::report::fold::folded;
+use crate::report::likelihood;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
@@ -24,7 +25,7 @@ impl DiagnosisReport<'_> {
     }
 
     fn write(&self, out: &mut String) -> std::fmt::Result {
-        let end = self.data.time_s.last().copied().unwrap_or(0.0);
+        let end = self.data.duration_s();
         let samples = self.data.len();
         writeln!(out, "{}: {samples} samples, {end:.3} s", self.data.source)?;
         writeln!(out, "{}\n", folded(&self.held_out_text(), ""))?;
@@ -109,12 +110,21 @@ impl DiagnosisReport<'_> {
         if let Some(last) = entries.last_mut().filter(|_| !diagnosis.steps.is_empty()) {
             (last.1, last.2) = self.last_errors();
         }
+        if let Some(baseline) = &diagnosis.baseline {
+            let both = &baseline.prediction;
+            let entry = ("baseline".to_owned(), both.whole, both.held_out_whole);
+            entries.insert(1, entry);
+        }
         entries.push((
             "encoder's own".to_owned(),
             FLOOR_RMS_COUNTS,
             FLOOR_RMS_COUNTS,
         ));
         out.push_str(&super::bars::ladder(&entries));
+        if let Some(baseline) = &diagnosis.baseline {
+            let text = format!("baseline: linear motor + {}", names(&baseline.effects).join(" + "));
+            writeln!(out, "{}", folded(&text, "  "))?;
+        }
         Ok(())
     }
 
@@ -199,8 +209,11 @@ impl DiagnosisReport<'_> {
     /// Other effects that explain the data as well.
     fn company_text(&self, step: &Step) -> String {
         let (alike, refine) = (self.look_alikes(step), self.refinements(step));
-        let mut text = if alike.is_empty() {
+        let sums = self.other_sets(step.added);
+        let mut text = if alike.is_empty() && sums.is_empty() {
             "nothing else of the catalogue explains these data as well".to_owned()
+        } else if alike.is_empty() {
+            format!("{} would explain these data as well", sums.join(", or "))
         } else {
             format!(
                 "{} would explain these data as well",
@@ -225,7 +238,10 @@ impl DiagnosisReport<'_> {
         for p in &self.last.parameters {
             out.push_str(&parameter(p, self.last.converged));
         }
-        Ok(())
+        match &self.last.likelihood {
+            Some(own) => likelihood::write(out, own),
+            None => Ok(()),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::bars::counts;
 use super::evidence::changed;
 use super::{DiagnosisReport, names};
 use servoid_identify::diagnose::evidence::largest;
-use servoid_identify::diagnose::{HeldOut, Verdict, moves_both_ways};
+use servoid_identify::diagnose::{HeldOut, ProbableSet, Verdict, moves_both_ways};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -17,9 +17,54 @@ fn percent(part: f64) -> String {
     format!("{:.digits$}", (part * scale).floor() / scale)
 }
 
+/// Sets of at least this probability are told in the verdict.
+const PROBABLE: f64 = 0.1;
+
+/// Sets that fall short of the last model's by no more than this factor explain the data as well.
+const AS_PROBABLE: f64 = 0.4;
+
+fn set_name(set: &ProbableSet) -> String {
+    match &set.effects[..] {
+        [] => "the linear motor alone".to_owned(),
+        effects => names(effects).join(" + "),
+    }
+}
+
 impl DiagnosisReport<'_> {
-    /// Two sentences.
+    /// What is missing if the data allow several answers, and two sentences.
     pub(super) fn verdict_text(&self) -> String {
+        self.ambiguity_text() + &self.conclusion_text()
+    }
+
+    /// The sets of effects that are probable, where there is more than one.
+    fn ambiguity_text(&self) -> String {
+        let sets = &self.diagnosis.hypotheses;
+        let probable = sets.iter().filter(|set| set.probability >= PROBABLE);
+        let said: Vec<String> = probable
+            .map(|set| format!("{} ({:.2})", set_name(set), set.probability))
+            .collect();
+        if said.len() < 2 || self.verdict() == Verdict::Complete {
+            return String::new();
+        }
+        let none = 1.0 - sets.iter().map(|set| set.probability).sum::<f64>();
+        format!(
+            "These recordings allow several answers, with probabilities: {}; none of the sets that were tried ({:.2}). ",
+            said.join(", or "),
+            none.max(0.0)
+        )
+    }
+
+    /// Sets of several effects without `kind` that are nearly as probable as the last model's.
+    pub(super) fn other_sets(&self, kind: Kind) -> Vec<String> {
+        let sets = &self.diagnosis.hypotheses;
+        let own = sets.first().map_or(0.0, |set| set.probability);
+        let others = sets.iter().skip(1).filter(|set| {
+            set.effects.len() > 1 && !set.effects.contains(&kind) && set.probability >= AS_PROBABLE * own
+        });
+        others.map(set_name).collect()
+    }
+
+    fn conclusion_text(&self) -> String {
         let diagnosis = self.diagnosis;
         let base = counts(diagnosis.base.rms_counts);
         let (fitted, held_out) = self.last_errors();

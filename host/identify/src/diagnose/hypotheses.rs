@@ -1,0 +1,93 @@
+//! What may be missing, as sets of effects with probabilities: data often allow several, and a single name would hide the
+//! others.
+
+use super::models::FittedModel;
+use super::naming::Named;
+use shared::effects::Kind;
+
+/// A set of effects that may be what the linear motor lacks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbableSet {
+    /// The effects; none for the linear motor alone.
+    pub effects: Vec<Kind>,
+    /// Probability that these are what is missing. What all sets leave to one is "none of these".
+    pub probability: f64,
+}
+
+/// A model is less probable by a factor e where its score, the logarithm of both errors' product, is worse by this.
+const TEMPERATURE: f64 = 0.1;
+/// Logarithms by which each parameter and each effect more make a set less probable.
+const PER_PARAMETER: f64 = 0.5;
+const PER_EFFECT: f64 = 0.7;
+/// A set that is less probable than this is not listed.
+const LEAST: f64 = 0.01;
+/// Probability that the catalogue holds the truth where a model reaches the encoder's floor.
+const AT_FLOOR: f64 = 0.98;
+/// The same, at most, where none does.
+const ABOVE_FLOOR: f64 = 0.9;
+
+/// The sets of effects that were tried: the chosen one, then the others by their probability.
+pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
+    let chosen = &named.last;
+    let own = sorted(&chosen.effects);
+    let mut others: Vec<(Vec<Kind>, f64)> = Vec::new();
+    // Errors under an observer and those of free runs are no common measure.
+    let comparable = |model: &&FittedModel| model.observed.is_some() == chosen.observed.is_some();
+    for model in named.rivals.iter().chain([&named.base]).filter(comparable) {
+        let (effects, weight) = (sorted(&model.effects), weight(model, chosen));
+        match others.iter_mut().find(|(known, _)| *known == effects) {
+            Some((_, known)) => *known = known.max(weight),
+            None => others.push((effects, weight)),
+        }
+    }
+    others.retain(|(effects, weight)| *effects != own && weight.is_finite());
+    others.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let own_weight = weight(chosen, chosen);
+    let sum = own_weight + others.iter().map(|(_, weight)| weight).sum::<f64>();
+    let share = in_catalogue(chosen, &named.base) / sum;
+    let others = others.into_iter().map(|(effects, weight)| ProbableSet {
+        effects,
+        probability: share * weight,
+    });
+    std::iter::once(ProbableSet {
+        effects: chosen.effects.clone(),
+        probability: share * own_weight,
+    })
+    .chain(others.filter(|set| set.probability >= LEAST))
+    .collect()
+}
+
+/// Probability that an effect is among what is missing: of all sets with it.
+pub fn probability_of(kind: Kind, sets: &[ProbableSet]) -> f64 {
+    let with_it = sets.iter().filter(|set| set.effects.contains(&kind));
+    with_it.map(|set| set.probability).sum()
+}
+
+fn sorted(effects: &[Kind]) -> Vec<Kind> {
+    let mut sorted = effects.to_vec();
+    sorted.sort_by_key(|kind| kind.name());
+    sorted
+}
+
+/// Weight of a model beside the chosen one, of which none is better: what was chosen was judged by more than these errors.
+fn weight(model: &FittedModel, chosen: &FittedModel) -> f64 {
+    let behind = (model.judged().score() - chosen.judged().score()).max(0.0);
+    let (parameters, effects) = (model.parameters.len() as f64, model.effects.len() as f64);
+    (-behind / TEMPERATURE - PER_PARAMETER * parameters - PER_EFFECT * effects).exp()
+}
+
+/// Probability that the catalogue holds what is missing. Above the floor it grows with the part of the linear motor's error
+/// that the model takes away: what it leaves is of something else.
+fn in_catalogue(chosen: &FittedModel, base: &FittedModel) -> f64 {
+    if chosen.explains() {
+        return AT_FLOOR;
+    }
+    let (before, after) = (base.ran(), chosen.ran());
+    let left = (after.fitted * after.held_out) / (before.fitted * before.held_out);
+    let removed = (1.0 - left).max(0.0);
+    if removed.is_finite() {
+        ABOVE_FLOOR * removed
+    } else {
+        0.0
+    }
+}
