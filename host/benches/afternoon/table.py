@@ -21,13 +21,14 @@ HERE = pathlib.Path(__file__).parent
 WINDOW_S = 0.5
 
 
-def baseline(pair, data, cache):
-    key = f"{pair['fitted']} > {pair.get('held_out', 'end')}"
+def baseline(pair, data, cache, window_s):
+    """The afternoon model's errors, in windows of the same length as servoid's."""
+    key = f"{pair['fitted']} > {pair.get('held_out', 'end')}" + ("" if window_s == WINDOW_S else f" {window_s} s")
     if key not in cache:
         fitted = data / pair["fitted"]
         held_out = data / pair["held_out"] if "held_out" in pair else None
         facts = afternoon.facts_of(fitted, pair.get("counts_per_rev"))
-        cache[key] = afternoon.compare(fitted, held_out, WINDOW_S, facts)
+        cache[key] = afternoon.compare(fitted, held_out, window_s, facts)
     return cache[key]
 
 
@@ -71,14 +72,15 @@ def main():
     cache = json.loads(given.cache.read_text()) if given.cache.exists() else {}
     windowed, whole = [], []
     for pair in tomllib.loads((HERE / "pairs.toml").read_text())["pair"]:
-        theirs = baseline(pair, given.data, cache)["held_out"]
-        given.cache.write_text(json.dumps(cache, indent=1))
         name = f"{pair['fitted']} > {pair.get('held_out', 'end')}"
         result, fault, seconds = servoid(given.servoid, pair, given.data)
         if fault:
             print(f"{name}: REFUSED after {seconds:.1f} s: {fault}", flush=True)
             continue
         in_windows, over_all = held_out_errors(result)
+        window_s = (result.get("prediction") or {}).get("window_s", WINDOW_S)
+        theirs = baseline(pair, given.data, cache, window_s)["held_out"]
+        given.cache.write_text(json.dumps(cache, indent=1))
         names = "+".join(step["added"] for step in result["steps"]) or "nothing"
         if in_windows is not None:
             windowed.append(in_windows / theirs["windowed"])

@@ -56,9 +56,7 @@ impl Datasets {
         for recording in &fitted {
             remarks.extend(usable::check(recording, options.force)?);
         }
-        let copied = |other: &Recording| {
-            fitted.iter().any(|one| is_copy(one, other))
-        };
+        let copied = |other: &Recording| fitted.iter().any(|one| is_copy(one, other));
         let copies = held_out.iter().filter(|other| copied(other)).count();
         let nothing = copies == held_out.len();
         if nothing {

@@ -70,10 +70,7 @@ impl Data {
     }
 
     /// Converts `recordings` that stand one after the other.
-    fn of_recordings(
-        recording: Recording,
-        recordings: Recordings,
-    ) -> Result<Self, ModelError> {
+    fn of_recordings(recording: Recording, recordings: Recordings) -> Result<Self, ModelError> {
         let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let supply = recording
             .supply_v
@@ -224,7 +221,10 @@ impl Data {
     /// value of the parabola that gives the speed.
     pub fn measured_state(&self, k: usize) -> (f64, f64) {
         let half = self.state_half_width();
-        let Range { start: from, end: to } = self.recordings.around(k, half);
+        let Range {
+            start: from,
+            end: to,
+        } = self.recordings.around(k, half);
         let still = self.counts[from..to]
             .iter()
             .all(|count| *count == self.counts[k]);
@@ -246,7 +246,10 @@ impl Data {
     /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
     /// `2·half + 1` samples, fewer at the ends.
     pub fn speed_counts_s(&self, k: usize, half: usize) -> f64 {
-        let Range { start: from, end: to } = self.recordings.around(k, half);
+        let Range {
+            start: from,
+            end: to,
+        } = self.recordings.around(k, half);
         let origin = self.time_s[k];
         local_parabola(
             (from..to).map(|j| (self.time_s[j] - origin, self.centre(j) - self.centre(k))),

@@ -34,7 +34,11 @@ fn further(data: &Data, start_angle: StartAngle) -> impl Iterator<Item = Segment
     data.recordings.ranges().skip(1).map(move |range| {
         let first = range.start;
         let moving = data.may_start_moving(first);
-        let speed = if moving { data.measured_state(first).1 } else { 0.0 };
+        let speed = if moving {
+            data.measured_state(first).1
+        } else {
+            0.0
+        };
         Segment {
             angle: match start_angle {
                 StartAngle::Known => data.counts[first],

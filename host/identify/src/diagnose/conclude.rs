@@ -2,8 +2,8 @@
 
 use super::context::moves_both_ways;
 use super::explain::advice::advise;
-use super::models::Errors;
 use super::hypotheses::{probability_of, probable_sets};
+use super::models::Errors;
 use super::naming::Named;
 use super::outcome::{Diagnosis, Verdict};
 

@@ -46,12 +46,7 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
     let (mut chosen, mut known) = (None, Vec::new());
     if let Some(last) = levels.last() {
         known = last.models.clone();
-        let held = held_against_others(
-            &context,
-            last.best.clone(),
-            levels.len() > 1,
-            &mut known,
-        );
+        let held = held_against_others(&context, last.best.clone(), levels.len() > 1, &mut known);
         known.extend(sums(&context, &held));
         chosen = Some(held);
     }

@@ -86,7 +86,9 @@ fn errors_from(
     if !data.recordings.are_several() {
         return errors_of_one(data, candidate, method, start);
     }
-    let errors = data.parts().map(|part| errors_of_one(&part, candidate, method, start));
+    let errors = data
+        .parts()
+        .map(|part| errors_of_one(&part, candidate, method, start));
     Ok(errors.collect::<Result<Vec<_>, _>>()?.concat())
 }
 

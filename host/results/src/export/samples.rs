@@ -68,8 +68,8 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> Identifie
             unit: unit.to_owned(),
             std: determined.then_some(1e-4 * value.abs()),
             identifiable: determined,
-                spread: None,
-            });
+            spread: None,
+        });
     };
     if known == Known::Current {
         add("inertia", machine.inertia, "V*s^2/rad", true);

@@ -41,7 +41,9 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
 
 /// How far the recordings differ that were fitted alone.
 fn spread(spread: Option<f64>) -> String {
-    spread.map_or_else(String::new, |s| format!(", spread {} between recordings", short(s)))
+    spread.map_or_else(String::new, |s| {
+        format!(", spread {} between recordings", short(s))
+    })
 }
 
 /// Open-loop error above which windows are shown unasked, counts.
@@ -151,7 +153,10 @@ pub(super) fn recordings(errors: &[RecordingError]) -> String {
     let mut out = String::new();
     for error in errors {
         let role = if error.held_out { "held out" } else { "fitted" };
-        out += &format!("  {role:9} {:>12.4} counts RMS  {}\n", error.rms_counts, error.source);
+        out += &format!(
+            "  {role:9} {:>12.4} counts RMS  {}\n",
+            error.rms_counts, error.source
+        );
     }
     out
 }

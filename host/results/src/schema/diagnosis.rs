@@ -1,8 +1,8 @@
 //! `servoid.diagnosis/1` of two recordings.
 
 use super::estimate::{Estimate, Identifiable, Margins};
-use super::residual::{Residual, Where};
 use super::likelihood::{Bounded, Likelihood};
+use super::residual::{Residual, Where};
 use super::{Machine, Model, ModelParameter, RecordingError, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -176,7 +176,11 @@ pub struct Hypothesis {
 impl From<&diagnose::ProbableSet> for Hypothesis {
     fn from(set: &diagnose::ProbableSet) -> Self {
         Hypothesis {
-            effects: set.effects.iter().map(|kind| kind.name().to_owned()).collect(),
+            effects: set
+                .effects
+                .iter()
+                .map(|kind| kind.name().to_owned())
+                .collect(),
             probability: set.probability,
         }
     }

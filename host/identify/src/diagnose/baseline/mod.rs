@@ -59,14 +59,17 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     };
     // Each as it was fitted, and fitted anew over all horizons together.
     let rate_all = |models: &[FittedModel]| -> Vec<Rated> {
-        let refitted = models.iter().filter_map(|model| fit_over_horizons(context, model, &windows.fitted));
+        let refitted = models
+            .iter()
+            .filter_map(|model| fit_over_horizons(context, model, &windows.fitted));
         let all: Vec<FittedModel> = refitted.chain(models.iter().cloned()).collect();
         all.into_iter().filter_map(rate).collect()
     };
     let baseline = baseline_models(context, &confirmed.base);
     let mut rated = rate_all(&baseline);
-    let by_score = |a: &&Rated, b: &&Rated| a.prediction.score().total_cmp(&b.prediction.score());
-    let Some(limit) = rated.iter().min_by(by_score) else {
+    let held_out = |rated: &&Rated| rated.prediction.held_out_score();
+    let by_held_out = |a: &&Rated, b: &&Rated| held_out(a).total_cmp(&held_out(b));
+    let Some(limit) = rated.iter().min_by(by_held_out) else {
         return confirmed;
     };
     let limit = Baseline {

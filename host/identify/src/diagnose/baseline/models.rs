@@ -15,10 +15,10 @@ const FRICTION: f64 = 0.05;
 const DELAYS_S: [f64; 3] = [0.0, 0.004, 0.04];
 
 /// What the baseline adds to the linear motor. A motor that never reverses
-/// shows only the sum of Coulomb friction and offset, along which a fit would run away: it gets no offset.
+/// in either recording shows only the sum of Coulomb friction and offset, along which a fit would run away: it gets no offset.
 fn terms(context: &Context<'_>) -> Vec<Kind> {
     let constant = constant_drive(context.data.drive);
-    if moves_both_ways(context.data) {
+    if moves_both_ways(context.data) || moves_both_ways(context.held_out) {
         vec![Kind::Coulomb, Kind::Delay, constant]
     } else {
         vec![Kind::Coulomb, Kind::Delay]

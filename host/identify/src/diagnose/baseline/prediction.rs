@@ -35,6 +35,12 @@ impl Prediction {
         .sum()
     }
 
+    /// Sum of the held-out errors' logarithms.
+    pub fn held_out_score(&self) -> f64 {
+        let positive = |rms: f64| rms.max(f64::MIN_POSITIVE).ln();
+        positive(self.held_out_windowed) + positive(self.held_out_whole)
+    }
+
     /// Whether neither held-out error exceeds that of `other` by more than the part `allowed`.
     pub fn no_worse_than(&self, other: &Prediction, allowed: f64) -> bool {
         self.held_out_windowed <= (1.0 + allowed) * other.held_out_windowed

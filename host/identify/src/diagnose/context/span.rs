@@ -150,7 +150,10 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
 /// Standard deviation of the slope at sample `k` for noise of one count, 1/s.
 fn slope_gain(data: &Data, k: usize) -> f64 {
     let half = data.state_half_width();
-    let Range { start: from, end: to } = data.recordings.around(k, half);
+    let Range {
+        start: from,
+        end: to,
+    } = data.recordings.around(k, half);
     let n = (to - from) as f64;
     let mean = (from..to).map(|j| data.time_s[j]).sum::<f64>() / n;
     let squares: f64 = (from..to).map(|j| (data.time_s[j] - mean).powi(2)).sum();

@@ -122,7 +122,10 @@ impl DiagnosisReport<'_> {
         ));
         out.push_str(&super::bars::ladder(&entries));
         if let Some(baseline) = &diagnosis.baseline {
-            let text = format!("baseline: linear motor + {}", names(&baseline.effects).join(" + "));
+            let text = format!(
+                "baseline: linear motor + {}",
+                names(&baseline.effects).join(" + ")
+            );
             writeln!(out, "{}", folded(&text, "  "))?;
         }
         Ok(())

@@ -59,7 +59,9 @@ impl DiagnosisReport<'_> {
         let sets = &self.diagnosis.hypotheses;
         let own = sets.first().map_or(0.0, |set| set.probability);
         let others = sets.iter().skip(1).filter(|set| {
-            set.effects.len() > 1 && !set.effects.contains(&kind) && set.probability >= AS_PROBABLE * own
+            set.effects.len() > 1
+                && !set.effects.contains(&kind)
+                && set.probability >= AS_PROBABLE * own
         });
         others.map(set_name).collect()
     }
