@@ -1,7 +1,7 @@
 //! A whole fit and whole diagnoses, CPU seconds on one core.
 
 use super::clock;
-use host::prove::{Case, Excite, HowMany, SetUp};
+use host::prove::{Case, Excite, HowMany, Laws, SetUp};
 use servoid_engine::solve;
 use servoid_identify::diagnose::{Budget, diagnose};
 use servoid_identify::fit::{self, Fit, Options};
@@ -22,6 +22,7 @@ fn case(hidden: HowMany, number: u64) -> Case {
         hidden,
         excite: Excite::Commissioning,
         effects: Vec::new(),
+        laws: Laws::Own,
     };
     Case::record(&set_up, number).expect("a case")
 }

@@ -39,6 +39,18 @@ pub enum BenchError {
         /// All names, separated by commas.
         known: String,
     },
+    /// The effect has no other curve of that name.
+    #[error("effect `{effect}` has no law `{name}`{hint}; it has: {known}")]
+    UnknownLaw {
+        /// The effect.
+        effect: &'static str,
+        /// What was asked for.
+        name: String,
+        /// "; did you mean …?", or empty.
+        hint: String,
+        /// All names, separated by commas, or that there is none.
+        known: String,
+    },
     /// Part of an effect's description is not `key=value`.
     #[error("`{part}` in `{spec}`: expected key=value, as in `coulomb:torque=0.01,strength=2`")]
     NotAnAssignment {
@@ -155,6 +167,19 @@ impl BenchError {
     pub(super) fn unknown_machine(name: &str) -> Self {
         let (hint, known) = nearest(name, PRESETS.iter().copied());
         BenchError::UnknownMachine {
+            name: name.into(),
+            hint,
+            known,
+        }
+    }
+
+    pub(super) fn unknown_law(kind: &Kind, name: &str) -> Self {
+        let (hint, mut known) = nearest(name, kind.other_laws.iter().map(|law| law.name));
+        if known.is_empty() {
+            known = "only the catalogue's own".to_owned();
+        }
+        BenchError::UnknownLaw {
+            effect: kind.name,
             name: name.into(),
             hint,
             known,

@@ -1,6 +1,6 @@
 //! One hidden effect as ordered: which, with which parameters, how strong.
 
-use super::effects::{Effect, Kind, Param, Random};
+use super::effects::{Effect, Kind, Law, Param, Random};
 use super::{BenchError, Machine};
 use std::fmt;
 
@@ -8,6 +8,8 @@ use std::fmt;
 #[derive(Clone)]
 pub struct Hidden {
     kind: &'static Kind,
+    /// The curve, where it is another than the catalogue's own.
+    law: Option<&'static Law>,
     values: Vec<f64>,
     strength: f64,
 }
@@ -26,6 +28,7 @@ impl Hidden {
             .collect();
         Ok(Hidden {
             kind,
+            law: None,
             values,
             strength: 1.0,
         })
@@ -50,7 +53,10 @@ impl Hidden {
                     spec: spec.into(),
                     part: part.into(),
                 })?;
-            hidden.set_text(key.trim(), text.trim())?;
+            match key.trim() {
+                LAW => hidden = hidden.by_law(text.trim())?,
+                key => hidden.set_text(key, text.trim())?,
+            }
         }
         Ok(hidden)
     }
@@ -75,6 +81,17 @@ impl Hidden {
     /// [`BenchError::OutOfRange`] unless `strength` is finite and not negative.
     pub fn scaled(mut self, strength: f64) -> Result<Self, BenchError> {
         self.set(STRENGTH.name, strength)?;
+        Ok(self)
+    }
+
+    /// The same effect by another curve of the catalogue.
+    ///
+    /// # Errors
+    /// [`BenchError::UnknownLaw`] where the effect has no curve of that name.
+    pub fn by_law(mut self, name: &str) -> Result<Self, BenchError> {
+        let mut laws = self.kind.other_laws.iter();
+        let found = laws.find(|law| law.name == name);
+        self.law = Some(found.ok_or_else(|| BenchError::unknown_law(self.kind, name))?);
         Ok(self)
     }
 
@@ -120,7 +137,10 @@ impl Hidden {
                 unit => format!("{name} = {value:.6} {unit}"),
             })
             .collect();
-        format!("{}: {}", self.name(), parameters.join(", "))
+        let law = self
+            .law
+            .map_or(String::new(), |law| format!(" ({})", law.about));
+        format!("{}{law}: {}", self.name(), parameters.join(", "))
     }
 
     /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
@@ -137,7 +157,8 @@ impl Hidden {
         for (param, value) in self.kind.params.iter().zip(&values) {
             self.checked(param, *value)?;
         }
-        Ok((self.kind.build)(&values, machine))
+        let build = self.law.map_or(self.kind.build, |law| law.build);
+        Ok(build(&values, machine))
     }
 
     fn effective(&self) -> Vec<f64> {
@@ -188,6 +209,9 @@ impl Hidden {
     }
 }
 
+/// The key of the curve.
+const LAW: &str = "law";
+
 /// The strength, described like a parameter.
 static STRENGTH: Param = Param {
     name: "strength",
@@ -201,6 +225,9 @@ static STRENGTH: Param = Param {
 impl fmt::Display for Hidden {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:", self.name())?;
+        if let Some(law) = self.law {
+            write!(f, "{LAW}={},", law.name)?;
+        }
         for (param, value) in self.kind.params.iter().zip(&self.values) {
             write!(f, "{}={value},", param.name)?;
         }
@@ -227,9 +254,15 @@ mod tests {
                 .unwrap()
                 .scaled(0.3)
                 .unwrap();
-            let again = Hidden::parse(&hidden.to_string(), &machine).unwrap();
-            assert_eq!(hidden.to_string(), again.to_string());
-            assert!(hidden.build(&machine).is_ok(), "{hidden}");
+            let laws = kind
+                .other_laws
+                .iter()
+                .map(|law| hidden.clone().by_law(law.name).unwrap());
+            for hidden in laws.chain([hidden.clone()]) {
+                let again = Hidden::parse(&hidden.to_string(), &machine).unwrap();
+                assert_eq!(hidden.to_string(), again.to_string());
+                assert!(hidden.build(&machine).is_ok(), "{hidden}");
+            }
         }
     }
 
@@ -239,6 +272,8 @@ mod tests {
             ("colomb", "did you mean `coulomb`?"),
             ("coulomb:torq=1", "did you mean `torque`?"),
             ("coulomb:torque", "expected key=value"),
+            ("brush_drop:law=tan", "did you mean `tanh`?"),
+            ("coulomb:law=tanh", "has no law `tanh`"),
             (
                 "coulomb:torque=big",
                 "`big` is not a number; give one in N*m",

@@ -17,7 +17,7 @@ pub use export::{ExportArgs, GainsArgs, SideName};
 pub use recordings::RecordingsArgs;
 pub use report::{ReportArgs, SheetArgs};
 
-use crate::prove::{Excite, HowMany, Shard};
+use crate::prove::{Excite, HowMany, Laws, Shard};
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use servoid_engine::solve;
@@ -419,6 +419,9 @@ pub struct ProveArgs {
     /// Effects to choose from; all if not given
     #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "EFFECT", value_parser = effect_names())]
     pub effect: Vec<String>,
+    /// By which curves the hidden effects act: the model's own, or others that the field has for them
+    #[arg(long, value_enum, default_value_t = Laws::Own)]
+    pub law: Laws,
     /// Do every n-th case only, beginning with the i-th
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -432,7 +435,7 @@ pub struct ProveArgs {
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
     /// Do nothing new: the joint table of these files of --out
-    #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["cases", "hidden", "excite", "effect", "shard", "only", "out", "resume"])]
+    #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["cases", "hidden", "excite", "effect", "law", "shard", "only", "out", "resume"])]
     pub merge: Vec<PathBuf>,
 }
 

@@ -64,6 +64,7 @@ fn set_up(session: &Session, args: &ProveArgs) -> SetUp {
         hidden: args.hidden,
         excite: args.excite,
         effects: effects.into_iter().collect(),
+        laws: args.law,
     }
 }
 

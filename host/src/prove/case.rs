@@ -21,6 +21,8 @@ const COARSE: (u32, f64) = (360, 1.0 / 6.0);
 /// Amplitudes, as parts of the supply.
 const COMMISSIONING_AMPLITUDE: (f64, f64) = (0.6, 1.0);
 const MIXED_AMPLITUDE: (f64, f64) = (0.2, 1.0);
+/// Purpose of the stream that draws the curves.
+const LAWS: u64 = 0x6c61_7773;
 /// Draws of a case before it is given up.
 const MOST_ATTEMPTS: u32 = 200;
 
@@ -113,7 +115,12 @@ impl Drawn {
         };
         let hidden = hide::names(set_up, number)
             .into_iter()
-            .map(|name| Ok(hide::draw(name, &machine, &mut draws)?.to_string()))
+            .map(|name| {
+                let hidden = hide::draw(name, &machine, &mut draws)?;
+                // A stream of its own, so that whatever else is drawn does not depend on the laws.
+                let mut curves = Draws::of(&[set_up.seed, number, u64::from(redrawn), LAWS]);
+                Ok(hide::by_law(hidden, set_up.laws, &mut curves)?.to_string())
+            })
             .collect::<Result<_, BenchError>>()?;
         Ok(Drawn {
             redrawn,

@@ -45,6 +45,7 @@ impl Header {
             ("--hidden", a.hidden.name(), b.hidden.name()),
             ("--excite", a.excite.name(), b.excite.name()),
             ("--effect", of(&a.effects), of(&b.effects)),
+            ("--law", a.laws.name(), b.laws.name()),
         ];
         let differences: Vec<String> = pairs
             .into_iter()

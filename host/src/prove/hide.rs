@@ -1,7 +1,7 @@
 //! What is hidden in a case: which effects, how strong, and of which shape.
 
 use super::draws::{Draws, rounded};
-use super::{HowMany, SetUp};
+use super::{HowMany, Laws, SetUp};
 use servoid_plant::effects::CATALOGUE;
 use servoid_plant::{BenchError, Hidden, Machine};
 use shared::effects::Kind;
@@ -33,8 +33,14 @@ pub fn names(set_up: &SetUp, number: u64) -> Vec<&'static str> {
     }
     let all: Vec<&'static str> = CATALOGUE.iter().map(|kind| kind.name).collect();
     let asked = |name: &&str| set_up.effects.iter().any(|effect| effect == name);
+    let has_laws = |name: &&str| !other_laws(name).is_empty();
     let wanted: Vec<&'static str> = all.iter().copied().filter(asked).collect();
-    let offered = if wanted.is_empty() { &all } else { &wanted };
+    let able: Vec<&'static str> = all.iter().copied().filter(has_laws).collect();
+    let offered = match set_up.laws {
+        _ if !wanted.is_empty() => &wanted,
+        Laws::Other => &able,
+        Laws::Own | Laws::Any => &all,
+    };
     let block = number / offered.len() as u64;
     let deck = Draws::of(&[set_up.seed, block, DECK]).permutation(offered.len());
     let first = offered[deck[(number % offered.len() as u64) as usize]];
@@ -61,6 +67,31 @@ pub fn surprise(machine: &Machine, seed: u64) -> Result<Hidden, BenchError> {
     let mut draws = Draws::of(&[seed, SURPRISE]);
     let names: Vec<&'static str> = CATALOGUE.iter().map(|kind| kind.name).collect();
     draw(draws.pick(&names).unwrap_or_default(), machine, &mut draws)
+}
+
+/// Names of the other curves by which that effect may act.
+fn other_laws(effect: &str) -> Vec<&'static str> {
+    let laws = servoid_plant::effects::Kind::find(effect).map(|kind| kind.other_laws);
+    laws.unwrap_or_default()
+        .iter()
+        .map(|law| law.name)
+        .collect()
+}
+
+/// Lets the effect act by one of its other curves, where `laws` draws that and it has any.
+///
+/// # Errors
+/// None, as long as the catalogue agrees with itself.
+pub fn by_law(hidden: Hidden, laws: Laws, draws: &mut Draws) -> Result<Hidden, BenchError> {
+    let another = match laws {
+        Laws::Own => false,
+        Laws::Other => true,
+        Laws::Any => draws.chance(0.5),
+    };
+    match draws.pick(&other_laws(hidden.name())) {
+        Some(law) if another => hidden.by_law(law),
+        _ => Ok(hidden),
+    }
 }
 
 /// Whether neither is the other, nor declared to look like it.

@@ -79,6 +79,26 @@ pub enum Excite {
     Mixed,
 }
 
+/// By which curves the hidden effects act, where the bench has several for one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Laws {
+    /// The model's own equations
+    #[default]
+    Own,
+    /// Other curves from other sources; of the effects that have one
+    Other,
+    /// Either, as it falls
+    Any,
+}
+
+impl Laws {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        value_name(&self)
+    }
+}
+
 impl HowMany {
     /// Its name on the command line.
     pub fn name(self) -> String {
@@ -109,6 +129,9 @@ pub struct SetUp {
     pub excite: Excite,
     /// Names of the effects to choose from; empty for all.
     pub effects: Vec<String>,
+    /// By which curves they act.
+    #[serde(default)]
+    pub laws: Laws,
 }
 
 /// Proves the cases of these `numbers`, each in one thread, as many at a time as there are threads (see

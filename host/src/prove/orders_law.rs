@@ -1,6 +1,6 @@
 //! The spectrum of a diagnosis finds the order of a cogging torque on drawn motors.
 
-use super::{Case, Excite, HowMany, SetUp};
+use super::{Case, Excite, HowMany, Laws, SetUp};
 use servoid_identify::diagnose::order_lines;
 use servoid_identify::fit::{Options, problem};
 
@@ -15,6 +15,7 @@ fn the_order_of_a_cogging_torque_is_the_first_line_beside_a_linear_motor_that_re
         hidden: HowMany::One,
         excite: Excite::Commissioning,
         effects: vec!["cogging".to_owned()],
+        laws: Laws::Own,
     };
     let mut found = 0;
     for number in 0..MOTORS {

@@ -1,6 +1,6 @@
 //! The table of the proving ground, as text and as a document.
 
-use super::{Count, DETECTABLE_COUNTS, Group, Tally};
+use super::{Count, DETECTABLE_COUNTS, Group, Laws, Tally};
 use servoid_results::schema::Proof;
 use servoid_results::schema::proof::{self, Confusion, Failure, Rate, Spread};
 
@@ -16,9 +16,13 @@ pub fn text(tally: &Tally) -> String {
         [] => String::new(),
         some => format!(", {}", some.join(", ")),
     };
+    let laws = match set_up.laws {
+        Laws::Own => String::new(),
+        laws => format!(", --law {}", laws.name()),
+    };
     let mut out = folded(
         &format!(
-            "{} of seed {}: --hidden {}, --excite {}{effects}",
+            "{} of seed {}: --hidden {}, --excite {}{laws}{effects}",
             cases(tally.cases),
             set_up.seed,
             set_up.hidden.name(),
@@ -181,6 +185,7 @@ pub fn document(tally: &Tally, interrupted: bool) -> Proof {
             hidden: tally.set_up.hidden.name(),
             excite: tally.set_up.excite.name(),
             effects: tally.set_up.effects.clone(),
+            laws: tally.set_up.laws.name(),
         },
         cases: tally.cases,
         failures: failures

@@ -16,6 +16,7 @@ fn set_up(hidden: HowMany, excite: Excite) -> SetUp {
         hidden,
         excite,
         effects: Vec::new(),
+        laws: Laws::Own,
     }
 }
 

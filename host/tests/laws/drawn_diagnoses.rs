@@ -2,7 +2,7 @@
 
 use host::diagnose::{Budget, diagnose};
 use host::fit::Options;
-use host::prove::{Case, Excite, HowMany, SetUp};
+use host::prove::{Case, Excite, HowMany, Laws, SetUp};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
 use testing::length::{cases, long};
@@ -25,6 +25,7 @@ fn hiding(effect: &str) -> SetUp {
         hidden: HowMany::One,
         excite: Excite::Commissioning,
         effects: vec![effect.to_owned()],
+        laws: Laws::Own,
     }
 }
 

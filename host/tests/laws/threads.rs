@@ -3,7 +3,7 @@
 use host::compare::{self, Contest};
 use host::diagnose::{Budget, diagnose};
 use host::fit::{self, Fit, Options};
-use host::prove::{Case, Excite, HowMany, SetUp};
+use host::prove::{Case, Excite, HowMany, Laws, SetUp};
 use host::solve;
 use std::fmt::Debug;
 use std::sync::atomic::AtomicBool;
@@ -18,6 +18,7 @@ fn case(hidden: &str) -> Case {
         hidden: HowMany::One,
         excite: Excite::Commissioning,
         effects: vec![hidden.to_owned()],
+        laws: Laws::Own,
     };
     Case::record(&set_up, 0).expect("a case")
 }

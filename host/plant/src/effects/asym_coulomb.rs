@@ -32,6 +32,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |machine| 0.024 * machine.stall_torque_n_m(),
         },
     ],
+    other_laws: &[],
     build: |values, _| {
         Box::new(AsymCoulomb {
             forward_n_m: values[0],

@@ -31,6 +31,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |machine| 0.02 * machine.stall_torque_n_m() / machine.top_speed_rad_s(),
         },
     ],
+    other_laws: &[],
     build: |values, _| {
         Box::new(AsymViscous {
             forward_n_m_s: values[0],

@@ -54,6 +54,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.7,
         },
     ],
+    other_laws: &[],
     build: |values, machine| {
         Box::new(Backlash {
             half_gap_rad: 0.5 * values[0],

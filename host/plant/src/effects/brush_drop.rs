@@ -1,6 +1,6 @@
 //! Voltage drop of the brushes.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Law, Param};
 
 /// v = u − Vb·sat(i/I0): linear up to the knee I0 and constant beyond, for both brushes together (Modelica
 /// Standard Library, `Machines.Losses.DCMachines.Brush`).
@@ -32,6 +32,17 @@ pub(super) static KIND: Kind = Kind {
             typical: |machine| 0.01 * machine.stall_current_a(),
         },
     ],
+    other_laws: &[Law {
+        name: "tanh",
+        about: "Vb*tanh(i/I0), smooth at the knee",
+        build: |values, machine| {
+            Box::new(SmoothBrushDrop {
+                drop_v: values[0],
+                knee_a: values[1],
+                inductance_h: machine.inductance_h,
+            })
+        },
+    }],
     build: |values, machine| {
         Box::new(BrushDrop {
             drop_v: values[0],
@@ -57,6 +68,27 @@ impl Effect for BrushDrop {
 
     fn stiffness_per_s(&self, at: &At) -> f64 {
         if at.current.abs() > 2.0 * self.knee_a {
+            return 0.0;
+        }
+        self.drop_v / (self.knee_a * self.inductance_h)
+    }
+}
+
+/// v = u − Vb·tanh(i/I0): the smooth curve that circuit simulators take for a contact (Hughes, Drury, "Electric
+/// Motors and Drives", 2019, ch. 3, draws it rounded).
+struct SmoothBrushDrop {
+    drop_v: f64,
+    knee_a: f64,
+    inductance_h: f64,
+}
+
+impl Effect for SmoothBrushDrop {
+    fn volts(&self, volts: f64, at: &At) -> f64 {
+        volts - self.drop_v * (at.current / self.knee_a).tanh()
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        if at.current.abs() > 4.0 * self.knee_a {
             return 0.0;
         }
         self.drop_v / (self.knee_a * self.inductance_h)

@@ -51,6 +51,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.0,
         },
     ],
+    other_laws: &[],
     build: |values, _| {
         Box::new(Cogging {
             torque_n_m: values[0],

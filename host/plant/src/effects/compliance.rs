@@ -42,6 +42,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.05,
         },
     ],
+    other_laws: &[],
     build: |values, _| {
         Box::new(Compliance {
             compliance_rad_n_m: values[0],

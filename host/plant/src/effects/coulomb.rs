@@ -20,6 +20,7 @@ pub(super) static KIND: Kind = Kind {
         range: (0.0, f64::INFINITY),
         typical: |machine| 0.03 * machine.stall_torque_n_m(),
     }],
+    other_laws: &[],
     build: |values, _| {
         Box::new(Coulomb {
             torque_n_m: values[0],

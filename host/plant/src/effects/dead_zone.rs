@@ -1,6 +1,6 @@
 //! Dead zone of the power stage.
 
-use super::{At, Effect, Kind, Param, only_its_size};
+use super::{At, Effect, Kind, Law, Param, only_its_size};
 
 /// Commands within ±D give no voltage. Beyond, the output is v − D·sgn v, as in a bridge that loses
 /// the same pulse width of every period, or the whole v with `cut = 1`, as in a stage that ignores
@@ -33,6 +33,16 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.0,
         },
     ],
+    other_laws: &[Law {
+        name: "minimum_pulse",
+        about: "commands beyond the zone pass whole",
+        build: |values, _| {
+            Box::new(DeadZone {
+                width_v: values[0],
+                cut: 1.0,
+            })
+        },
+    }],
     build: |values, _| {
         Box::new(DeadZone {
             width_v: values[0],

@@ -20,6 +20,7 @@ pub(super) static KIND: Kind = Kind {
         range: (0.0, 10.0),
         typical: |_| 2e-3,
     }],
+    other_laws: &[],
     build: |values, _| Box::new(Delay { time_s: values[0] }),
     draw: only_its_size,
     truth: |values, _, _| vec![values[0]],

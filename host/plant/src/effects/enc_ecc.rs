@@ -32,6 +32,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.4,
         },
     ],
+    other_laws: &[],
     build: |values, _| {
         Box::new(EncEcc {
             amplitude_rad: values[0],

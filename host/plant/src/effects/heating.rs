@@ -51,6 +51,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.001,
         },
     ],
+    other_laws: &[],
     build: |values, machine| {
         Box::new(Heating {
             thermal_resistance_k_w: values[0],

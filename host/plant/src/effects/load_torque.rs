@@ -19,6 +19,7 @@ pub(super) static KIND: Kind = Kind {
         range: (f64::NEG_INFINITY, f64::INFINITY),
         typical: |machine| 0.03 * machine.stall_torque_n_m(),
     }],
+    other_laws: &[],
     build: |values, _| {
         Box::new(LoadTorque {
             torque_n_m: values[0],

@@ -1,6 +1,6 @@
 //! LuGre friction: bristles that bend before they slide.
 
-use super::{At, Effect, Kind, Param};
+use super::{At, Effect, Kind, Law, Machine, Param};
 
 /// ż = ω − |ω|·z/zs(ω), T = −(σ0·z + σ1·ż), with the steady deflection σ0·zs(ω) = Tc·(1 + r·exp(−(ω/ωs)²))
 /// (Canudas de Wit, Olsson, Åström and Lischinsky, "A new model for control of systems with friction", IEEE
@@ -8,6 +8,7 @@ use super::{At, Effect, Kind, Param};
 struct Lugre {
     stiffness_n_m_rad: f64,
     damping_n_m_s: f64,
+    damping_falls: bool,
     deflection_rad: f64,
     extra: f64,
     speed_rad_s: f64,
@@ -60,18 +61,12 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 0.5,
         },
     ],
-    build: |values, machine| {
-        let (coulomb, extra, presliding) = (values[0], values[1], values[3]);
-        let stiffness_n_m_rad = coulomb * (1.0 + extra) / presliding;
-        Box::new(Lugre {
-            stiffness_n_m_rad,
-            damping_n_m_s: 2.0 * values[4] * (stiffness_n_m_rad * machine.inertia_kg_m2).sqrt(),
-            deflection_rad: presliding / (1.0 + extra),
-            extra,
-            speed_rad_s: values[2],
-            inertia_kg_m2: machine.inertia_kg_m2,
-        })
-    },
+    other_laws: &[Law {
+        name: "falling_damping",
+        about: "the damping of the bristles falls as exp(-(w/ws)^2)",
+        build: |values, machine| Box::new(Lugre::new(values, machine, true)),
+    }],
+    build: |values, machine| Box::new(Lugre::new(values, machine, false)),
     draw: |_, machine, random| {
         vec![
             ("extra", random.uniform(0.0, 0.6)),
@@ -101,6 +96,31 @@ pub(super) static KIND: Kind = Kind {
 };
 
 impl Lugre {
+    /// From the values of its parameters.
+    fn new(values: &[f64], machine: &Machine, damping_falls: bool) -> Lugre {
+        let (coulomb, extra, presliding) = (values[0], values[1], values[3]);
+        let stiffness_n_m_rad = coulomb * (1.0 + extra) / presliding;
+        Lugre {
+            stiffness_n_m_rad,
+            damping_n_m_s: 2.0 * values[4] * (stiffness_n_m_rad * machine.inertia_kg_m2).sqrt(),
+            damping_falls,
+            deflection_rad: presliding / (1.0 + extra),
+            extra,
+            speed_rad_s: values[2],
+            inertia_kg_m2: machine.inertia_kg_m2,
+        }
+    }
+
+    /// σ1 at a speed: constant, or falling with it so that sliding stays dissipative (Olsson, "Control Systems with
+    /// Friction", Lund 1996, eq. 3.12).
+    fn damping(&self, speed: f64) -> f64 {
+        if self.damping_falls {
+            self.damping_n_m_s * (-(speed / self.speed_rad_s).powi(2)).exp()
+        } else {
+            self.damping_n_m_s
+        }
+    }
+
     /// Deflection zs at which the bristles slide steadily, rad.
     fn steady_deflection(&self, speed: f64) -> f64 {
         self.deflection_rad * (1.0 + self.extra * (-(speed / self.speed_rad_s).powi(2)).exp())
@@ -117,7 +137,7 @@ impl Effect for Lugre {
     }
 
     fn torque(&self, at: &At) -> f64 {
-        -self.stiffness_n_m_rad * at.memory - self.damping_n_m_s * self.memory_rate(at)
+        -self.stiffness_n_m_rad * at.memory - self.damping(at.speed) * self.memory_rate(at)
     }
 
     fn stiffness_per_s(&self, at: &At) -> f64 {

@@ -34,6 +34,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 12.0,
         },
     ],
+    other_laws: &[],
     build: |values, machine| {
         Box::new(MissedCounts {
             rate_per_rad: values[0] / machine.top_speed_rad_s(),

@@ -67,6 +67,8 @@ pub struct Kind {
     pub electrical: Option<fn(&[f64], &Stall) -> f64>,
     /// Its parameters, in the order in which `build` takes them.
     pub params: &'static [Param],
+    /// Other curves for the same physics.
+    pub other_laws: &'static [Law],
     /// Makes the effect from its parameters, already scaled by the strength.
     pub build: fn(&[f64], &Machine) -> Box<dyn Effect>,
     /// Draws the parameters that give the effect its form rather than its size, by name, from their typical
@@ -76,6 +78,17 @@ pub struct Kind {
     /// torque `T` is the voltage `T·R/Kt`, a current the voltage across the resistance. From the values of
     /// this effect's parameters, the machine and the encoder's counts per revolution.
     pub truth: fn(&[f64], &Machine, u32) -> Vec<f64>,
+}
+
+/// Another curve for the same physics, from another source, with the same parameters: a model that knows one curve
+/// is judged by it, too.
+pub struct Law {
+    /// Its name in `effect:law=name`.
+    pub name: &'static str,
+    /// What differs, in a few words.
+    pub about: &'static str,
+    /// As [`Kind::build`].
+    pub build: fn(&[f64], &Machine) -> Box<dyn Effect>,
 }
 
 /// Values of some parameters, by name.

@@ -19,6 +19,7 @@ pub(super) static KIND: Kind = Kind {
         range: (f64::NEG_INFINITY, f64::INFINITY),
         typical: |machine| 0.02 * machine.supply_v,
     }],
+    other_laws: &[],
     build: |values, _| {
         Box::new(OffsetVoltage {
             offset_v: values[0],

@@ -1,6 +1,6 @@
 //! Stribeck friction: stiction that falls off as the shaft begins to slide.
 
-use super::{Effect, Kind, Param, Sliding};
+use super::{Effect, Kind, Law, Param, Sliding};
 
 /// T = −(Tc + ΔT·exp(−|ω/ωs|^δ))·sgn ω, and at rest it holds against up to Tc + ΔT (Tustin 1947 with
 /// δ = 1; Armstrong-Hélouvry, "Control of Machines with Friction", 1991, with δ = 2). The law is
@@ -50,6 +50,17 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 2.0,
         },
     ],
+    other_laws: &[Law {
+        name: "quotient",
+        about: "the excess falls as 1/(1 + (w/ws)^2)",
+        build: |values, _| {
+            Box::new(QuotientStribeck {
+                coulomb_n_m: values[0],
+                extra_n_m: values[1],
+                speed_rad_s: values[2],
+            })
+        },
+    }],
     build: |values, _| {
         Box::new(Stribeck {
             coulomb_n_m: values[0],
@@ -81,6 +92,21 @@ pub(super) static KIND: Kind = Kind {
 impl Effect for Stribeck {
     fn friction(&self, sliding: &Sliding) -> f64 {
         let decay = (-(sliding.speed / self.speed_rad_s).powf(self.exponent)).exp();
+        self.coulomb_n_m + self.extra_n_m * decay
+    }
+}
+
+/// The excess falls as 1/(1 + (ω/ωs)²) (Hess, Soom, "Friction at a lubricated line contact operating at oscillating
+/// sliding velocities", J. Tribology 112, 1990): far slower than an exponential.
+struct QuotientStribeck {
+    coulomb_n_m: f64,
+    extra_n_m: f64,
+    speed_rad_s: f64,
+}
+
+impl Effect for QuotientStribeck {
+    fn friction(&self, sliding: &Sliding) -> f64 {
+        let decay = 1.0 / (1.0 + (sliding.speed / self.speed_rad_s).powi(2));
         self.coulomb_n_m + self.extra_n_m * decay
     }
 }

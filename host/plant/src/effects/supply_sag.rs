@@ -24,6 +24,7 @@ pub(super) static KIND: Kind = Kind {
         range: (0.0, f64::INFINITY),
         typical: |machine| 0.06 * machine.resistance_ohm,
     }],
+    other_laws: &[],
     build: |values, machine| {
         Box::new(SupplySag {
             resistance_ohm: values[0],

@@ -1,6 +1,6 @@
 //! Magnetic saturation of the torque.
 
-use super::{At, Effect, Kind, Param, Winding, only_its_size};
+use super::{At, Effect, Kind, Law, Param, Winding, only_its_size};
 
 /// T = Kt·Is·tanh(i/Is) with Is = 1/√(3·k3), a bounded law whose series begins with the cubic one,
 /// Kt·(i − k3·i³): armature reaction bends the field, and large currents give less torque than their
@@ -21,6 +21,15 @@ pub(super) static KIND: Kind = Kind {
         range: (0.0, f64::INFINITY),
         typical: |machine| 0.08 / machine.stall_current_a().powi(2),
     }],
+    other_laws: &[Law {
+        name: "quotient",
+        about: "i/(1 + k3*i^2)",
+        build: |values, _| {
+            Box::new(QuotientTorqueSat {
+                cubic_per_a2: values[0],
+            })
+        },
+    }],
     build: |values, _| {
         Box::new(TorqueSat {
             scale_per_a: (3.0 * values[0]).sqrt(),
@@ -36,5 +45,17 @@ impl Effect for TorqueSat {
         if bend != 0.0 {
             winding.kt_n_m_a *= bend.tanh() / bend;
         }
+    }
+}
+
+/// T = Kt·i/(1 + k3·i²): the flux falls as a magnetising curve of Fröhlich's form does when the armature's field
+/// weakens it (Fitzgerald, Kingsley, Umans, "Electric Machinery", 2003, ch. 7). Its series begins with the same cubic.
+struct QuotientTorqueSat {
+    cubic_per_a2: f64,
+}
+
+impl Effect for QuotientTorqueSat {
+    fn winding(&self, winding: &mut Winding, at: &At) {
+        winding.kt_n_m_a /= 1.0 + self.cubic_per_a2 * at.current * at.current;
     }
 }

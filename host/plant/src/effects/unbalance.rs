@@ -33,6 +33,7 @@ pub(super) static KIND: Kind = Kind {
             typical: |_| 1.1,
         },
     ],
+    other_laws: &[],
     build: |values, _| {
         Box::new(Unbalance {
             torque_n_m: values[0],

@@ -1,6 +1,6 @@
 //! Windage: the drag of the air that a fan or a fast rotor stirs.
 
-use super::{At, Effect, Kind, Param, only_its_size};
+use super::{At, Effect, Kind, Law, Param, only_its_size};
 
 /// T = −c·ω·|ω|, turbulent drag (Vrancik, "Prediction of windage power loss in alternators", NASA TN
 /// D-4849, 1968, with its coefficient taken as constant).
@@ -20,6 +20,16 @@ pub(super) static KIND: Kind = Kind {
         range: (0.0, f64::INFINITY),
         typical: |machine| 0.05 * machine.stall_torque_n_m() / machine.top_speed_rad_s().powi(2),
     }],
+    other_laws: &[Law {
+        name: "smooth_rotor",
+        about: "drag on the speed to the power 1.75",
+        build: |values, machine| {
+            let reference = machine.top_speed_rad_s();
+            Box::new(SmoothRotor {
+                drag: values[0] * reference.powf(0.25),
+            })
+        },
+    }],
     build: |values, _| {
         Box::new(Windage {
             drag_n_m_s2: values[0],
@@ -32,5 +42,17 @@ pub(super) static KIND: Kind = Kind {
 impl Effect for Windage {
     fn torque(&self, at: &At) -> f64 {
         -self.drag_n_m_s2 * at.speed * at.speed.abs()
+    }
+}
+
+/// T = −c'·|ω|^1.75·sgn ω: a smooth rotor in a turbulent boundary layer, whose friction coefficient falls with the
+/// fourth root of the Reynolds number (Schlichting, Gersten, "Boundary-Layer Theory", 2017, ch. 18).
+struct SmoothRotor {
+    drag: f64,
+}
+
+impl Effect for SmoothRotor {
+    fn torque(&self, at: &At) -> f64 {
+        -self.drag * at.speed.abs().powf(1.75).copysign(at.speed)
     }
 }

@@ -88,6 +88,46 @@ fn half_the_substep_gives_the_same_recording() {
     }
 }
 
+/// Every other curve of the catalogue, with its effect.
+fn other_laws() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let kinds = CATALOGUE.iter();
+    kinds.flat_map(|kind| kind.other_laws.iter().map(|law| (kind.name, law.name)))
+}
+
+#[test]
+fn every_other_law_vanishes_converges_and_differs_from_the_first() {
+    assert!(other_laws().count() >= 8);
+    for (name, machine) in machines() {
+        let drive = lively(&machine);
+        let plain = bench(machine, vec![]).run(&drive).unwrap();
+        for (effect, law) in other_laws() {
+            let by_law = |strength| hide(&machine, effect, strength).by_law(law).unwrap();
+            let absent = bench(machine, vec![by_law(0.0)]).run(&drive).unwrap();
+            assert!(
+                absent == plain,
+                "{name}, {effect} by {law}: differs at strength 0"
+            );
+            let coarse = bench(machine, vec![by_law(1.0)]);
+            let fine = Bench {
+                substep_hz: 2.0 * coarse.substep_hz,
+                ..coarse.clone()
+            };
+            let run = coarse.run(&drive).unwrap();
+            let gap = largest_gap_counts(&run, &fine.run(&drive).unwrap());
+            assert!(gap < 0.01, "{name}, {effect} by {law}: {gap} counts");
+            let first = bench(machine, vec![hide(&machine, effect, 1.0)]);
+            let other = rms_counts(&run, &first.run(&drive).unwrap());
+            println!(
+                "{name:>14} {effect:>16} by {law:16}: {gap:.1e}; from the first law {other:.2} counts"
+            );
+            assert!(
+                other > 0.01,
+                "{name}, {effect} by {law}: the first law again"
+            );
+        }
+    }
+}
+
 #[test]
 fn any_mixture_of_effects_runs_and_converges() {
     for seed in 0..12 {
