@@ -68,11 +68,20 @@ test("a click sets cursor A, with shift cursor B, and the table tells what lies 
   const plot = page.locator("#timeline .xy .nsewdrag, #timeline .nsewdrag").first();
   await plot.scrollIntoViewIfNeeded();
   const box = await plot.boundingBox();
-  // Plotly looks for the nearest sample while the mouse moves, and takes that one on a click.
+  await page.evaluate(() => {
+    const timeline = document.getElementById("timeline");
+    timeline.on("plotly_hover", (event) => (timeline.hovered = event.points[0].x));
+  });
+  // Plotly looks for the nearest sample while the mouse moves, and takes that one on a click: the one under the mouse before is
+  // no longer to be taken.
   const click = async (part) => {
     await page.mouse.move(box.x + part * box.width - 4, box.y + box.height / 2);
     await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
-    await page.waitForFunction(() => document.querySelector("#timeline .hoverlayer")?.childElementCount > 0);
+    await page.waitForFunction((part) => {
+      const timeline = document.getElementById("timeline");
+      const [from, to] = timeline._fullLayout.xaxis.range;
+      return Math.abs((timeline.hovered - from) / (to - from) - part) < 0.01;
+    }, part);
     await page.mouse.down();
     await page.mouse.up();
   };

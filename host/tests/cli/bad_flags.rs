@@ -84,7 +84,6 @@ const FIT: &[(&str, &[&str])] = &[
         &["servoid: --known resistance_ohm=1~2: ", "0.05"],
     ),
     ("--no-such-flag", &["--no-such-flag"]),
-    ("second.csv", &["second.csv"]),
 ];
 
 /// Flags of `simulate --out new.csv`, and what the message must say.
