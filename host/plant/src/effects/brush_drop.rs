@@ -87,10 +87,8 @@ impl Effect for SmoothBrushDrop {
         volts - self.drop_v * (at.current / self.knee_a).tanh()
     }
 
-    fn stiffness_per_s(&self, at: &At) -> f64 {
-        if at.current.abs() > 4.0 * self.knee_a {
-            return 0.0;
-        }
+    // Wherever the current stands: nothing ends the step that reaches the bend, as the knee's event does above.
+    fn stiffness_per_s(&self, _: &At) -> f64 {
         self.drop_v / (self.knee_a * self.inductance_h)
     }
 }

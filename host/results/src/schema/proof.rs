@@ -41,14 +41,9 @@ pub struct SetUp {
     pub excite: String,
     /// Effects to choose from; empty for all.
     pub effects: Vec<String>,
-    /// By which curves they act: `own`, `other` or `any`; older documents have their own.
-    #[serde(default = "own")]
-    pub laws: String,
-}
-
-/// The curves of documents that do not say.
-fn own() -> String {
-    "own".to_owned()
+    /// By which curves they act, where not by their own: `other` or `any`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub laws: Option<String>,
 }
 
 /// A case without a diagnosis.
