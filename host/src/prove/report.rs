@@ -185,7 +185,7 @@ pub fn document(tally: &Tally, interrupted: bool) -> Proof {
             hidden: tally.set_up.hidden.name(),
             excite: tally.set_up.excite.name(),
             effects: tally.set_up.effects.clone(),
-            laws: tally.set_up.laws.name(),
+            laws: (tally.set_up.laws != Laws::Own).then(|| tally.set_up.laws.name()),
         },
         cases: tally.cases,
         failures: failures

@@ -87,8 +87,9 @@ impl Effect for SmoothBrushDrop {
         volts - self.drop_v * (at.current / self.knee_a).tanh()
     }
 
-    // Wherever the current stands: nothing ends the step that reaches the bend, as the knee's event does above.
+    // Wherever the current stands: nothing ends the step that reaches the bend, as the knee's event does above. Four times
+    // the slope, since the bend is over within a time constant of it.
     fn stiffness_per_s(&self, _: &At) -> f64 {
-        self.drop_v / (self.knee_a * self.inductance_h)
+        4.0 * self.drop_v / (self.knee_a * self.inductance_h)
     }
 }
