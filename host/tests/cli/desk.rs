@@ -50,6 +50,12 @@ impl Desk {
         fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
+    /// How many lines the file has so far; none where there is no such file.
+    pub fn lines_of(&self, name: &str) -> usize {
+        let text = fs::read_to_string(self.path(name)).unwrap_or_default();
+        text.lines().count()
+    }
+
     /// Every file and folder with its length: what must not change when the program refuses.
     pub fn listing(&self) -> BTreeMap<PathBuf, u64> {
         let mut found = BTreeMap::new();

@@ -16,7 +16,8 @@ pub struct ProbableSet {
 
 /// A model is less probable by a factor e where its score, the logarithm of both errors' product, is worse by this.
 const TEMPERATURE: f64 = 0.1;
-/// Logarithms by which each parameter and each effect more make a set less probable.
+/// Logarithms by which each parameter and each effect more make a set less probable. Where something remains unexplained
+/// a parameter may take up a part of that, and costs little.
 const PER_PARAMETER: f64 = 0.5;
 const PER_EFFECT: f64 = 0.7;
 /// A set that is less probable than this is not listed.
@@ -25,16 +26,26 @@ const LEAST: f64 = 0.01;
 const AT_FLOOR: f64 = 0.98;
 /// The same, at most, where none does.
 const ABOVE_FLOOR: f64 = 0.9;
+/// Part of the fitted recording's samples whose errors are independent: counts dwell in their cells.
+const INDEPENDENT: f64 = 0.1;
 
 /// The sets of effects that were tried: the chosen one, then the others by their probability.
 pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     let chosen = &named.last;
+    let per_parameter = if chosen.ran().fitted_at_floor() {
+        // What remains is the reading's own error: the price is that of the Bayesian information criterion (Schwarz, "Estimating
+        // the dimension of a model", 1978).
+        0.5 * (INDEPENDENT * named.context.data.counts.len() as f64).ln().max(1.0)
+    } else {
+        PER_PARAMETER
+    };
+    let weight = |model: &FittedModel| weight(model, chosen, per_parameter);
     let own = sorted(&chosen.effects);
     let mut others: Vec<(Vec<Kind>, f64)> = Vec::new();
     // Errors under an observer and those of free runs are no common measure.
     let comparable = |model: &&FittedModel| model.observed.is_some() == chosen.observed.is_some();
     for model in named.rivals.iter().chain([&named.base]).filter(comparable) {
-        let (effects, weight) = (sorted(&model.effects), weight(model, chosen));
+        let (effects, weight) = (sorted(&model.effects), weight(model));
         match others.iter_mut().find(|(known, _)| *known == effects) {
             Some((_, known)) => *known = known.max(weight),
             None => others.push((effects, weight)),
@@ -42,7 +53,7 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     }
     others.retain(|(effects, weight)| *effects != own && weight.is_finite());
     others.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let own_weight = weight(chosen, chosen);
+    let own_weight = weight(chosen);
     let sum = own_weight + others.iter().map(|(_, weight)| weight).sum::<f64>();
     let share = in_catalogue(chosen, &named.base) / sum;
     let others = others.into_iter().map(|(effects, weight)| ProbableSet {
@@ -70,24 +81,29 @@ fn sorted(effects: &[Kind]) -> Vec<Kind> {
 }
 
 /// Weight of a model beside the chosen one, of which none is better: what was chosen was judged by more than these errors.
-fn weight(model: &FittedModel, chosen: &FittedModel) -> f64 {
+fn weight(model: &FittedModel, chosen: &FittedModel, per_parameter: f64) -> f64 {
     let behind = (model.judged().score() - chosen.judged().score()).max(0.0);
     let (parameters, effects) = (model.parameters.len() as f64, model.effects.len() as f64);
-    (-behind / TEMPERATURE - PER_PARAMETER * parameters - PER_EFFECT * effects).exp()
+    (-behind / TEMPERATURE - per_parameter * parameters - PER_EFFECT * effects).exp()
 }
 
-/// Probability that the catalogue holds what is missing. Above the floor it grows with the part of the linear motor's error
-/// that the model takes away: what it leaves is of something else.
+/// Probability that the catalogue holds what is missing. Above the floor it grows with the part of the way from the linear
+/// motor's error down to the floor, in logarithms, that the model comes on the recording where it comes less far: what it
+/// leaves there is of something else.
 fn in_catalogue(chosen: &FittedModel, base: &FittedModel) -> f64 {
     if chosen.explains() {
         return AT_FLOOR;
     }
     let (before, after) = (base.ran(), chosen.ran());
-    let left = (after.fitted * after.held_out) / (before.fitted * before.held_out);
-    let removed = (1.0 - left).max(0.0);
-    if removed.is_finite() {
-        ABOVE_FLOOR * removed
-    } else {
-        0.0
-    }
+    let way = |before: f64, after: f64, floor: f64| {
+        let (removed, all) = ((before / after).ln(), (before / floor).ln());
+        if all > 0.0 {
+            (removed / all).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    };
+    let fitted = way(before.fitted, after.fitted, after.floor);
+    let held_out = way(before.held_out, after.held_out, after.floor);
+    ABOVE_FLOOR * fitted.min(held_out)
 }

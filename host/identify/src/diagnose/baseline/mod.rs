@@ -98,10 +98,14 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     confirmed
 }
 
-/// Whether nothing is left to explain. In windows the floor is that of the start states, which a noisy sensor raises: there
-/// only a whole run at the encoder's own error is sure.
+/// Whether nothing is left to explain on the recording that was fitted: what then fails on the held-out recording is
+/// something that only that one shows, and a worse model of the first is no answer. In windows the floor is that of the
+/// start states, which a noisy sensor raises: there only a whole run at the encoder's own error is sure.
 fn is_explained(context: &Context<'_>, chosen: &FittedModel) -> bool {
-    chosen.explains() && (context.span.window_s.is_none() || chosen.free().at_floor())
+    if context.span.window_s.is_some() {
+        return chosen.explains() && chosen.free().at_floor();
+    }
+    chosen.explains() || chosen.free().fitted_at_floor()
 }
 
 /// The best of those that predict no worse than the baseline; of these the ones with the chosen effects first.

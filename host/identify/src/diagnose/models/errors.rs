@@ -22,8 +22,12 @@ pub struct Errors {
 impl Errors {
     /// Whether both are the encoder's own.
     pub fn at_floor(&self) -> bool {
-        let noise = self.floor * ROOM;
-        self.fitted < noise && self.held_out < noise
+        self.fitted_at_floor() && self.held_out < self.floor * ROOM
+    }
+
+    /// Whether that on the fitted recording is the encoder's own.
+    pub fn fitted_at_floor(&self) -> bool {
+        self.fitted < self.floor * ROOM
     }
 
     /// Mean square error on the held-out recording beyond the reading's own.
