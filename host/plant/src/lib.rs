@@ -33,6 +33,7 @@
 //! 1. Write `effects/<name>.rs`: a struct with its physical parameters, its equation and source in the
 //!    doc comment; a `KIND` with the name that the contract spells and a typical value for each
 //!    parameter; `impl Effect` with the one hook where it enters the equations.
+//!    Curves of the same effect from other sources go into its `other_laws`.
 //! 2. Add `mod <name>;` and `&<name>::KIND` to `effects/mod.rs`, at its place between command and counter.
 //!
 //! The laws in `laws/` then hold it to: no strength, no change (bit for bit); less strength, less
