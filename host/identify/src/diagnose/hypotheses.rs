@@ -35,7 +35,9 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     let per_parameter = if chosen.ran().fitted_at_floor() {
         // What remains is the reading's own error: the price is that of the Bayesian information criterion (Schwarz, "Estimating
         // the dimension of a model", 1978).
-        0.5 * (INDEPENDENT * named.context.data.counts.len() as f64).ln().max(1.0)
+        0.5 * (INDEPENDENT * named.context.data.counts.len() as f64)
+            .ln()
+            .max(1.0)
     } else {
         PER_PARAMETER
     };
