@@ -3,7 +3,6 @@
 use crate::diagnose::{HeldOut, Remark, holdout, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
-use crate::identify::is_copy;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
 use std::sync::Arc;
@@ -56,7 +55,7 @@ impl Datasets {
         for recording in &fitted {
             remarks.extend(usable::check(recording, options.force)?);
         }
-        let copied = |other: &Recording| fitted.iter().any(|one| is_copy(one, other));
+        let copied = |other: &Recording| fitted.iter().any(|one| one.is_copy_of(other));
         let copies = held_out.iter().filter(|other| copied(other)).count();
         let nothing = copies == held_out.len();
         if nothing {

@@ -95,11 +95,6 @@ pub fn identify_data(
     Ok(fit)
 }
 
-/// Whether two recordings are one and the same: a copy holds nothing out.
-pub fn is_copy(one: &Recording, other: &Recording) -> bool {
-    other.counts == one.counts && other.command == one.command
-}
-
 /// The problem that `options` state, with the bounds that they set; a start outside moves to the nearest bound.
 ///
 /// # Errors

@@ -29,5 +29,5 @@ pub mod truth;
 pub use datasets::Datasets;
 pub use diagnosed::{Diagnosed, diagnose, diagnose_data, diagnose_datasets};
 pub use error::Error;
-pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data, is_copy};
+pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data};
 pub use progress::{Progress, Silent};

@@ -94,6 +94,11 @@ impl Recording {
         Some((before, after))
     }
 
+    /// Whether it holds the same samples as `other`: then it tells nothing that the other does not.
+    pub fn is_copy_of(&self, other: &Recording) -> bool {
+        self.counts == other.counts && self.command == other.command
+    }
+
     fn rows(&self, rows: std::ops::Range<usize>, source: String) -> Recording {
         Recording {
             source,

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
-use servoid_identify::{check, identify_data, is_copy};
+use servoid_identify::{check, identify_data};
 use servoid_io::output::write_whole;
 use servoid_io::recording::Recording;
 use servoid_results::plot;
@@ -27,7 +27,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         }
     }
     let held_out = read.held_out.len();
-    let copied = |other: &Recording| read.fitted.iter().any(|one| is_copy(one, other));
+    let copied = |other: &Recording| read.fitted.iter().any(|one| one.is_copy_of(other));
     let others: Vec<Recording> = (read.held_out.iter().filter(|other| !copied(other)))
         .cloned()
         .collect();

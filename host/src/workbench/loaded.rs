@@ -68,8 +68,7 @@ impl Loaded {
 
     /// Whether it holds the same samples: then it tests nothing that was fitted to the other.
     pub fn is_copy_of(&self, other: &Loaded) -> bool {
-        self.recording.counts == other.recording.counts
-            && self.recording.command == other.recording.command
+        self.recording.is_copy_of(&other.recording)
     }
 
     /// The part to fit and the end to hold out, made when they are first asked for. `None` where it is too short.

@@ -27,5 +27,6 @@ mod prove;
 mod repeatable;
 mod report;
 mod searches;
+mod several;
 mod simulate;
 mod width;

@@ -27,6 +27,14 @@ pub enum JoinError {
         /// In what.
         what: &'static str,
     },
+    /// They are copies, and would count twice.
+    #[error("{first} and {other} hold the same samples; give each recording once")]
+    Copies {
+        /// Source of the first.
+        first: String,
+        /// Source of its copy.
+        other: String,
+    },
     /// The bases of the model.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -36,8 +44,20 @@ impl Data {
     /// Recordings of one motor as one. Each keeps its readings: effects that depend on the angle take them from one zero.
     ///
     /// # Errors
-    /// [`JoinError::Differ`] where encoder or drive differ; [`JoinError::Model`] as [`Data::taken`].
+    /// [`JoinError::Differ`] where encoder or drive differ; [`JoinError::Copies`] where two have the same samples;
+    /// [`JoinError::Model`] as [`Data::taken`].
     pub fn joined(recordings: Vec<Recording>) -> Result<Data, JoinError> {
+        for (k, one) in recordings.iter().enumerate() {
+            if let Some(other) = recordings[k + 1..]
+                .iter()
+                .find(|other| one.is_copy_of(other))
+            {
+                return Err(JoinError::Copies {
+                    first: one.source.clone(),
+                    other: other.source.clone(),
+                });
+            }
+        }
         let mut list = recordings.into_iter();
         let mut whole = list.next().ok_or(JoinError::Empty)?;
         let mut parts = Recordings::one(&whole.source, whole.len());
