@@ -24,11 +24,12 @@ impl FitProblem<'_> {
         mut each: impl FnMut(&[&[f64]]),
     ) -> Option<Centring> {
         let centred = self.is_centred(here);
-        // Absolute errors are centred on their median, which needs all of them at once.
+        // Absolute errors are centred on their median, and each of several recordings by itself: that needs all at once.
         let by_median = centred && matches!(self.cost, Cost::Absolute { .. });
+        let at_once = by_median || self.data.recordings.are_several();
         let segments =
             |model: &Candidate| segments(self.data, model, &self.horizon, self.start_angle);
-        if !by_median
+        if !at_once
             && self
                 .batch()
                 .stream(here, others, segments, |_, changes| each(changes))

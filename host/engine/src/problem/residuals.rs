@@ -47,6 +47,7 @@ pub(super) fn is_centred(
 }
 
 /// Shifts the errors of each recording to its best start angle where it is free: the median for absolute costs, else the mean.
+/// A recording after the first that may start in motion has its best start speed besides.
 pub(super) fn centre(
     data: &Data,
     candidate: &Candidate,
@@ -63,7 +64,12 @@ pub(super) fn centre(
     let known = usize::from(!is_centred(data, candidate, horizon, start_angle));
     let ranges = data.recordings.ranges().skip(known);
     for range in ranges.filter(|range| !range.is_empty()) {
+        let moving = range.start > 0 && data.may_start_moving(range.start);
+        let times = &data.time_s[range.clone()];
         let errors = &mut errors[range];
+        if moving {
+            project_out_start_speed(times, candidate.machine.response().a1, errors);
+        }
         let middle = match cost {
             Cost::Absolute { .. } => median(errors),
             Cost::Squared | Cost::Interval { .. } => mean(errors),
@@ -73,6 +79,41 @@ pub(super) fn centre(
         }
     }
 }
+
+/// Takes out of the errors what another start speed would change: the speed decays with the motor's time constant a1, so that
+/// the angle moves by `1 − exp(−t/a1)`. Only the first recording's start speed is an unknown; the others' are linear ones
+/// that least squares give at once (variable projection: Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973).
+fn project_out_start_speed(times: &[f64], time_constant: f64, errors: &mut [f64]) {
+    let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
+        return;
+    };
+    let span = to - from;
+    let decays = time_constant > 0.0 && time_constant < MANY_SPANS * span;
+    let course = |time: &f64| {
+        let time = time - from;
+        if decays {
+            -(-time / time_constant).exp_m1()
+        } else {
+            time / span
+        }
+    };
+    let course: Vec<f64> = times.iter().map(course).collect();
+    let (middle, error) = (mean(&course), mean(errors));
+    let about = || course.iter().map(|at| at - middle);
+    let squares: f64 = about().map(|at| at * at).sum();
+    let products: f64 = (about().zip(&*errors))
+        .map(|(at, e)| at * (e - error))
+        .sum();
+    let slope = products / squares;
+    if slope.is_finite() {
+        for (e, at) in errors.iter_mut().zip(&course) {
+            *e -= slope * (at - middle);
+        }
+    }
+}
+
+/// A time constant so many times longer than the recording is none.
+const MANY_SPANS: f64 = 1e3;
 
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
