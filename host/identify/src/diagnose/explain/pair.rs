@@ -63,8 +63,8 @@ pub fn remarks(
     }
     let own = scores::whole(data, &last.candidate, last.method)?;
     let other = fit::validation_errors(held_out, &last.candidate, last.method)?;
-    let found = [jumps(data, &own), jumps(held_out, &other)];
-    Ok(found.into_iter().flatten().map(Remark::cause).collect())
+    let found = jumps(data, &own).into_iter().chain(jumps(held_out, &other));
+    Ok(found.map(Remark::cause).collect())
 }
 
 /// Whether one kind of model explains each recording by itself, with constants that differ.
@@ -187,9 +187,22 @@ fn differences(one: &Fit, other: &Fit, least: f64) -> Option<String> {
     (!said.is_empty()).then(|| said.join(", "))
 }
 
-/// Jumps of the reading that the motor cannot have made.
-fn jumps(data: &Data, errors: &[f64]) -> Option<String> {
-    if rms_counts(data, errors) < 2.0 * NOISE_COUNTS || errors.len() < 4 * STAYS.0 {
+/// Jumps of the reading that the motor cannot have made, a sentence for each recording that has any.
+fn jumps(data: &Data, errors: &[f64]) -> Vec<String> {
+    if rms_counts(data, errors) < 2.0 * NOISE_COUNTS {
+        return Vec::new();
+    }
+    let each = data.recordings.ranges().zip(data.recordings.sources());
+    each.filter_map(|(range, source)| {
+        let times = &data.time_s[range.clone()];
+        jumps_of_one(source, times, &errors[range])
+    })
+    .collect()
+}
+
+/// As [`jumps`], within one recording.
+fn jumps_of_one(source: &str, times: &[f64], errors: &[f64]) -> Option<String> {
+    if errors.len() < 4 * STAYS.0 {
         return None;
     }
     let change: Vec<f64> = errors.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -220,10 +233,10 @@ fn jumps(data: &Data, errors: &[f64]) -> Option<String> {
     Some(format!(
         "{}: the reading jumps {} time{} where the motor cannot have, first by {:+.0} counts at {:.3} s: the counter \
          misses counts (or the shaft slips in its coupling); check the encoder's wiring and its highest speed",
-        data.source,
+        source,
         found.len(),
         if found.len() == 1 { "" } else { "s" },
         -change[first],
-        data.time_s[first + 1]
+        times[first + 1] - times[0]
     ))
 }
