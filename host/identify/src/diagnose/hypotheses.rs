@@ -89,23 +89,24 @@ fn weight(model: &FittedModel, chosen: &FittedModel, per_parameter: f64) -> f64 
     (-behind / TEMPERATURE - per_parameter * parameters - PER_EFFECT * effects).exp()
 }
 
-/// Probability that the catalogue holds what is missing. Above the floor it grows with the part of the way from the linear
-/// motor's error down to the floor, in logarithms, that the model comes on the recording where it comes less far: what it
-/// leaves there is of something else.
+/// Probability that the catalogue holds what is missing. Above the floor it grows with what the model takes away of the
+/// linear motor's error, on the recording where it takes away less: the geometric mean of the part of the error itself and of
+/// the part of its logarithm down to the floor. (On the bench's other laws the one alone is too sure, the other not enough.)
 fn in_catalogue(chosen: &FittedModel, base: &FittedModel) -> f64 {
     if chosen.explains() {
         return AT_FLOOR;
     }
     let (before, after) = (base.ran(), chosen.ran());
-    let way = |before: f64, after: f64, floor: f64| {
-        let (removed, all) = ((before / after).ln(), (before / floor).ln());
-        if all > 0.0 {
-            (removed / all).clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
-    };
-    let fitted = way(before.fitted, after.fitted, after.floor);
-    let held_out = way(before.held_out, after.held_out, after.floor);
+    let fitted = taken_away(before.fitted, after.fitted, after.floor);
+    let held_out = taken_away(before.held_out, after.held_out, after.floor);
     ABOVE_FLOOR * fitted.min(held_out)
+}
+
+/// How much of an error is taken away, from 0 to 1 at the floor.
+fn taken_away(before: f64, after: f64, floor: f64) -> f64 {
+    let part = 1.0 - after / before;
+    let of_the_way = (before / after).ln() / (before / floor).ln();
+    let both = part.clamp(0.0, 1.0) * of_the_way.clamp(0.0, 1.0);
+    // No number where there was no error before.
+    if both.is_finite() { both.sqrt() } else { 0.0 }
 }
