@@ -78,6 +78,26 @@ pub fn identify_data(
             found = better;
         }
     }
+    // Each round has a wider range, up to what physics allows.
+    while let Some(wider) = problem.structure.widened_at(&found.x) {
+        if found.interrupted {
+            break;
+        }
+        let start = wider.coordinates(&problem.structure.values(&found.x));
+        let again = problem.with_structure(wider, start);
+        let better = search(
+            &again,
+            solver.as_ref(),
+            options,
+            found.evaluations,
+            progress,
+        );
+        if better.cost >= found.cost {
+            break;
+        }
+        problem = again;
+        found = better;
+    }
     let mut fit = Fit::conclude(
         &problem,
         &options.algorithm,

@@ -22,7 +22,8 @@ impl<S: Scalar> Effect<S> for Backlash<S> {
         parameters: &[
             Parameter::amplitude("gap", Quantity::Angle, (0.0, 0.3), 0.06),
             Parameter::shape("load_share", Quantity::Ratio, (0.05, 0.95), 0.4),
-            Parameter::shape("contact_period", Quantity::Time, (0.0005, 0.02), 0.002),
+            Parameter::shape("contact_period", Quantity::Time, (0.0005, 0.02), 0.002)
+                .widening_to(0.2),
             Parameter::shape("contact_damping", Quantity::Ratio, (0.0, 1.5), 0.7),
         ],
         equation: "T = k*(twist -+ gap/2) + d*d(twist)/dt beyond the gap, never pulling; 0 within",

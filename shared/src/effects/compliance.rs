@@ -20,7 +20,7 @@ impl<S: Scalar> Effect<S> for Compliance<S> {
         place: Place::Load,
         title: "elastic shaft between motor and load",
         parameters: &[
-            Parameter::amplitude("period", Quantity::Time, (0.0, 0.1), 0.033),
+            Parameter::amplitude("period", Quantity::Time, (0.0, 0.1), 0.033).widening_to(1.0),
             Parameter::shape("load_share", Quantity::Ratio, (0.05, 0.95), 0.4),
             Parameter::shape("damping_ratio", Quantity::Ratio, (0.0, 1.0), 0.05),
         ],

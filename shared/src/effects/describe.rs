@@ -16,6 +16,8 @@ pub struct Parameter {
     /// Search range, relative to the motor: volts (and torques in volts) as parts of the supply,
     /// speeds as parts of the no-load speed, their quotients likewise; see [`Parameter::scaled`].
     pub range: (f64, f64),
+    /// Upper end, in the same measure, to which a search may widen the range when it ends there: what physics allows.
+    pub widest: f64,
     /// A typical value, in the same measure as the range.
     pub typical: f64,
     /// Whether the effect vanishes, in proportion, as this parameter (and every other amplitude of
@@ -38,6 +40,7 @@ impl Parameter {
             name,
             quantity,
             range,
+            widest: range.1,
             typical,
             amplitude: true,
             neutral: Some(0.0),
@@ -55,10 +58,17 @@ impl Parameter {
             name,
             quantity,
             range,
+            widest: range.1,
             typical,
             amplitude: false,
             neutral: None,
         }
+    }
+
+    /// The same with a range that may be widened up to `widest`.
+    #[must_use]
+    pub const fn widening_to(self, widest: f64) -> Self {
+        Parameter { widest, ..self }
     }
 
     /// A value in the measure of [`range`](Self::range), in SI, for a motor at `supply` volts

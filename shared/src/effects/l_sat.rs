@@ -17,12 +17,10 @@ impl<S: Scalar> Effect<S> for LSat<S> {
         name: "l_sat",
         place: Place::Winding,
         title: "saturation of the inductance",
-        parameters: &[Parameter::amplitude(
-            "falloff",
-            Quantity::PerSquareVolt,
-            (0.0, 4.0),
-            1.0,
-        )],
+        parameters: &[
+            Parameter::amplitude("falloff", Quantity::PerSquareVolt, (0.0, 4.0), 1.0)
+                .widening_to(40.0),
+        ],
         equation: "L = L0/(1 + k*(R*i)^2)",
         signature: "current rises faster than the model's when it is large; only at jumps of the voltage",
         exposed_by: "reversals at full voltage against small steps, sampled faster than L/R",

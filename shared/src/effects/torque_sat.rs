@@ -25,12 +25,10 @@ impl<S: Scalar> Effect<S> for TorqueSat<S> {
         name: "torque_sat",
         place: Place::Winding,
         title: "magnetic saturation of the torque",
-        parameters: &[Parameter::amplitude(
-            "cubic",
-            Quantity::PerSquareVolt,
-            (0.0, 0.4),
-            0.08,
-        )],
+        parameters: &[
+            Parameter::amplitude("cubic", Quantity::PerSquareVolt, (0.0, 0.4), 0.08)
+                .widening_to(4.0),
+        ],
         equation: "Tm = Is*tanh(R*i/Is), Is = 1/sqrt(3*k3)",
         signature: "torque falls short at large currents, as their cube",
         exposed_by: "reversals at full voltage, where the current is largest",

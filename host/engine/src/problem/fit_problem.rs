@@ -34,15 +34,21 @@ impl<'a> FitProblem<'a> {
     /// The same problem, started at a model, or at the nearest point of the cube.
     pub fn begun_at(&self, candidate: &Candidate) -> FitProblem<'a> {
         let x = self.structure.point(candidate);
+        let start = x.into_iter().map(|x| x.clamp(0.0, 1.0)).collect();
+        self.with_structure(self.structure.clone(), start)
+    }
+
+    /// The same problem with these unknowns, started at the point `start` of their unit cube.
+    pub fn with_structure(&self, structure: Structure, start: Vec<f64>) -> FitProblem<'a> {
         FitProblem {
             data: self.data,
-            structure: self.structure.clone(),
+            structure,
             cost: self.cost,
             weight: self.weight,
             horizon: self.horizon.clone(),
             start_angle: self.start_angle,
             method: self.method,
-            start: Some(x.into_iter().map(|x| x.clamp(0.0, 1.0)).collect()),
+            start: Some(start),
         }
     }
 }

@@ -72,7 +72,7 @@ impl Structure {
                     Kind::Delay => longest_delay(data, parameter.range.1),
                     _ => scaled(parameter.range.1),
                 };
-                unknowns.push(Unknown::new(
+                let unknown = Unknown::new(
                     &format!("{}.{}", kind.name(), parameter.name),
                     parameter.quantity.unit(),
                     (scaled(parameter.range.0), most),
@@ -81,7 +81,12 @@ impl Structure {
                     } else {
                         Scale::Log
                     },
-                ));
+                );
+                unknowns.push(if parameter.widest > parameter.range.1 {
+                    unknown.widening_to(scaled(parameter.widest))
+                } else {
+                    unknown
+                });
             }
         }
         let start_offset = data.quantised && effects.iter().any(|kind| kind.needs().angle);
@@ -118,9 +123,20 @@ impl Structure {
             .iter_mut()
             .filter(|unknown| unknown.name == name)
         {
-            unknown.range = (value, value);
+            unknown.confine((value, value));
         }
         self
+    }
+
+    /// The same with each range widened at whose upper end the point `x` of the unit cube is; `None` where there is no such or
+    /// none may be wider.
+    pub fn widened_at(&self, x: &[f64]) -> Option<Structure> {
+        let mut wider = self.clone();
+        let mut any = false;
+        for (unknown, &x) in wider.unknowns.iter_mut().zip(x) {
+            any |= unknown.widen_at(x);
+        }
+        any.then_some(wider)
     }
 
     /// Number of unknowns.

@@ -9,6 +9,11 @@ pub enum Scale {
     Log,
 }
 
+/// A coordinate nearer than this to the end of its range is at the end.
+const AT_END: f64 = 1e-6;
+/// A range is widened by this factor at a time.
+const WIDER: f64 = 3.0;
+
 /// One unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
@@ -18,6 +23,10 @@ pub struct Unknown {
     pub unit: &'static str,
     /// Search range in that unit.
     pub range: (f64, f64),
+    /// Upper end of the range before it was widened.
+    pub usual: f64,
+    /// Upper end to which the range may be widened.
+    pub widest: f64,
     /// How the range is searched.
     pub scale: Scale,
 }
@@ -28,8 +37,35 @@ impl Unknown {
             name: name.to_owned(),
             unit,
             range,
+            usual: range.1,
+            widest: range.1,
             scale,
         }
+    }
+
+    /// The same with a range that may be widened up to `widest`.
+    pub(super) fn widening_to(self, widest: f64) -> Self {
+        Unknown { widest, ..self }
+    }
+
+    /// Restricts the search to a range that is not widened.
+    pub fn confine(&mut self, range: (f64, f64)) {
+        self.range = range;
+        (self.usual, self.widest) = (range.1, range.1);
+    }
+
+    /// Whether the coordinate `x` is beyond the usual range, in a part that a search has added.
+    pub fn is_beyond_usual(&self, x: f64) -> bool {
+        self.range.1 > self.usual && self.value(x) > self.usual
+    }
+
+    /// Widens the range where the coordinate `x` is at its upper end. Returns whether it did.
+    pub(super) fn widen_at(&mut self, x: f64) -> bool {
+        let widens = x > 1.0 - AT_END && self.range.1 < self.widest;
+        if widens {
+            self.range.1 = (WIDER * self.range.1).min(self.widest);
+        }
+        widens
     }
 
     /// Value at the coordinate `x` in `[0, 1]`.

@@ -39,7 +39,7 @@ impl Bound {
                 "--bounds {name}: the lower bound must be above zero"
             )));
         }
-        unknown.range = *range;
+        unknown.confine(*range);
         Ok(())
     }
 }

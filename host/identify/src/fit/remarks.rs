@@ -54,6 +54,12 @@ pub(super) fn remarks(
         );
     }
     for (unknown, x) in problem.structure.unknowns.iter().zip(&found.x) {
+        if unknown.is_beyond_usual(*x) {
+            notes.push(format!(
+                "{} lies beyond its usual range: the search range was widened from {} to {} {}",
+                unknown.name, unknown.usual, unknown.range.1, unknown.unit
+            ));
+        }
         // Zero is where many quantities rightly end; it is not a bound that somebody chose.
         let at_zero = *x < WALL && unknown.range.0 == 0.0;
         if !(WALL..=1.0 - WALL).contains(x) && !at_zero {

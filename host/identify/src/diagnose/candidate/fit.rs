@@ -54,20 +54,8 @@ pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<F
     };
     let predicted = screened.predicted();
     let fit = |start: &[f64]| {
-        let found = search_or_fail(
-            context,
-            &screened.structure,
-            start,
-            settings,
-            context.method,
-        )?;
-        score_candidate(
-            context,
-            screened.structure.clone(),
-            &found,
-            predicted,
-            context.method,
-        )
+        let (structure, found) = search_widening(context, &screened.structure, start, settings)?;
+        score_candidate(context, structure, &found, predicted, context.method)
     };
     // Where the simulation is far worse than the series-parallel model predicted, the free run has lost its way.
     if context.span.window_s.is_some()
@@ -128,6 +116,26 @@ fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f6
         x = found.x;
     }
     x
+}
+
+/// Searches, and again in a wider range where the search ends at the end of one that may be wider. Keeps what fits better.
+fn search_widening(
+    context: &Context<'_>,
+    structure: &Structure,
+    start: &[f64],
+    settings: Settings,
+) -> Result<(Structure, Descent), Error> {
+    let mut structure = structure.clone();
+    let mut found = search_or_fail(context, &structure, start, settings, context.method)?;
+    while let Some(wider) = structure.widened_at(&found.x) {
+        let start = wider.coordinates(&structure.values(&found.x));
+        let again = search_or_fail(context, &wider, &start, settings, context.method)?;
+        if again.squares >= found.squares {
+            break;
+        }
+        (structure, found) = (wider, again);
+    }
+    Ok((structure, found))
 }
 
 fn search_or_fail(

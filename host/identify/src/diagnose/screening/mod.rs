@@ -231,10 +231,10 @@ fn widen(structure: &mut Structure, supply: f64) {
     for unknown in &mut structure.unknowns {
         let (low, high) = unknown.range;
         if unknown.unit == volts && unknown.scale == Scale::Linear {
-            unknown.range = (
+            unknown.confine((
                 if low < 0.0 { low.min(-supply) } else { low },
                 high.max(supply),
-            );
+            ));
         }
     }
 }
