@@ -24,6 +24,7 @@ mod paper;
 mod pipes;
 mod plan;
 mod prove;
+mod ranges;
 mod repeatable;
 mod report;
 mod searches;

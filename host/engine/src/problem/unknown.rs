@@ -10,7 +10,7 @@ pub enum Scale {
 }
 
 /// A coordinate nearer than this to the end of its range is at the end.
-const AT_END: f64 = 1e-6;
+const AT_END: f64 = 1e-4;
 /// A range is widened by this factor at a time.
 const WIDER: f64 = 3.0;
 
@@ -56,7 +56,7 @@ impl Unknown {
 
     /// Whether the coordinate `x` is beyond the usual range, in a part that a search has added.
     pub fn is_beyond_usual(&self, x: f64) -> bool {
-        self.range.1 > self.usual && self.value(x) > self.usual
+        self.range.1 > self.usual && self.value(x) > (1.0 + AT_END) * self.usual
     }
 
     /// Widens the range where the coordinate `x` is at its upper end. Returns whether it did.

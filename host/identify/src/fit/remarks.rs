@@ -53,22 +53,7 @@ pub(super) fn remarks(
                 .to_owned(),
         );
     }
-    for (unknown, x) in problem.structure.unknowns.iter().zip(&found.x) {
-        if unknown.is_beyond_usual(*x) {
-            notes.push(format!(
-                "{} lies beyond its usual range: the search range was widened from {} to {} {}",
-                unknown.name, unknown.usual, unknown.range.1, unknown.unit
-            ));
-        }
-        // Zero is where many quantities rightly end; it is not a bound that somebody chose.
-        let at_zero = *x < WALL && unknown.range.0 == 0.0;
-        if !(WALL..=1.0 - WALL).contains(x) && !at_zero {
-            notes.push(format!(
-                "{} ended on a bound of its search range ({} to {} {}): widen it with --bounds",
-                unknown.name, unknown.range.0, unknown.range.1, unknown.unit
-            ));
-        }
-    }
+    notes.extend(range_notes(problem, found));
     if problem.structure.base == (Base::Response { damping: false }) {
         notes.push(
             "the electrical time constant is stated for a motor without viscous friction; gain, a1 and a2 \
@@ -76,4 +61,38 @@ pub(super) fn remarks(
                 .to_owned(),
         );
     }
+}
+
+/// What a user should be told about the ends of the search ranges: which parameter ended on one, and which range was widened.
+pub(super) fn range_notes(problem: &FitProblem<'_>, found: &Found) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (unknown, x) in problem.structure.unknowns.iter().zip(&found.x) {
+        let (low, high) = unknown.range;
+        if unknown.is_beyond_usual(*x) {
+            notes.push(format!(
+                "{} lies beyond its usual range, up to {} {}: the search range was widened to {}",
+                unknown.name,
+                plain(unknown.usual),
+                unknown.unit,
+                plain(high)
+            ));
+        }
+        // Zero is where many quantities rightly end; it is not a bound that somebody chose.
+        let at_zero = *x < WALL && low == 0.0;
+        if !(WALL..=1.0 - WALL).contains(x) && !at_zero {
+            notes.push(format!(
+                "{} ended on a bound of its search range ({} to {} {}): widen it with `servoid fit --bounds`",
+                unknown.name,
+                plain(low),
+                plain(high),
+                unknown.unit
+            ));
+        }
+    }
+    notes
+}
+
+/// Four digits.
+fn plain(x: f64) -> String {
+    format!("{}", format!("{x:.3e}").parse::<f64>().unwrap_or(x))
 }

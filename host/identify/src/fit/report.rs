@@ -93,6 +93,8 @@ pub struct Fit {
     pub effective_samples: f64,
     /// What a user should know about the result, in words.
     pub notes: Vec<String>,
+    /// Those of the notes that are about search ranges.
+    pub range_notes: Vec<String>,
     /// Best cost against evaluations.
     pub curve: Vec<(usize, f64)>,
     /// Whether the search was stopped by the user.
@@ -184,6 +186,7 @@ impl Fit {
             converged: spread.as_ref().is_some_and(|s| s.converged),
             effective_samples: spread.map_or(data.len() as f64, |s| s.effective_samples),
             notes,
+            range_notes: remarks::range_notes(problem, found),
             curve: found.curve.clone(),
             interrupted: found.interrupted,
             error_ladder: Vec::new(),

@@ -118,7 +118,8 @@ fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f6
     x
 }
 
-/// Searches, and again in a wider range where the search ends at the end of one that may be wider. Keeps what fits better.
+/// Searches, and again in a wider range where the search ends at the end of one that may be wider. Keeps what fits better. Not
+/// in windows: there an effect that is as large as is searched for does another one's work (see [`FittedModel::at_wall`]).
 fn search_widening(
     context: &Context<'_>,
     structure: &Structure,
@@ -127,7 +128,9 @@ fn search_widening(
 ) -> Result<(Structure, Descent), Error> {
     let mut structure = structure.clone();
     let mut found = search_or_fail(context, &structure, start, settings, context.method)?;
-    while let Some(wider) = structure.widened_at(&found.x) {
+    while context.span.window_s.is_none()
+        && let Some(wider) = structure.widened_at(&found.x)
+    {
         let start = wider.coordinates(&structure.values(&found.x));
         let again = search_or_fail(context, &wider, &start, settings, context.method)?;
         if again.squares >= found.squares {

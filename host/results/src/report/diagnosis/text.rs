@@ -241,10 +241,13 @@ impl DiagnosisReport<'_> {
         for p in &self.last.parameters {
             out.push_str(&parameter(p, self.last.converged));
         }
-        match &self.last.likelihood {
-            Some(own) => likelihood::write(out, own),
-            None => Ok(()),
+        if let Some(own) = &self.last.likelihood {
+            likelihood::write(out, own)?;
         }
+        for note in &self.last.range_notes {
+            writeln!(out, "{}", folded(&format!("- {note}"), "  "))?;
+        }
+        Ok(())
     }
 }
 
