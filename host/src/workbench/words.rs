@@ -35,7 +35,7 @@ const IN_PLACE_OF: [(&str, &str); 21] = [
         "search with lm, or with `servoid fit` and a larger budget",
     ),
     (
-        "widen it with --bounds",
+        "widen it with `servoid fit --bounds`",
         "`servoid fit` takes wider bounds in a terminal",
     ),
     ("(try --with)", "(look for what would explain more)"),
