@@ -1,5 +1,6 @@
 //! Search ranges: they widen by themselves, unless the user sets them.
 
+use crate::contract::{number, parameter};
 use crate::desk::Desk;
 use serde_json::{Value, json};
 
@@ -22,38 +23,32 @@ fn desk(effect: &str, strength: f64) -> Desk {
     desk
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or(f64::NAN)
-}
-
 #[test]
 fn an_effect_beyond_its_usual_range_is_named_and_said_to_be() {
-    for (effect, parameter, strength) in BEYOND {
+    for (effect, name, strength) in BEYOND {
         let desk = desk(effect, strength);
         let said = desk.done("diagnose rec.csv --validate other.csv --json d.json");
         let diagnosis: Value = serde_json::from_str(&desk.read("d.json")).expect("JSON");
         assert_eq!(diagnosis["final"]["effects"], json!([effect]));
         for key in ["rms_counts", "validate_rms_counts"] {
-            let error = number(&diagnosis["final"][key]);
+            let error = number(&diagnosis["final"], key);
             assert!(error < FLOOR, "{effect}: {key} {error}");
         }
-        let sentence = format!("{parameter} lies beyond its usual range");
+        let sentence = format!("{name} lies beyond its usual range");
         assert!(said.stdout.contains(&sentence), "{said}");
     }
 }
 
 #[test]
 fn a_range_that_the_user_sets_is_kept() {
-    let (effect, parameter, strength) = BEYOND[2];
+    let (effect, name, strength) = BEYOND[2];
     let desk = desk(effect, strength);
     let most = 0.002;
     let said = desk.done(&format!(
-        "fit rec.csv --with {effect} --bounds {parameter}=0:{most} --json fit.json"
+        "fit rec.csv --with {effect} --bounds {name}=0:{most} --json fit.json"
     ));
     let fit: Value = serde_json::from_str(&desk.read("fit.json")).expect("JSON");
-    let parameters = fit["parameters"].as_array().expect("a list");
-    let own = parameters.iter().find(|p| p["name"] == parameter);
-    assert!(number(&own.expect(parameter)["value"]) <= most);
+    assert!(number(parameter(&fit, name), "value") <= most);
     assert!(said.stdout.contains("ended on a bound"), "{said}");
     assert!(!said.stdout.contains("beyond its usual range"), "{said}");
 }

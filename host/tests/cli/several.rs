@@ -1,6 +1,6 @@
 //! Several recordings of one motor, fitted together.
 
-use crate::contract::list;
+use crate::contract::{list, number, parameter};
 use crate::desk::Desk;
 use serde_json::Value;
 
@@ -20,10 +20,6 @@ fn desk() -> Desk {
     desk
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or(f64::NAN)
-}
-
 /// The recordings of a result with this role.
 fn in_role<'a>(result: &'a Value, role: &str) -> Vec<&'a Value> {
     let all = list(result, "recordings").iter();
@@ -33,16 +29,11 @@ fn in_role<'a>(result: &'a Value, role: &str) -> Vec<&'a Value> {
 /// RMS over all of them.
 fn pooled(recordings: &[&Value]) -> f64 {
     let (squares, samples) = recordings.iter().fold((0.0, 0.0), |(squares, all), one| {
-        let samples = number(&one["samples"]);
-        let square = number(&one["rms_counts"]).powi(2);
+        let samples = number(one, "samples");
+        let square = number(one, "rms_counts").powi(2);
         (squares + samples * square, all + samples)
     });
     (squares / samples).sqrt()
-}
-
-fn parameter<'a>(fit: &'a Value, name: &str) -> &'a Value {
-    let mut all = list(fit, "parameters").iter();
-    all.find(|parameter| parameter["name"] == name).expect(name)
 }
 
 #[test]
@@ -56,18 +47,18 @@ fn each_recording_has_its_error_and_each_parameter_its_spread() {
         assert_eq!(recordings.len(), names.len());
         for (recording, name) in recordings.iter().zip(names) {
             assert_eq!(recording["file"], format!("{name}.csv"));
-            assert!(number(&recording["rms_counts"]) < FLOOR, "{recording}");
+            assert!(number(recording, "rms_counts") < FLOOR, "{recording}");
         }
     };
     named(&fitted, &FITTED);
     named(&held_out, &HELD_OUT);
     for (key, recordings) in [("rms_counts", &fitted), ("validate_rms_counts", &held_out)] {
-        let (said, pooled) = (number(&fit[key]), pooled(recordings));
+        let (said, pooled) = (number(&fit, key), pooled(recordings));
         assert!((said - pooled).abs() < 1e-9, "{key}: {said}, {pooled}");
     }
     for name in ["gain", "a1", "coulomb.torque"] {
         let parameter = parameter(&fit, name);
-        let part = number(&parameter["spread"]) / number(&parameter["value"]);
+        let part = number(parameter, "spread") / number(parameter, "value");
         assert!(part > 0.0 && part < 1e-3, "{parameter}");
     }
 }
@@ -75,7 +66,7 @@ fn each_recording_has_its_error_and_each_parameter_its_spread() {
 #[test]
 fn no_order_of_the_recordings_changes_the_motor() {
     let desk = desk();
-    let gain = |line: &str| number(&parameter(&desk.json(line), "gain")["value"]);
+    let gain = |line: &str| number(parameter(&desk.json(line), "gain"), "value");
     let one = gain("fit telegraph.csv steps.csv chirp.csv --with coulomb");
     let other = gain("fit chirp.csv telegraph.csv steps.csv --with coulomb");
     assert!((one / other - 1.0).abs() < 1e-6, "{one}, {other}");
@@ -84,7 +75,7 @@ fn no_order_of_the_recordings_changes_the_motor() {
 #[test]
 fn recordings_together_determine_what_the_worst_of_them_does_not() {
     let desk = desk();
-    let std = |line: &str| number(&parameter(&desk.json(line), "coulomb.torque")["std"]);
+    let std = |line: &str| number(parameter(&desk.json(line), "coulomb.torque"), "std");
     let together = std("fit telegraph.csv steps.csv chirp.csv --with coulomb");
     for shape in FITTED {
         let alone = std(&format!("fit {shape}.csv --with coulomb"));
@@ -105,7 +96,7 @@ fn a_diagnosis_of_several_recordings_names_what_one_names() {
     assert_eq!(in_role(&diagnosis, "fitted").len(), 2);
     assert_eq!(in_role(&diagnosis, "held_out").len(), 2);
     for recording in list(&diagnosis, "recordings") {
-        assert!(number(&recording["rms_counts"]) < FLOOR, "{recording}");
+        assert!(number(recording, "rms_counts") < FLOOR, "{recording}");
     }
 }
 
@@ -119,7 +110,7 @@ fn a_recording_that_is_fitted_is_not_held_out_as_well() {
     desk.done("fit telegraph.csv --with coulomb --validate steps.csv --json one.json");
     let error = |name: &str| {
         let fit: Value = serde_json::from_str(&desk.read(name)).expect("JSON");
-        number(&fit["validate_rms_counts"])
+        number(&fit, "validate_rms_counts")
     };
     assert_eq!(error("both.json"), error("one.json"));
 }

@@ -12,13 +12,14 @@ const WALL: f64 = 1e-9;
 /// A sample interval this many times the usual one is a gap.
 const GAP: f64 = 3.0;
 
-/// Appends the remarks.
+/// Appends the remarks, those on search ranges among them.
 pub(super) fn remarks(
     problem: &FitProblem<'_>,
     found: &Found,
     options: &Options,
     spread: Option<&Uncertainty>,
     rms_counts: f64,
+    range_notes: &[String],
     notes: &mut Vec<String>,
 ) {
     let data = problem.data;
@@ -53,7 +54,7 @@ pub(super) fn remarks(
                 .to_owned(),
         );
     }
-    notes.extend(range_notes(problem, found));
+    notes.extend_from_slice(range_notes);
     if problem.structure.base == (Base::Response { damping: false }) {
         notes.push(
             "the electrical time constant is stated for a motor without viscous friction; gain, a1 and a2 \

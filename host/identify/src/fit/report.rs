@@ -150,12 +150,14 @@ impl Fit {
             describe(problem, reconciled, &options.known, &mut notes);
         }
         let windowed = scores::windowed(data, &candidate, options);
+        let range_notes = remarks::range_notes(problem, found);
         remarks::remarks(
             problem,
             found,
             options,
             spread.as_ref(),
             rms_counts,
+            &range_notes,
             &mut notes,
         );
         let response = candidate.machine.response();
@@ -186,7 +188,7 @@ impl Fit {
             converged: spread.as_ref().is_some_and(|s| s.converged),
             effective_samples: spread.map_or(data.len() as f64, |s| s.effective_samples),
             notes,
-            range_notes: remarks::range_notes(problem, found),
+            range_notes,
             curve: found.curve.clone(),
             interrupted: found.interrupted,
             error_ladder: Vec::new(),
