@@ -103,24 +103,6 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
     )
 }
 
-/// The bench of `--machine`, `--hide`, `--counts-per-rev` and `--seed`.
-pub(super) fn bench_of(
-    machine: &str,
-    hide: &[String],
-    counts_per_rev: u32,
-    seed: u64,
-) -> Result<Bench, Error> {
-    let machine = Machine::preset(machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
-    let mut bench = Bench::new(machine);
-    bench.effects = hide
-        .iter()
-        .map(|text| hidden(text, &machine))
-        .collect::<Result<_, _>>()?;
-    bench.counts_per_rev = counts_per_rev;
-    bench.seed = seed;
-    Ok(bench)
-}
-
 /// One `--hide`.
 pub(super) fn hidden(text: &str, machine: &Machine) -> Result<Hidden, Error> {
     let settings = text.split_once(':').map(|(_, settings)| settings);
@@ -172,6 +154,24 @@ fn check_counts(recording: &Recording, args: &SimulateArgs) -> Result<(), Error>
             args.counts_per_rev
         ))),
     }
+}
+
+/// The bench of `--machine`, `--hide`, `--counts-per-rev` and `--seed`.
+pub(super) fn bench_of(
+    machine: &str,
+    hide: &[String],
+    counts_per_rev: u32,
+    seed: u64,
+) -> Result<Bench, Error> {
+    let machine = Machine::preset(machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
+    let mut bench = Bench::new(machine);
+    bench.effects = hide
+        .iter()
+        .map(|text| hidden(text, &machine))
+        .collect::<Result<_, _>>()?;
+    bench.counts_per_rev = counts_per_rev;
+    bench.seed = seed;
+    Ok(bench)
 }
 
 fn bench(args: &SimulateArgs, seed: u64) -> Result<Bench, Error> {
