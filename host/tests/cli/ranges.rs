@@ -2,7 +2,7 @@
 
 use crate::contract::{number, parameter};
 use crate::desk::Desk;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Effects as strong as no usual range holds, with the parameter that lies beyond.
 const BEYOND: [(&str, &str, f64); 3] = [

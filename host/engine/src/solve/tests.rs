@@ -184,7 +184,6 @@ fn elites_are_not_evaluated_again() {
             population,
             elites,
             mutation_rate: Some(1.0),
-            ..Default::default()
         };
         let witness = Witness::of(Problem::named("sphere"));
         search(&restless, &witness, 2000, 4);
