@@ -15,13 +15,13 @@ use core::fmt::{self, Write};
 use crate::board::Board;
 use crate::phase::Fault;
 
-/// The whole supply, as the lines have it.
+/// The whole supply, in the unit of the printed duty.
 const FULL: i32 = 32_768;
-/// What a key changes the duty by.
+/// Change of the duty per key press.
 const STEP: i16 = 512;
 /// The largest duty, either way.
 const LIMIT: i16 = 8192;
-/// How long a key drives, ms.
+/// Drive time per key press, ms.
 const HOLD_MS: u32 = 500;
 /// Time between two lines, ms.
 const LINE_MS: u32 = 100;
@@ -35,8 +35,8 @@ pub struct Bringup<B> {
     left: u32,
     until_line: u32,
     fault: Option<Fault>,
-    /// Whether the fault has been printed.
-    told: bool,
+    /// Set once the fault has been printed.
+    reported: bool,
     line: Line,
 }
 
@@ -53,7 +53,7 @@ impl<B: Board> Bringup<B> {
             left: 0,
             until_line: Self::LINE,
             fault: None,
-            told: false,
+            reported: false,
             line: Line::default(),
         }
     }
@@ -72,7 +72,7 @@ impl<B: Board> Bringup<B> {
         }
         if let Err(fault) = self.board.tick() {
             self.fault = Some(fault);
-            self.told = false;
+            self.reported = false;
             self.coast();
         }
         let count = self.board.count();
@@ -86,8 +86,8 @@ impl<B: Board> Bringup<B> {
     }
 
     fn press(&mut self, key: u8) {
-        if self.fault.is_some() && !self.told {
-            // Whoever pressed it does not know yet.
+        if self.fault.is_some() && !self.reported {
+            // The user has not seen the fault yet.
             return;
         }
         self.fault = None;
@@ -106,7 +106,7 @@ impl<B: Board> Bringup<B> {
     }
 
     fn print(&mut self, count: i32) {
-        self.told = true;
+        self.reported = true;
         let current = self.board.current_ma();
         self.line = Line::default();
         // A line that does not fit is cut: its longest form has room.

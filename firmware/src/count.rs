@@ -1,4 +1,4 @@
-//! What the device's arithmetic costs, in instructions: of a sample, and of a whole commissioning search.
+//! Instruction counts of the device's arithmetic: per sample, and of a whole commissioning search.
 //!
 //! Counted, not timed: an emulator that gives each instruction the same length of virtual time makes a timer an exact and
 //! repeatable counter. Wait states of the flash and latencies of the floating-point unit come on top on a real chip.
@@ -23,7 +23,7 @@ const EVALUATIONS: u16 = 4000;
 /// Writes a line for each quantity; `count` says how many instructions what it is given takes.
 ///
 /// # Errors
-/// What the writer fails with.
+/// Errors of the writer.
 pub fn count<S: Arithmetic>(
     out: &mut impl Write,
     mut count: impl FnMut(&mut dyn FnMut()) -> u32,
@@ -91,7 +91,7 @@ fn search<S: Arithmetic>(
     instructions
 }
 
-/// What a commissioning records of a small motor, with dry friction or without.
+/// A commissioning recording of a small motor, with or without dry friction.
 #[inline(never)]
 fn recording(coulomb: bool) -> ([i16; PERIODS], [i16; PERIODS]) {
     let (mut duties, mut steps) = ([0; PERIODS], [0; PERIODS]);

@@ -1,4 +1,4 @@
-//! How a program ends that runs in an emulator: with an exit code, by semihosting. A panic is a failure.
+//! Ends a program in an emulator with an exit code, by semihosting. A panic is a failure.
 
 use core::panic::PanicInfo;
 

@@ -22,7 +22,7 @@ pub struct Tripped {
 }
 
 impl Tripped {
-    /// By what has no number.
+    /// A fault without a number.
     pub fn by(fault: Fault) -> Self {
         Tripped {
             fault,
@@ -32,7 +32,7 @@ impl Tripped {
     }
 }
 
-/// What a run has done so far, against its limits.
+/// State of a run against its limits.
 #[derive(Debug, Clone)]
 pub struct Guard {
     limits: Limits,
@@ -77,11 +77,6 @@ impl Guard {
     /// From now on a drive of `duty` is known to move the shaft well.
     pub fn expect_motion(&mut self, duty: i16) {
         self.strong = duty;
-    }
-
-    /// Largest duty allowed.
-    pub fn largest_duty(&self) -> i16 {
-        self.limits.duty
     }
 
     /// Looks at a period that has passed: the duty held during it (none with an open bridge), the count at its end, and
@@ -147,7 +142,7 @@ impl Guard {
         Ok(())
     }
 
-    /// Keeps account of how the shaft answers a strong drive.
+    /// Tracks the shaft's response to a strong drive.
     fn follow(&mut self, drive: i16, step: i32) {
         let forward = drive >= 0;
         let weak = drive.unsigned_abs() < self.strong.unsigned_abs();

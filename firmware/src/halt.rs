@@ -1,4 +1,4 @@
-//! The end of a program that cannot go on: the bridge is opened first, then the microcontroller starts anew, which
+//! Handles a fatal error: opens the bridge, then resets the microcontroller, which
 //! leaves the bridge open until a host asks for a drive again.
 
 use core::panic::PanicInfo;

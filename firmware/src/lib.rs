@@ -1,5 +1,5 @@
-//! The application of a servo that identifies its own motor, without a board: what to do next is here, what a pin is
-//! called is not. It runs unchanged on a PC, where the tests put a toy motor in the board's place.
+//! The application of a servo that identifies its own motor, independent of the board: control logic is here, pin
+//! names are not. It runs unchanged on a PC, where the tests put a toy motor in the board's place.
 //!
 //! - [`board`]: the few things that a board must do, and the boards
 //! - [`phase`]: the phases of a self-identification and the rule that leads from one to the next

@@ -1,4 +1,4 @@
-//! What somebody at a debugger may read: phases, refusals and faults, by defmt. On RTT on a board, by semihosting in an emulator,
+//! Debug log by defmt: phases, refusals and faults. Over RTT on a board, by semihosting in an emulator,
 //! never on the link. Without the feature `defmt` there is nothing of it in an image.
 
 use crate::guard::Tripped;

@@ -14,27 +14,27 @@ use shared::wire::Stage;
 
 pub use shared::wire::Fault;
 
-/// What the device is doing.
+/// Phase of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
     /// Waits for a start; the bridge is open.
     Idle,
-    /// Drives in small growing steps until the shaft moves, which settles the amplitude of the excitation.
+    /// Drives in small growing steps until the shaft moves, which sets the amplitude of the excitation.
     Probe,
-    /// Plays the long excitation, which is streamed to the host and not kept.
+    /// Plays the long excitation, which is streamed to the host and not stored.
     Excite,
-    /// Plays a short one from standstill, and keeps the duty and the count of every period.
+    /// Plays a short one from standstill, and stores the duty and the count of every period.
     Record,
     /// Fits the model to the recording; the bridge is open and the motor coasts.
     Fit,
     /// Drives a recording that the fit has not seen, and compares it with the model's prediction.
     Verify,
-    /// Tells the host how it ended, until the host has it; the bridge is open.
+    /// Repeats the report until the host acknowledges it; the bridge is open.
     Report(Result<(), Fault>),
 }
 
-/// What leads from a phase to the next when all goes well.
+/// Event that leads from a phase to the next when all goes well.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event {
     /// The user asks for a self-identification.
@@ -43,7 +43,7 @@ pub enum Event {
     Done,
 }
 
-/// Whether the bridge may drive the motor.
+/// Permission of the bridge to drive the motor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bridge {
     /// Open: the motor coasts.
@@ -81,7 +81,7 @@ impl Phase {
         }
     }
 
-    /// Whether the bridge may drive the motor in this phase.
+    /// Permission of the bridge to drive the motor in this phase.
     #[must_use]
     pub fn bridge(self) -> Bridge {
         match self {
@@ -101,7 +101,7 @@ pub struct Refused {
 }
 
 impl Phase {
-    /// As the host is told.
+    /// The refusal as a message to the host.
     #[must_use]
     pub fn stage(self) -> Stage {
         match self {

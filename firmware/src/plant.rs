@@ -1,4 +1,4 @@
-//! A motor to practise on, where there is none: for tests of the application and for images without a bench.
+//! A simulated motor for tests of the application and for images without a bench.
 //!
 //! Plain equations in SI, integrated in short steps; it shares nothing with the model that is fitted to it. What the host's
 //! virtual bench can do (every effect of the catalogue), this does not: an image reaches that over a link instead.
@@ -29,11 +29,11 @@ pub struct Motor {
     pub cogging_order: f32,
     /// Counts a revolution.
     pub counts_per_rev: f32,
-    /// What stands between it and the drive.
+    /// Its state.
     pub state: Shaft,
 }
 
-/// Where the motor is.
+/// State of the motor.
 #[derive(Debug, Clone, Default)]
 pub struct Shaft {
     /// A.

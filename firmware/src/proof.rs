@@ -1,4 +1,4 @@
-//! The same bits everywhere: what the PC and a microcontroller must compute alike, as lines of text.
+//! Reference results that the PC and a microcontroller must compute bit for bit, as lines of text.
 //!
 //! Every effect of the catalogue runs in f32 and in fixed point, and both searches fit a recording in both. Whoever runs it
 //! prints the same lines, or the host cannot repeat what a device found.
@@ -45,7 +45,7 @@ impl Hash {
 /// Writes all lines.
 ///
 /// # Errors
-/// What the writer fails with.
+/// Errors of the writer.
 pub fn prove(out: &mut impl Write) -> fmt::Result {
     for kind in [None]
         .into_iter()

@@ -1,4 +1,4 @@
-//! Whole runs of the application on the PC: against a motor that obeys, and against everything that can go wrong.
+//! Whole runs of the application on the PC: with a healthy motor, and with every injected fault.
 
 use firmware::app::{Memory, Recording};
 use firmware::phase::{Fault, Phase};
@@ -11,7 +11,7 @@ use shared::wire::*;
 use std::cell::RefCell;
 use std::ops::{Deref, DerefMut};
 
-/// A host and a device that lives as long as the test, and all that it has said.
+/// A host, a device for the length of the test, and all messages received from it.
 struct Host<S: Arithmetic> {
     host: trials::host::Host<'static, S, 2000>,
     received: Vec<ToHost>,
@@ -44,7 +44,7 @@ impl<S: Arithmetic> Host<S> {
         }
     }
 
-    /// One period; what the device said is kept.
+    /// One period; stores the device's messages.
     fn period(&mut self) {
         let Host { host, received } = self;
         host.period(|message| received.push(message));
@@ -55,7 +55,7 @@ impl<S: Arithmetic> Host<S> {
         assert!(self.host.start(job), "armed");
     }
 
-    /// Runs until there is an outcome; `mischief` may meddle before each period.
+    /// Runs until there is an outcome; `mischief` may inject a fault before each period.
     fn run(
         &mut self,
         job: Job,

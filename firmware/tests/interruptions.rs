@@ -15,7 +15,7 @@ const RUNS: u64 = 250;
 const INTERRUPTIONS: usize = 4;
 /// Periods in which a run without interruptions has its outcome.
 const WHOLE: u32 = 4_000;
-/// Silence of the host after which the device must let go.
+/// Host time-out after which the device must open the bridge.
 const SILENCE: u32 = 500;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ enum Kind {
     Noise,
     /// Every few bytes one is missing.
     Cut,
-    /// What the host said long ago arrives once more.
+    /// Old frames of the host arrive again.
     Late,
 }
 
@@ -43,7 +43,7 @@ const KINDS: [Kind; 6] = [
     Kind::Late,
 ];
 
-/// What the host knows at the end of a run.
+/// The host's knowledge at the end of a run.
 #[derive(Default)]
 struct Known {
     rows: BTreeMap<u32, Row>,
@@ -57,10 +57,12 @@ impl Known {
         match message {
             ToHost::Rows(rows) if rows.stage == Stage::Record => {
                 for (k, row) in rows.rows.iter().enumerate() {
-                    let told = self.rows.insert(rows.first + k as u32, *row);
-                    // What is sent once more has no current in it.
+                    let earlier = self.rows.insert(rows.first + k as u32, *row);
+                    // Retransmitted rows carry no current.
                     assert!(
-                        told.is_none_or(|told| (told.duty, told.step) == (row.duty, row.step)),
+                        earlier.is_none_or(
+                            |earlier| (earlier.duty, earlier.step) == (row.duty, row.step)
+                        ),
                         "period {} was told twice, differently",
                         rows.first + k as u32
                     );
@@ -105,7 +107,7 @@ struct Table<'b> {
     rng: rng::Generator,
     inbox: Deframer,
     known: Known,
-    /// Everything that the host has said.
+    /// All frames sent by the host.
     said: Vec<u8>,
     /// Periods for which the bridge has driven since a byte reached the device.
     unheard: u32,
@@ -122,7 +124,7 @@ impl Table<'_> {
         }
     }
 
-    /// What the interruption makes of bytes under way.
+    /// Applies the interruption to bytes in transit.
     fn passes(&mut self, bytes: Vec<u8>, disturbed: Option<Kind>, to_device: bool) -> Vec<u8> {
         let rng = &mut self.rng;
         match disturbed {
@@ -243,9 +245,9 @@ fn run(seed: u64) -> bool {
         table.period(disturbed);
     }
     // The link has been whole for long enough: there is an outcome, and the device still tells it.
-    let told = table.known.report.is_some() != table.known.failure.is_some();
+    let one_outcome = table.known.report.is_some() != table.known.failure.is_some();
     assert!(
-        told,
+        one_outcome,
         "no outcome, or two, in {:?}; {interruptions:?}",
         table.host.app.phase()
     );

@@ -1,7 +1,7 @@
 //! Any text as a motor file: read or refused, never a panic, and what is accepted is written back the same.
 #![no_main]
 
-use host::input::MotorFile;
+use servoid_io::input::MotorFile;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

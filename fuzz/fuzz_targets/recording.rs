@@ -2,9 +2,9 @@
 //! The first byte chooses the units, the rest is the file.
 #![no_main]
 
-use host::input::{AngleUnit, CommandUnit, MotorFile, Units, read_recording_from};
-use host::output::write_csv;
 use libfuzzer_sys::fuzz_target;
+use servoid_io::input::{AngleUnit, CommandUnit, MotorFile, Units, read_recording_from};
+use servoid_io::output::write_csv;
 
 fuzz_target!(|data: &[u8]| {
     let Some((choice, text)) = data.split_first() else { return };

@@ -3,7 +3,7 @@
 
 use clap::Parser;
 use host::cli::Cli;
-use host::report::style::{BAD, painted};
+use servoid_results::report::style::{BAD, painted};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

@@ -120,6 +120,16 @@ impl Session {
         }
     }
 
+    /// Writes a drawing, and remarks where it is.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_plot(&self, path: &Path, drawing: &str) -> Result<(), Error> {
+        write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
+        self.remark(&format!("plot: {}", path.display()));
+        Ok(())
+    }
+
     /// Delivers a result: the text to stdout and the JSON to its file, or with `--json -` the JSON
     /// alone to stdout. Fails after delivery if the user stopped the work.
     pub fn deliver(&self, text: &str, json: &impl Serialize) -> Result<(), Error> {

@@ -2,14 +2,10 @@
 
 mod motors;
 
-use motors::{BENCHES, Bench};
-use shared::effects::{
-    AtSpeed, Contained, EffectSet, Kind, Order, Other, Parameter, Starts, Value,
-};
+use motors::{BENCHES, Bench, INTERVAL, furthest, run};
+use shared::effects::{AtSpeed, Contained, Kind, Order, Other, Parameter, Starts, Value};
 use shared::excite::{COMMISSIONING, commands};
-use shared::model::{Model, Plan, State};
 
-const INTERVAL: f64 = 1e-3;
 /// A contained effect is met over the whole commissioning mix to a count and to this part of what it changes: if it is
 /// contained as a whole, and if it is only come near to (flanks of a closed gap push and never pull, a spring does both).
 const MET: (f64, f64) = (1e-3, 0.05);
@@ -115,37 +111,13 @@ fn whatever_an_effect_says_of_its_parameters_is_of_those_that_it_has() {
 
 /// Readings in counts under the commissioning mix, in many short substeps.
 fn readings(bench: &Bench, effect: Option<(Kind, &[f64])>) -> Vec<f64> {
-    let mut effects = EffectSet::default();
-    if let Some((kind, values)) = effect {
-        effects.push(kind, values).expect("a valid effect");
-    }
-    let plan = Plan {
-        effects,
-        substeps: 16,
-        ..Plan::linear(bench.physical.machine(), bench.units(INTERVAL))
-    };
-    let model = Model::<f64>::new(&plan).expect("a valid model");
-    let mut state = State::default();
-    commands::<f64>(&COMMISSIONING, INTERVAL, 1)
-        .map(|command| {
-            model.step(&mut state, command.drive, !command.enabled);
-            model.reading(&state)
-        })
-        .collect()
-}
-
-fn furthest(some: &[f64], others: &[f64]) -> f64 {
-    let pairs = some.iter().zip(others);
-    pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+    let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
+    run::<f64>(&bench.plan(effect.as_slice(), 16), &drive)
 }
 
 /// Typical values of the general effect, SI, but those at rest that make it the contained one.
 fn at_rest(bench: &Bench, general: Kind, contained: &Contained) -> Vec<f64> {
-    let no_load = bench.supply * bench.physical.machine().response().gain;
-    let parameters = general.parameters().iter();
-    let mut values: Vec<f64> = parameters
-        .map(|p| p.scaled(p.typical, bench.supply, no_load))
-        .collect();
+    let mut values = bench.typical(general);
     for (index, value) in contained.at_rest {
         values[*index] = *value;
     }

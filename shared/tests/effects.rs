@@ -2,37 +2,20 @@
 
 mod motors;
 
-use motors::{BENCHES, Bench};
-use shared::effects::{EffectSet, Kind};
+use motors::{BENCHES, Bench, INTERVAL, furthest, run};
+use shared::effects::Kind;
 use shared::excite::{COMMISSIONING, commands};
-use shared::model::{Model, Plan, State};
-
-const INTERVAL: f64 = 1e-3;
 
 /// Readings in counts under the commissioning mix, with typical parameters of the effects.
 fn readings(bench: &Bench, kinds: &[Kind]) -> Vec<f64> {
-    let no_load = bench.supply * bench.physical.machine().response().gain;
-    let mut effects = EffectSet::default();
-    for kind in kinds {
-        let parameters = kind.description().parameters.iter();
-        let values: Vec<f64> = parameters
-            .map(|p| p.scaled(p.typical, bench.supply, no_load))
-            .collect();
-        effects.push(*kind, &values).expect("a valid effect");
-    }
-    let plan = Plan {
-        effects,
-        substeps: 2,
-        ..Plan::linear(bench.physical.machine(), bench.units(INTERVAL))
-    };
-    let model = Model::<f64>::new(&plan).expect("a valid model");
-    let mut state = State::default();
-    commands::<f64>(&COMMISSIONING, INTERVAL, 1)
-        .map(|command| {
-            model.step(&mut state, command.drive, !command.enabled);
-            model.reading(&state)
-        })
-        .collect()
+    let values: Vec<Vec<f64>> = kinds.iter().map(|kind| bench.typical(*kind)).collect();
+    let effects: Vec<(Kind, &[f64])> = kinds
+        .iter()
+        .copied()
+        .zip(values.iter().map(Vec::as_slice))
+        .collect();
+    let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
+    run::<f64>(&bench.plan(&effects, 2), &drive)
 }
 
 /// A hook whose need was not declared is asked only if another effect declares it.
@@ -44,10 +27,7 @@ fn every_effect_acts_alone_and_in_company() {
             for companion in [None, Some(Kind::Coulomb), Some(Kind::Windage)] {
                 let with: Vec<Kind> = companion.into_iter().chain([kind]).collect();
                 let without = companion.map_or(bare.clone(), |kind| readings(bench, &[kind]));
-                let most = readings(bench, &with)
-                    .iter()
-                    .zip(&without)
-                    .fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+                let most = furthest(&readings(bench, &with), &without);
                 let case = format!("{}: {} beside {companion:?}", bench.name, kind.name());
                 assert!(most > 0.1, "{case} changes {most} counts at most");
             }

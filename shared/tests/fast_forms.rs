@@ -60,7 +60,7 @@ fn with_effects(plan: Plan<f64>, kinds: &[Kind], rng: &mut Generator) -> Plan<f6
     let no_load = supply * plan.machine.response().gain;
     let mut effects = EffectSet::default();
     for &kind in kinds {
-        let parameters = kind.description().parameters.iter();
+        let parameters = kind.parameters().iter();
         let values: Vec<f64> = parameters
             .map(|p| {
                 let value = p.typical * between(rng, 1.0 / 3.0, 3.0);

@@ -3,45 +3,12 @@
 
 mod motors;
 
-use motors::{BENCHES, Bench};
-use shared::effects::{EffectSet, Kind};
-use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Command, Experiment, Shape, commands};
-use shared::model::{Model, Plan, State};
-use shared::scalar::{ErrorValue, Fixed, Readable, Scalar};
+use motors::{BENCHES, INTERVAL, furthest, run};
+use shared::effects::Kind;
+use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
+use shared::scalar::Fixed;
 
-const INTERVAL: f64 = 1e-3;
-
-fn plan(bench: &Bench, effects: &[(Kind, &[f64])]) -> Plan<f64> {
-    let mut set = EffectSet::default();
-    for (kind, values) in effects {
-        set.push(*kind, values).expect("a valid effect");
-    }
-    Plan {
-        effects: set,
-        substeps: 2,
-        ..Plan::linear(bench.physical.machine(), bench.units(INTERVAL))
-    }
-}
-
-/// Angle in counts after each sample.
-fn run<S: Scalar<Angle: Readable<S>>>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
-    let model = Model::<S>::new(plan).expect("a valid model");
-    let mut state = State::<S>::default();
-    drive
-        .iter()
-        .map(|command| {
-            model.step(&mut state, S::from_f64(command.drive), !command.enabled);
-            model.reading(&state).minus(0).to_f64()
-        })
-        .collect()
-}
-
-fn furthest(a: &[f64], b: &[f64]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max)
-}
+const SUBSTEPS: u16 = 2;
 
 #[test]
 fn every_format_stays_within_one_count_of_f64_over_ten_seconds() {
@@ -59,7 +26,7 @@ fn every_format_stays_within_one_count_of_f64_over_ten_seconds() {
             .take(10_000)
             .collect();
         for bench in &BENCHES {
-            let plan = plan(bench, &[]);
+            let plan = bench.plan(&[], SUBSTEPS);
             let exact = run::<f64>(&plan, &drive);
             let single = furthest(&exact, &run::<f32>(&plan, &drive));
             let fixed = furthest(&exact, &run::<Fixed>(&plan, &drive));
@@ -87,8 +54,7 @@ fn every_effect_in_every_format_stays_within_one_count_of_f64() {
     let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
     for bench in &BENCHES {
         for &kind in Kind::ALL {
-            let values: Vec<f64> = typical(kind, bench);
-            let plan = plan(bench, &[(kind, &values)]);
+            let plan = bench.plan(&[(kind, &bench.typical(kind))], SUBSTEPS);
             let exact = run::<f64>(&plan, &drive);
             let single = furthest(&exact, &run::<f32>(&plan, &drive));
             let fixed = furthest(&exact, &run::<Fixed>(&plan, &drive));
@@ -111,14 +77,4 @@ fn every_effect_in_every_format_stays_within_one_count_of_f64() {
             );
         }
     }
-}
-
-/// Typical values of an effect in SI for a bench.
-fn typical(kind: Kind, bench: &Bench) -> Vec<f64> {
-    let no_load = bench.supply * bench.physical.machine().response().gain;
-    kind.description()
-        .parameters
-        .iter()
-        .map(|p| p.scaled(p.typical, bench.supply, no_load))
-        .collect()
 }

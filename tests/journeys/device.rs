@@ -4,9 +4,9 @@
 use clap::Parser;
 use firmware::app::{App, Memory, Recording};
 use firmware::board::pc::Pc;
-use host::bench::{Bench, Hidden, Machine};
 use host::cli::Cli;
 use serde_json::Value;
+use servoid_plant::{Bench, Hidden, Machine};
 use std::fs;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::Path;
@@ -56,6 +56,13 @@ impl Device {
             thread: Some(thread),
         }
     }
+
+    /// The flags that name it, and what is known of its bench.
+    fn bench(&self) -> impl Iterator<Item = &str> {
+        "--supply-v 12 --counts-per-rev 2000 --port"
+            .split(' ')
+            .chain([self.port.as_str()])
+    }
 }
 
 impl Drop for Device {
@@ -83,17 +90,8 @@ fn servoid(words: &[&str], json: &Path) -> (Option<Value>, Option<String>) {
 
 fn commission(device: &Device, out: &Path, more: &[&str]) -> (Option<Value>, Option<String>) {
     let out_text = out.display().to_string();
-    let mut words = vec![
-        "device",
-        "commission",
-        "--port",
-        &device.port,
-        "--supply-v",
-        "12",
-        "--counts-per-rev",
-        "2000",
-    ];
-    words.extend(["--out", &out_text]);
+    let mut words = vec!["device", "commission", "--out", &out_text];
+    words.extend(device.bench());
     words.extend(more);
     servoid(&words, &out.with_extension("commission.json"))
 }
@@ -214,19 +212,8 @@ fn a_plan_is_played_as_written() {
     let device = Device::with(&[]);
     let out = folder.path().join("played");
     let (plan_text, out_text) = (plan.display().to_string(), out.display().to_string());
-    let words = [
-        "device",
-        "run",
-        &plan_text,
-        "--out",
-        &out_text,
-        "--port",
-        &device.port,
-        "--supply-v",
-        "12",
-        "--counts-per-rev",
-        "2000",
-    ];
+    let mut words = vec!["device", "run", &plan_text, "--out", &out_text];
+    words.extend(device.bench());
     let (_, error) = servoid(&words, &folder.path().join("played.json"));
     assert_eq!(error, None);
     let text = fs::read_to_string(out.join("recording.csv")).unwrap();

@@ -14,7 +14,7 @@ use crate::plant::{Motor, State, Terminal};
 use crate::rig::Rig;
 use crate::stack;
 
-/// How the bench is set up.
+/// Settings of the bench.
 #[derive(Debug)]
 pub struct Settings {
     /// The motor.
@@ -29,13 +29,13 @@ pub struct Settings {
     pub end_ns: u64,
     /// Virtual seconds that may pass in a second; infinite to run as fast as it goes.
     pub pace: f64,
-    /// What is wrong.
+    /// Faults to inject.
     pub faults: Faults,
-    /// Whether to count the stack that is used.
+    /// Counts the stack used if set.
     pub measure_stack: bool,
 }
 
-/// The motor, the encoder's disc and the clock on the wall.
+/// The motor, the encoder and wall-clock time.
 #[derive(Debug)]
 pub struct Bench {
     settings: Settings,
@@ -57,7 +57,7 @@ pub struct Bench {
 const MS: u64 = 1_000_000;
 
 impl Bench {
-    /// A motor at rest at angle zero. Its course goes to `log`, a line a millisecond.
+    /// A motor at rest at angle zero. Its trajectory goes to `log`, a line a millisecond.
     pub fn new(settings: Settings, log: Option<File>) -> Self {
         let mut log = log.map(BufWriter::new);
         if let Some(log) = &mut log {
@@ -82,12 +82,12 @@ impl Bench {
         self.shown
     }
 
-    /// Where the motor is.
+    /// The motor's state.
     pub fn state(&self) -> State {
         self.state
     }
 
-    /// Time since the first instruction, as the clock on the wall has it.
+    /// Wall-clock time since the first instruction.
     pub fn elapsed(&self) -> Duration {
         self.started.elapsed()
     }
@@ -114,7 +114,7 @@ impl Bench {
     fn turn(&mut self, rig: &mut Rig, at: VirtualNanos) {
         let now = at.0 as f64 * 1e-9;
         let faults = &self.settings.faults;
-        // What acted until now, then what acts from now on.
+        // First the drive that acted until now, then the next one.
         let duty = rig.duty();
         self.turns_in = rig.take_over(at).0;
         let terminal = match duty {

@@ -1,4 +1,4 @@
-//! What can be wrong with the bench, and from when on.
+//! Faults of the bench, each with its start time.
 
 use clap::Args;
 
@@ -26,7 +26,7 @@ pub struct Faults {
     pub reset_at: Option<f64>,
 }
 
-/// Whether a fault that begins at `at` has begun by `now`, s.
+/// True once a fault that begins at `at` has begun by `now`, s.
 pub fn begun(at: Option<f64>, now: f64) -> bool {
     at.is_some_and(|at| now >= at)
 }

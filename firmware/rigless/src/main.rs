@@ -48,7 +48,7 @@ struct Cli {
     /// Counts the stack that the image has used by the end.
     #[arg(long)]
     stack: bool,
-    /// Writes the motor's course to this CSV file, a line a millisecond.
+    /// Writes the motor's trajectory to this CSV file, a line a millisecond.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
     #[command(flatten)]

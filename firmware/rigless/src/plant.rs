@@ -1,6 +1,6 @@
 //! The motor on the bench: armature, rotor, dry friction. Nothing here is shared with the firmware's model of it.
 
-/// What the motor is made of, SI.
+/// Parameters of the motor, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
     /// Armature resistance, Ω.
@@ -11,7 +11,7 @@ pub struct Motor {
     pub torque_constant: f64,
     /// Back-EMF constant, V·s/rad.
     pub back_emf: f64,
-    /// Inertia of the rotor and of what it carries, kg·m².
+    /// Inertia of rotor and load, kg·m².
     pub inertia: f64,
     /// Viscous friction, N·m·s/rad.
     pub viscous: f64,
@@ -21,7 +21,7 @@ pub struct Motor {
     pub holding: f64,
 }
 
-/// What the bridge puts across the winding.
+/// State of the terminals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Terminal {
     /// A voltage, V.
@@ -30,7 +30,7 @@ pub enum Terminal {
     Open(f64),
 }
 
-/// Where the motor is.
+/// State of the motor.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct State {
     /// Armature current, A.

@@ -56,8 +56,8 @@ impl Rig {
         })
     }
 
-    /// Lets the carrier take new compare values over, if it has turned round since the last look; gives the time until it does
-    /// next.
+    /// Applies new compare values if the carrier has turned since the last call; returns the time until its next
+    /// turn.
     pub fn take_over(&mut self, at: VirtualNanos) -> VirtualNanos {
         let (clocks, registers) = self.mcu.clocks();
         let clock = clocks.timer_clock(registers, Apb::Two).max(1);
@@ -100,7 +100,7 @@ impl Rig {
         (enabled && self.connected(self.wiring.legs)).then_some(duty)
     }
 
-    /// Puts the encoder's lines A and B to these levels.
+    /// Sets the encoder's lines A and B.
     pub fn drive_encoder(&mut self, at: VirtualNanos, lines: [bool; 2]) {
         if !self.connected(self.wiring.encoder) {
             return;
@@ -115,7 +115,7 @@ impl Rig {
         }
     }
 
-    /// Lets the bridge's driver report a fault, or none.
+    /// Sets the fault output of the bridge's driver.
     pub fn drive_fault(&mut self, at: VirtualNanos, fault: bool) {
         let level = Level::from(!fault);
         match self.wiring.fault {
@@ -134,7 +134,7 @@ impl Rig {
         }
     }
 
-    /// Lets the current sensor, if there is one, show `amperes`, or the end of its range.
+    /// Sets the current sensor, if there is one, to `amperes`, clipped to its range.
     pub fn sense(&mut self, amperes: f64) {
         if let Some(channel) = self.wiring.current {
             let millivolts = (1650.0 + 100.0 * amperes).clamp(0.0, 3300.0);

@@ -1,4 +1,4 @@
-//! How much stack an image uses: memory is painted before it runs, and looked at afterwards.
+//! Measures an image's stack: paints memory before the run and inspects it afterwards.
 
 use rigless::emulator::{Error, Host};
 use rigless::soc::Width;
@@ -20,7 +20,7 @@ pub fn paint(memory: &mut dyn Host) -> Result<(), Error> {
 }
 
 /// Bytes between the stack's start and the lowest word of it that was written. Between the stack and the variables lies
-/// what nobody used: the longest piece that is still painted.
+/// the unused part: the longest stretch that is still painted.
 pub fn used(memory: &mut dyn Host) -> Result<u64, Error> {
     let top = memory.read(FLASH, Width::W32)?;
     let (mut run, mut longest, mut end) = (0, 0, RAM);

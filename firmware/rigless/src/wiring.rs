@@ -1,4 +1,4 @@
-//! Which pin of which board is what, as the tables in `firmware/src/board/stm32f4*.rs` have it, retyped from them: the
+//! Pin maps of the boards, retyped from the tables in `firmware/src/board/stm32f4*.rs`: the
 //! firmware's own map is under test.
 
 use clap::ValueEnum;
@@ -14,7 +14,7 @@ pub struct PinAt {
     pub function: u8,
 }
 
-/// How the bridge's driver reports a fault.
+/// Fault output of the bridge's driver.
 #[derive(Debug, Clone, Copy)]
 pub enum FaultLine {
     /// On the break input of TIM1.
@@ -56,7 +56,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// What its pins are connected to.
+    /// Its pin map.
     pub fn wiring(self) -> Wiring {
         match self {
             Self::Stm32f405 => Wiring {

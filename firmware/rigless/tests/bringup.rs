@@ -1,4 +1,4 @@
-//! The bring-up image on the bench: what its terminal says is what the motor does.
+//! The bring-up image on the bench: its terminal output agrees with the motor's motion.
 //!
 //! `scripts/rig test` builds the image for each board that runs here and names the folder in `SERVOID_BRINGUP`.
 
@@ -20,7 +20,7 @@ struct Bench {
     terminal: BufReader<TcpStream>,
 }
 
-/// What the image prints ten times a second.
+/// A line that the image prints ten times a second.
 #[derive(Debug, Clone, PartialEq)]
 struct Line {
     count: i64,

@@ -149,7 +149,7 @@ fn saved(out: &Path) -> Value {
 
 /// Most that gain and time constant may be off, %.
 const OFF: f64 = 0.05;
-/// Most error on what the fit has not seen, counts RMS. The floor of the encoder alone is 0.29.
+/// Largest error on held-out data, counts RMS. The floor of the encoder alone is 0.29.
 const HELD_OUT: f64 = 0.35;
 
 /// A line of the table, and what is wrong with it.
@@ -211,7 +211,7 @@ fn what_the_image_records_for_the_host_is_explained_to_the_encoders_floor() {
     let bench = Bench::start(&motor.flags());
     let output = commission(&bench, motor, &out, &["--excite", "20"]);
     assert!(output.status.success(), "{output:?}");
-    let told = servoid(&[
+    let output = servoid(&[
         "-q",
         "device",
         "verify",
@@ -219,15 +219,15 @@ fn what_the_image_records_for_the_host_is_explained_to_the_encoders_floor() {
         "-",
         out.to_str().unwrap(),
     ]);
-    let told: Value = serde_json::from_slice(&told.stdout).unwrap();
-    println!("{}", told["diagnosis"]["summary"]);
-    assert_eq!(told["stands"], true, "{}", told["verdict"]);
+    let verified: Value = serde_json::from_slice(&output.stdout).unwrap();
+    println!("{}", verified["diagnosis"]["summary"]);
+    assert_eq!(verified["stands"], true, "{}", verified["verdict"]);
     for recording in ["rms_counts", "validate_rms_counts"] {
-        let error = told["diagnosis"]["final"][recording].as_f64().unwrap();
+        let error = verified["diagnosis"]["final"][recording].as_f64().unwrap();
         assert!(error < HELD_OUT, "{recording}: {error}");
     }
     // The reversals are beyond what the sensor shows, which must not matter.
-    let parameters = told["diagnosis"]["final"]["parameters"].as_array().unwrap();
+    let parameters = verified["diagnosis"]["final"]["parameters"].as_array().unwrap();
     let resistance = parameters.iter().find(|p| p["name"] == "resistance");
     let found = resistance.expect("the current was measured")["value"]
         .as_f64()
@@ -243,7 +243,7 @@ const OPEN_WITHIN: f64 = 1.0;
 #[test]
 fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
     let motor = &MOTORS[5];
-    // The fault, and what the host must be told.
+    // The fault, and the message that the host must get.
     let cases = [
         ("encoder-reversed", None, "Runaway"),
         ("encoder-stuck-at", Some(AT), "Stall"),
@@ -252,7 +252,7 @@ fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
         ("bridge-fault-at", Some(AT), "Bridge"),
         ("reset-at", Some(AT), ""),
     ];
-    for (fault, at, told) in cases {
+    for (fault, at, expected) in cases {
         let folder = folder(fault);
         let (log, out) = (folder.join("course.csv"), folder.join("run"));
         let mut flags = motor.flags();
@@ -271,7 +271,7 @@ fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
         bench.process.wait().unwrap();
         let failure = &saved(&out)["failure"]["fault"];
         let reported = failure.as_str().unwrap_or_default();
-        assert_eq!(reported, told, "{fault}: {output:?}");
+        assert_eq!(reported, expected, "{fault}: {output:?}");
         let course = fs::read_to_string(&log).unwrap();
         let rows: Vec<(f64, bool)> = course
             .lines()
@@ -282,7 +282,7 @@ fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
             })
             .collect();
         let last = rows.iter().rfind(|(_, open)| !open).expect("it drove").0;
-        println!("{fault}: {told:?}, last driven at {last} s");
+        println!("{fault}: {expected:?}, last driven at {last} s");
         let from = at.unwrap_or(1.0);
         assert!(last < from + OPEN_WITHIN, "{fault}: driven at {last} s");
         assert!(rows.last().unwrap().0 > from + 2.0, "{fault}: too short");

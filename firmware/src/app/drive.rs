@@ -1,4 +1,4 @@
-//! The periods in which the bridge is closed: brake until the shaft rests, play a script, look at every period, keep it.
+//! Periods with the bridge closed: brake to standstill, play a script, check and record every period.
 
 use super::recording::Batch;
 use super::script::{Script, Which};
@@ -18,11 +18,11 @@ const REST_US: u32 = 50_000;
 const LONGEST_BRAKING_US: u32 = 5_000_000;
 /// Length of a step of the probe.
 const PROBE_STEP_US: u32 = 40_000;
-/// Counts that are motion, and not an encoder that sits on an edge.
+/// Counts that are motion, more than an encoder on an edge toggles.
 const MOTION: i32 = 8;
 
 impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
-    /// Periods that a phase drives, as far as they are known before.
+    /// Length of a driving phase in periods, where it is known in advance.
     pub(super) fn length(phase: Phase, job: &Job) -> u32 {
         match (phase, job.kind) {
             (Phase::Probe, Kind::Play) => 0,
@@ -54,8 +54,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         Some(Script::excitation(which, length, amplitude, job.seed))
     }
 
-    /// A period of a phase that drives: the duty that is ready is applied; what has just ended is looked at, kept and sent; and
-    /// the next duty is made ready.
+    /// One period of a driving phase: applies the prepared duty; checks, records and sends the period that has ended; and
+    /// prepares the next duty.
     // Out of line, as all that is long: short instructions reach the first kilobyte of a stack only.
     #[inline(never)]
     pub(super) fn drive(&mut self) {
@@ -133,7 +133,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
     }
 
-    /// Makes the next duty ready.
+    /// Prepares the next duty.
     #[inline(never)]
     pub(super) fn ready(&mut self, job: &Job) {
         let Work::Play { script, next, .. } = &mut self.work else {
@@ -155,7 +155,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
     }
 
-    /// Keeps the row of the period that has ended.
+    /// Records the row of the period that has ended.
     #[inline(never)]
     pub(super) fn keep(&mut self, duty: i16, step: i32, current_ma: i32) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
@@ -197,7 +197,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
     }
 
-    /// Whether the shaft has moved, which ends the probe: with the drive, or against it.
+    /// True once the shaft has moved, with the drive or against it: this ends the probe.
     pub(super) fn probed(&mut self, job: &Job) -> bool {
         let moved = self.count.wrapping_sub(self.begun_at);
         if moved <= -MOTION {

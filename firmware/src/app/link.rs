@@ -1,4 +1,4 @@
-//! What the application says to the host and takes from it: who it is, arming and starting, the recording once more.
+//! The application's side of the link: identification, arming and starting, retransmission of the recording.
 
 use super::recording::Batch;
 use super::{App, NO_REPORT};
@@ -13,7 +13,7 @@ use shared::wire::{About, Job, Kind, Refusal, Row, ToDevice, ToHost, VERSION};
 
 /// A nonce starts a run for this long.
 const ARMED_US: u32 = 5_000_000;
-/// Silence of the host after which a driven motor is let go.
+/// Host time-out after which the bridge opens.
 const SILENCE_US: u32 = 500_000;
 
 impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {

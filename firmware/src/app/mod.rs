@@ -12,11 +12,11 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `link` | what it says to the host and takes from it; arming and starting |
-//! | `drive` | periods with the bridge closed: brake, play, look, keep |
-//! | `rest` | periods with it open: fit, tell how it ended |
+//! | `link` | messages to and from the host; arming and starting |
+//! | `drive` | periods with the bridge closed: brake, play, check, record |
+//! | `rest` | periods with it open: fit, report the outcome |
 //! | `script` | which duty comes next |
-//! | `recording`, `outbox` | what a run leaves behind; bytes on their way |
+//! | `recording`, `outbox` | the data of a run; the send buffer |
 
 mod drive;
 mod link;
@@ -38,7 +38,7 @@ use shared::rng::{self, Rng};
 use shared::trace::OPEN;
 use shared::wire::{Deframer, Job, Kind, Report, ToHost};
 
-/// What a phase does with its periods.
+/// Activity of a phase.
 #[allow(
     clippy::large_enum_variant,
     reason = "there is no heap to put the larger one on"

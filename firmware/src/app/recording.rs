@@ -1,4 +1,4 @@
-//! What a run leaves behind: rows for the host, and what the device itself will fit.
+//! The data of a run: rows for the host, and the recording that the device fits.
 
 use heapless::Vec;
 use shared::trace::{OPEN, Trace};
@@ -111,7 +111,7 @@ impl<const N: usize> Recording<N> {
         }
     }
 
-    /// What is kept.
+    /// The recorded trace.
     pub fn trace(&self) -> Trace<'_> {
         Trace {
             duties: self.duties.get(..self.len).unwrap_or(&[]),

@@ -1,4 +1,4 @@
-//! What duty comes next, in each phase that drives.
+//! Generates the next duty of each driving phase.
 
 use heapless::Vec;
 use shared::excite::{
@@ -35,7 +35,7 @@ const RECORD: [Experiment<f32>; 2] = narrowed([
 const EXCITE: [Experiment<f32>; 7] = narrowed(COMMISSIONING);
 const EXCITE_COAST: [Experiment<f32>; 7] = narrowed(COMMISSIONING_COAST);
 
-/// What the fit has not seen: steps, and levels in another order.
+/// Held-out excitation: steps, and levels in another order.
 const VERIFY: [Experiment<f32>; 2] = narrowed([
     Experiment {
         shape: Shape::Steps { open: false },

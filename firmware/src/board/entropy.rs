@@ -1,7 +1,7 @@
 //! A little unpredictability from what a microcontroller has: noise of an ADC, its identity, the moment of a question.
 //! It tells one power-up from another; it keeps no secret.
 
-/// What was stirred in so far.
+/// The pool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Entropy(u32);
 

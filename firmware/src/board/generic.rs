@@ -87,7 +87,7 @@ impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, 
         self.set(0);
     }
 
-    /// Whether it should drive, and reports a fault or has a part that failed.
+    /// True while driving if the bridge reports a fault or one of its parts failed.
     pub fn tripped(&mut self) -> bool {
         self.closed && (self.failed || self.fault.is_low().unwrap_or(true))
     }
@@ -115,7 +115,7 @@ pub trait Turn {
 /// The turn of a carrier that tells nobody: it has passed after a delay.
 #[derive(Debug)]
 pub struct AfterDelay<D> {
-    /// What waits.
+    /// The delay source.
     pub delay: D,
     /// From when the duty was given to the latest turn.
     pub ns: u32,
@@ -317,7 +317,7 @@ mod tests {
         type Tick = Periods;
     }
 
-    /// A board whose parts must be told just this, after the bridge was opened once.
+    /// A board whose mocked parts expect exactly these calls, after the bridge was opened once.
     fn board(a: &[Duty], b: &[Duty], enable: &[Level], fault: &[Level]) -> Generic<Bench> {
         let leg = |duties: &[Duty]| {
             let opened = [Duty::max_duty_cycle(MOST), Duty::set_duty_cycle(500)];

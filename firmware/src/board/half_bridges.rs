@@ -1,4 +1,4 @@
-//! What two half bridges must be told so that the winding between them sees a duty.
+//! Compare values of two half bridges that put a duty across the winding between them.
 //!
 //! Both legs switch, around a common half of the supply: leg A is high for the part `a / full` of a carrier period, leg B
 //! for `b / full`, centred on each other, and the winding sees the difference. Zero duty is then two equal waves and no
@@ -48,7 +48,7 @@ impl HalfBridges {
 }
 
 impl HalfBridges {
-    /// What `duty` becomes in steps of the carrier.
+    /// `duty` quantised to the carrier's steps.
     pub fn nearest(self, duty: i16) -> i16 {
         let (a, b) = self.compares(duty);
         ((i32::from(a) - i32::from(b)) * self.unit()) as i16

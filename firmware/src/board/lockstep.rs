@@ -1,4 +1,4 @@
-//! A plant in lock step: the board says what it drives, the plant on the other side says where that leads a period later.
+//! A plant in lock step: the board sends its duty, the plant answers with its state one period later.
 //!
 //! ```text
 //! board → plant   a5  duty (i16)                    check
@@ -15,7 +15,7 @@ pub const ASKED: usize = 4;
 /// Bytes from the plant to the board.
 pub const ANSWERED: usize = 8;
 
-/// What the plant answers.
+/// The plant's answer.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Reading {
     /// Encoder reading, counts.
@@ -24,13 +24,13 @@ pub struct Reading {
     pub current_ma: i16,
 }
 
-/// What the board says.
+/// The board's request.
 pub fn ask(duty: Option<i16>) -> [u8; ASKED] {
     let [low, high] = duty.unwrap_or(OPEN).to_le_bytes();
     [0xa5, low, high, low.wrapping_add(high)]
 }
 
-/// Puts the plant's answer together, byte by byte. Whatever is no answer is skipped.
+/// Parses the plant's answer byte by byte and skips invalid bytes.
 #[derive(Debug, Default)]
 pub struct Answer {
     bytes: [u8; ANSWERED],

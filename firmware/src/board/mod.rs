@@ -61,7 +61,7 @@ pub trait Board {
     const PERIOD_US: u32;
     /// Samples of a model that fit into what a control period leaves free, with a margin of two.
     const SLICE: u32;
-    /// Whether [`current_ma`](Self::current_ma) measures.
+    /// True if [`current_ma`](Self::current_ma) measures.
     const SENSES_CURRENT: bool = false;
 
     /// Duty that puts the whole supply across the winding. A bridge that does things in steps chooses it so that each step
@@ -76,7 +76,7 @@ pub trait Board {
     /// [`count`](Self::count) reads, and an open bridge closes then.
     fn drive(&mut self, duty: i16);
 
-    /// What `duty` becomes in the bridge's own steps: what is recorded is what the winding sees, not what was wished for. A
+    /// `duty` quantised to the bridge's steps: the recording holds the duty applied, not the one requested. A
     /// bridge of 4,000 steps is off by up to an eighth of a percent of the speed at a tenth of the supply.
     fn nearest(&self, duty: i16) -> i16 {
         duty

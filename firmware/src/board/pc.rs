@@ -45,7 +45,7 @@ impl Pc {
         })
     }
 
-    /// Whether the plant has gone, and with it the reason to be.
+    /// True once the plant has disconnected: the program then ends.
     pub fn is_gone(&self) -> bool {
         self.gone
     }
@@ -62,7 +62,7 @@ impl Pc {
         }
     }
 
-    /// Takes the newest connection, and what has come over it.
+    /// Accepts the newest connection and reads from it.
     fn pump(&mut self) {
         if let Ok((link, _)) = self.listener.accept() {
             let ready = link
@@ -131,7 +131,7 @@ impl Board for Pc {
 
     fn send(&mut self, bytes: &[u8]) -> usize {
         let Some(link) = &mut self.link else {
-            // Nobody listens: as on a wire, it is lost.
+            // No host is connected: the bytes are lost, as on a wire.
             return bytes.len();
         };
         match link.write(bytes) {

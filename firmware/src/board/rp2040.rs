@@ -57,7 +57,7 @@ static RECEIVE: ConstStaticCell<[u8; link::RECEIVE_BUFFER]> = ConstStaticCell::n
 /// Raspberry Pi Pico and its bridge.
 pub type Rp2040 = Generic<Pico>;
 
-/// What they are made of.
+/// The types of its parts.
 pub struct Pico;
 
 impl Parts for Pico {

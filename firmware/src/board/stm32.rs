@@ -1,4 +1,4 @@
-//! What the STM32 boards have in common: the advanced timer TIM1 drives two half bridges, another timer decodes the
+//! Common code of the STM32 boards: the advanced timer TIM1 drives two half bridges, another timer decodes the
 //! encoder, a serial port is the link. A board is then a [`Wiring`].
 
 use embassy_stm32::gpio::{AfType, Flex, OutputType, Pull, Speed};
@@ -32,7 +32,7 @@ const PERIOD_US: u32 = 1000;
 /// Carrier periods in a control period: 20 kHz, above hearing and below the limit of most gate drivers.
 const CARRIERS: u32 = 20;
 
-/// How one board connects the parts, and what only it has.
+/// Board-specific connections and parts.
 pub trait Wiring {
     /// See [`Board::NAME`].
     const NAME: &'static str;
@@ -49,7 +49,7 @@ pub trait Wiring {
     /// A reading of the ADC whose last bits are noise.
     fn noise(&mut self) -> u16;
 
-    /// Whether the driver chip reports a fault on a line that is not the timer's break input. Asked while it drives: a
+    /// True if the driver chip reports a fault on a line other than the timer's break input. Read while driving only: a
     /// driver that is asleep or wakes up may call that a fault.
     fn reports_fault(&mut self) -> bool {
         false
@@ -198,19 +198,19 @@ impl Bridge {
         pac::TIM1.cnt().write(|w| w.set_cnt(self.legs.full / 5));
     }
 
-    /// Whether the carrier has come to a peak or a valley, where it takes a new duty over, in this control period. It always
+    /// True once the carrier has passed a peak or a valley, where it takes a new duty over, in this control period. It always
     /// runs, whether the bridge is open or not.
     fn updated(&self) -> bool {
         pac::TIM1.sr().read().uif()
     }
 
-    /// Whether it should drive, and the break input has switched the outputs off.
+    /// True while driving if the break input has switched the outputs off.
     fn tripped(&self) -> bool {
         self.driven && !self.timer.get_moe()
     }
 }
 
-/// How the encoder is decoded: every edge of both lines, pulled up for encoders with open collectors.
+/// Encoder decoding: every edge of both lines, with pull-ups for open-collector encoders.
 pub fn encoder() -> qei::Config {
     qei::Config {
         ch1_pull: Pull::Up,
@@ -219,7 +219,7 @@ pub fn encoder() -> qei::Config {
     }
 }
 
-/// How the link's serial port is set: see [`BAUD`].
+/// Settings of the link's serial port: see [`BAUD`].
 pub fn uart() -> usart::Config {
     let mut config = usart::Config::default();
     config.baudrate = BAUD;

@@ -1,4 +1,4 @@
-//! A bench in memory: a motor, a link of two queues, and what can be wrong with them.
+//! A bench in memory: a motor, a link of two queues, and their faults.
 
 use core::cell::RefCell;
 
@@ -12,24 +12,24 @@ use crate::plant::Motor;
 const ROOM: usize = 2048;
 const PERIOD_S: f32 = 1e-3;
 
-/// What is on the bench, and what is wrong with it.
+/// Motor, link and injected faults.
 #[derive(Debug)]
 pub struct Bench {
     /// Bytes that the host has sent.
     pub to_device: Deque<u8, ROOM>,
     /// Bytes that the device has sent.
     pub to_host: Deque<u8, ROOM>,
-    /// What the bridge does: a duty, or open.
+    /// State of the bridge: a duty, or open.
     pub driven: Option<i16>,
     /// Control periods so far.
     pub period: u32,
     /// Sign of the encoder, or 0 for one that stands still.
     pub encoder: i32,
-    /// Whether something holds the shaft.
+    /// True if the shaft is locked.
     pub locked: bool,
-    /// What the current sensor shows instead of the current.
+    /// Reading of the current sensor in place of the true current.
     pub current_ma: Option<i32>,
-    /// What the end of a period fails with.
+    /// Fault to report at the end of a period.
     pub fails: Option<Fault>,
     /// Time from the end of a period to the carrier's turn, s: the next duty acts then, and the count is the count then.
     pub turn_s: f32,

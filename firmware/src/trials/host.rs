@@ -17,11 +17,11 @@ const ALIVE: u32 = 100;
 pub struct Host<'b, S: Arithmetic, const N: usize> {
     /// The device.
     pub app: App<'b, OnBench<'b>, S, N>,
-    /// What it stands on.
+    /// The bench that it runs on.
     pub bench: &'b RefCell<Bench>,
-    /// Whether the host still says that it is there.
+    /// True while the host sends its keep-alive.
     pub alive: bool,
-    /// Whether the bridge drove in a phase in which it must not.
+    /// A phase in which the bridge drove though it must not.
     pub drove_in: Option<Phase>,
     inbox: Deframer,
 }

@@ -29,7 +29,7 @@ const REACTION: u32 = REACTION_US / OnBench::PERIOD_US + 1;
 /// Periods after which a trial that has no outcome has failed.
 const LONGEST: u32 = 60_000;
 
-/// What goes wrong.
+/// The injected fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mischief {
     /// Nothing.
@@ -59,11 +59,11 @@ pub enum Mischief {
 /// A trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trial {
-    /// What goes wrong.
+    /// The injected fault.
     pub mischief: Mischief,
     /// In which phase.
     pub phase: Phase,
-    /// What the device must report; nothing if the run must succeed, or the device must know of no run.
+    /// Fault that the device must report; none if the run must succeed, or the device must know of no run.
     pub fault: Option<Fault>,
     /// Periods within which the bridge must be open, where that does not depend on what is driven.
     pub within: Option<u32>,
@@ -71,7 +71,7 @@ pub struct Trial {
 
 const PHASES: [Phase; 4] = [Phase::Probe, Phase::Excite, Phase::Record, Phase::Verify];
 
-/// What goes wrong in each phase, what must be reported, and how soon.
+/// Injected faults of each phase, the report that each must cause, and its deadline.
 const MISCHIEFS: [(Mischief, Option<Fault>, Option<u32>); 9] = [
     (Mischief::EncoderReversed, Some(Fault::Runaway), None),
     (Mischief::EncoderStuck, Some(Fault::Stall), None),
@@ -117,25 +117,25 @@ pub fn all() -> impl Iterator<Item = Trial> {
     [undisturbed].into_iter().chain(disturbed).chain(limited)
 }
 
-/// What a trial came to.
+/// Result of a trial.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Outcome {
     /// The fault that the device reported.
     pub fault: Option<Fault>,
-    /// Whether it reported success.
+    /// True if it reported success.
     pub succeeded: bool,
     /// Periods from the mischief to the open bridge.
     pub open_after: Option<u32>,
     /// Longest time of those for which it drove strongly one way, periods.
     pub strongly: u32,
-    /// Whether the bridge stayed open from then on.
+    /// True if the bridge stayed open from then on.
     pub stayed_open: bool,
     /// A phase in which the bridge drove though it must not.
     pub drove_in: Option<Phase>,
 }
 
 impl Trial {
-    /// Whether an outcome is what it must be.
+    /// True if an outcome is as required.
     pub fn passes(&self, outcome: &Outcome) -> bool {
         let reported = outcome.fault == self.fault;
         let succeeded = outcome.succeeded == (self.mischief == Mischief::None);
@@ -291,7 +291,7 @@ impl Trial {
 /// Runs all trials and writes a line for each; returns how many failed.
 ///
 /// # Errors
-/// What the writer fails with.
+/// Errors of the writer.
 pub fn run<S: Arithmetic>(
     out: &mut impl Write,
     memory: &mut Memory<S>,

@@ -54,8 +54,7 @@ pub fn candidate(data: &Data, kinds: &[Kind], change: f64) -> Candidate {
     let mut effects = EffectSet::default();
     for &kind in kinds {
         let values: Vec<f64> = kind
-            .description()
-            .parameters
+            .parameters()
             .iter()
             .map(|p| p.scaled(p.typical, data.supply, data.units.speed) * (1.0 + change))
             .collect();

@@ -47,12 +47,7 @@ pub fn rows() {
         .collect();
     let machines: Vec<_> = points
         .iter()
-        .map(|x| {
-            problem
-                .structure
-                .candidate(&problem.structure.values(x))
-                .machine
-        })
+        .map(|x| problem.structure.candidate_at(x).machine)
         .collect();
     let each = |cost: &dyn Fn(usize) -> f64| {
         clock::least(|| (0..CANDIDATES).map(|k| cost(black_box(k))).sum::<f64>())

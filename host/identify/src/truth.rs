@@ -43,7 +43,7 @@ pub fn errors(kind: Kind, found: &[f64], truth: &[f64]) -> Vec<ParameterError> {
         size,
         percent: 100.0 * distance / of.abs(),
     };
-    let parameters = kind.description().parameters;
+    let parameters = kind.parameters();
     let (mut errors, rest) = match (kind.facts().pair, found, truth) {
         (Some(Pair::CosineAndSine), [a, b, ..], [x, y, ..]) => {
             let distance = (a - x).hypot(b - y);
@@ -93,7 +93,7 @@ mod tests {
             for &kind in Kind::ALL {
                 let hidden = Hidden::typical(kind.name(), &machine).unwrap();
                 let truth = hidden.truth(&machine, 2000);
-                assert_eq!(truth.len(), kind.description().parameters.len(), "{kind:?}");
+                assert_eq!(truth.len(), kind.parameters().len(), "{kind:?}");
                 let errors = errors(kind, &truth, &truth);
                 // A limit has no size: it is reached or it is not.
                 let sized = kind

@@ -1,6 +1,6 @@
 //! The elastic, perhaps loose, coupling between the motor and a second inertia.
 
-/// How the load hangs on the motor shaft. The bench splits the machine's inertia between the two, so
+/// Coupling between motor and load. The bench splits the machine's inertia between the two, so
 /// that a stiff coupling without gap is the plain machine again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupling {
@@ -26,7 +26,7 @@ impl Coupling {
     }
 }
 
-/// Which flanks of the coupling touch.
+/// Contact state of the coupling's flanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flank {
     /// There is no gap: the coupling is a shaft that pushes and pulls.
@@ -77,7 +77,7 @@ impl Shaft {
         self.stiffness_n_m_rad * bend + self.damping_n_m_s * twist_rate
     }
 
-    /// Which flanks touch at a twist, rad, and its rate, rad/s: those that would push, and never pull.
+    /// The flank in contact at a twist, rad, and its rate, rad/s. A flank pushes and never pulls.
     pub(super) fn flank(&self, twist: f64, twist_rate: f64) -> Flank {
         if self.half_gap_rad == 0.0 {
             return Flank::None;
@@ -92,7 +92,7 @@ impl Shaft {
         }
     }
 
-    /// How fast the two inertias move against each other, 1/s.
+    /// Fastest rate of the relative motion of the two inertias, 1/s.
     pub(super) fn stiffness_per_s(&self) -> f64 {
         let mobility = 1.0 / self.motor_inertia_kg_m2 + 1.0 / self.load_inertia_kg_m2;
         (self.stiffness_n_m_rad * mobility).sqrt() + self.damping_n_m_s * mobility

@@ -1,4 +1,4 @@
-//! What can be wrong with an order to the bench, and what to do about it.
+//! Errors in an order to the bench, each with its remedy.
 
 use super::effects::{CATALOGUE, Kind};
 use super::machine::PRESETS;
@@ -10,7 +10,7 @@ pub enum BenchError {
     /// No effect of that name is in the catalogue.
     #[error("unknown effect `{name}`{hint}; the bench knows: {known}")]
     UnknownEffect {
-        /// What was asked for.
+        /// The unknown name.
         name: String,
         /// "; did you mean …?", or empty.
         hint: String,
@@ -20,7 +20,7 @@ pub enum BenchError {
     /// No machine of that name is among the presets.
     #[error("unknown machine `{name}`{hint}; the bench has: {known}")]
     UnknownMachine {
-        /// What was asked for.
+        /// The unknown name.
         name: String,
         /// "; did you mean …?", or empty.
         hint: String,
@@ -32,7 +32,7 @@ pub enum BenchError {
     UnknownParameter {
         /// The effect.
         effect: &'static str,
-        /// What was asked for.
+        /// The unknown name.
         key: String,
         /// "; did you mean …?", or empty.
         hint: String,
@@ -44,7 +44,7 @@ pub enum BenchError {
     UnknownLaw {
         /// The effect.
         effect: &'static str,
-        /// What was asked for.
+        /// The unknown name.
         name: String,
         /// "; did you mean …?", or empty.
         hint: String,
@@ -68,7 +68,7 @@ pub enum BenchError {
         effect: &'static str,
         /// The parameter.
         key: String,
-        /// What was given.
+        /// The value given.
         text: String,
         /// The parameter's unit.
         unit: &'static str,
@@ -80,7 +80,7 @@ pub enum BenchError {
         effect: &'static str,
         /// The parameter.
         key: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
         /// Least value.
         low: f64,
@@ -103,11 +103,11 @@ pub enum BenchError {
     /// A setting of the bench or the machine is impossible.
     #[error("{setting} = {value}: needs {need}")]
     BadSetting {
-        /// Which setting.
+        /// The setting.
         setting: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
-        /// What is needed.
+        /// The values allowed.
         need: &'static str,
     },
     /// A command is not a number.
@@ -115,7 +115,7 @@ pub enum BenchError {
     BadCommand {
         /// Index of the sample, from 0.
         row: usize,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// Some part of the motor moves far faster than the substep.
@@ -127,7 +127,7 @@ pub enum BenchError {
         /// The substep that it needs, s.
         step_s: f64,
     },
-    /// The simulation left the numbers.
+    /// The simulation diverged.
     #[error(
         "the simulation diverged before t = {time_s} s; lower the command or the effects' parameters"
     )]

@@ -1,4 +1,4 @@
-//! One hidden effect as ordered: which, with which parameters, how strong.
+//! One hidden effect: its kind, its parameters, its strength.
 
 use super::effects::{Effect, Kind, Law, Param, Random};
 use super::{BenchError, Machine};
@@ -110,7 +110,7 @@ impl Hidden {
         Ok(())
     }
 
-    /// What is hidden, as the parameters of a model that is referred to the winding: see [`Kind::truth`].
+    /// True parameters of the effect in a model that is referred to the winding: see [`Kind::truth`].
     pub fn truth(&self, machine: &Machine, counts_per_rev: u32) -> Vec<f64> {
         (self.kind.truth)(&self.effective(), machine, counts_per_rev)
     }
@@ -143,7 +143,7 @@ impl Hidden {
         format!("{}{law}: {}", self.name(), parameters.join(", "))
     }
 
-    /// Whether it acts on the armature voltage, and so vanishes behind a current loop.
+    /// True if it acts on the armature voltage, and so vanishes behind a current loop.
     pub(super) fn is_electrical(&self) -> bool {
         self.kind.electrical.is_some()
     }

@@ -76,14 +76,14 @@ impl Plant<'_> {
         self.pieces = self.pieces_at(&self.state);
     }
 
-    /// Whether the right-hand side has a bend or a jump between the present state and `next`.
+    /// True if the right-hand side has a kink or a jump between the present state and `next`.
     fn bends_before(&self, next: &State) -> bool {
         self.grip_changes(next)
             || self.flank_at(next) != self.flank
             || self.pieces_at(next) != self.pieces
     }
 
-    /// Whether the shaft has stopped sliding, or the torque has outgrown what holds it.
+    /// True if the shaft has stopped sliding, or the torque exceeds the holding friction.
     fn grip_changes(&self, state: &State) -> bool {
         match self.grip {
             Grip::None => false,
@@ -97,7 +97,7 @@ impl Plant<'_> {
         torques.net.abs() <= self.budget(torques.net.signum(), 0.0, torques.transmitted)
     }
 
-    /// Decides for a shaft at rest whether friction holds it, or which way it slides.
+    /// Decides if friction holds a shaft at rest, or which way it slides.
     fn settle(&mut self) {
         self.state.speed = 0.0;
         self.grip = if self.holds(&self.state) {

@@ -13,9 +13,9 @@
 //! | file | holds |
 //! |---|---|
 //! | `machine` | the true parameters of the motor, and presets |
-//! | `effects` | what an effect may touch, the catalogue, and one file per effect |
-//! | `hidden` | one effect as ordered: its parameters and its strength, typical or from text |
-//! | `timeline` | when which command reaches the bridge |
+//! | `effects` | the hooks of an effect, the catalogue, and one file per effect |
+//! | `hidden` | one hidden effect: its parameters and its strength, typical or from text |
+//! | `timeline` | the time at which each command reaches the bridge |
 //! | `plant` | the state and its differential equations |
 //! | `integrate` | the state moved forward, with stops, releases and contacts located |
 //! | `coupling` | the spring and the gap between motor and load |

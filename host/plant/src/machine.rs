@@ -1,10 +1,13 @@
 //! The true machine on the bench: a brushed DC motor in plain SI units.
 
 use super::BenchError;
+use serde::{Deserialize, Serialize};
 
 /// True parameters of an armature-controlled DC motor, all referred to the motor shaft.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
+    /// Supply voltage, V: the largest voltage that the drive can command.
+    pub supply_v: f64,
     /// Armature resistance R, Ω.
     pub resistance_ohm: f64,
     /// Armature inductance L, H.
@@ -17,8 +20,6 @@ pub struct Machine {
     pub inertia_kg_m2: f64,
     /// Viscous friction b, N·m·s/rad.
     pub viscous_n_m_s: f64,
-    /// Supply voltage, V: the largest voltage that the drive can command.
-    pub supply_v: f64,
 }
 
 /// Names that [`Machine::preset`] knows.

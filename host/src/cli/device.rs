@@ -186,18 +186,9 @@ pub struct RecordArgs {
     /// Folder for the recording; it must not hold a run yet
     #[arg(long, short, value_name = "FOLDER")]
     pub out: PathBuf,
-    /// Length, s
-    #[arg(long, default_value_t = 20.0, value_name = "S")]
-    pub seconds: f64,
-    /// Do not open the bridge in the pauses
-    #[arg(long)]
-    pub no_coast: bool,
-    /// The device.
+    /// The excitation.
     #[command(flatten)]
-    pub port: PortArgs,
-    /// The bench.
-    #[command(flatten)]
-    pub limits: LimitArgs,
+    pub stream: StreamArgs,
 }
 
 /// `servoid device stream`.

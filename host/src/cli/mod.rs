@@ -15,7 +15,7 @@ pub use device::{
 };
 pub use export::{ExportArgs, GainsArgs, SideName};
 pub use recordings::RecordingsArgs;
-pub use report::{ReportArgs, SheetArgs};
+pub use report::{PageArgs, ReportArgs};
 
 use crate::prove::{Excite, HowMany, Laws, Shard};
 use clap::builder::PossibleValuesParser;
@@ -308,7 +308,7 @@ pub struct FitArgs {
     pub model: ModelArgs,
     /// The page.
     #[command(flatten)]
-    pub sheet: SheetArgs,
+    pub page: PageArgs,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
@@ -330,7 +330,7 @@ pub struct DiagnoseArgs {
     pub force: bool,
     /// The page.
     #[command(flatten)]
-    pub sheet: SheetArgs,
+    pub page: PageArgs,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
@@ -364,7 +364,7 @@ pub struct CompareArgs {
     pub model: ModelArgs,
     /// The page.
     #[command(flatten)]
-    pub sheet: SheetArgs,
+    pub page: PageArgs,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,
@@ -387,7 +387,7 @@ pub struct PaperArgs {
     pub plots: Option<PathBuf>,
     /// The page.
     #[command(flatten)]
-    pub sheet: SheetArgs,
+    pub page: PageArgs,
     /// Length of the step response, s
     #[arg(long, default_value_t = 10.0, value_name = "S")]
     pub seconds: f64,

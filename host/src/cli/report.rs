@@ -31,7 +31,7 @@ pub struct ReportArgs {
 
 /// The page of a verb's own result.
 #[derive(Clone, Debug, Default, Args)]
-pub struct SheetArgs {
+pub struct PageArgs {
     /// Page with the verdict, the drawings and the tables (HTML)
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,

@@ -59,15 +59,15 @@ fn check_files(session: &Session, args: &BenchArgs) -> Result<(), Error> {
         .filter(|(_, path)| !is_session(path))
         .collect();
     session.check_outputs(&outputs, &inputs)?;
-    let (Some(recording), Some(kept)) = (&args.recording, &args.session) else {
+    let (Some(recording), Some(session_file)) = (&args.recording, &args.session) else {
         return Ok(());
     };
     // What is opened may be kept where it lies; anything else that is there already is somebody's work.
-    if kept.is_file() && !is_same_file(kept, recording) {
+    if session_file.is_file() && !is_same_file(session_file, recording) {
         return Err(Error::Usage(format!(
             "--session {}: is there already, and would be replaced by a bench with {} on it; to go on with it leave the \
              recording away, or name another file",
-            kept.display(),
+            session_file.display(),
             recording.display()
         )));
     }

@@ -1,6 +1,6 @@
 //! `servoid compare`: search methods side by side on one recording.
 
-use super::{model, motor, report as sheet};
+use super::{model, motor, report as page};
 use crate::cli::CompareArgs;
 use crate::error::Error;
 use crate::session::Session;
@@ -8,7 +8,6 @@ use servoid_engine::compare::{self, Contest};
 use servoid_engine::problem::Data;
 use servoid_engine::solve;
 use servoid_identify::bounded_problem;
-use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
 use servoid_results::report::html::Recordings;
@@ -16,7 +15,7 @@ use servoid_results::schema;
 
 pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
-    let outputs: Vec<_> = plot.into_iter().chain(sheet::output(&args.sheet)).collect();
+    let outputs: Vec<_> = plot.into_iter().chain(page::output(&args.page)).collect();
     motor::check_outputs(session, &outputs, &args.motor, &args.recording, None)?;
     let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
@@ -42,10 +41,9 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let json = schema::Contest::new(&contest, &rows);
     if let Some(path) = &args.plot {
         let drawing = plot::cost_curves(&json.rows, contest.budget, options.cost_name())?;
-        write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
-        session.remark(&format!("plot: {}", path.display()));
+        session.write_plot(path, &drawing)?;
     }
     let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
-    sheet::write(session, &args.sheet, &json, Recordings::default())?;
+    page::write(session, &args.page, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }

@@ -19,7 +19,7 @@ use std::path::Path;
 const MILLION: u64 = 1_000_000;
 
 pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
-    let page = report::output(&args.sheet);
+    let page = report::output(&args.page);
     if let Some(curve) = args
         .recordings
         .first()
@@ -41,14 +41,14 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     let found = diagnose_datasets(&datasets, &options, &budget, &watched)?;
     drop(watched);
     let Datasets { fitted, kind, .. } = &datasets;
-    let told = DiagnosisReport::new(&found, fitted, kind, session.seed, session.json_file());
-    let json = Diagnosis::from(&told);
+    let outcome = DiagnosisReport::new(&found, fitted, kind, session.seed, session.json_file());
+    let json = Diagnosis::from(&outcome);
     let drawn = html::Recordings {
         fitted: Some(datasets.whole.as_deref().unwrap_or(fitted)),
         held_out: kind.source().map(|_| &datasets.held_out),
     };
-    report::write(session, &args.sheet, &json, drawn)?;
-    session.deliver(&told.text(), &json)
+    report::write(session, &args.page, &json, drawn)?;
+    session.deliver(&outcome.text(), &json)
 }
 
 /// A curve of steady speeds in the place of a recording.
@@ -61,12 +61,12 @@ fn steady(session: &Session, args: &DiagnoseArgs, path: &Path) -> Result<(), Err
     }
     let curve = SteadyCurve::read(path)?;
     let diagnosis = steady::diagnose(&curve)?;
-    let told = SteadyReport {
+    let outcome = SteadyReport {
         curve: &curve,
         diagnosis: &diagnosis,
         seed: session.seed,
     };
-    let json = Steady::from(&told);
-    report::write(session, &args.sheet, &json, html::Recordings::default())?;
-    session.deliver(&told.text(), &json)
+    let json = Steady::from(&outcome);
+    report::write(session, &args.page, &json, html::Recordings::default())?;
+    session.deliver(&outcome.text(), &json)
 }

@@ -8,7 +8,6 @@ use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
 use servoid_identify::{check, identify_data};
-use servoid_io::output::write_whole;
 use servoid_io::recording::Recording;
 use servoid_results::plot;
 use servoid_results::report::{html, text};
@@ -16,10 +15,7 @@ use servoid_results::schema;
 
 pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     let plot = args.plot.as_deref().map(|path| ("--plot", path));
-    let outputs: Vec<_> = plot
-        .into_iter()
-        .chain(report::output(&args.sheet))
-        .collect();
+    let outputs: Vec<_> = plot.into_iter().chain(report::output(&args.page)).collect();
     let read = motor::read(session, &outputs, &args.motor, &args.recordings)?;
     for recording in &read.fitted {
         for finding in check::passed(recording, args.force)? {
@@ -50,8 +46,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
     drop(watched);
     if let Some(path) = &args.plot {
         let drawing = plot::overlay(&data, &fit.candidate, options.method)?;
-        write_whole(path, |out| out.write_all(drawing.as_bytes()))?;
-        session.remark(&format!("plot: {}", path.display()));
+        session.write_plot(path, &drawing)?;
     }
     let source = validation.as_ref().map(|data| data.source.as_str());
     let json = schema::Fit::new(&fit, &data, source);
@@ -59,7 +54,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         fitted: Some(&data),
         held_out: validation.as_ref(),
     };
-    report::write(session, &args.sheet, &json, drawn)?;
+    report::write(session, &args.page, &json, drawn)?;
     session.deliver(&text::fit(&fit, &data), &json)
 }
 

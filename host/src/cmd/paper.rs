@@ -1,7 +1,7 @@
 //! `servoid paper`: the paper's table from its own digits, and its contest run again.
 
 use super::model::range;
-use super::report as sheet;
+use super::report as page;
 use crate::cli::PaperArgs;
 use crate::error::Error;
 use crate::session::Session;
@@ -10,7 +10,6 @@ use servoid_engine::problem::{Candidate, Data, FitProblem};
 use servoid_engine::solve::{self, Objective};
 use servoid_identify::fit::margins::Loop;
 use servoid_identify::paper::{self, Experiment, PRINTED, Variant};
-use servoid_io::output::write_whole;
 use servoid_results::plot;
 use servoid_results::report;
 use servoid_results::report::html::Recordings;
@@ -43,7 +42,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
     let drawing = drawing.as_deref().map(|path| ("--plots", path));
     let outputs: Vec<_> = drawing
         .into_iter()
-        .chain(sheet::output(&args.sheet))
+        .chain(page::output(&args.page))
         .collect();
     session.check_outputs(&outputs, &[])?;
     let data = Experiment {
@@ -91,7 +90,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
         draw(folder, &rounds, &json, session)?;
     }
     let text = report::paper::text(&rounds, &strong, &printed_costs(&data));
-    sheet::write(session, &args.sheet, &json, Recordings::default())?;
+    page::write(session, &args.page, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }
 
@@ -189,14 +188,14 @@ fn draw(
     let structure = &first.contest.problem.structure;
     for row in &first.rows {
         if let Some(run) = row.typical().filter(|run| run.cost.is_finite()) {
-            let machine = structure.candidate(&structure.values(&run.x)).machine;
+            let machine = structure.candidate_at(&run.x).machine;
             loops.push((
                 format!("our {} (median run)", row.algorithm),
                 Loop::from(&machine),
             ));
         }
     }
-    write(folder, "bode.svg", &plot::bode(&loops, 0.1, 1e3)?, session)?;
+    session.write_plot(&folder.join("bode.svg"), &plot::bode(&loops, 0.1, 1e3)?)?;
     // A round that the user stopped before its first run has no curves.
     for (round, variant) in (rounds.iter().zip(json.variants()))
         .filter(|(round, _)| least_cost(&round.rows).is_finite())
@@ -206,19 +205,8 @@ fn draw(
             round.variant.name().to_lowercase().replace(' ', "-")
         );
         let cost = format!("{}, deg s", round.variant.name());
-        write(
-            folder,
-            &name,
-            &plot::cost_curves(&variant.rows, json.budget, &cost)?,
-            session,
-        )?;
+        let drawing = plot::cost_curves(&variant.rows, json.budget, &cost)?;
+        session.write_plot(&folder.join(name), &drawing)?;
     }
-    Ok(())
-}
-
-fn write(folder: &Path, name: &str, drawing: &str, session: &Session) -> Result<(), Error> {
-    let path = folder.join(name);
-    write_whole(&path, |out| out.write_all(drawing.as_bytes()))?;
-    session.remark(&format!("plot: {}", path.display()));
     Ok(())
 }

@@ -2,8 +2,8 @@
 
 use crate::cli::ProveArgs;
 use crate::error::Error;
-use crate::prove::report::{document, text};
-use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError, Tally};
+use crate::prove::report::text;
+use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError};
 use crate::session::Session;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -116,7 +116,7 @@ fn missing(args: &ProveArgs, done: &[Outcome]) -> Vec<u64> {
 }
 
 fn deliver(session: &Session, header: &Header, outcomes: &[Outcome]) -> Result<(), Error> {
-    let tally = Tally::new(header, outcomes);
     let interrupted = session.stop().load(Ordering::Relaxed);
-    session.deliver(&text(&tally), &document(&tally, interrupted))
+    let proof = prove::tally(header, outcomes, interrupted);
+    session.deliver(&text(&proof), &proof)
 }

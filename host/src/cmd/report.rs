@@ -1,7 +1,7 @@
 //! `servoid report`: a result as a page, from its JSON and its recordings.
 
 use super::motor;
-use crate::cli::{ReportArgs, SheetArgs};
+use crate::cli::{PageArgs, ReportArgs};
 use crate::error::Error;
 use crate::session::Session;
 use serde::Serialize;
@@ -15,7 +15,7 @@ use servoid_results::schema::{Diagnosis, Document, Fit};
 use shared::wire::Stage;
 use std::path::{Path, PathBuf};
 
-/// What is told with `--json`.
+/// The output of `--json`.
 #[derive(Serialize)]
 struct ReportJson {
     schema: &'static str,
@@ -77,14 +77,14 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
 }
 
 /// Where a verb's own page goes, for the check of its outputs.
-pub(super) fn output(args: &SheetArgs) -> Option<(&'static str, &Path)> {
+pub(super) fn output(args: &PageArgs) -> Option<(&'static str, &Path)> {
     args.report.as_deref().map(|path| ("--report", path))
 }
 
 /// Writes the page of a verb's own result, if it is asked for.
 pub(super) fn write(
     session: &Session,
-    args: &SheetArgs,
+    args: &PageArgs,
     json: &impl Serialize,
     recordings: Recordings<'_>,
 ) -> Result<(), Error> {

@@ -45,14 +45,8 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         .ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
     let motor_path = out.with_file_name("motor.toml");
     session.check_outputs(&[("--out", out)], &[("the motor file", &motor_path)])?;
-    let machine =
-        Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
-    let effects = args
-        .hide
-        .iter()
-        .map(|text| hidden(text, &machine))
-        .collect::<Result<Vec<_>, _>>()?;
-    let bench = bench(args, machine, effects, session.seed)?;
+    let bench = bench(args, session.seed)?;
+    let machine = bench.machine;
     let plan = plan(args)?;
     let drive: Vec<DriveSample> = commands::<f64>(&plan, args.sample, session.seed)
         .map(|c| DriveSample {
@@ -162,19 +156,29 @@ fn check_counts(recording: &Recording, args: &SimulateArgs) -> Result<(), Error>
     }
 }
 
-fn bench(
-    args: &SimulateArgs,
-    machine: Machine,
-    effects: Vec<Hidden>,
+/// The bench of `--machine`, `--hide`, `--counts-per-rev` and `--seed`.
+pub(super) fn bench_of(
+    machine: &str,
+    hide: &[String],
+    counts_per_rev: u32,
     seed: u64,
 ) -> Result<Bench, Error> {
+    let machine = Machine::preset(machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
     let mut bench = Bench::new(machine);
-    bench.effects = effects;
-    bench.counts_per_rev = args.counts_per_rev;
+    bench.effects = hide
+        .iter()
+        .map(|text| hidden(text, &machine))
+        .collect::<Result<_, _>>()?;
+    bench.counts_per_rev = counts_per_rev;
+    bench.seed = seed;
+    Ok(bench)
+}
+
+fn bench(args: &SimulateArgs, seed: u64) -> Result<Bench, Error> {
+    let mut bench = bench_of(&args.machine, &args.hide, args.counts_per_rev, seed)?;
     bench.sample_s = args.sample;
     bench.jitter_s = args.jitter;
     bench.current_noise_a = args.current_noise;
-    bench.seed = seed;
     if let Some(hz) = args.substep_hz {
         bench.substep_hz = hz;
     }

@@ -1,4 +1,4 @@
-//! Messages there and back.
+//! Request and response with a device.
 
 use super::{DeviceError, Link, Port};
 use shared::wire::{
@@ -81,12 +81,12 @@ impl Conversation {
         Ok(self.waiting.pop_front())
     }
 
-    /// Frames that arrived damaged.
+    /// Number of damaged frames.
     pub fn damaged(&self) -> u32 {
         self.inbox.dropped()
     }
 
-    /// Asks until the answer comes that `wanted` recognises.
+    /// Repeats a request until an answer arrives that `wanted` accepts.
     fn ask<T>(
         &mut self,
         question: &ToDevice,
@@ -121,10 +121,10 @@ impl Conversation {
         })
     }
 
-    /// What the device is.
+    /// Identification of the device.
     ///
     /// # Errors
-    /// Silence; another version of the link.
+    /// Time-out; another version of the link.
     pub fn about(&mut self) -> Result<About, DeviceError> {
         let about = self.ask(&ToDevice::Hello, |message| match message {
             ToHost::About(about) => Some(about),
@@ -142,7 +142,7 @@ impl Conversation {
     /// Arms the device and starts a run, after a plan has been sent for one that plays it.
     ///
     /// # Errors
-    /// Silence, a refusal.
+    /// Time-out; a refusal.
     pub fn start(&mut self, job: Job, plan: &[Segment]) -> Result<(), DeviceError> {
         for (k, part) in plan.chunks(MOST_SEGMENTS).enumerate() {
             let segments = part.iter().copied().collect();

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// Time that an image may take to start.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// What is emulated.
+/// Kind of image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Image {
     /// An ARM image, in QEMU.
@@ -133,7 +133,7 @@ impl Emulation {
         &self.port
     }
 
-    /// Whether it still runs.
+    /// True while it runs.
     pub fn runs(&mut self) -> bool {
         matches!(self.child.try_wait(), Ok(None))
     }

@@ -1,10 +1,10 @@
-//! What can go wrong with a device, and what to do about it.
+//! Errors of a device, each with its remedy.
 
 use servoid_results::device_run::FolderError;
 use shared::wire::Refusal;
 use std::io;
 
-/// What went wrong with a device.
+/// Error of a device.
 #[derive(Debug, thiserror::Error)]
 pub enum DeviceError {
     /// The address names no port.
@@ -18,13 +18,13 @@ pub enum DeviceError {
     Open {
         /// As given.
         port: String,
-        /// What the system said.
+        /// Error of the operating system.
         reason: String,
     },
     /// The port broke.
     #[error("the link broke: {0}; a device that drives stops by itself within half a second")]
     Link(#[from] io::Error),
-    /// Nothing that makes sense comes back.
+    /// No valid answer.
     #[error(
         "no answer from {port} within {seconds} s{noise}; check power, cable and baud rate, and that the firmware is \
          flashed"
@@ -32,9 +32,9 @@ pub enum DeviceError {
     Silent {
         /// As given.
         port: String,
-        /// How long was waited.
+        /// Time waited.
         seconds: f64,
-        /// What came instead.
+        /// Bytes received instead.
         noise: String,
     },
     /// The device speaks another version.

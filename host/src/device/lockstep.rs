@@ -13,10 +13,10 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Waits at a port of its own for a board, and is its plant until that goes; says when it has come.
+/// Waits on its own port for a board and serves as its plant until it disconnects; reports the connection.
 ///
 /// # Errors
-/// What the system says.
+/// Errors of the operating system.
 pub fn plant(bench: Bench, pace: f64) -> io::Result<(SocketAddr, mpsc::Receiver<()>)> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
     let address = listener.local_addr()?;
@@ -37,7 +37,7 @@ pub fn plant(bench: Bench, pace: f64) -> io::Result<(SocketAddr, mpsc::Receiver<
 /// what a host does in real time is in time.
 ///
 /// # Errors
-/// What the bench refuses.
+/// Errors of the bench.
 fn serve(bench: &Bench, mut stream: impl Read + Write, pace: f64) -> Result<(), BenchError> {
     let mut clock = Clock::new(pace);
     let mut first = true;
@@ -59,7 +59,7 @@ fn serve(bench: &Bench, mut stream: impl Read + Write, pace: f64) -> Result<(), 
 }
 
 /// Lets simulated time pass no faster than its pace. Where the board was slow (it computes), the lost time is not made up
-/// for: a host that had all the time in the world would suddenly have none.
+/// for: the host would suddenly have less time than before.
 struct Clock {
     pace: f64,
     since: Instant,
@@ -103,7 +103,7 @@ fn answer(reading: &Reading) -> [u8; 8] {
     [0x5a, a, b, c, d, low, high, check]
 }
 
-/// The next duty; bytes that are none are skipped.
+/// The next duty; skips invalid bytes.
 fn asked(stream: &mut impl Read) -> io::Result<i16> {
     let mut window = [0; 4];
     stream.read_exact(&mut window)?;

@@ -1,4 +1,4 @@
-//! The device on the other side of a wire: talk to it, have it commission a motor, and check what it found.
+//! The host's side of a device: link, commissioning, and verification of its result.
 //!
 //! ```text
 //! port → conversation → run → files        files → replay (same bits?) → stronger fit → verdict
@@ -8,11 +8,11 @@
 //! | file | holds |
 //! |---|---|
 //! | `port` | serial port, TCP or Unix socket, by one address |
-//! | `conversation` | messages there and back, arming and starting |
-//! | `order` | a job in SI, and the same in the device's own measure |
-//! | `run` | one run: what the device sends, put together; progress; stop |
-//! | `report` | what a run sent, as the report that `servoid_results::device_run` writes |
-//! | `replay` | the device's fit once more on the host |
+//! | `conversation` | request and response, arming and starting |
+//! | `order` | a job in SI and in the device's units |
+//! | `run` | one run: the device's messages assembled; progress; stop |
+//! | `report` | the report of a run that `servoid_results::device_run` writes |
+//! | `replay` | the device's fit repeated on the host |
 //! | `emulation` | the firmware without hardware |
 //! | `lockstep` | the virtual bench as the plant of an emulated board |
 

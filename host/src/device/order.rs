@@ -1,4 +1,4 @@
-//! What a user orders, in SI, and the same in the device's own measure.
+//! A user's order in SI and in the device's units.
 
 use super::DeviceError;
 use servoid_io::output::CommandSequence;
@@ -10,13 +10,13 @@ use shared::wire::{About, Job, Kind, Limits, Segment};
 /// A run in SI. Limits that are `None` are not watched.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// What kind of run.
+    /// Kind of run.
     pub kind: Kind,
     /// Largest drive of the excitation, as a part of the supply.
     pub amplitude: f64,
     /// Length of the long excitation, s.
     pub excite_s: f64,
-    /// Whether the bridge opens in its pauses.
+    /// True if the bridge opens in its pauses.
     pub coast: bool,
     /// Length of the recording that the device fits, s; what the device can hold if `None`.
     pub record_s: Option<f64>,
@@ -26,7 +26,7 @@ pub struct Order {
     pub verify_within: Option<f64>,
     /// Seed of the excitations.
     pub seed: u64,
-    /// How the device fits.
+    /// Settings of the device's fit.
     pub fit: Settings,
     /// V.
     pub supply_v: f64,
@@ -50,7 +50,7 @@ pub struct Order {
 const ASIDE_S: f64 = 30.0;
 
 impl Order {
-    /// What the duties of the device are worth.
+    /// Volts per duty of the device.
     pub fn scale(&self, about: &About) -> DutyScale {
         DutyScale {
             supply_v: self.supply_v,
@@ -58,7 +58,7 @@ impl Order {
         }
     }
 
-    /// As the device takes it.
+    /// The order in the device's units.
     ///
     /// # Errors
     /// A number that makes no sense, or is beyond the device; it names the flag.

@@ -1,4 +1,4 @@
-//! Where a device is: a serial port, a TCP or a Unix socket.
+//! Address of a device: a serial port, a TCP or a Unix socket.
 
 use super::DeviceError;
 use std::fmt;
@@ -22,7 +22,7 @@ pub enum Port {
     Unix(String),
 }
 
-/// Bytes there and back. A read waits for a few milliseconds at most, and then fails with a time-out.
+/// A byte stream. A read waits for a few milliseconds at most, and then fails with a time-out.
 pub trait Link: Read + Write + Send {}
 impl<T: Read + Write + Send> Link for T {}
 
@@ -73,7 +73,7 @@ impl Port {
     /// Opens it.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the operating system.
     pub fn open(&self) -> Result<Box<dyn Link>, DeviceError> {
         self.try_open().map_err(|reason| DeviceError::Open {
             port: self.to_string(),
@@ -131,7 +131,7 @@ impl Write for Serial {
 /// The serial ports of this machine, each with what is known of it.
 ///
 /// # Errors
-/// What the system says.
+/// Errors of the operating system.
 pub fn serial_ports() -> Result<Vec<(String, String)>, DeviceError> {
     let ports = serialport::available_ports().map_err(io::Error::from)?;
     let described = |kind: serialport::SerialPortType| match kind {

@@ -1,20 +1,20 @@
-//! The device's fit once more on the host: same recording, seed and number format, and so the same bits.
+//! Repeats the device's fit on the host: same recording, seed and number format, and so the same bits.
 
 use servoid_results::schema::DeviceRun;
 use shared::fit::{Arithmetic, Fit, Outcome};
 use shared::scalar::Fixed;
 use shared::trace::Trace;
 
-/// What the host makes of the device's recording.
+/// Result of the repeated fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
     /// The host's outcome.
     pub outcome: Option<Outcome>,
-    /// Names of what has other bits than the device reported; none if all are the same.
+    /// Names of the values whose bits differ from the device's; empty if none does.
     pub differ: Vec<String>,
 }
 
-/// Fits what the device fitted, as the device fitted it.
+/// Repeats the device's fit.
 pub fn replay(saved: &DeviceRun, duties: &[i16], steps: &[i16]) -> Replayed {
     let trace = Trace::new(duties, steps);
     let outcome = if saved.format == "fixed" {

@@ -1,4 +1,4 @@
-//! What a device sent, as the report that is written.
+//! The report of a device's run.
 
 use super::{Order, Run};
 use servoid_results::device_run::Recorded;
@@ -7,7 +7,7 @@ use servoid_results::schema::device;
 use shared::fit::{Outcome, Stop};
 use shared::wire::{About, Fault, Format};
 
-/// Of a run that came to its end.
+/// Report of a finished run.
 pub fn report(run: &Run, order: &Order) -> DeviceRun {
     let failure = run.outcome.as_ref().err();
     let report = run
@@ -42,7 +42,7 @@ pub fn report(run: &Run, order: &Order) -> DeviceRun {
     saved
 }
 
-/// Of a run whose end is not known.
+/// Report of a run that broke off.
 pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun {
     DeviceRun {
         schema: "servoid.device/1".to_owned(),

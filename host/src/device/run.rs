@@ -1,4 +1,4 @@
-//! One run: what the device sends, put together.
+//! One run: assembles the device's messages.
 
 use super::{Conversation, DeviceError};
 use servoid_results::device_run::Recorded;
@@ -6,27 +6,27 @@ use shared::wire::{About, Failure, Report, Rows, Stage, ToDevice, ToHost};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The host says that it is there this often, whatever else it does.
+/// Interval of the host's keep-alive.
 const ALIVE: Duration = Duration::from_millis(20);
-/// A device that says nothing for this long is gone.
+/// Time-out of the device.
 const GONE: Duration = Duration::from_secs(5);
-/// After a stop, the report may take this long.
+/// Time-out of the report after a stop.
 const FAREWELL: Duration = Duration::from_secs(2);
 
-/// A run as it ended.
+/// Result of a run.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// What the device is.
+    /// Identification of the device.
     pub about: About,
-    /// What was recorded, a stage each.
+    /// The recordings, one per stage.
     pub recorded: Vec<Recorded>,
-    /// How it ended.
+    /// Its outcome.
     pub outcome: Result<Report, Failure>,
-    /// Frames that arrived damaged.
+    /// Number of damaged frames.
     pub damaged: u32,
 }
 
-/// How far a run is.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress<'a> {
     /// A stage began, of so many periods if that is known.
@@ -119,7 +119,7 @@ fn enter(recorded: &mut Vec<Recorded>, rows: &Rows) {
     recorded[index].take(rows);
 }
 
-/// The device still has the rows that it fitted: what was lost of them is asked for again.
+/// Requests the lost rows again: the device still holds those that it fitted.
 fn resend(conversation: &mut Conversation, recorded: &mut [Recorded]) -> Result<(), DeviceError> {
     let Some(part) = recorded.iter_mut().find(|part| part.stage == Stage::Record) else {
         return Ok(());

@@ -95,7 +95,7 @@ impl Drawn {
     pub fn draw(set_up: &SetUp, number: u64, redrawn: u32) -> Result<Drawn, BenchError> {
         let mut draws = Draws::of(&[set_up.seed, number, u64::from(redrawn)]);
         let motor = Motor::draw(&mut draws)?;
-        let machine = motor.machine();
+        let machine = motor.machine;
         let fine = draws.log_uniform(COUNTS_PER_REV.0, COUNTS_PER_REV.1) as u32;
         let (counts_per_rev, excitation, amplitude) = match set_up.excite {
             Excite::Commissioning => {
@@ -138,7 +138,7 @@ impl Drawn {
     /// # Errors
     /// Those of [`Hidden::parse`], where the text did not come from here.
     pub fn hidden(&self) -> Result<Vec<Hidden>, BenchError> {
-        let machine = self.motor.machine();
+        let machine = self.motor.machine;
         let specs = self.hidden.iter();
         specs.map(|spec| Hidden::parse(spec, &machine)).collect()
     }
@@ -153,7 +153,7 @@ impl Drawn {
     /// Recording 0, to fit, or 1, to hold out.
     pub(super) fn data(&self, which: usize) -> Result<Data, Error> {
         let seed = self.recording_seeds[which];
-        let machine = self.motor.machine();
+        let machine = self.motor.machine;
         let mut bench = Bench::new(machine);
         bench.counts_per_rev = self.counts_per_rev;
         bench.sample_s = INTERVAL_S;

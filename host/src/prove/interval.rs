@@ -1,6 +1,6 @@
 //! How well a count determines a rate.
 
-use servoid_results::schema::proof::Rate;
+use servoid_results::schema::proof::{Rate, Share};
 use statrs::distribution::{Beta, ContinuousCDF};
 
 /// Chance that the interval misses the rate.
@@ -27,6 +27,16 @@ impl Count {
             count.hits += u64::from(test(item));
         }
         count
+    }
+
+    /// As the answer to a question.
+    pub fn share(self, name: &str) -> Share {
+        Share {
+            name: name.to_owned(),
+            count: self.hits,
+            of: self.of,
+            rate: self.rate(),
+        }
     }
 
     /// The rate with its exact interval (Clopper and Pearson, Biometrika 26, 1934); `None` of nothing.

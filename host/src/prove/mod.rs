@@ -9,7 +9,7 @@
 //! | `draws` | random draws from a stream that belongs to seed, case and purpose |
 //! | `motor`, `hide` | a random motor; random effects with random strength and shape |
 //! | `case` | all that is drawn for a case, and its recordings |
-//! | `report` | the table, as text and as JSON |
+//! | `report` | the table as text |
 //! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
 //! | `store`, `header`, `content` | finished cases in a file: written, what they are, read and joined |
 //! | `shard` | a part of the cases, for one machine of several |
@@ -41,14 +41,13 @@ pub use case::{Case, Drawn};
 pub use content::{Content, merge, read};
 pub use header::Header;
 pub use hide::surprise;
-pub use interval::Count;
 pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
 pub use shard::{BadShard, Shard};
 pub use store::Store;
 pub use store_error::{Fault, StoreError};
-pub use tally::{Group, Share, Tally};
+pub use tally::tally;
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};

@@ -19,25 +19,14 @@ const TOP_RAD_S: (f64, f64) = (50.0, 1200.0);
 /// Viscous friction as a part of the damping by the back-EMF, K²/R.
 const VISCOUS_PART: (f64, f64) = (0.005, 0.05);
 
-/// A motor, SI units, referred to its own shaft.
+/// A motor with its name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Motor {
     /// Name of a preset, or `drawn`.
     pub name: String,
-    /// Supply voltage, V.
-    pub supply_v: f64,
-    /// Armature resistance, Ω.
-    pub resistance_ohm: f64,
-    /// Armature inductance, H.
-    pub inductance_h: f64,
-    /// Torque constant, N·m/A.
-    pub kt_n_m_a: f64,
-    /// Back-EMF constant, V·s/rad.
-    pub kb_v_s_rad: f64,
-    /// Moment of inertia, kg·m².
-    pub inertia_kg_m2: f64,
-    /// Viscous friction, N·m·s/rad.
-    pub viscous_n_m_s: f64,
+    /// The bench's machine.
+    #[serde(flatten)]
+    pub machine: Machine,
 }
 
 impl Motor {
@@ -48,7 +37,10 @@ impl Motor {
     pub fn draw(draws: &mut Draws) -> Result<Motor, BenchError> {
         if draws.chance(PRESET_SHARE) {
             let name = draws.pick(PRESETS).unwrap_or_default();
-            return Ok(Motor::new(name, &Machine::preset(name)?));
+            return Ok(Motor {
+                name: name.to_owned(),
+                machine: Machine::preset(name)?,
+            });
         }
         let mut within = |(low, high)| draws.log_uniform(low, high);
         let supply_v = within(SUPPLY_V);
@@ -61,39 +53,15 @@ impl Motor {
         let k = rounded(supply_v / (top_rad_s * (1.0 + viscous_part)));
         Ok(Motor {
             name: "drawn".to_owned(),
-            supply_v,
-            resistance_ohm,
-            inductance_h: rounded(electrical_s * resistance_ohm),
-            kt_n_m_a: k,
-            kb_v_s_rad: k,
-            inertia_kg_m2: rounded(mechanical_s * k * k / resistance_ohm),
-            viscous_n_m_s: rounded(viscous_part * k * k / resistance_ohm),
+            machine: Machine {
+                supply_v,
+                resistance_ohm,
+                inductance_h: rounded(electrical_s * resistance_ohm),
+                kt_n_m_a: k,
+                kb_v_s_rad: k,
+                inertia_kg_m2: rounded(mechanical_s * k * k / resistance_ohm),
+                viscous_n_m_s: rounded(viscous_part * k * k / resistance_ohm),
+            },
         })
-    }
-
-    fn new(name: &str, machine: &Machine) -> Motor {
-        Motor {
-            name: name.to_owned(),
-            supply_v: machine.supply_v,
-            resistance_ohm: machine.resistance_ohm,
-            inductance_h: machine.inductance_h,
-            kt_n_m_a: machine.kt_n_m_a,
-            kb_v_s_rad: machine.kb_v_s_rad,
-            inertia_kg_m2: machine.inertia_kg_m2,
-            viscous_n_m_s: machine.viscous_n_m_s,
-        }
-    }
-
-    /// The bench's machine.
-    pub fn machine(&self) -> Machine {
-        Machine {
-            resistance_ohm: self.resistance_ohm,
-            inductance_h: self.inductance_h,
-            kt_n_m_a: self.kt_n_m_a,
-            kb_v_s_rad: self.kb_v_s_rad,
-            inertia_kg_m2: self.inertia_kg_m2,
-            viscous_n_m_s: self.viscous_n_m_s,
-            supply_v: self.supply_v,
-        }
     }
 }

@@ -25,9 +25,7 @@ fn the_order_of_a_cogging_torque_is_the_first_line_beside_a_linear_motor_that_re
         let order: usize = order.and_then(|order| order.parse().ok()).unwrap();
         let problem = problem(&case.fitted, &Options::default()).unwrap();
         let start = problem.start.clone().unwrap();
-        let linear = problem
-            .structure
-            .candidate(&problem.structure.values(&start));
+        let linear = problem.structure.candidate_at(&start);
         let lines = order_lines(&case.fitted, &linear);
         let place = lines.iter().position(|line| line.order == order);
         println!("seed {SEED}, motor {number}, order {order}: {place:?}");

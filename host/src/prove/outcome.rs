@@ -220,13 +220,12 @@ fn leaves(drawn: &Drawn, which: usize, stop: &AtomicBool) -> Option<f64> {
 
 /// Errors of the parameters of the effects that are both hidden and in the model.
 fn parameter_errors(drawn: &Drawn, model: &FittedModel) -> Result<Vec<ParameterError>, Error> {
-    let machine = drawn.motor.machine();
+    let machine = drawn.motor.machine;
     let mut rest = &model.parameters[..];
     let mut errors = Vec::new();
     let hidden = drawn.hidden()?;
     for &kind in &model.effects {
-        let Some((found, further)) = rest.split_at_checked(kind.description().parameters.len())
-        else {
+        let Some((found, further)) = rest.split_at_checked(kind.parameters().len()) else {
             break;
         };
         rest = further;

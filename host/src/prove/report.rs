@@ -1,8 +1,10 @@
-//! The table of the proving ground, as text and as a document.
+//! The table of the proving ground as text.
 
-use super::{Count, DETECTABLE_COUNTS, Group, Laws, Tally};
+use super::DETECTABLE_COUNTS;
+use super::tally::words;
+use servoid_results::report::fold::folded_to;
 use servoid_results::schema::Proof;
-use servoid_results::schema::proof::{self, Confusion, Failure, Rate, Spread};
+use servoid_results::schema::proof::{Confusion, Failure, Group, Rate, Share, Spread};
 
 /// Width of the text, columns.
 const WIDTH: usize = 80;
@@ -10,44 +12,43 @@ const WIDTH: usize = 80;
 const QUESTION: usize = 50;
 
 /// The table.
-pub fn text(tally: &Tally) -> String {
-    let set_up = &tally.set_up;
+pub fn text(proof: &Proof) -> String {
+    let set_up = &proof.set_up;
     let effects = match &set_up.effects[..] {
         [] => String::new(),
         some => format!(", {}", some.join(", ")),
     };
-    let laws = match set_up.laws {
-        Laws::Own => String::new(),
-        laws => format!(", --law {}", laws.name()),
-    };
+    let laws = set_up.laws.as_ref();
+    let laws = laws.map_or(String::new(), |laws| format!(", --law {laws}"));
     let mut out = folded(
         &format!(
             "{} of seed {}: --hidden {}, --excite {}{laws}{effects}",
-            cases(tally.cases),
+            cases(proof.cases),
             set_up.seed,
-            set_up.hidden.name(),
-            set_up.excite.name(),
+            set_up.hidden,
+            set_up.excite,
         ),
         "  ",
     );
-    for group in &tally.groups {
+    for group in &proof.groups {
         out += &group_text(group);
     }
     out += "\nall cases\n";
-    out += &share(
-        "a name neither hidden nor a declared look-alike",
-        &tally.invented,
-    );
-    out += &share(
-        "held-out RMS above the linear motor's",
-        &tally.worse_than_base,
-    );
-    for (case, reason) in &tally.failures {
+    for counted in &proof.shares {
+        out += &share(
+            match counted.name.as_str() {
+                "quite_wrong_name" => "a name neither hidden nor a declared look-alike",
+                name => words(name),
+            },
+            counted,
+        );
+    }
+    for Failure { case, reason } in &proof.failures {
         out += &folded(&format!("  case {case} has no diagnosis: {reason}"), "    ");
     }
     let errors = [
-        ("sizes", &tally.size_errors),
-        ("shapes", &tally.shape_errors),
+        ("sizes", &proof.size_errors_percent),
+        ("shapes", &proof.shape_errors_percent),
     ];
     for (what, spread) in errors.into_iter().filter(|(_, spread)| spread.count > 0) {
         out += &format!(
@@ -56,8 +57,8 @@ pub fn text(tally: &Tally) -> String {
             number(spread.p90)
         );
     }
-    if !tally.confusions.is_empty() {
-        out += &confusions_text(&tally.confusions);
+    if !proof.confusions.is_empty() {
+        out += &confusions_text(&proof.confusions);
     }
     out
 }
@@ -84,8 +85,8 @@ fn group_text(group: &Group) -> String {
         ),
     };
     let mut out = format!("\n{title}\n");
-    for asked in &group.shares {
-        out += &share(asked.says, &asked.count);
+    for counted in &group.shares {
+        out += &share(words(&counted.name), counted);
     }
     out += &format!(
         "  {:QUESTION$} {}\n",
@@ -103,9 +104,9 @@ fn group_text(group: &Group) -> String {
 }
 
 /// A question with its count, its rate, and the interval of 95 %.
-fn share(says: &str, count: &Count) -> String {
-    let of = format!("{}/{}", count.hits, count.of);
-    match count.rate() {
+fn share(says: &str, share: &Share) -> String {
+    let of = format!("{}/{}", share.count, share.of);
+    match share.rate {
         Some(Rate { part, low, high }) => format!(
             "  {says:QUESTION$} {of:>9}{:>6.1}%{:>5.1}-{:.1}\n",
             100.0 * part,
@@ -156,75 +157,6 @@ fn confusions_text(rows: &[Confusion]) -> String {
     out
 }
 
-/// Breaks a line at blanks so that it fits; further lines begin with `indent`.
 fn folded(text: &str, indent: &str) -> String {
-    let mut out = String::new();
-    let mut line = String::new();
-    for word in text.split_inclusive(' ') {
-        if line.chars().count() + word.trim_end().chars().count() > WIDTH && !line.trim().is_empty()
-        {
-            out += line.trim_end();
-            out.push('\n');
-            line = indent.to_owned();
-        }
-        line += word;
-    }
-    out += line.trim_end();
-    out.push('\n');
-    out
-}
-
-/// As the document that is written; `interrupted` where the user stopped the work.
-pub fn document(tally: &Tally, interrupted: bool) -> Proof {
-    let failures = tally.failures.iter();
-    Proof {
-        schema: "servoid.prove/1".to_owned(),
-        version: tally.version.clone(),
-        set_up: proof::SetUp {
-            seed: tally.set_up.seed,
-            hidden: tally.set_up.hidden.name(),
-            excite: tally.set_up.excite.name(),
-            effects: tally.set_up.effects.clone(),
-            laws: (tally.set_up.laws != Laws::Own).then(|| tally.set_up.laws.name()),
-        },
-        cases: tally.cases,
-        failures: failures
-            .map(|(case, reason)| Failure {
-                case: *case,
-                reason: reason.clone(),
-            })
-            .collect(),
-        shares: vec![
-            counted("quite_wrong_name", &tally.invented),
-            counted("worse_than_base", &tally.worse_than_base),
-        ],
-        groups: tally.groups.iter().map(group).collect(),
-        size_errors_percent: tally.size_errors,
-        shape_errors_percent: tally.shape_errors,
-        confusions: tally.confusions.clone(),
-        interrupted,
-    }
-}
-
-fn group(group: &Group) -> proof::Group {
-    let shares = group.shares.iter();
-    proof::Group {
-        hidden: group.hidden,
-        cases: group.cases,
-        detectable: group.detectable,
-        shares: shares
-            .map(|share| counted(share.name, &share.count))
-            .collect(),
-        seconds: group.seconds,
-        refits: group.refits,
-    }
-}
-
-fn counted(name: &str, count: &Count) -> proof::Share {
-    proof::Share {
-        name: name.to_owned(),
-        count: count.hits,
-        of: count.of,
-        rate: count.rate(),
-    }
+    folded_to(WIDTH, text, indent) + "\n"
 }

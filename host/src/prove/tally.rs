@@ -2,64 +2,13 @@
 
 use super::confusion::confusions;
 use super::interval::Count;
-use super::{Header, Outcome, SetUp};
+use super::{Header, Laws, Outcome};
 use servoid_engine::compare::quantile;
 use servoid_identify::truth::ParameterError;
-use servoid_results::schema::proof::{Confusion, Spread};
+use servoid_results::schema::Proof;
+use servoid_results::schema::proof::{Failure, Group, SetUp, Share, Spread};
 
-/// The whole table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tally {
-    /// What the cases follow from.
-    pub set_up: SetUp,
-    /// Version of the program that proved them.
-    pub version: String,
-    /// Number of cases.
-    pub cases: u64,
-    /// Cases without a diagnosis: number and reason.
-    pub failures: Vec<(u64, String)>,
-    /// A name that is neither hidden nor a declared look-alike, over all cases, detectable or not.
-    pub invented: Count,
-    /// Held-out error above that of the linear motor, over all cases with a diagnosis.
-    pub worse_than_base: Count,
-    /// The cases that hide nothing, one and two effects, as far as there are any.
-    pub groups: Vec<Group>,
-    /// Errors of parameters that are sizes of effects named rightly, per cent.
-    pub size_errors: Spread,
-    /// Those of parameters that are shapes.
-    pub shape_errors: Spread,
-    /// What each effect was called.
-    pub confusions: Vec<Confusion>,
-}
-
-/// The cases that hide so many effects.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Group {
-    /// How many effects they hide.
-    pub hidden: usize,
-    /// Number of cases.
-    pub cases: u64,
-    /// Of these, with every hidden effect detectable. The questions are asked of these.
-    pub detectable: u64,
-    /// The questions, with their counts.
-    pub shares: Vec<Share>,
-    /// Time of the diagnosis in one thread, s.
-    pub seconds: Spread,
-    /// Candidates refitted.
-    pub refits: Spread,
-}
-
-/// One question to a group.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
-    /// Its name in JSON.
-    pub name: &'static str,
-    /// The question, for people.
-    pub says: &'static str,
-    /// How often the answer is yes.
-    pub count: Count,
-}
-
+/// Name in JSON, words for people, and the test of a case.
 type Question = (&'static str, &'static str, fn(&Outcome) -> bool);
 
 /// Whether the model reaches [`COMPLETE_COUNTS`](super::judge::COMPLETE_COUNTS).
@@ -117,74 +66,94 @@ const OF_TWO: [Question; 7] = [
     WORSE,
 ];
 
-impl Tally {
-    /// Counts the outcomes of cases of `header`.
-    pub fn new(header: &Header, outcomes: &[Outcome]) -> Tally {
-        let failure = |o: &Outcome| Some((o.case, o.failure.clone()?));
-        let errors = |size: bool| {
-            let all = outcomes.iter().flat_map(|outcome| &outcome.parameters);
-            spread(
-                all.filter(|error| error.size == size)
-                    .map(|error: &ParameterError| error.percent),
-            )
-        };
-        let diagnosed = outcomes.iter().filter(|o| o.failure.is_none());
-        Tally {
-            set_up: header.set_up.clone(),
-            version: header.version.clone(),
-            cases: outcomes.len() as u64,
-            failures: outcomes.iter().filter_map(failure).collect(),
-            invented: Count::of(outcomes, |o| !o.quite_wrong_names().is_empty()),
-            worse_than_base: Count::of(diagnosed, Outcome::worse_than_base),
-            groups: (0..=2)
-                .filter_map(|many| Group::new(many, outcomes))
-                .collect(),
-            size_errors: errors(true),
-            shape_errors: errors(false),
-            confusions: confusions(outcomes),
-        }
+/// Asked of the cases that hide one effect and have it named first.
+const SPURIOUS: Question = (
+    "spurious_after_right",
+    "spurious further term after a right first",
+    |o| !o.wrong_names().is_empty(),
+);
+
+/// A group's question in words.
+pub(super) fn words(name: &str) -> &'static str {
+    let all = OF_NONE.iter().chain(&OF_ONE).chain(&OF_TWO);
+    let mut all = all.chain([&SPURIOUS]);
+    all.find(|(known, ..)| *known == name)
+        .map_or("", |&(_, says, _)| says)
+}
+
+/// Counts the outcomes of cases of `header`; `interrupted` where the user stopped the work.
+pub fn tally(header: &Header, outcomes: &[Outcome], interrupted: bool) -> Proof {
+    let set_up = &header.set_up;
+    let failure = |o: &Outcome| {
+        o.failure.clone().map(|reason| Failure {
+            case: o.case,
+            reason,
+        })
+    };
+    let errors = |size: bool| {
+        let all = outcomes.iter().flat_map(|outcome| &outcome.parameters);
+        spread(
+            all.filter(|error| error.size == size)
+                .map(|error: &ParameterError| error.percent),
+        )
+    };
+    let diagnosed = outcomes.iter().filter(|o| o.failure.is_none());
+    Proof {
+        schema: "servoid.prove/1".to_owned(),
+        version: header.version.clone(),
+        set_up: SetUp {
+            seed: set_up.seed,
+            hidden: set_up.hidden.name(),
+            excite: set_up.excite.name(),
+            effects: set_up.effects.clone(),
+            laws: (set_up.laws != Laws::Own).then(|| set_up.laws.name()),
+        },
+        cases: outcomes.len() as u64,
+        failures: outcomes.iter().filter_map(failure).collect(),
+        shares: vec![
+            Count::of(outcomes, |o| !o.quite_wrong_names().is_empty()).share("quite_wrong_name"),
+            Count::of(diagnosed, Outcome::worse_than_base).share("worse_than_base"),
+        ],
+        groups: (0..=2)
+            .filter_map(|hidden| group(hidden, outcomes))
+            .collect(),
+        size_errors_percent: errors(true),
+        shape_errors_percent: errors(false),
+        confusions: confusions(outcomes),
+        interrupted,
     }
 }
 
-impl Group {
-    fn new(hidden: usize, outcomes: &[Outcome]) -> Option<Group> {
-        let of = |o: &&Outcome| o.drawn.hidden.len() == hidden;
-        let cases: Vec<&Outcome> = outcomes.iter().filter(of).collect();
-        if cases.is_empty() {
-            return None;
-        }
-        let seen: Vec<&Outcome> = cases.iter().copied().filter(|o| o.detectable).collect();
-        let questions: &[Question] = match hidden {
-            0 => &OF_NONE,
-            1 => &OF_ONE,
-            _ => &OF_TWO,
-        };
-        let mut shares: Vec<Share> = questions
-            .iter()
-            .map(|&(name, says, test)| Share {
-                name,
-                says,
-                count: Count::of(seen.iter().copied(), test),
-            })
-            .collect();
-        if hidden == 1 {
-            let right = seen.iter().copied().filter(|o| o.right_first());
-            let further = Share {
-                name: "spurious_after_right",
-                says: "spurious further term after a right first",
-                count: Count::of(right, |o| !o.wrong_names().is_empty()),
-            };
-            shares.insert(3, further);
-        }
-        Some(Group {
-            hidden,
-            cases: cases.len() as u64,
-            detectable: seen.len() as u64,
-            shares,
-            seconds: spread(seen.iter().map(|o| o.seconds)),
-            refits: spread(seen.iter().map(|o| o.refits as f64)),
-        })
+/// The cases that hide so many effects, if there are any.
+fn group(hidden: usize, outcomes: &[Outcome]) -> Option<Group> {
+    let of = |o: &&Outcome| o.drawn.hidden.len() == hidden;
+    let cases: Vec<&Outcome> = outcomes.iter().filter(of).collect();
+    if cases.is_empty() {
+        return None;
     }
+    let seen: Vec<&Outcome> = cases.iter().copied().filter(|o| o.detectable).collect();
+    let questions: &[Question] = match hidden {
+        0 => &OF_NONE,
+        1 => &OF_ONE,
+        _ => &OF_TWO,
+    };
+    let mut shares: Vec<Share> = questions
+        .iter()
+        .map(|&(name, _, test)| Count::of(seen.iter().copied(), test).share(name))
+        .collect();
+    if hidden == 1 {
+        let right = seen.iter().copied().filter(|o| o.right_first());
+        let (name, _, test) = SPURIOUS;
+        shares.insert(3, Count::of(right, test).share(name));
+    }
+    Some(Group {
+        hidden,
+        cases: cases.len() as u64,
+        detectable: seen.len() as u64,
+        shares,
+        seconds: spread(seen.iter().map(|o| o.seconds)),
+        refits: spread(seen.iter().map(|o| o.refits as f64)),
+    })
 }
 
 fn spread(values: impl Iterator<Item = f64>) -> Spread {

@@ -23,7 +23,7 @@ pub(super) fn demonstration(seed: u64) -> Result<(Recordings, Secret), Error> {
     let secret = Secret {
         hidden,
         seed,
-        told: false,
+        revealed: false,
     };
     Ok((recordings, secret))
 }

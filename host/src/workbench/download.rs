@@ -38,8 +38,8 @@ pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Erro
             let format = Format::by_name(other)
                 .ok_or_else(|| Error::Usage(format!("there is no format `{other}`")))?;
             let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-            let kept = Identified::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
-            let subject = Subject::new(&kept, "the workbench", Side::Motor)
+            let result = Identified::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
+            let subject = Subject::new(&result, "the workbench", Side::Motor)
                 .map_err(|error| failed(&error))?;
             let written = (format.write)(&subject, &Options::default())?;
             Ok((

@@ -6,7 +6,7 @@
 //! | `loaded` | a recording as it came, and as it is fitted |
 //! | `blind` | recordings of a motor in which something is hidden |
 //! | `model` | a fitted model on the bench |
-//! | `state` | what lies on the bench, and how the page is told of it |
+//! | `state` | the bench's state, and its change notifications to the page |
 //! | `job` | one piece of work at a time, which stops when nobody watches |
 //! | `work` | the pieces of work: fit, suggest, diagnose, race |
 //! | `preview` | the first rows of a file, and which column may be what |

@@ -27,7 +27,7 @@ pub(super) struct Model {
     /// The fit, with parameters and their errors.
     pub(super) fit: Arc<Fit>,
     /// RMS error that was foreseen before the fit, counts.
-    pub(super) foreseen: Option<f64>,
+    pub(super) predicted: Option<f64>,
 }
 
 /// Recordings of one piece of work.
@@ -74,17 +74,17 @@ impl Model {
     /// A model that was kept, with its errors and intervals found again.
     pub(super) fn again(
         id: usize,
-        kept: &schema::Model,
+        saved: &schema::Model,
         algorithm: &str,
         recordings: &Recordings,
     ) -> Result<Self, Error> {
         let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-        let candidate = kept
+        let candidate = saved
             .candidate("models[].model")
             .map_err(|fault| failed(&fault))?;
         let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
         let options = Options {
-            method: kept.method(),
+            method: saved.method(),
             ..options(&recordings.fitted, &effects, 1)
         };
         let (data, held_out) = recordings.parts();
@@ -115,7 +115,7 @@ impl Model {
             id,
             effects,
             fit: Arc::new(fit),
-            foreseen: None,
+            predicted: None,
         })
     }
 

@@ -109,7 +109,7 @@ async fn previewed(body: String) -> Json<Value> {
 async fn reveal(State(bench): Shared) -> Answer {
     bench.act(|state| {
         if let Some(secret) = &mut state.secret {
-            secret.told = true;
+            secret.revealed = true;
         }
     });
     done()

@@ -70,7 +70,7 @@ impl SessionFile {
                 .map(|model| SavedModel {
                     algorithm: model.fit.algorithm.clone(),
                     evaluations: model.fit.evaluations,
-                    foreseen_rms_counts: model.foreseen,
+                    foreseen_rms_counts: model.predicted,
                     model: schema::Model::of(&model.fit.candidate, model.fit.method),
                 })
                 .collect(),
@@ -78,7 +78,7 @@ impl SessionFile {
             against: place(state.against),
             race: state.race.clone(),
             diagnosis: state.diagnosis.clone(),
-            blind: (state.secret.as_ref()).map(|secret| (secret.seed, secret.told)),
+            blind: (state.secret.as_ref()).map(|secret| (secret.seed, secret.revealed)),
         }
     }
 
@@ -140,7 +140,7 @@ impl SessionFile {
             let id = state.number();
             match saved.again(place, id, &recordings) {
                 Ok(mut model) => {
-                    model.foreseen = saved.foreseen_rms_counts;
+                    model.predicted = saved.foreseen_rms_counts;
                     let mut fit = (*model.fit).clone();
                     fit.evaluations = saved.evaluations;
                     model.fit = Arc::new(fit);
@@ -168,9 +168,13 @@ impl SessionFile {
         state.race = result("race", self.race, race, &mut faults);
         let diagnosis = |document: &Document| matches!(document, Document::Diagnosis(_));
         state.diagnosis = result("diagnosis", self.diagnosis, diagnosis, &mut faults);
-        state.secret = self.blind.and_then(|(seed, told)| {
+        state.secret = self.blind.and_then(|(seed, revealed)| {
             let hidden: Hidden = surprise(&showcase::machine(), seed).ok()?;
-            Some(Secret { hidden, seed, told })
+            Some(Secret {
+                hidden,
+                seed,
+                revealed,
+            })
         });
         if !faults.is_empty() {
             state.fault = Some(format!("left out of the session: {}", faults.join("; ")));

@@ -39,7 +39,7 @@ pub(super) fn view(bench: &Bench) -> Value {
         "fault": state.fault.as_deref().map(on_the_page),
         "secret": state.secret.as_ref().map(|secret| json!({
             "seed": secret.seed,
-            "told": secret.told.then(|| secret.hidden.described()),
+            "told": secret.revealed.then(|| secret.hidden.described()),
         })),
         "effects": Kind::ALL.iter().map(|kind| json!({
             "name": kind.name(), "title": kind.description().title,
@@ -73,7 +73,7 @@ fn entry(state: &State, model: &Model) -> Value {
         "evaluations": fit.evaluations,
         "rms_counts": fit.rms_counts,
         "held_out_rms_counts": fit.validate_rms_counts,
-        "foreseen_rms_counts": model.foreseen,
+        "foreseen_rms_counts": model.predicted,
         "complete": !model.leaves_something(),
         "notes": fit.notes.iter().map(|note| on_the_page(note)).collect::<Vec<_>>(),
         "parameters": fit.parameters.iter().map(|p| json!({
@@ -122,7 +122,7 @@ fn sliders(candidate: &Candidate) -> Value {
         );
     }
     for (kind, values) in candidate.effects.iter() {
-        for (parameter, &value) in kind.description().parameters.iter().zip(values) {
+        for (parameter, &value) in kind.parameters().iter().zip(values) {
             let name = format!("{}.{}", kind.name(), parameter.name);
             all.push((name, value, parameter.quantity.unit()));
         }
@@ -162,7 +162,7 @@ pub(super) fn moved(
     machine.electrical = take("machine.electrical", machine.electrical)?;
     moved.effects = EffectSet::default();
     for (kind, values) in candidate.effects.iter() {
-        let parameters = kind.description().parameters.iter().zip(values);
+        let parameters = kind.parameters().iter().zip(values);
         let values: Vec<f64> = parameters
             .map(|(parameter, &own)| take(&format!("{}.{}", kind.name(), parameter.name), own))
             .collect::<Result<_, _>>()?;

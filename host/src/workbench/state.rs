@@ -1,4 +1,4 @@
-//! What lies on the bench, and how the page is told of it.
+//! The bench's state, and its change notifications to the page.
 
 use super::job::Job;
 use super::model::{Model, Recordings};
@@ -64,7 +64,7 @@ pub(super) struct State {
 pub(super) struct Secret {
     pub(super) hidden: Hidden,
     pub(super) seed: u64,
-    pub(super) told: bool,
+    pub(super) revealed: bool,
 }
 
 impl State {

@@ -32,7 +32,7 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
         id: 0,
         effects: effects.to_vec(),
         fit: Arc::new(fit),
-        foreseen: suggestion.map(|s| s.model.predicted_rms_counts),
+        predicted: suggestion.map(|s| s.model.predicted_rms_counts),
     };
     bench.change(|state| {
         state.put(model);
@@ -166,7 +166,7 @@ fn on_the_way(
         id: 0,
         effects: Vec::new(),
         fit: Arc::new(fitted(bench, recordings, &[], USUAL, None)?),
-        foreseen: None,
+        predicted: None,
     }];
     let mut effects = Vec::new();
     for (depth, step) in found.steps.iter().enumerate() {
@@ -190,7 +190,7 @@ fn on_the_way(
             id: 0,
             effects: effects.clone(),
             fit: Arc::new(fit),
-            foreseen: Some(after.predicted_rms_counts),
+            predicted: Some(after.predicted_rms_counts),
         });
     }
     Ok(models)
@@ -212,7 +212,7 @@ fn as_found(recordings: &Recordings, found: &Diagnosis, last: Fit) -> Result<Vec
             id: 0,
             effects,
             fit: Arc::new(last),
-            foreseen: None,
+            predicted: None,
         });
     }
     Ok(models)

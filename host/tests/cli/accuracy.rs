@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use host::bench::{Machine, PRESETS};
+use servoid_plant::{Machine, PRESETS};
 
 use crate::contract::{is_fit, number, parameter};
 use crate::desk::Desk;

@@ -29,11 +29,11 @@ fn run(desk: &Desk, line: &str, variable: &str) -> Outcome {
 fn words(outcome: &Outcome) -> String {
     let all = format!("{}{}", outcome.stdout, outcome.stderr);
     let timed = outcome.line.starts_with("compare");
-    let told = |line: &str| match line.rsplit_once("   ") {
-        Some((told, seconds)) if timed && seconds.parse::<f64>().is_ok() => told.to_owned(),
+    let timeless = |line: &str| match line.rsplit_once("   ") {
+        Some((text, seconds)) if timed && seconds.parse::<f64>().is_ok() => text.to_owned(),
         _ => line.to_owned(),
     };
-    all.lines().map(told).collect::<Vec<_>>().join("\n")
+    all.lines().map(timeless).collect::<Vec<_>>().join("\n")
 }
 
 /// A text without its colours.

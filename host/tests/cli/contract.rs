@@ -3,34 +3,24 @@
 use crate::desk::Desk;
 use serde_json::Value;
 
-/// What stands behind a key.
-#[derive(Clone, Copy, Debug)]
-pub enum Is {
-    Text,
-    /// A finite number.
-    Number,
-    NumberOrNull,
-    Flag,
-    Object,
-    List,
-}
-
-/// The object `value` has every one of `keys`, each with its type.
-pub fn has(value: &Value, keys: &[(&str, Is)]) {
-    for &(key, is) in keys {
+/// The object `value` has every one of `keys`, each with its type, as in `name: text, std: number?`; `number?` may be null.
+pub fn has(value: &Value, keys: &str) {
+    for key in keys.split(", ") {
+        let (key, is) = key.split_once(": ").expect("a key and its type");
         let found = value
             .get(key)
             .unwrap_or_else(|| panic!("no key `{key}` in {value:#}"));
         let number = found.as_f64().is_some_and(f64::is_finite);
         let fits = match is {
-            Is::Text => found.as_str().is_some_and(|text| !text.is_empty()),
-            Is::Number => number,
-            Is::NumberOrNull => number || found.is_null(),
-            Is::Flag => found.is_boolean(),
-            Is::Object => found.is_object(),
-            Is::List => found.is_array(),
+            "text" => found.as_str().is_some_and(|text| !text.is_empty()),
+            "number" => number,
+            "number?" => number || found.is_null(),
+            "flag" => found.is_boolean(),
+            "object" => found.is_object(),
+            "list" => found.is_array(),
+            other => panic!("there is no type `{other}`"),
         };
-        assert!(fits, "`{key}` is {found}, not {is:?}");
+        assert!(fits, "`{key}` is {found}, not {is}");
     }
 }
 
@@ -61,13 +51,7 @@ pub fn parameter<'a>(fit: &'a Value, name: &str) -> &'a Value {
 pub fn is_parameter(parameter: &Value) {
     has(
         parameter,
-        &[
-            ("name", Is::Text),
-            ("value", Is::Number),
-            ("unit", Is::Text),
-            ("std", Is::NumberOrNull),
-            ("identifiable", Is::Flag),
-        ],
+        "name: text, value: number, unit: text, std: number?, identifiable: flag",
     );
 }
 
@@ -76,18 +60,9 @@ pub fn is_fit(fit: &Value) {
     assert_eq!(fit["schema"], "servoid.fit/1");
     has(
         fit,
-        &[
-            ("algorithm", Is::Text),
-            ("seed", Is::Number),
-            ("evaluations", Is::Number),
-            ("cost", Is::Number),
-            ("cost_kind", Is::Text),
-            ("rms_counts", Is::Number),
-            ("validate_rms_counts", Is::NumberOrNull),
-            ("effects", Is::List),
-            ("parameters", Is::List),
-            ("identifiable", Is::Object),
-        ],
+        "algorithm: text, seed: number, evaluations: number, cost: number, cost_kind: text, \
+         rms_counts: number, validate_rms_counts: number?, effects: list, parameters: list, \
+         identifiable: object",
     );
     for parameter in list(fit, "parameters") {
         is_parameter(parameter);
@@ -97,42 +72,23 @@ pub fn is_fit(fit: &Value) {
             "{parameter}"
         );
     }
-    let response = [
-        ("gain_rad_s_v", Is::Number),
-        ("a1_s", Is::Number),
-        ("a2_s2", Is::Number),
-    ];
-    has(&fit["identifiable"], &response);
+    let response = "gain_rad_s_v: number, a1_s: number, a2_s2: number";
+    has(&fit["identifiable"], response);
     are_margins(&fit["margins"]);
 }
 
 /// `servoid.compare/1`.
 pub fn is_comparison(comparison: &Value) {
     assert_eq!(comparison["schema"], "servoid.compare/1");
-    has(
-        comparison,
-        &[
-            ("budget", Is::Number),
-            ("seeds", Is::List),
-            ("rows", Is::List),
-        ],
-    );
+    has(comparison, "budget: number, seeds: list, rows: list");
 }
 
 /// A row of `compare` whose runs all found a finite cost within `budget`.
 pub fn is_row(row: &Value, budget: f64) {
     has(
         row,
-        &[
-            ("algorithm", Is::Text),
-            ("median_cost", Is::Number),
-            ("best_cost", Is::Number),
-            ("iqr_cost", Is::Number),
-            ("median_evaluations_to_1pct", Is::NumberOrNull),
-            ("wall_s", Is::Number),
-            ("parameters", Is::Object),
-            ("curve", Is::List),
-        ],
+        "algorithm: text, median_cost: number, best_cost: number, iqr_cost: number, \
+         median_evaluations_to_1pct: number?, wall_s: number, parameters: object, curve: list",
     );
     are_margins(&row["margins"]);
     let parameters = row["parameters"].as_object().expect("an object");
@@ -158,10 +114,7 @@ pub fn is_row(row: &Value, budget: f64) {
 
 /// Gain margin in dB (null where infinite) and phase margin in degrees.
 pub fn are_margins(margins: &Value) {
-    has(
-        margins,
-        &[("gain_db", Is::NumberOrNull), ("phase_deg", Is::Number)],
-    );
+    has(margins, "gain_db: number?, phase_deg: number");
 }
 
 #[test]

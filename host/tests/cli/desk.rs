@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -36,6 +36,15 @@ impl Desk {
         desk
     }
 
+    /// A desk with two recordings of one motor by different seeds, `rec.csv` and `other.csv`, as `options` of `simulate` say.
+    pub fn with_pair(options: &str) -> Self {
+        let desk = Desk::new();
+        for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
+            desk.done(&format!("simulate {options} --seed {seed} --out {name}"));
+        }
+        desk
+    }
+
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
@@ -48,6 +57,11 @@ impl Desk {
 
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// A file that a verb wrote with `--json`.
+    pub fn read_json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.read(name)).expect("whole JSON")
     }
 
     /// How many lines the file has so far; none where there is no such file.
@@ -71,6 +85,13 @@ impl Desk {
             .current_dir(self.folder.path())
             .stdin(Stdio::null());
         command
+    }
+
+    /// The program at work, with both its streams open.
+    pub fn spawn(&self, line: &str) -> Child {
+        let mut command = self.command(line);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("servoid")
     }
 
     /// Runs `servoid` with the arguments in `line`.

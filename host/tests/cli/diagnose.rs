@@ -1,84 +1,46 @@
 //! `servoid diagnose`: from a recording to the name of what is missing, and on to the next recording.
 
-use crate::contract::{Is, has, is_parameter, list, number};
+use crate::contract::{has, is_parameter, list, number};
 use crate::desk::Desk;
 use serde_json::Value;
 
 /// A desk with `rec.csv` and `other.csv` of a gearmotor that hides `effect`.
 fn hidden(effect: &str) -> Desk {
-    let desk = Desk::new();
-    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!(
-            "simulate --seconds 6 --hide {effect} --seed {seed} --out {name}"
-        ));
-    }
-    desk
+    Desk::with_pair(&format!("--seconds 6 --hide {effect}"))
 }
 
 /// `servoid.diagnosis/1`.
 pub fn is_diagnosis(diagnosis: &Value) {
     assert_eq!(diagnosis["schema"], "servoid.diagnosis/1");
-    let errors = [
-        ("effects", Is::List),
-        ("rms_counts", Is::Number),
-        ("validate_rms_counts", Is::Number),
-    ];
+    let errors = "effects: list, rms_counts: number, validate_rms_counts: number";
     has(
         diagnosis,
-        &[
-            ("quantization_floor_counts", Is::Number),
-            ("base", Is::Object),
-            ("verdict", Is::Text),
-            ("steps", Is::List),
-            ("final", Is::Object),
-            ("advice", Is::List),
-            ("remarks", Is::List),
-            ("cannot_tell", Is::List),
-            ("residual", Is::Object),
-            ("held_out", Is::Object),
-            ("models", Is::List),
-            ("supply_v", Is::Number),
-            ("no_load_rad_s", Is::Number),
-            ("counts_per_rev", Is::Number),
-            ("sample_s", Is::Number),
-            ("seed", Is::Number),
-            ("interrupted", Is::Flag),
-        ],
+        "quantization_floor_counts: number, base: object, verdict: text, steps: list, \
+         final: object, advice: list, remarks: list, cannot_tell: list, residual: object, \
+         held_out: object, models: list, supply_v: number, no_load_rad_s: number, \
+         counts_per_rev: number, sample_s: number, seed: number, interrupted: flag",
     );
     let verdicts = ["complete", "missing_effects", "unexplained", "inconclusive"];
     assert!(
         verdicts.iter().any(|v| diagnosis["verdict"] == *v),
         "{diagnosis:#}"
     );
-    has(&diagnosis["base"], &errors);
-    has(&diagnosis["final"], &errors);
+    has(&diagnosis["base"], errors);
+    has(&diagnosis["final"], errors);
     for parameter in list(&diagnosis["final"], "parameters") {
         is_parameter(parameter);
     }
     for step in list(diagnosis, "steps") {
         has(
             step,
-            &[
-                ("added", Is::Text),
-                ("indistinguishable_from", Is::List),
-                ("confidence", Is::Number),
-                ("rms_counts", Is::Number),
-                ("validate_rms_counts", Is::Number),
-                ("foreseen_rms_counts", Is::NumberOrNull),
-                ("evidence", Is::Text),
-                ("where", Is::Object),
-                ("candidates", Is::List),
-            ],
+            "added: text, indistinguishable_from: list, confidence: number, rms_counts: number, \
+             validate_rms_counts: number, foreseen_rms_counts: number?, evidence: text, \
+             where: object, candidates: list",
         );
         for candidate in list(step, "candidates") {
             has(
                 candidate,
-                &[
-                    ("effect", Is::Text),
-                    ("rms_counts", Is::NumberOrNull),
-                    ("validate_rms_counts", Is::NumberOrNull),
-                    ("p_value", Is::NumberOrNull),
-                ],
+                "effect: text, rms_counts: number?, validate_rms_counts: number?, p_value: number?",
             );
         }
     }
@@ -98,7 +60,7 @@ fn added(diagnosis: &Value) -> Vec<&str> {
 fn a_hidden_friction_is_named_on_the_other_recording() {
     let desk = hidden("coulomb");
     let outcome = desk.done("diagnose rec.csv --validate other.csv --json d.json");
-    let diagnosis: Value = serde_json::from_str(&desk.read("d.json")).expect("JSON");
+    let diagnosis = desk.read_json("d.json");
     is_diagnosis(&diagnosis);
     assert_eq!(diagnosis["verdict"], "missing_effects");
     assert_eq!(added(&diagnosis), ["coulomb"]);
@@ -150,14 +112,9 @@ fn a_motor_without_surprises_is_complete() {
 
 #[test]
 fn the_plan_after_a_diagnosis_separates_what_it_could_not() {
-    let desk = Desk::new();
-    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!(
-            "simulate --seconds 6 --hide offset_voltage --seed {seed} --excite steps --out {name}"
-        ));
-    }
+    let desk = Desk::with_pair("--seconds 6 --hide offset_voltage --excite steps");
     let outcome = desk.done("diagnose rec.csv --validate other.csv --json d.json");
-    let diagnosis: Value = serde_json::from_str(&desk.read("d.json")).expect("JSON");
+    let diagnosis = desk.read_json("d.json");
     let alike = list(&diagnosis["steps"][0], "indistinguishable_from");
     assert!(!alike.is_empty(), "{diagnosis:#}");
     let command = diagnosis["next_command"].as_str().expect("a command");
@@ -171,12 +128,7 @@ fn the_plan_after_a_diagnosis_separates_what_it_could_not() {
 
 #[test]
 fn a_recording_that_never_reverses_is_inconclusive_and_says_what_to_record() {
-    let desk = Desk::new();
-    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!(
-            "simulate --seconds 2 --excite step --hide coulomb:strength=2 --seed {seed} --out {name}"
-        ));
-    }
+    let desk = Desk::with_pair("--seconds 2 --excite step --hide coulomb:strength=2");
     let diagnosis = desk.json("diagnose rec.csv --validate other.csv");
     is_diagnosis(&diagnosis);
     if number(&diagnosis, "base.rms_counts") > 0.33 {

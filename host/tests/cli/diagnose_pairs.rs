@@ -1,4 +1,4 @@
-//! Two recordings that do not belong together, or one that cannot be used: each is told by name.
+//! Two recordings that do not belong together, or one that cannot be used: each is reported by name.
 
 use crate::desk::Desk;
 use crate::diagnose::is_diagnosis;

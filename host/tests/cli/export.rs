@@ -1,8 +1,8 @@
 //! `export`: from a recording to the files of other programs.
 
-use crate::contract::{Is, has, list, number};
+use crate::contract::{has, list, number};
 use crate::desk::Desk;
-use host::export::FORMATS;
+use servoid_results::export::FORMATS;
 
 /// A desk with the fits of a motor: `known.json` with the facts that settle everything, `volts.json` without.
 fn fitted() -> Desk {
@@ -30,23 +30,12 @@ fn a_fit_goes_into_every_format_and_the_file_is_what_stdout_shows() {
         assert_eq!(json["text"], shown.stdout.as_str(), "{name}");
         has(
             &json,
-            &[
-                ("source", Is::Text),
-                ("side", Is::Object),
-                ("mapping", Is::List),
-                ("cannot_carry", Is::List),
-                ("remarks", Is::List),
-                ("version", Is::Text),
-            ],
+            "source: text, side: object, mapping: list, cannot_carry: list, remarks: list, \
+             version: text",
         );
         for mapped in list(&json, "mapping") {
-            let keys = [
-                ("from", Is::Text),
-                ("to", Is::Text),
-                ("unit", Is::Text),
-                ("side", Is::Text),
-            ];
-            has(mapped, &keys);
+            let keys = "from: text, to: text, unit: text, side: text";
+            has(mapped, keys);
         }
         // What is left out stands on stderr too, unless nobody wants to hear it.
         for lack in list(&json, "cannot_carry") {
@@ -237,7 +226,7 @@ fn numbers_are_written_as_they_were_typed_and_what_is_missing_is_said() {
         ];
         assert!(back.iter().any(|text| said.contains(text)), "{outcome}");
     }
-    let mut fit: serde_json::Value = serde_json::from_str(&desk.read("known.json")).expect("JSON");
+    let mut fit = desk.read_json("known.json");
     fit["supply_v"] = serde_json::Value::Null;
     desk.write("no-supply.json", fit.to_string());
     let outcome = desk.done("export no-supply.json --to mujoco");

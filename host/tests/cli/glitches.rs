@@ -1,4 +1,4 @@
-//! Faults of a log that look like physics: each is told by name and place, before any effect is blamed.
+//! Faults of a log that look like physics: each is reported by name and place, before any effect is blamed.
 
 use crate::desk::Desk;
 use crate::diagnose_pairs::{number, rewritten};
@@ -6,13 +6,7 @@ use serde_json::Value;
 
 /// A desk with two recordings of one motor with Coulomb friction.
 fn pair() -> Desk {
-    let desk = Desk::new();
-    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!(
-            "simulate --seconds 6 --hide coulomb --seed {seed} --out {name}"
-        ));
-    }
-    desk
+    Desk::with_pair("--seconds 6 --hide coulomb")
 }
 
 #[test]
@@ -50,13 +44,13 @@ fn a_log_in_milliseconds_is_told_and_read_in_its_unit() {
     }
     let line = "diagnose ms-rec.csv --validate ms-other.csv";
     desk.refused(line, 1, &["milliseconds", "--unit time=ms", "[units]"]);
-    let told = desk.json(&format!("{line} --unit time=ms"));
+    let in_ms = desk.json(&format!("{line} --unit time=ms"));
     let plain = desk.json("diagnose rec.csv --validate other.csv");
-    assert_eq!(told["verdict"], "missing_effects");
-    assert_eq!(told["final"]["effects"], plain["final"]["effects"]);
+    assert_eq!(in_ms["verdict"], "missing_effects");
+    assert_eq!(in_ms["final"]["effects"], plain["final"]["effects"]);
     let error = |diagnosis: &Value| diagnosis["final"]["rms_counts"].as_f64().expect("a number");
     // A time divided by a thousand may differ in its last digit.
-    assert!((error(&told) - error(&plain)).abs() < 1e-6);
+    assert!((error(&in_ms) - error(&plain)).abs() < 1e-6);
 }
 
 /// What a log makes of a voltage.

@@ -1,13 +1,13 @@
 //! Ctrl-C: the work ends soon, with what it has.
 #![cfg(unix)]
 
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::contract::{Is, has, is_fit, list};
+use crate::contract::{has, is_fit, list};
 use crate::desk::{Desk, Outcome};
 
 /// Time to get to work before the signal. Too short only means that there is less to report.
@@ -22,12 +22,7 @@ fn interrupted(desk: &Desk, line: &str) -> Outcome {
 
 /// The same, not before there is `enough` done.
 fn interrupted_when(desk: &Desk, line: &str, enough: impl Fn() -> bool) -> Outcome {
-    let mut command = desk.command(line);
-    let mut child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("servoid");
+    let mut child = desk.spawn(line);
     sleep(AT_WORK);
     let asked = Instant::now();
     while !enough() && asked.elapsed() < PATIENCE {
@@ -58,10 +53,6 @@ fn wait(child: &mut Child, line: &str) {
     }
 }
 
-fn written(desk: &Desk, name: &str) -> Value {
-    serde_json::from_str(&desk.read(name)).expect("whole JSON")
-}
-
 #[test]
 fn a_stopped_fit_keeps_its_best() {
     let desk = Desk::with_recording();
@@ -70,7 +61,7 @@ fn a_stopped_fit_keeps_its_best() {
         "fit rec.csv --algorithm random --budget 1000000000 --json fit.json",
     );
     assert!(outcome.stdout.contains("counts RMS"), "{outcome}");
-    let fit = written(&desk, "fit.json");
+    let fit = desk.read_json("fit.json");
     is_fit(&fit);
     assert_eq!(fit["interrupted"], true);
 }
@@ -81,12 +72,9 @@ fn a_stopped_comparison_keeps_what_it_has_and_makes_nothing_up() {
     let line = "compare rec.csv --algorithm random,pso --seeds 1000 --budget 1000000 --json c.json --plot c.svg";
     let outcome = interrupted(&desk, line);
     assert!(outcome.stdout.contains("random"), "{outcome}");
-    let comparison = written(&desk, "c.json");
+    let comparison = desk.read_json("c.json");
     let rows = list(&comparison, "rows");
-    has(
-        &rows[0],
-        &[("best_cost", Is::Number), ("median_cost", Is::Number)],
-    );
+    has(&rows[0], "best_cost: number, median_cost: number");
     assert_eq!(rows[1]["algorithm"], "pso");
     assert!(
         rows[1]["best_cost"].is_null(),
@@ -106,11 +94,11 @@ fn a_stopped_paper_keeps_what_it_has() {
     let outcome = interrupted(&desk, line);
     assert!(outcome.stdout.contains("Table 1"), "{outcome}");
     assert!(desk.read("bode.svg").contains("</svg>"));
-    let paper = written(&desk, "p.json");
+    let paper = desk.read_json("p.json");
     // Which method comes first is not the point: the work that was done is there.
     let done = |row: &&Value| row["best_cost"].is_number();
     let row = list(&paper, "rows").iter().find(done).expect("a best cost");
-    has(row, &[("parameters", Is::Object)]);
+    has(row, "parameters: object");
     assert_ne!(row["parameters"], serde_json::json!({}), "{row:#}");
 }
 
@@ -122,7 +110,7 @@ fn a_stopped_proof_counts_the_cases_that_are_done() {
     let enough = || desk.lines_of("p.jsonl") >= 2;
     let outcome = interrupted_when(&desk, line, enough);
     assert!(outcome.stdout.contains("nothing hidden"), "{outcome}");
-    let table = written(&desk, "p.json");
+    let table = desk.read_json("p.json");
     assert_eq!(table["interrupted"], true);
     let done = desk.read("p.jsonl").lines().count() - 1;
     assert_eq!(table["cases"], done);
@@ -131,15 +119,10 @@ fn a_stopped_proof_counts_the_cases_that_are_done() {
 
 #[test]
 fn a_stopped_diagnosis_keeps_its_best_and_does_not_call_it_final() {
-    let desk = Desk::new();
-    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!(
-            "simulate --excite telegraph --seconds 60 --hide lugre --hide cogging --seed {seed} --out {name}"
-        ));
-    }
+    let desk = Desk::with_pair("--excite telegraph --seconds 60 --hide lugre --hide cogging");
     let outcome = interrupted(&desk, "diagnose rec.csv --validate other.csv --json d.json");
     assert!(outcome.stdout.contains("error ladder"), "{outcome}");
-    let diagnosis = written(&desk, "d.json");
+    let diagnosis = desk.read_json("d.json");
     crate::diagnose::is_diagnosis(&diagnosis);
     assert_eq!(diagnosis["interrupted"], true);
     assert_ne!(diagnosis["verdict"], "unexplained");

@@ -1,7 +1,7 @@
 //! Facts that the encoder cannot tell: from a meter, a datasheet, a current sensor, or coasting.
 
-use host::bench::{Machine, PRESETS};
 use serde_json::Value;
+use servoid_plant::{Machine, PRESETS};
 
 use crate::contract::{number, parameter};
 use crate::desk::Desk;

@@ -40,7 +40,7 @@ fn the_demo_hides_what_it_is_told_and_finds_it() {
     ] {
         assert!(outcome.stdout.contains(word), "{word}\n{outcome}");
     }
-    let demo: serde_json::Value = serde_json::from_str(&desk.read("demo.json")).expect("JSON");
+    let demo = desk.read_json("demo.json");
     is_fit(&demo);
     crate::diagnose::is_diagnosis(&demo["diagnosis"]);
     assert_eq!(demo["named"], true);
@@ -65,10 +65,10 @@ fn the_demo_hides_what_it_is_told_and_finds_it() {
 fn a_blind_demo_reveals_its_secret_at_the_end() {
     let line = "demo --blind --seed 4 --out page.html";
     let text = Desk::new().done(line).stdout;
-    let told = text.find("the bench knows the truth: hidden was heating");
-    let told = told.unwrap_or_else(|| panic!("{text}"));
+    let reveal = text.find("the bench knows the truth: hidden was heating");
+    let reveal = reveal.unwrap_or_else(|| panic!("{text}"));
     assert!(
-        text[..told].contains("something that is told at the end"),
+        text[..reveal].contains("something that is told at the end"),
         "{text}"
     );
     assert!(!text[..text.find("missing_effects").unwrap_or(0)].contains("heating"));
@@ -139,7 +139,7 @@ fn a_fit_prints_a_table_and_writes_its_json_and_its_picture() {
         assert!(outcome.stdout.contains(word), "no {word}\n{outcome}");
     }
     assert!(desk.read("fit.svg").contains("</svg>"));
-    let written: serde_json::Value = serde_json::from_str(&desk.read("fit.json")).expect("JSON");
+    let written = desk.read_json("fit.json");
     is_fit(&written);
     assert_eq!(
         written,

@@ -21,12 +21,7 @@ const TALKATIVE: &[&str] = &[
 fn a_reader_that_leaves_is_no_error() {
     let desk = Desk::with_recording();
     for line in TALKATIVE {
-        let mut command = desk.command(line);
-        let mut child = command
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("servoid");
+        let mut child = desk.spawn(line);
         drop(child.stdout.take());
         let outcome = Outcome::new(line, child.wait_with_output().expect("servoid ends"));
         assert_eq!(outcome.code, Some(0), "{outcome}");

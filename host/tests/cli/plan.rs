@@ -1,6 +1,6 @@
 //! `simulate --plan`: what to record next, from typical effects or after a diagnosis.
 
-use crate::contract::{Is, has, list, number};
+use crate::contract::{has, list, number};
 use crate::desk::Desk;
 
 /// A plan that takes no time.
@@ -29,19 +29,10 @@ fn a_plan_has_the_keys_of_its_schema_and_the_commands_that_it_tells_of() {
     assert_eq!(plan["schema"], "servoid.plan/1");
     assert_eq!(plan["separable"], true);
     assert_eq!(plan["plan"], "plan.csv");
-    let keys = [
-        ("separation_counts", Is::Number),
-        ("threshold_counts", Is::Number),
-        ("hypotheses", Is::List),
-        ("candidates", Is::List),
-        ("samples", Is::Number),
-        ("sample_s", Is::Number),
-        ("reason", Is::Text),
-        ("advice", Is::List),
-        ("seed", Is::Number),
-        ("version", Is::Text),
-    ];
-    has(&plan, &keys);
+    let keys = "separation_counts: number, threshold_counts: number, hypotheses: list, \
+        candidates: list, samples: number, sample_s: number, reason: text, advice: list, \
+        seed: number, version: text";
+    has(&plan, keys);
     let candidates = list(&plan, "candidates");
     assert_eq!(candidates.len(), 3);
     let mut last = f64::INFINITY;

@@ -1,7 +1,7 @@
 //! `servoid prove`: cases, shards, a file that grows, and their joint table. Nothing is hidden in them, which is
 //! quick to prove; none of these journeys says how good the diagnosis is.
 
-use crate::contract::{Is, has, list};
+use crate::contract::{has, list};
 use crate::desk::Desk;
 use serde_json::Value;
 
@@ -60,65 +60,27 @@ fn the_table_says_what_was_proved() {
         outcome.stdout.lines().all(|line| width(line) <= 80),
         "{outcome}"
     );
-    let json: Value = serde_json::from_str(&desk.read("p.json")).expect("JSON");
+    let json = desk.read_json("p.json");
     assert_eq!(json["schema"], "servoid.prove/1");
     has(
         &json,
-        &[
-            ("version", Is::Text),
-            ("set_up", Is::Object),
-            ("cases", Is::Number),
-            ("failures", Is::List),
-            ("shares", Is::List),
-            ("groups", Is::List),
-            ("size_errors_percent", Is::Object),
-            ("shape_errors_percent", Is::Object),
-            ("confusions", Is::List),
-            ("interrupted", Is::Flag),
-        ],
+        "version: text, set_up: object, cases: number, failures: list, shares: list, groups: list, \
+         size_errors_percent: object, shape_errors_percent: object, confusions: list, \
+         interrupted: flag",
     );
     let group = &list(&json, "groups")[0];
     has(
         group,
-        &[
-            ("hidden", Is::Number),
-            ("cases", Is::Number),
-            ("detectable", Is::Number),
-            ("seconds", Is::Object),
-            ("refits", Is::Object),
-        ],
+        "hidden: number, cases: number, detectable: number, seconds: object, refits: object",
     );
     let share = &list(group, "shares")[0];
-    has(
-        share,
-        &[
-            ("name", Is::Text),
-            ("count", Is::Number),
-            ("of", Is::Number),
-            ("rate", Is::Object),
-        ],
-    );
+    has(share, "name: text, count: number, of: number, rate: object");
     has(
         &cases(&desk, "p.jsonl")[0],
-        &[
-            ("seed", Is::Number),
-            ("case", Is::Number),
-            ("redrawn", Is::Number),
-            ("motor", Is::Object),
-            ("hidden", Is::List),
-            ("counts_per_rev", Is::Number),
-            ("excitation", Is::Text),
-            ("amplitude", Is::Number),
-            ("base", Is::Object),
-            ("detectable", Is::Flag),
-            ("named", Is::List),
-            ("verdict", Is::Text),
-            ("last", Is::Object),
-            ("parameters", Is::List),
-            ("evaluations", Is::NumberOrNull),
-            ("refits", Is::Number),
-            ("seconds", Is::Number),
-        ],
+        "seed: number, case: number, redrawn: number, motor: object, hidden: list, \
+         counts_per_rev: number, excitation: text, amplitude: number, base: object, \
+         detectable: flag, named: list, verdict: text, last: object, parameters: list, \
+         evaluations: number?, refits: number, seconds: number",
     );
 }
 

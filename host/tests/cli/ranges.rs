@@ -2,7 +2,7 @@
 
 use crate::contract::{number, parameter};
 use crate::desk::Desk;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Effects as strong as no usual range holds, with the parameter that lies beyond.
 const BEYOND: [(&str, &str, f64); 3] = [
@@ -14,13 +14,7 @@ const BEYOND: [(&str, &str, f64); 3] = [
 const FLOOR: f64 = 0.33;
 
 fn desk(effect: &str, strength: f64) -> Desk {
-    let desk = Desk::new();
-    for (seed, name) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!(
-            "simulate --hide {effect}:strength={strength} --seed {seed} --out {name}"
-        ));
-    }
-    desk
+    Desk::with_pair(&format!("--hide {effect}:strength={strength}"))
 }
 
 #[test]
@@ -28,7 +22,7 @@ fn an_effect_beyond_its_usual_range_is_named_and_said_to_be() {
     for (effect, name, strength) in BEYOND {
         let desk = desk(effect, strength);
         let said = desk.done("diagnose rec.csv --validate other.csv --json d.json");
-        let diagnosis: Value = serde_json::from_str(&desk.read("d.json")).expect("JSON");
+        let diagnosis = desk.read_json("d.json");
         assert_eq!(diagnosis["final"]["effects"], json!([effect]));
         for key in ["rms_counts", "validate_rms_counts"] {
             let error = number(&diagnosis["final"], key);
@@ -47,7 +41,7 @@ fn a_range_that_the_user_sets_is_kept() {
     let said = desk.done(&format!(
         "fit rec.csv --with {effect} --bounds {name}=0:{most} --json fit.json"
     ));
-    let fit: Value = serde_json::from_str(&desk.read("fit.json")).expect("JSON");
+    let fit = desk.read_json("fit.json");
     assert!(number(parameter(&fit, name), "value") <= most);
     assert!(said.stdout.contains("ended on a bound"), "{said}");
     assert!(!said.stdout.contains("beyond its usual range"), "{said}");

@@ -26,7 +26,7 @@ fn the_same_seed_gives_the_same_json_twice() {
         "demo".to_owned(),
     ];
     lines.extend(
-        host::solve::names()
+        servoid_engine::solve::names()
             .iter()
             .map(|name| format!("fit rec.csv --algorithm {name} --budget 150")),
     );

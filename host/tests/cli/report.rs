@@ -113,10 +113,10 @@ fn every_result_becomes_the_same_page_at_once_and_from_its_file() {
 fn a_report_tells_what_it_drew_from() {
     let desk = Desk::with_recording();
     desk.done("fit rec.csv --json fit.json");
-    let told = desk.json("report fit.json --out page.html");
-    assert_eq!(told["schema"], "servoid.report/1");
-    assert_eq!(told["recording"], "rec.csv");
-    assert_eq!(told["page"], "page.html");
+    let summary = desk.json("report fit.json --out page.html");
+    assert_eq!(summary["schema"], "servoid.report/1");
+    assert_eq!(summary["recording"], "rec.csv");
+    assert_eq!(summary["page"], "page.html");
 }
 
 #[test]
@@ -196,8 +196,8 @@ fn another_recording_than_the_result_s_is_drawn_with_a_warning() {
     desk.done("diagnose rec.csv --json cut.json");
     desk.done("diagnose rec.csv --validate other.csv --json two.json");
     let page = |line: &str| {
-        let told = desk.done(&format!("report {line} --out page.html"));
-        (told.stderr, desk.read("page.html"))
+        let shown = desk.done(&format!("report {line} --out page.html"));
+        (shown.stderr, desk.read("page.html"))
     };
     let is_not = "is not the recording";
     for result in ["fit.json", "cut.json", "two.json"] {
@@ -227,12 +227,12 @@ fn another_recording_than_the_result_s_is_drawn_with_a_warning() {
 fn a_page_calls_look_alikes_what_the_terminal_calls_them() {
     let desk = Desk::new();
     desk.done("simulate --hide coulomb --out rec.csv");
-    let told = desk
+    let text = desk
         .done("diagnose rec.csv --json diagnosis.json --report page.html")
         .stdout;
-    let diagnosis: Value = serde_json::from_str(&desk.read("diagnosis.json")).expect("JSON");
+    let diagnosis = desk.read_json("diagnosis.json");
     let page = desk.read("page.html");
-    let flat = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for step in diagnosis["steps"].as_array().expect("steps") {
         let names = |key: &str| -> Vec<&str> {
             let list = step[key].as_array().expect("names").iter();

@@ -109,7 +109,7 @@ fn a_recording_that_is_fitted_is_not_held_out_as_well() {
     assert!(both.stderr.contains("--validate"), "{both}");
     desk.done("fit telegraph.csv --with coulomb --validate steps.csv --json one.json");
     let error = |name: &str| {
-        let fit: Value = serde_json::from_str(&desk.read(name)).expect("JSON");
+        let fit = desk.read_json(name);
         number(&fit, "validate_rms_counts")
     };
     assert_eq!(error("both.json"), error("one.json"));

@@ -1,4 +1,4 @@
-//! Everything that is told fits a terminal of 80 columns.
+//! All output fits a terminal of 80 columns.
 
 use crate::desk::Desk;
 
@@ -20,8 +20,8 @@ fn no_line_is_wider_than_a_terminal() {
         "report fit.json",
         "report diagnosis.json",
     ] {
-        let told = desk.done(line).stdout;
-        for text in told.lines() {
+        let output = desk.done(line).stdout;
+        for text in output.lines() {
             assert!(text.chars().count() <= COLUMNS, "{line}: {text}");
         }
     }

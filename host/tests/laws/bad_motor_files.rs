@@ -1,7 +1,7 @@
 //! Motor files: the contract's own, and those that must be refused with place and remedy.
 
-use host::input::{AngleUnit, Fact, MotorFile};
-use host::recording::Drive;
+use servoid_io::input::{AngleUnit, Fact, MotorFile};
+use servoid_io::recording::Drive;
 
 const CONTRACT: &str = r#"name = "bench 3"
 counts_per_rev = 2048
@@ -275,8 +275,8 @@ fn every_bad_motor_file_is_named_with_line_character_and_remedy() {
 fn tolerances_let_kt_and_kb_differ() {
     let near = "[known]\nkt_n_m_a = { value = 0.06, tolerance = 0.1 }\nkb_v_s_rad = 0.065\nkt_equals_kb = true";
     assert!(MotorFile::parse(near, "motor.toml").is_ok());
-    let told = "[known]\nkt_n_m_a = 0.06\nkb_v_s_rad = 0.07";
-    assert!(MotorFile::parse(told, "motor.toml").is_ok());
+    let apart = "[known]\nkt_n_m_a = 0.06\nkb_v_s_rad = 0.07";
+    assert!(MotorFile::parse(apart, "motor.toml").is_ok());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Recordings that must be refused, and the words that must tell the user where and what to do.
 
-use host::input::{MotorFile, read_recording, read_recording_from};
+use servoid_io::input::{MotorFile, read_recording, read_recording_from};
 
 const HEADER: &str = "t_s,voltage_v,angle_counts\n";
 

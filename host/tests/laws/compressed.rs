@@ -1,12 +1,12 @@
 //! Residuals compressed while they come say what all of them together say, and a search led by them ends at the same place.
 
-use host::block_cost::BlockCost;
-use host::fit::{self, Options};
-use host::problem::{Candidate, Centring, Data, FitProblem, Horizon, StartAngle};
-use host::recording::{Drive, Recording};
-use host::simulation::{Method, Simulation};
-use host::solve::{self, Compressed, Evaluator, Found, Objective};
 use nalgebra::DMatrix;
+use servoid_engine::block_cost::BlockCost;
+use servoid_engine::problem::{Candidate, Centring, Data, FitProblem, Horizon, StartAngle};
+use servoid_engine::simulation::{Method, Simulation};
+use servoid_engine::solve::{self, Compressed, Evaluator, Found, Objective};
+use servoid_identify::fit::{self, Options};
+use servoid_io::recording::{Drive, Recording};
 use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
 use shared::motor::Machine;
@@ -81,12 +81,12 @@ fn data(seed: u64, commands: Commands) -> Data {
         start_offset: 0.0,
     };
     let simulation = Simulation::new(&bases, &motor, Method::default()).expect("a motor");
-    let segment = host::simulation::Segment {
+    let segment = servoid_engine::simulation::Segment {
         range: 0..samples,
         angle: 100.3,
         speed: 0.0,
     };
-    let errors = simulation.errors(host::simulation::Mode::Free, &[segment]);
+    let errors = simulation.errors(servoid_engine::simulation::Mode::Free, &[segment]);
     for (reading, error) in recording.counts.iter_mut().zip(errors) {
         *reading = (*reading + error).floor();
     }
@@ -151,7 +151,7 @@ fn check(problem: &FitProblem<'_>, compressed: &dyn Compressed, x: &[f64], label
 
 /// What is handed over in parts is what the whole lists of errors differ by.
 fn check_stream(problem: &FitProblem<'_>, x: &[f64], label: &str) {
-    let model = |x: &[f64]| problem.structure.candidate(&problem.structure.values(x));
+    let model = |x: &[f64]| problem.structure.candidate_at(x);
     for cost in [Cost::Squared, ABSOLUTE] {
         let problem = FitProblem {
             cost,

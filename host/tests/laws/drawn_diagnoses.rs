@@ -1,8 +1,8 @@
 //! Diagnoses of drawn motors whose hidden effect once led the search astray.
 
-use host::diagnose::{Budget, diagnose};
-use host::fit::Options;
 use host::prove::{Case, Excite, HowMany, Laws, SetUp};
+use servoid_identify::diagnose::{Budget, diagnose};
+use servoid_identify::fit::Options;
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
 use testing::length::{cases, long};
@@ -34,7 +34,7 @@ fn most(right: usize, all: usize) -> bool {
     right * 4 >= all * 3 || (!long() && right + 1 >= all)
 }
 
-/// Whatever its order: a wave that turns quickly beside the filter is seen, too; and what goes with cogging is not laid to a friction
+/// Whatever its order: a wave that turns quickly beside the filter is seen, too; and cogging is not attributed to a friction
 /// that comes near both.
 #[test]
 fn cogging_is_named_beside_another_effect() {

@@ -6,8 +6,8 @@
 //! derivations agree. The one thing between them is `Hidden::truth`: the SI parameters of the bench, stated by the
 //! bench itself in the volts-referred terms of the model.
 
-use host::bench::{Bench, DriveSample, Hidden, Machine, PRESETS, Run};
 use servoid_identify::truth;
+use servoid_plant::{Bench, DriveSample, Hidden, Machine, PRESETS, Run};
 use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
 use shared::encoder::FLOOR_OFFSET_COUNTS;

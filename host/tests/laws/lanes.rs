@@ -1,10 +1,10 @@
 //! Candidates computed side by side are the candidates computed one by one.
 
-use host::problem::{Candidate, Data, Horizon, StartAngle};
-use host::recording::{Drive, Recording};
-use host::simulation::Batch;
-use host::simulation::{Method, Simulation};
-use host::simulation::{Mode, Segment, segments};
+use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
+use servoid_engine::simulation::Batch;
+use servoid_engine::simulation::{Method, Simulation};
+use servoid_engine::simulation::{Mode, Segment, segments};
+use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING_COAST, commands};
 use shared::model::MeasuredInterval;
@@ -50,8 +50,7 @@ fn data() -> Data {
 fn candidate(data: &Data, kind: Kind, change: f64) -> Candidate {
     let mut effects = EffectSet::default();
     let values: Vec<f64> = kind
-        .description()
-        .parameters
+        .parameters()
         .iter()
         .map(|p| p.scaled(p.typical, data.supply, data.units.speed) * (1.0 + change))
         .collect();

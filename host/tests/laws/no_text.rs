@@ -1,6 +1,6 @@
 //! Files that are no text, or a line of which never ends.
 
-use host::input::{MAX_LINE_BYTES, MotorFile, read_recording_from};
+use servoid_io::input::{MAX_LINE_BYTES, MotorFile, read_recording_from};
 use std::io::{BufReader, Cursor, Read};
 
 const HEADER: &str = "t_s,voltage_v,angle_counts\n";

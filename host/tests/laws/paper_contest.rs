@@ -1,9 +1,11 @@
 //! The paper's contest, over 31 seeds: medians, with the distribution printed.
 
-use host::compare::{Contest, quantile, run};
-use host::paper::{BOX, Experiment, Variant, identifiable_problem, paper_problem, solvers};
-use host::schema::contest::least_cost;
-use host::solve;
+use servoid_engine::compare::{Contest, quantile, run};
+use servoid_engine::solve;
+use servoid_identify::paper::{
+    BOX, Experiment, Variant, identifiable_problem, paper_problem, solvers,
+};
+use servoid_results::schema::contest::least_cost;
 use std::sync::atomic::AtomicBool;
 
 const PAPER: Experiment = Experiment {

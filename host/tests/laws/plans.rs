@@ -1,15 +1,15 @@
 //! Laws of plans, held against the virtual bench, which shares no code with the model that plans.
 
-use host::bench::{Bench, DriveSample, Hidden, Machine};
-use host::fit::{self, Options};
-use host::plan::{
+use servoid_engine::problem::{Data, Horizon, StartAngle};
+use servoid_engine::problem::{errors, rms_counts};
+use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
+use servoid_identify::fit::{self, Options};
+use servoid_identify::plan::{
     Hypothesis, Limits, PlanTask, Ranked, RefitBudget, Separation, Setup, Trial, rank,
 };
-use host::problem::{Data, Horizon, StartAngle};
-use host::problem::{errors, rms_counts};
-use host::recording::Recording;
-use host::solve::levenberg_marquardt::LevenbergMarquardt;
 use servoid_io::record::Record;
+use servoid_io::recording::Recording;
+use servoid_plant::{Bench, DriveSample, Hidden, Machine};
 use shared::cost::Cost;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -114,7 +114,7 @@ fn left_after_fit(recording: &Recording, kind: Kind) -> f64 {
     let solver = LevenbergMarquardt::default();
     let stop = AtomicBool::new(false);
     let found = fit::search(&problem, &solver, &options, &stop, &mut |_, _| {});
-    let candidate = (problem.structure).candidate(&problem.structure.values(&found.x));
+    let candidate = problem.structure.candidate_at(&found.x);
     let rms = rms_counts(&data, &problem.errors(&candidate).expect("it runs"));
     (rms * rms - FLOOR_RMS_COUNTS * FLOOR_RMS_COUNTS)
         .max(0.0)

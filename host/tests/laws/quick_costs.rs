@@ -1,10 +1,10 @@
 //! Quicker costs are the costs, and whoever only compares them decides the same.
 
-use host::block_cost::BlockCost;
-use host::paper::{BOX, Experiment, Variant, paper_problem};
-use host::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
-use host::recording::{Drive, Recording};
-use host::solve::{Evaluator, Found, Objective, Solver, swarm};
+use servoid_engine::block_cost::BlockCost;
+use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
+use servoid_engine::solve::{Evaluator, Found, Objective, Solver, swarm};
+use servoid_identify::paper::{BOX, Experiment, Variant, paper_problem};
+use servoid_io::recording::{Drive, Recording};
 use shared::cost::Cost;
 use shared::motor::Machine;
 use shared::rng;

@@ -1,11 +1,13 @@
 //! Laws of the readers and writers: no input makes them panic, whatever they accept keeps the promises of its
 //! type, and what is written is read back the same. (proptest prints the seed of a failure.)
 
-use host::input::{AngleUnit, CommandUnit, CurrentUnit, Fact, Known, MotorFile, TimeUnit, Units};
-use host::input::{Columns, read_recording_from};
-use host::output::{write_csv, write_recording};
-use host::recording::{Drive, Recording};
 use proptest::prelude::*;
+use servoid_io::input::{
+    AngleUnit, CommandUnit, CurrentUnit, Fact, Known, MotorFile, TimeUnit, Units,
+};
+use servoid_io::input::{Columns, read_recording_from};
+use servoid_io::output::{write_csv, write_recording};
+use servoid_io::recording::{Drive, Recording};
 
 fn check_promises(recording: &Recording) {
     let n = recording.len();

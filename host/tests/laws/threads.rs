@@ -1,10 +1,10 @@
 //! Results do not depend on the number of threads.
 
-use host::compare::{self, Contest};
-use host::diagnose::{Budget, diagnose};
-use host::fit::{self, Fit, Options};
 use host::prove::{Case, Excite, HowMany, Laws, SetUp};
-use host::solve;
+use servoid_engine::compare::{self, Contest};
+use servoid_engine::solve;
+use servoid_identify::diagnose::{Budget, diagnose};
+use servoid_identify::fit::{self, Fit, Options};
 use std::fmt::Debug;
 use std::sync::atomic::AtomicBool;
 

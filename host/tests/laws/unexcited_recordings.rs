@@ -1,6 +1,6 @@
 //! Recordings that can be read and hold nothing to fit.
 
-use host::input::{MotorFile, read_recording_from};
+use servoid_io::input::{MotorFile, read_recording_from};
 
 const HEADER: &str = "t_s,voltage_v,angle_counts\n";
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::io;
 
-use host::output::write_whole;
+use servoid_io::output::write_whole;
 
 fn names(folder: &std::path::Path) -> Vec<String> {
     fs::read_dir(folder)

@@ -1,13 +1,13 @@
 //! Diagnoses: what is named, and errors with limits on both sides.
 
 use crate::limits::within;
-use crate::source::{data, elsewhere, kept};
-use host::diagnose::{Budget, Diagnosis, FittedModel, Verdict, diagnose};
-use host::fit::{Options, scores};
-use host::problem::Data;
+use crate::source::{data, elsewhere, vendored};
+use servoid_engine::problem::Data;
+use servoid_identify::diagnose::{Budget, Diagnosis, FittedModel, Verdict, diagnose};
+use servoid_identify::fit::{Options, scores};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
-use testing::recordings::Kept;
+use testing::recordings::Vendored;
 
 /// Diagnoses with the horizon that is chosen when nobody asks for one, and prints what came out.
 fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
@@ -119,8 +119,8 @@ fn emps_has_coulomb_friction_and_viscous_friction_of_two_sizes() {
 /// 19 %, friction that grows with the load to 15 %; free runs over windows err by 90, 35, 23.5 and 11 %.
 #[test]
 fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() {
-    let fitted = data(&kept("bam_xl330/sin_time_square_kp400"));
-    let held_out = data(&kept("bam_xl330/up_and_down_kp400"));
+    let fitted = data(&vendored("bam_xl330/sin_time_square_kp400"));
+    let held_out = data(&vendored("bam_xl330/up_and_down_kp400"));
     let diagnosis = diagnosed(&fitted, &held_out);
     assert!(diagnosis.span.window_s.is_some());
     let named: Vec<Kind> = diagnosis.steps.iter().map(|step| step.added).collect();
@@ -144,7 +144,7 @@ fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() 
 /// The motor never reverses here: an offset, a load and dry friction say the same, and none may be named.
 #[test]
 fn un_dcmotor_cannot_tell_an_offset_from_a_load_or_friction() {
-    let whole = kept("un_dcmotor/prbs_open");
+    let whole = vendored("un_dcmotor/prbs_open");
     let (fitted, held_out) = whole.split_at(55.0).expect("long enough");
     let diagnosis = diagnosed(&data(&fitted), &data(&held_out));
     assert_eq!(diagnosis.verdict, Verdict::Inconclusive);
@@ -176,7 +176,7 @@ fn un_dcmotor_cannot_tell_an_offset_from_a_load_or_friction() {
 
 /// Amplitude of an order in the map of the currents that hold each position, A.
 fn holding_current(order: u32) -> f64 {
-    let recordings = Kept::new();
+    let recordings = Vendored::new();
     let map = recordings.unpack("odrive_cogging/holding_current_map_a_16.csv");
     let text = std::fs::read_to_string(map).expect("text");
     let points: Vec<(f64, f64)> = text
@@ -209,7 +209,7 @@ fn odrive_is_held_by_currents_that_repeat_7_28_and_14_times_a_revolution() {
 /// Known of this motor: the current that holds each position repeats 7, 28 and 14 times a revolution.
 #[test]
 fn odrive_has_cogging_of_the_orders_that_hold_it() {
-    let whole = kept("odrive_cogging/slow2_nocomp_0");
+    let whole = vendored("odrive_cogging/slow2_nocomp_0");
     let (fitted, held_out) = whole.split_at(6.5).expect("long enough");
     let diagnosis = diagnosed(&data(&fitted), &data(&held_out));
     // What turns it at constant speed against friction comes first; it turns one way only.

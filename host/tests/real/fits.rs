@@ -1,10 +1,10 @@
 //! Fits: each error has a limit on both sides.
 
 use crate::limits::within;
-use crate::source::{data, elsewhere, kept};
-use host::fit::{self, Fit, Options, scores};
-use host::problem::Data;
-use host::solve;
+use crate::source::{data, elsewhere, vendored};
+use servoid_engine::problem::Data;
+use servoid_engine::solve;
+use servoid_identify::fit::{self, Fit, Options, scores};
 use shared::effects::Kind;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -42,7 +42,7 @@ fn check(name: &str, fit: &Fit, window: Range<f64>, equation: Range<f64>) {
 /// and 2.2 % with an offset or with Coulomb friction, which it cannot tell apart.
 #[test]
 fn un_dcmotor_needs_an_offset_or_coulomb_friction_and_cannot_say_which() {
-    let data = data(&kept("un_dcmotor/prbs_open"));
+    let data = data(&vendored("un_dcmotor/prbs_open"));
     check("linear", &fitted(&data, &[], 1.0), 7.0..9.0, 10.0..17.0);
     let offset = fitted(&data, &[Kind::OffsetVoltage], 1.0);
     let coulomb = fitted(&data, &[Kind::Coulomb], 1.0);
@@ -100,7 +100,7 @@ fn bam_xl330_lifts_its_weight_at_every_gain() {
         (400, 25.0..44.0, 2.0..6.0, 12.0..40.0),
         (800, 33.0..57.0, 2.5..7.5, 12.0..40.0),
     ] {
-        let data_of = |motion: &str| data(&kept(&format!("bam_xl330/{motion}_kp{gain}")));
+        let data_of = |motion: &str| data(&vendored(&format!("bam_xl330/{motion}_kp{gain}")));
         let (turning, standing) = (data_of("sin_time_square"), data_of("up_and_down"));
         let held_out = |fit: &Fit| {
             let options = Options {
@@ -126,7 +126,7 @@ fn bam_xl330_lifts_its_weight_at_every_gain() {
 #[test]
 fn qube_is_followed_for_a_moment_only_and_its_gain_is_uncertain() {
     for (episode, window) in [("00", 20.0..40.0), ("02", 12.0..25.0)] {
-        let data = data(&kept(&format!("qube/qube_{episode}")));
+        let data = data(&vendored(&format!("qube/qube_{episode}")));
         let fit = fitted(&data, &[], 0.1);
         check(&format!("episode {episode}"), &fit, window, 20.0..90.0);
         let gain = fit

@@ -2,7 +2,7 @@
 
 use crate::limits::within;
 use crate::source::{data, elsewhere};
-use host::likelihood::{Coordinate, Maximum, Observed, Settings, Terms, fit};
+use servoid_identify::likelihood::{Coordinate, Maximum, Observed, Settings, Terms, fit};
 use std::sync::atomic::AtomicBool;
 
 /// Fits of the recordings `name_1` and so on; none where they are missing.

@@ -7,10 +7,10 @@
 
 mod diagnoses;
 mod fits;
-mod kept;
 mod likelihood;
 mod limits;
 mod program;
 mod recordings;
 mod source;
 mod steady;
+mod vendored;

@@ -4,7 +4,7 @@
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
-use testing::recordings::{self, Kept};
+use testing::recordings::{self, Vendored};
 
 /// Runs `servoid` on recordings of one source.
 fn servoid(verb: &str, fitted: &Path, held_out: Option<&Path>, map: &str) -> Output {
@@ -26,17 +26,17 @@ fn said(output: &Output) -> Value {
 
 #[test]
 fn no_servo_that_holds_a_weight_is_refused_or_told_that_its_sign_is_reversed() {
-    let kept = Kept::new();
+    let vendored = Vendored::new();
     for motion in ["sin_time_square", "up_and_down"] {
         for gain in [100, 200, 400, 800] {
-            let file = kept.unpack(&format!("bam_xl330/{motion}_kp{gain}.csv"));
+            let file = vendored.unpack(&format!("bam_xl330/{motion}_kp{gain}.csv"));
             for verb in ["check", "fit"] {
                 said(&servoid(verb, &file, None, "bam_xl330.toml"));
             }
         }
     }
     let [first, other] = ["sin_time_square_kp400", "up_and_down_kp400"]
-        .map(|name| kept.unpack(&format!("bam_xl330/{name}.csv")));
+        .map(|name| vendored.unpack(&format!("bam_xl330/{name}.csv")));
     for (fitted, held_out) in [(&first, &other), (&other, &first)] {
         said(&servoid(
             "diagnose",

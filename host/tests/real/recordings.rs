@@ -1,8 +1,8 @@
 //! How recordings are read through the motor files in `tests/maps`.
 
-use crate::source::{elsewhere, kept};
-use host::recording::{Drive, Recording};
-use testing::recordings::Kept;
+use crate::source::{elsewhere, vendored};
+use servoid_io::recording::{Drive, Recording};
+use testing::recordings::Vendored;
 
 /// Prints what a recording has, and holds it to what can be fitted at all.
 fn sound(file: &str, recording: Recording) -> Recording {
@@ -31,12 +31,12 @@ fn range(values: &[f64]) -> (f64, f64) {
 #[test]
 fn un_dcmotor_counts_sum_to_the_logged_differences() {
     let file = "un_dcmotor/prbs_open";
-    let recording = sound(file, kept(file));
+    let recording = sound(file, vendored(file));
     assert_eq!(recording.len(), 4093);
     assert!(recording.quantised);
     assert_eq!(recording.drive, Drive::Voltage);
     // The same log also holds the count differences as the firmware read them.
-    let recordings = Kept::new();
+    let recordings = Vendored::new();
     let text = std::fs::read_to_string(recordings.unpack("un_dcmotor/prbs_open.csv")).unwrap();
     let logged = text
         .lines()
@@ -66,7 +66,7 @@ fn every_bam_recording_is_in_whole_counts_and_says_when_it_was_driven() {
     for motion in ["sin_time_square", "up_and_down"] {
         for gain in [100, 200, 400, 800] {
             let file = format!("bam_xl330/{motion}_kp{gain}");
-            let recording = sound(&file, kept(&file));
+            let recording = sound(&file, vendored(&file));
             assert!(recording.quantised);
             assert_eq!(
                 recording.enabled.as_ref().map(Vec::len),
@@ -79,7 +79,7 @@ fn every_bam_recording_is_in_whole_counts_and_says_when_it_was_driven() {
 #[test]
 fn odrive_is_current_driven_and_its_observer_is_no_counter() {
     let file = "odrive_cogging/slow2_nocomp_0";
-    let recording = sound(file, kept(file));
+    let recording = sound(file, vendored(file));
     assert_eq!(recording.len(), 4306);
     assert_eq!(recording.drive, Drive::Current);
     assert_eq!(recording.command[0], 0.64064);
@@ -89,7 +89,7 @@ fn odrive_is_current_driven_and_its_observer_is_no_counter() {
 fn qube_is_in_whole_counts_and_turns_both_ways() {
     for episode in ["00", "02"] {
         let file = format!("qube/qube_{episode}");
-        let recording = sound(&file, kept(&file));
+        let recording = sound(&file, vendored(&file));
         assert!(recording.quantised);
         assert_eq!(recording.drive, Drive::Voltage);
         assert!((recording.median_interval_s() - 0.002).abs() < 1e-6);

@@ -1,10 +1,10 @@
 //! A recording by its file, through the motor file of its source.
 
-use host::input::{MotorFile, read_recording};
-use host::problem::Data;
-use host::recording::Recording;
+use servoid_engine::problem::Data;
+use servoid_io::input::{MotorFile, read_recording};
+use servoid_io::recording::Recording;
 use std::path::Path;
-use testing::recordings::{self, Kept};
+use testing::recordings::{self, Vendored};
 
 /// `path` through the motor file `map`.
 pub fn read(path: &Path, map: &str) -> Recording {
@@ -13,9 +13,9 @@ pub fn read(path: &Path, map: &str) -> Recording {
 }
 
 /// One of the recordings that are kept here: `file` is such as `qube/qube_00`.
-pub fn kept(file: &str) -> Recording {
+pub fn vendored(file: &str) -> Recording {
     let (source, _) = file.split_once('/').expect("a folder and a name");
-    let recordings = Kept::new();
+    let recordings = Vendored::new();
     read(
         &recordings.unpack(&format!("{file}.csv")),
         &format!("{source}.toml"),

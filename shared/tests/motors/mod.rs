@@ -1,8 +1,14 @@
 //! Motors of very different size, for laws that must hold for all.
 
+use shared::effects::{EffectSet, Kind};
+use shared::excite::Command;
+use shared::model::{Model, Plan, State};
 use shared::motor::Physical;
-use shared::scalar::Real;
+use shared::scalar::{ErrorValue, Readable, Real, Scalar};
 use shared::units::PerUnit;
+
+/// Sample interval, s.
+pub const INTERVAL: f64 = 1e-3;
 
 /// A motor, its supply (V), and its encoder (counts per revolution).
 pub struct Bench {
@@ -62,4 +68,44 @@ impl Bench {
         )
         .expect("positive bases")
     }
+    /// The motor with effects.
+    pub fn plan(&self, effects: &[(Kind, &[f64])], substeps: u16) -> Plan<f64> {
+        let mut set = EffectSet::default();
+        for (kind, values) in effects {
+            set.push(*kind, values).expect("a valid effect");
+        }
+        Plan {
+            effects: set,
+            substeps,
+            ..Plan::linear(self.physical.machine(), self.units(INTERVAL))
+        }
+    }
+
+    /// Typical values of an effect in SI.
+    pub fn typical(&self, kind: Kind) -> Vec<f64> {
+        let no_load = self.supply * self.physical.machine().response().gain;
+        let parameters = kind.parameters().iter();
+        parameters
+            .map(|p| p.scaled(p.typical, self.supply, no_load))
+            .collect()
+    }
+}
+
+/// Angle in counts after each sample.
+pub fn run<S: Scalar<Angle: Readable<S>>>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
+    let model = Model::<S>::new(plan).expect("a valid model");
+    let mut state = State::<S>::default();
+    drive
+        .iter()
+        .map(|command| {
+            model.step(&mut state, S::from_f64(command.drive), !command.enabled);
+            model.reading(&state).minus(0).to_f64()
+        })
+        .collect()
+}
+
+/// The largest difference.
+pub fn furthest(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }

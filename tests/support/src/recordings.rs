@@ -18,15 +18,15 @@ pub fn map(name: &str) -> PathBuf {
 }
 
 /// The recordings in `tests/recordings`, unpacked as they are asked for; gone with their owner.
-pub struct Kept {
+pub struct Vendored {
     folder: TempDir,
 }
 
-impl Kept {
+impl Vendored {
     /// None yet, and a folder for them.
     #[must_use]
     pub fn new() -> Self {
-        Kept {
+        Vendored {
             folder: tempfile::tempdir().expect("a temporary folder"),
         }
     }
@@ -72,9 +72,9 @@ impl Kept {
     }
 }
 
-impl Default for Kept {
+impl Default for Vendored {
     fn default() -> Self {
-        Kept::new()
+        Vendored::new()
     }
 }
 

@@ -217,7 +217,7 @@ impl Objective for BlockCost<'_> {
 impl BlockCost<'_> {
     fn candidate(&self, x: &[f64]) -> Candidate {
         let structure = &self.problem.structure;
-        structure.candidate(&structure.values(x))
+        structure.candidate_at(x)
     }
 
     /// Residuals of the first candidate and changes to the others, as a triangle; `None` where one of them must be run

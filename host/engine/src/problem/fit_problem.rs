@@ -163,7 +163,7 @@ impl FitProblem<'_> {
     }
 
     fn candidate(&self, x: &[f64]) -> Candidate {
-        self.structure.candidate(&self.structure.values(x))
+        self.structure.candidate_at(x)
     }
 
     fn sum(&self, errors: &[f64]) -> f64 {

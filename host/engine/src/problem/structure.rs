@@ -66,7 +66,7 @@ impl Structure {
         let no_load = data.units.speed;
         let mut unknowns = base_unknowns(base, data, centre);
         for &kind in effects {
-            for parameter in kind.description().parameters {
+            for parameter in kind.parameters() {
                 let scaled = |x| parameter.scaled(x, data.supply, no_load);
                 let most = match kind {
                     Kind::Delay => longest_delay(data, parameter.range.1),
@@ -168,6 +168,11 @@ impl Structure {
         &values[base_len(self.base)..values.len() - nuisances]
     }
 
+    /// The model at a point of the unit cube.
+    pub fn candidate_at(&self, x: &[f64]) -> Candidate {
+        self.candidate(&self.values(x))
+    }
+
     /// The model with these values of the unknowns.
     pub fn candidate(&self, values: &[f64]) -> Candidate {
         let (base, mut rest) = values.split_at(base_len(self.base));
@@ -195,7 +200,7 @@ impl Structure {
         };
         let mut effects = EffectSet::default();
         for &kind in &self.effects {
-            let (own, further) = rest.split_at(kind.description().parameters.len());
+            let (own, further) = rest.split_at(kind.parameters().len());
             // Values come from finite ranges and the caller checked the number of effects.
             let _ = effects.push(kind, own);
             rest = further;

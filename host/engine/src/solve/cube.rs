@@ -5,7 +5,7 @@ use super::{Evaluator, Stop};
 use basin::{BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction};
 use std::cell::{Cell, RefCell};
 
-/// What a method is told where the model is impossible.
+/// The cost that a method gets where the model is impossible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Impossible {
     /// Infinity, for methods that only compare costs.

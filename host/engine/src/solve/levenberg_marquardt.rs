@@ -19,39 +19,21 @@ use nalgebra::DVector;
 use residuals::{Descended, Residuals};
 use shared::rng;
 
-/// Where the differences of the Jacobian are taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Differences {
-    /// To one side, inwards at a wall: one evaluation a coordinate.
-    Forward,
-    /// To both sides where there is room: two evaluations a coordinate.
-    Central,
-}
-
 /// Levenberg–Marquardt from the objective's start, else from the cube's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LevenbergMarquardt {
-    /// Finite differences.
-    pub differences: Differences,
-    /// Their step, as a share of the cube's side; above 0.
-    pub step: f64,
     /// Relative change of the sum of squares, and of the point, at which it has converged.
     pub tolerance: f64,
-    /// Number of starts; those after the first are random, and so is what replaces an impossible one.
-    pub starts: usize,
 }
 
 impl Default for LevenbergMarquardt {
     fn default() -> Self {
-        LevenbergMarquardt {
-            differences: Differences::Forward,
-            step: 1e-6,
-            tolerance: 1e-9,
-            starts: 1,
-        }
+        LevenbergMarquardt { tolerance: 1e-9 }
     }
 }
 
+/// Step of the differences, as a share of the cube's side; inwards at a wall.
+const STEP: f64 = 1e-6;
 /// Starts where the model is impossible that are replaced by random ones.
 const IMPOSSIBLE_STARTS: usize = 100;
 /// A run from the wall is repeated if it lowered the sum of squares by more than this part.
@@ -68,16 +50,14 @@ impl Solver for LevenbergMarquardt {
         let dim = evaluator.dim();
         let mut rng = rng::seeded(seed);
         let mut start = evaluator.best_or_start();
-        let (mut begun, mut tried) = (0, 0);
-        while begun < self.starts && tried < self.starts + IMPOSSIBLE_STARTS {
-            begun += usize::from(self.descend(evaluator, start));
-            tried += 1;
+        for _ in 0..=IMPOSSIBLE_STARTS {
+            if self.descend(evaluator, start) {
+                return;
+            }
             start = (0..dim).map(|_| rng::uniform(&mut rng)).collect();
         }
-        if begun == 0 {
-            // Nothing to report otherwise; where there are no residuals there may yet be a cost.
-            let _ = evaluator.evaluate(&evaluator.best_or_start());
-        }
+        // Nothing to report otherwise; where there are no residuals there may yet be a cost.
+        let _ = evaluator.evaluate(&evaluator.best_or_start());
     }
 }
 
@@ -90,19 +70,18 @@ impl LevenbergMarquardt {
         let mut x = DVector::from_vec(start);
         let mut last = f64::INFINITY;
         while evaluator.left() > 0 {
-            let forward = self.differences == Differences::Forward;
-            let compressed = evaluator.objective().compressed().filter(|_| forward);
-            let (end, squares): (Box<dyn Descended + '_>, f64) = match compressed {
-                Some(compressed) => {
-                    let problem = Compact::new(self.step, compressed, evaluator, x);
-                    let (end, report) = minpack.minimize(problem);
-                    (Box::new(end), report.objective_function)
-                }
-                None => {
-                    let (end, report) = minpack.minimize(Residuals::new(self, evaluator, x));
-                    (Box::new(end), report.objective_function)
-                }
-            };
+            let (end, squares): (Box<dyn Descended + '_>, f64) =
+                match evaluator.objective().compressed() {
+                    Some(compressed) => {
+                        let problem = Compact::new(compressed, evaluator, x);
+                        let (end, report) = minpack.minimize(problem);
+                        (Box::new(end), report.objective_function)
+                    }
+                    None => {
+                        let (end, report) = minpack.minimize(Residuals::new(evaluator, x));
+                        (Box::new(end), report.objective_function)
+                    }
+                };
             let again = end.met_wall() && squares < last * (1.0 - WORTHWHILE);
             let begun = end.evaluated();
             x = end.inside();

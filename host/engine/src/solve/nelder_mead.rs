@@ -26,16 +26,16 @@ pub struct NelderMead {
     pub edge: f64,
     /// A simplex smaller than this in every coordinate is done.
     pub tolerance: f64,
-    /// A restart about the best vertex must lower the cost by this part of it to be repeated.
-    pub worthwhile: f64,
 }
+
+/// A restart about the best vertex must lower the cost by this part of it to be repeated.
+const WORTHWHILE: f64 = 1e-4;
 
 impl Default for NelderMead {
     fn default() -> Self {
         NelderMead {
             edge: 0.2,
             tolerance: 1e-6,
-            worthwhile: 1e-4,
         }
     }
 }
@@ -50,7 +50,7 @@ impl Solver for NelderMead {
         let mut corner = evaluator.best_or_start();
         let mut last = f64::INFINITY;
         while let Some((best, cost)) = self.converge(evaluator, self.simplex(&corner, &mut rng)) {
-            if cost < last - self.worthwhile * cost.abs() {
+            if cost < last - WORTHWHILE * cost.abs() {
                 (corner, last) = (best, cost);
             } else {
                 corner = (0..corner.len()).map(|_| rng::uniform(&mut rng)).collect();

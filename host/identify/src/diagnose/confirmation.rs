@@ -99,7 +99,7 @@ fn sums(context: &Context<'_>, chosen: &FittedModel) -> Vec<FittedModel> {
     let mut sums = Vec::new();
     let constant = constant_drive(context.data.drive);
     for &sum in &chosen.effects {
-        let parts = |kind: Kind| kind.description().parameters.len();
+        let parts = |kind: Kind| kind.parameters().len();
         let contained = sum.facts().contains.iter();
         for part in contained.filter_map(|simpler| Kind::by_name(simpler.name)) {
             if parts(sum) != parts(part) + parts(constant) || chosen.effects.contains(&constant) {

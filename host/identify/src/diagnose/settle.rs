@@ -79,7 +79,7 @@ fn with_losses(fit: &mut Fit, last: &FittedModel) {
     fit.effects = last.effects.iter().map(|kind| kind.name()).collect();
     let mut values = last.parameters.iter();
     for kind in &last.effects {
-        for parameter in kind.description().parameters {
+        for parameter in kind.parameters() {
             let Some(&value) = values.next() else { return };
             if kind.facts().by_chance {
                 fit.parameters.push(Parameter {

@@ -229,12 +229,12 @@ impl Amplitude {
 fn amplitudes(data: &Data, structure: &Structure) -> Vec<Amplitude> {
     let mut amplitudes = Vec::new();
     for (slot, &kind) in structure.effects.iter().enumerate() {
-        for (index, parameter) in kind.description().parameters.iter().enumerate() {
+        for (index, parameter) in kind.parameters().iter().enumerate() {
             if !parameter.amplitude {
                 continue;
             }
             let mut values = typical(data, structure, slot);
-            for (k, other) in kind.description().parameters.iter().enumerate() {
+            for (k, other) in kind.parameters().iter().enumerate() {
                 if other.amplitude && k != index {
                     values[k] = 0.0;
                 }
@@ -254,7 +254,7 @@ fn amplitudes(data: &Data, structure: &Structure) -> Vec<Amplitude> {
 
 /// Typical values of the effect in `slot`, SI.
 fn typical(data: &Data, structure: &Structure, slot: usize) -> Vec<f64> {
-    let parameters = structure.effects[slot].description().parameters;
+    let parameters = structure.effects[slot].parameters();
     parameters
         .iter()
         .map(|p| p.scaled(p.typical, data.supply, data.units.speed))
@@ -267,7 +267,7 @@ fn effect_values(data: &Data, structure: &Structure, amplitudes: &[f64]) -> Vec<
     let mut values = Vec::new();
     for (slot, &kind) in structure.effects.iter().enumerate() {
         let typical = typical(data, structure, slot);
-        for (parameter, typical) in kind.description().parameters.iter().zip(typical) {
+        for (parameter, typical) in kind.parameters().iter().zip(typical) {
             let (low, high) = parameter.range;
             let low = parameter.scaled(low, data.supply, data.units.speed);
             let high = parameter.scaled(high, data.supply, data.units.speed);

@@ -302,7 +302,7 @@ fn parameters(
 /// Whether the unknown called `name` is a torque in volts.
 fn is_torque(problem: &FitProblem<'_>, name: &str) -> bool {
     problem.structure.effects.iter().any(|kind| {
-        kind.description().parameters.iter().any(|p| {
+        kind.parameters().iter().any(|p| {
             p.quantity == Quantity::Torque && name == format!("{}.{}", kind.name(), p.name)
         })
     })

@@ -80,7 +80,7 @@ impl Line {
         self.centre[1] + self.slope * (volts - self.centre[0])
     }
 
-    /// Errors that hang together over time count once a segment, as for the other parameters.
+    /// Errors that are correlated over time count once a segment, as for the other parameters.
     fn resistance(&self, volts: &[f64], measured: &[f64], used: &[bool]) -> Estimate {
         let rows: Vec<_> = volts.iter().zip(measured).zip(used).collect();
         let segments = rows.chunks(rows.len().div_ceil(SEGMENTS).max(1));

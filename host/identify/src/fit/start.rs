@@ -119,7 +119,7 @@ fn usual_machines(data: &Data, structure: &Structure) -> Vec<Guess> {
     let effects: Vec<f64> = structure
         .effects
         .iter()
-        .flat_map(|kind| kind.description().parameters)
+        .flat_map(|kind| kind.parameters())
         .map(|parameter| {
             let share = if parameter.amplitude {
                 0.0
@@ -212,7 +212,7 @@ impl Starts<'_> {
             let structure = Structure::around(data, base, kinds, machine, start_speed);
             let x = structure.coordinates(&structure.values_of(machine, effects, speed_now));
             Start {
-                cost: quick.cost_of(&structure.candidate(&structure.values(&x))),
+                cost: quick.cost_of(&structure.candidate_at(&x)),
                 x,
                 structure,
             }

@@ -135,9 +135,7 @@ fn windowed(data: &Data) -> [f64; 5] {
     let solver = servoid_engine::solve::by_name("lm").expect("a method");
     let stop = AtomicBool::new(false);
     let found = free_run::search(&problem, solver.as_ref(), &options, &stop, &mut |_, _| {});
-    let model = problem
-        .structure
-        .candidate(&problem.structure.values(&found.x));
+    let model = problem.structure.candidate_at(&found.x);
     let effect = |kind| {
         let (_, values) = model
             .effects

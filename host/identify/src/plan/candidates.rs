@@ -10,12 +10,12 @@ const LEVELS: [f64; 3] = [1.0, 0.4, 0.12];
 const SEQUENCE_LEVELS: [f64; 2] = [1.0, 0.4];
 /// A triangle or reversals that creep, relative to the rest of their sequence.
 const CREEP: f64 = 0.25;
-/// How often a coast is repeated instead of being drawn out: short ones travel less.
+/// Repetitions of a coast, in place of one long coast: short ones travel less.
 const REPEATS: [usize; 3] = [5, 20, 100];
 /// A reversal is held for at least this many samples: shorter ones do not reach the shaft.
 const SHORTEST_HOLD_SAMPLES: f64 = 4.0;
 
-/// How long a candidate is, and the times that its shapes are measured by.
+/// Length of a candidate, and the times that scale its shapes.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// Length of the whole, s.

@@ -1,4 +1,4 @@
-//! An excitation: what is played, how it is named, and its commands.
+//! An excitation: its experiments, its name and its commands.
 
 use shared::excite::{Command, Experiment, Shape, commands};
 use std::fmt;
@@ -30,7 +30,7 @@ impl Excitation {
         commands(&self.parts, sample_s, seed).collect()
     }
 
-    /// Whether the bridge is ever open.
+    /// True if the bridge opens at any time.
     pub fn coasts(&self) -> bool {
         self.parts.iter().any(|part| part.shape == COAST)
     }

@@ -54,7 +54,7 @@ impl Hypothesis {
     /// The effect with its typical values on a motor of the bench.
     pub fn typical(kind: Kind, motor: &bench::Machine) -> Self {
         let (supply, no_load) = (motor.supply_v, motor.top_speed_rad_s());
-        let parameters = kind.description().parameters.iter();
+        let parameters = kind.parameters().iter();
         Hypothesis {
             effects: vec![kind],
             machine: machine(motor),
@@ -94,7 +94,7 @@ impl Hypothesis {
         let mut effects = EffectSet::default();
         let mut rest = &self.values[..];
         for &kind in &self.effects {
-            let own = kind.description().parameters.len().min(rest.len());
+            let own = kind.parameters().len().min(rest.len());
             let (values, further) = rest.split_at(own);
             effects.push(kind, values)?;
             rest = further;
@@ -107,7 +107,7 @@ impl Hypothesis {
         })
     }
 
-    /// Whether it can become `other` by its parameters alone. Then it explains whatever `other` does,
+    /// True if it equals `other` for some values of its parameters. Then it explains whatever `other` does,
     /// and no recording speaks against it.
     pub fn contains(&self, other: &Hypothesis) -> bool {
         let covers = |general: Kind, special: Kind| general == special || general.refines(special);

@@ -1,4 +1,4 @@
-//! What an excitation may ask of the motor. A candidate that asks for more under any hypothesis is
+//! Limits of an excitation. A candidate that exceeds them under any hypothesis is
 //! scaled down, or dropped where that does not help.
 
 use super::excitation::Excitation;
@@ -9,7 +9,7 @@ use shared::error::ModelError;
 use shared::excite::Command;
 use std::ops::ControlFlow;
 
-/// The most that may be asked.
+/// Largest values allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Voltage, V; beyond the supply it limits nothing.
@@ -20,7 +20,7 @@ pub struct Limits {
     pub travel_rev: Option<f64>,
 }
 
-/// What an excitation asks for, the most of all hypotheses.
+/// Peak values of an excitation, the largest over all hypotheses.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Usage {
     /// Largest voltage, V.
@@ -37,7 +37,7 @@ pub struct Usage {
 /// fraction of a percent; the rest is for a current that peaks between samples where an effect adds to
 /// the command, and for start angles that were not tried.
 const USABLE: f64 = 0.9;
-/// Each amplitude that is tried is this part of the one before; those that ask for too much end early.
+/// Ratio of successive amplitudes that are tried; those that exceed a limit end early.
 const STEP_DOWN: f64 = 0.85;
 /// Smallest part of a candidate's amplitude that is tried.
 const SMALLEST: f64 = 0.01;
@@ -56,8 +56,8 @@ impl Limits {
         within(usage.current_v, self.current_v) && within(usage.travel_rev, self.travel_rev)
     }
 
-    /// `candidate` scaled down until it keeps to the limits under every hypothesis, and what it then
-    /// asks for; `None` where no amplitude does.
+    /// `candidate` scaled down until it stays within the limits under every hypothesis, with its
+    /// peak values; `None` where no amplitude does.
     ///
     /// # Errors
     /// A hypothesis that is no possible model.
@@ -80,7 +80,7 @@ impl Limits {
         Ok(None)
     }
 
-    /// What a drive asks for under all hypotheses; `None` where that is more than allowed.
+    /// Peak values of a drive over all hypotheses; `None` beyond a limit.
     fn usage(
         &self,
         drive: &[Command<f64>],

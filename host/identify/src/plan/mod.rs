@@ -1,4 +1,4 @@
-//! What to record next: the excitation that parts effects which explain a recording alike.
+//! Plans the next recording: the excitation that separates effects which explain a recording alike.
 //!
 //! Read in this order:
 //!
@@ -7,11 +7,11 @@
 //! | `hypothesis` | a model that may be the truth, and the setup that it runs on |
 //! | `excitation` | experiments in turn, with a name |
 //! | `candidates` | the excitations to choose from |
-//! | `playback` | an excitation played to a hypothesis |
-//! | `limits` | what an excitation may ask of the motor; scaled down until it keeps to it |
-//! | `separation` | what is left when one hypothesis is fitted to another's recording |
+//! | `playback` | an excitation simulated under a hypothesis |
+//! | `limits` | limits of an excitation; candidates scaled down to them |
+//! | `separation` | residual of one hypothesis fitted to another's recording |
 //! | `ranking` | the candidates with the largest separation |
-//! | `reasons` | why the best one separates, and what would if none does |
+//! | `reasons` | why the best one separates, and the remedy if none does |
 //!
 //! Separation is measured by refitting, not by the angle between two residuals: a load and an unequal
 //! friction leave residuals that look different, yet each imitates the other perfectly once it may

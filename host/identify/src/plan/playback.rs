@@ -1,4 +1,4 @@
-//! An excitation played to a hypothesis: what its shaft and winding do, and what its encoder reads.
+//! Simulates an excitation under a hypothesis: shaft, winding and encoder reading.
 
 use super::hypothesis::{Hypothesis, Setup};
 use crate::fit::Options;
@@ -11,7 +11,7 @@ use shared::excite::Command;
 use shared::model::{Model, Plan, State};
 use std::ops::ControlFlow;
 
-/// What happens at one sample, before its command acts and while it does.
+/// State at one sample: before its command acts, and the peak while it does.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// Angle as the encoder sees it, counts, not rounded.

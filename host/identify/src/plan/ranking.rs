@@ -1,10 +1,10 @@
 //! The candidates with the largest separation.
 //!
-//! First each hypothesis learns to imitate each other one on a common recording, as it would have in
-//! the recording that both explain: from there a refit has not far to go. A refit that is cut short
+//! First each hypothesis is fitted to each other one on a common recording, as it would have been to
+//! the recording that both explain: a refit from there converges fast. A refit that is cut short
 //! leaves too much, never too little: its separation is an upper bound. So all candidates are screened
 //! with a single step, and then only those whose bound is among the best are refitted with more steps,
-//! until the best three stand with all of it. Nothing that was passed over can be better than they are.
+//! until the best three are fully refitted. No candidate that was dropped can be better.
 
 use super::candidates::{Frame, all};
 use super::excitation::Excitation;
@@ -17,7 +17,7 @@ use shared::error::ModelError;
 use shared::excite::{COMMISSIONING, Command};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How many are ranked.
+/// Number of candidates ranked.
 const RANKED: usize = 3;
 /// Budgets in turn; the first screens.
 const BUDGETS: [RefitBudget; 4] = [
@@ -38,20 +38,20 @@ const BUDGETS: [RefitBudget; 4] = [
         regression: 8,
     },
 ];
-/// Steps by which one hypothesis learns to imitate another.
+/// Steps of the first fit of one hypothesis to another.
 const LEARNING: RefitBudget = RefitBudget {
     steps: 25,
     regression: 10,
 };
-/// Longest recording to learn from, s.
+/// Longest recording of the first fits, s.
 const IMITATION_SECONDS: f64 = 8.0;
-/// What the ranking is to work with.
+/// Input of the ranking.
 pub struct PlanTask<'a> {
-    /// What may be the truth; at least two.
+    /// The rival hypotheses; at least two.
     pub hypotheses: &'a [Hypothesis],
     /// Drive, encoder and motor.
     pub setup: Setup,
-    /// What may be asked of the motor.
+    /// Limits of the excitation.
     pub limits: Limits,
     /// Length of the excitation, s.
     pub seconds: f64,
@@ -59,7 +59,7 @@ pub struct PlanTask<'a> {
     pub seed: u64,
     /// Ends the work early.
     pub stop: &'a AtomicBool,
-    /// Told of each candidate that was screened or refitted.
+    /// Called after each candidate that was screened or refitted.
     pub done: &'a (dyn Fn() + Sync),
 }
 
@@ -68,11 +68,11 @@ pub struct PlanTask<'a> {
 pub struct Ranked {
     /// The excitation, within the limits.
     pub excitation: Excitation,
-    /// What it asks for.
+    /// Its peak values.
     pub usage: Usage,
     /// Of each ordered pair that can be told apart.
     pub separations: Vec<Separation>,
-    /// How many of the budgets were spent.
+    /// Number of budgets spent.
     rounds: usize,
 }
 
@@ -84,7 +84,7 @@ impl Ranked {
     }
 }
 
-/// How many candidates there are to screen.
+/// Number of candidates to screen.
 pub fn candidate_count(task: &PlanTask<'_>) -> usize {
     all(&frame(task)).len()
 }

@@ -1,4 +1,4 @@
-//! Why the best excitation separates, and what would where none does.
+//! Explains why the best excitation separates, or names the remedy where none does.
 
 use super::excitation::Excitation;
 use super::hypothesis::Hypothesis;
@@ -21,7 +21,7 @@ fn words(shape: Shape) -> &'static [&'static str] {
     }
 }
 
-/// Why the excitation separates the hypotheses, in one sentence.
+/// One sentence on why the excitation separates the hypotheses.
 pub fn why(excitation: &Excitation, hypotheses: &[Hypothesis]) -> String {
     let driven = |part: &&Experiment| part.amplitude > 0.0 || part.shape == Shape::Rest;
     let parts: Vec<&Experiment> = excitation.parts.iter().filter(driven).collect();
@@ -60,7 +60,7 @@ pub fn why(excitation: &Excitation, hypotheses: &[Hypothesis]) -> String {
     sentence
 }
 
-/// What would part two hypotheses that voltage and angle cannot, within the limits or at all.
+/// The measurement that separates two hypotheses which voltage and angle cannot, within the limits or at all.
 pub fn remedy(a: &Hypothesis, b: &Hypothesis) -> String {
     let only = |of: &Hypothesis, other: &Hypothesis| -> Vec<Kind> {
         let absent = |kind: &&Kind| !other.effects.contains(kind);

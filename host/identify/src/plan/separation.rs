@@ -1,4 +1,4 @@
-//! What is left when one hypothesis is fitted to another's recording.
+//! Residual of one hypothesis fitted to another's recording.
 
 use super::hypothesis::{Hypothesis, Setup};
 use super::playback::record;
@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-7;
 /// Evaluations beside those of the steps: the start, and trial points that were refused.
 const SPARE: usize = 2;
 
-/// What `fitted` leaves of the recording that it did not make.
+/// Separation of the ordered pair `truth`, `fitted`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
     /// Index of the hypothesis that made the recording.
@@ -38,8 +38,8 @@ pub struct Separation {
 }
 
 impl Separation {
-    /// Every ordered pair that a recording can part: a hypothesis that contains the truth explains all
-    /// that the truth does, and is told from it by its needless parameters, not by its error.
+    /// Every ordered pair that a recording can separate: a hypothesis that contains the truth explains all
+    /// that the truth does; its surplus parameters rule it out, not its error.
     pub fn pairs(hypotheses: &[Hypothesis]) -> Vec<Separation> {
         let pair = |truth: usize, fitted: usize| Separation {
             truth,
@@ -56,7 +56,7 @@ impl Separation {
     }
 }
 
-/// How hard a refit tries.
+/// Budget of a refit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefitBudget {
     /// Steps of the search, each with its own Jacobian.
@@ -65,9 +65,9 @@ pub struct RefitBudget {
     pub regression: usize,
 }
 
-/// A drive and what may have made the recording of it.
+/// A drive and the hypotheses for its recording.
 pub struct Trial<'a> {
-    /// What may be the truth.
+    /// The hypotheses.
     pub hypotheses: &'a [Hypothesis],
     /// Drive, encoder and motor.
     pub setup: &'a Setup,
@@ -121,7 +121,6 @@ impl Trial<'_> {
     ) -> Result<Separation, ModelError> {
         let solver = LevenbergMarquardt {
             tolerance: TOLERANCE,
-            ..LevenbergMarquardt::default()
         };
         let options = Options {
             budget: steps * (problem.structure.dim() + 1) + SPARE,
@@ -131,9 +130,7 @@ impl Trial<'_> {
         if !found.cost.is_finite() {
             return Ok(pair.clone());
         }
-        let candidate = problem
-            .structure
-            .candidate(&problem.structure.values(&found.x));
+        let candidate = problem.structure.candidate_at(&found.x);
         let rms = rms_counts(problem.data, &problem.errors(&candidate)?);
         let floor = FLOOR_RMS_COUNTS;
         Ok(Separation {

@@ -1,4 +1,4 @@
-//! What every effect of the catalogue must obey.
+//! Laws of every effect of the catalogue.
 
 use super::*;
 
@@ -152,7 +152,7 @@ fn any_mixture_of_effects_runs_and_converges() {
             ..coarse.clone()
         };
         let gap = largest_gap_counts(&coarse.run(&drive).unwrap(), &fine.run(&drive).unwrap());
-        // Looser than for one effect: a rotor that hangs on the edge of a detent magnifies any error.
+        // Looser than for one effect: a rotor near the edge of a detent magnifies any error.
         let hidden = coarse.effects;
         assert!(
             gap < 0.05,

@@ -1,4 +1,4 @@
-//! Laws of the bench: exact solutions, energy, and what every effect of the catalogue must obey. Here are
+//! Laws of the bench: exact solutions, energy, and laws of every effect of the catalogue. Here are
 //! the drives and the measures that they share, and the orders that must be refused.
 
 use super::effects::{CATALOGUE, Stall};

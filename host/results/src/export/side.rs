@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn every_unit_of_the_catalogue_and_of_the_six_is_known_and_the_machine_stays_consistent() {
         let side = Side::Output { ratio: 30.0 };
-        let of_effects = Kind::ALL.iter().flat_map(|k| k.description().parameters);
+        let of_effects = Kind::ALL.iter().flat_map(|k| k.parameters());
         for unit in of_effects
             .map(|p| p.quantity.unit())
             .chain(NAMES.map(|n| n.1))

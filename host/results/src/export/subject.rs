@@ -6,7 +6,6 @@ use crate::schema::{Identified, ModelFault};
 use servoid_io::recording::Drive;
 use shared::effects::Kind;
 use shared::motor::{Machine, Response};
-use shared::units::Quantity;
 
 /// One number with all that is known of it, on the subject's side.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,7 +115,7 @@ impl Subject {
                 values: Vec::new(),
                 determined: Vec::new(),
             };
-            for (parameter, value) in kind.description().parameters.iter().zip(own) {
+            for (parameter, value) in kind.parameters().iter().zip(own) {
                 let name = format!("{}.{}", kind.name(), parameter.name);
                 term.values
                     .push(refer(&name, value, parameter.quantity.unit())?);
@@ -252,11 +251,6 @@ impl Subject {
                 needs: "torques in N*m (R/Kt)".to_owned(),
                 remedy: NAME_RESISTANCE,
             })
-    }
-
-    /// The unit of an effect's parameter: behind a current loop volts are units of the command.
-    pub fn unit_of(&self, quantity: Quantity) -> String {
-        self.unit_shown(quantity.unit())
     }
 
     /// A unit as it is written: behind a current loop volts are units of the command.

@@ -14,6 +14,7 @@ use crate::picture::{Drawing, Picture, Table};
 use serde_json::{Value, json};
 
 /// A page of a title, words, facts and sections.
+#[derive(Default)]
 pub struct Page {
     /// Title.
     pub title: String,

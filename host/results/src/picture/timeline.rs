@@ -125,8 +125,8 @@ pub fn timeline(
     held_out_from: Option<f64>,
     most: usize,
 ) -> Picture {
-    let kept = kept(data.len(), runs, most);
-    let pick = |of: &dyn Fn(usize) -> f64| Packed(kept.iter().map(|&k| of(k) as f32).collect());
+    let drawn = drawn(data.len(), runs, most);
+    let pick = |of: &dyn Fn(usize) -> f64| Packed(drawn.iter().map(|&k| of(k) as f32).collect());
     let names = [colour::BASE, colour::MODEL, colour::OTHER];
     let packed = runs.iter().enumerate().map(|(k, run)| PackedRun {
         name: run.name.clone(),
@@ -139,14 +139,14 @@ pub fn timeline(
         residual: pick(&|k| run.residual[k]),
     });
     let interval = data.units.interval;
-    let even = kept.len() == data.len()
+    let even = drawn.len() == data.len()
         && (data.time_s.iter().enumerate())
             .all(|(k, t)| (t - k as f64 * interval).abs() < 1e-3 * interval);
     let timeline = Timeline {
         time: if even {
             Times::Even(interval, data.len())
         } else {
-            Times::Each(kept.iter().map(|&k| data.time_s[k]).collect())
+            Times::Each(drawn.iter().map(|&k| data.time_s[k]).collect())
         },
         measured: pick(&|k| data.counts[k] - data.counts[0]),
         counts_per_rev: data.units.counts_per_rev,
@@ -161,11 +161,11 @@ pub fn timeline(
         held_out_from,
         worst: runs.last().and_then(|run| worst(data, run)),
     };
-    let thinned = if kept.len() < data.len() {
+    let thinned = if drawn.len() < data.len() {
         format!(
             " Of {} samples the extremes of {} blocks are drawn; the fit took all.",
             data.len(),
-            kept.len() / 2
+            drawn.len() / 2
         )
     } else {
         String::new()
@@ -205,7 +205,7 @@ fn worst(data: &Data, run: &Run) -> Option<(f64, f64)> {
 }
 
 /// Samples to draw: all, or the extremes of the last run's residual in blocks.
-fn kept(samples: usize, runs: &[Run], most: usize) -> Vec<usize> {
+fn drawn(samples: usize, runs: &[Run], most: usize) -> Vec<usize> {
     if samples <= most {
         return (0..samples).collect();
     }
@@ -213,7 +213,7 @@ fn kept(samples: usize, runs: &[Run], most: usize) -> Vec<usize> {
     let Some(last) = runs.last() else {
         return (0..samples).step_by(block / 2).collect();
     };
-    let mut kept = Vec::with_capacity(most);
+    let mut drawn = Vec::with_capacity(most);
     for from in (0..samples).step_by(block) {
         let range = from..(from + block).min(samples);
         let by = |a: &usize, b: &usize| last.residual[*a].total_cmp(&last.residual[*b]);
@@ -222,7 +222,7 @@ fn kept(samples: usize, runs: &[Run], most: usize) -> Vec<usize> {
         let mut pair: Vec<usize> = least.into_iter().chain(most).collect();
         pair.sort_unstable();
         pair.dedup();
-        kept.extend(pair);
+        drawn.extend(pair);
     }
-    kept
+    drawn
 }

@@ -18,7 +18,7 @@ pub struct DemoReport<'a> {
     pub hidden: &'a Hidden,
     /// The same in words.
     pub described: String,
-    /// Whether it is told at the end only.
+    /// True if it is revealed at the end only.
     pub blind: bool,
     /// Encoder counts per revolution.
     pub counts_per_rev: u32,

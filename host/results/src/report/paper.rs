@@ -123,7 +123,7 @@ fn round_text(round: &Round<'_>) -> String {
         let typical = row
             .typical()
             .filter(|run| run.cost.is_finite())
-            .map(|run| structure.candidate(&structure.values(&run.x)).machine);
+            .map(|run| structure.candidate_at(&run.x).machine);
         out += &format!(
             "{:8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11}\n",
             row.algorithm,

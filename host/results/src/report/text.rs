@@ -1,6 +1,7 @@
 //! Results as text for a terminal of 80 columns.
 
 use super::diagnosis::bars;
+use super::fold::folded;
 use super::style::{GOOD, HEADING, painted};
 use crate::number_text::{short, with_error};
 use crate::schema::contest::least_cost;
@@ -184,20 +185,8 @@ fn ladder(entries: &[LadderEntry]) -> String {
 
 /// A remark, folded to 80 columns behind a dash.
 pub(super) fn wrapped(note: &str) -> String {
-    const WIDTH: usize = 78;
-    let mut out = String::from("-");
-    let mut column = 1;
-    for word in note.split_whitespace() {
-        if column + 1 + word.chars().count() > WIDTH {
-            out.push_str("\n ");
-            column = 1;
-        }
-        out.push(' ');
-        out.push_str(word);
-        column += 1 + word.chars().count();
-    }
-    out.push('\n');
-    out
+    let words: Vec<&str> = note.split_whitespace().collect();
+    folded(&format!("- {}", words.join(" ")), "  ") + "\n"
 }
 
 /// A comparison of search methods.

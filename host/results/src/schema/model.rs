@@ -111,7 +111,7 @@ impl ModelParameter {
     /// The parameters of `effects`, one effect after the other, with their values in the catalogue's order.
     pub fn all(effects: &[Kind], values: &[f64]) -> Vec<Self> {
         let named = effects.iter().flat_map(|kind| {
-            let parameters = kind.description().parameters.iter();
+            let parameters = kind.parameters().iter();
             parameters.map(|p| (format!("{}.{}", kind.name(), p.name), p.quantity.unit()))
         });
         let values = named.zip(values);
@@ -215,7 +215,7 @@ pub(super) fn terms(
     for effect in effects {
         let kind = kind(place, effect)?;
         let mut values = Vec::new();
-        for parameter in kind.description().parameters {
+        for parameter in kind.parameters() {
             let name = format!("{effect}.{}", parameter.name);
             let at = left.iter().position(|known| known.name == name);
             let Some(known) = at.map(|at| left.remove(at)) else {

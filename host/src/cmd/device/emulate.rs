@@ -1,11 +1,10 @@
-//! Reaching a device: a real one, or one that is emulated for the occasion.
+//! Opens a device: a real one, or an emulated one.
 
-use super::super::simulate::hidden;
+use super::super::simulate::bench_of;
 use crate::cli::{EmulateArgs, EmulationArgs, LimitArgs, PortArgs};
 use crate::device::{DeviceError, Emulation, Image, Port};
 use crate::error::Error;
 use crate::session::Session;
-use servoid_plant::{Bench, Machine};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -13,7 +12,7 @@ use std::time::Duration;
 /// Counts of an emulated encoder.
 pub(super) const COUNTS_PER_REV: u32 = 2000;
 
-/// A device that can be talked to; an emulated one ends with this value.
+/// An open device; dropping it ends an emulated one.
 pub(super) struct Reached {
     pub(super) port: Port,
     /// Supply and counts of an emulated bench.
@@ -51,19 +50,10 @@ fn start(args: &EmulationArgs, counts_per_rev: u32, seed: u64) -> Result<(Emulat
             args.pace
         )));
     }
-    let machine =
-        Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
-    let effects = args
-        .hide
-        .iter()
-        .map(|text| hidden(text, &machine))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut bench = Bench::new(machine);
-    bench.effects = effects;
-    bench.counts_per_rev = counts_per_rev;
-    bench.seed = seed;
+    let bench = bench_of(&args.machine, &args.hide, counts_per_rev, seed)?;
+    let supply_v = bench.machine.supply_v;
     let emulation = Emulation::start(&image(args)?, bench, args.pace)?;
-    Ok((emulation, machine.supply_v))
+    Ok((emulation, supply_v))
 }
 
 /// The device of `--port`, or an emulated one.

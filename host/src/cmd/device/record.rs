@@ -15,7 +15,7 @@ use shared::fit::{Method, Settings};
 use shared::wire::{About, Kind, Segment, Stage};
 use std::path::Path;
 
-/// How an order begins: without anything that only a commissioning needs.
+/// The common part of an order, without the settings of a commissioning.
 fn order(
     session: &Session,
     reached: &Reached,
@@ -66,7 +66,7 @@ fn order(
     })
 }
 
-/// A run under way.
+/// An open device with its identification.
 struct Bench {
     reached: Reached,
     conversation: Conversation,
@@ -86,7 +86,7 @@ fn open(session: &Session, port: &PortArgs, limits: &LimitArgs) -> Result<Bench,
 }
 
 impl Bench {
-    /// Runs an order, shows how far it is, and keeps what came even if the link broke.
+    /// Runs an order, shows its progress, and keeps the received data even if the link breaks.
     fn run(
         &mut self,
         session: &Session,
@@ -133,7 +133,7 @@ fn show(bar: &ProgressBar, progress: Progress<'_>) {
     }
 }
 
-/// Runs an order into a folder; what arrived before a link broke is kept there too.
+/// Runs an order into a folder, and saves partial data if the link breaks.
 fn into_folder(
     session: &Session,
     bench: &mut Bench,
@@ -148,7 +148,7 @@ fn into_folder(
     let run = match run {
         Ok(run) => run,
         Err(error) => {
-            let kept = if recorded.is_empty() {
+            let partial = if recorded.is_empty() {
                 String::new()
             } else {
                 let saved = broken(&bench.about, order, &recorded);
@@ -158,7 +158,7 @@ fn into_folder(
                     path.display()
                 )
             };
-            return Err(Error::Failed(format!("{error}{kept}")));
+            return Err(Error::Failed(format!("{error}{partial}")));
         }
     };
     let saved = report(&run, order);
@@ -269,15 +269,21 @@ pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(),
     into_folder(session, &mut bench, &order, &[], &folder, &args.out)
 }
 
-/// `servoid device record`.
-pub(super) fn record(session: &Session, args: &RecordArgs) -> Result<(), Error> {
-    let folder = Folder::new(&args.out)?;
-    let mut bench = open(session, &args.port, &args.limits)?;
+/// A device, and the order to excite it.
+fn excited(session: &Session, args: &StreamArgs) -> Result<(Bench, Order), Error> {
+    let bench = open(session, &args.port, &args.limits)?;
     let order = Order {
         excite_s: args.seconds,
         coast: !args.no_coast,
         ..order(session, &bench.reached, &args.limits, Kind::Record)?
     };
+    Ok((bench, order))
+}
+
+/// `servoid device record`.
+pub(super) fn record(session: &Session, args: &RecordArgs) -> Result<(), Error> {
+    let folder = Folder::new(&args.out)?;
+    let (mut bench, order) = excited(session, &args.stream)?;
     into_folder(session, &mut bench, &order, &[], &folder, &args.out)
 }
 
@@ -293,12 +299,7 @@ pub(super) fn play(session: &Session, args: &RunArgs) -> Result<(), Error> {
 
 /// `servoid device stream`.
 pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> {
-    let mut bench = open(session, &args.port, &args.limits)?;
-    let order = Order {
-        excite_s: args.seconds,
-        coast: !args.no_coast,
-        ..order(session, &bench.reached, &args.limits, Kind::Record)?
-    };
+    let (mut bench, order) = excited(session, args)?;
     let mut lines = Lines {
         count: 0,
         printed: 0,
@@ -327,7 +328,7 @@ struct Lines {
     printed: u32,
     period_s: f64,
     scale: DutyScale,
-    /// Nobody reads any more.
+    /// Set once stdout is closed.
     closed: bool,
 }
 

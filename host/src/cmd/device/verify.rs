@@ -1,4 +1,4 @@
-//! `servoid device verify`: whether the device's answer stands.
+//! `servoid device verify`: checks the device's result.
 //!
 //! First its arithmetic: the same recording, seed and number format on the host must give the same bits. Then its search:
 //! least squares in double precision on the same recording. Then its physics: the diagnosis of the long recording, judged by
@@ -26,7 +26,7 @@ use std::path::Path;
 /// Values that differ by less than this part are the same answer.
 const SAME: f64 = 0.01;
 
-/// Whether it is the device's answer.
+/// True if the stronger search agrees with the device.
 fn agrees(stronger: &Stronger) -> bool {
     [stronger.gain_off, stronger.a1_off]
         .iter()
@@ -176,7 +176,7 @@ fn search(outcome: &Outcome, stronger: &Stronger) -> String {
     )
 }
 
-/// What the diagnosis says, already written.
+/// The diagnosis, rendered.
 struct Account {
     text: String,
     json: Diagnosis,

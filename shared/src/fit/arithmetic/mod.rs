@@ -37,7 +37,7 @@ pub struct Sliding<S: Arithmetic> {
 /// multipliers that are made once: [`Rows`](Self::Rows). An associated type, because a core without a floating-point unit
 /// wants them in another shape than the general multipliers of its format.
 pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
-    /// As the host is told.
+    /// This number format, as it is reported to the host.
     const FORMAT: Format;
     /// Of nothing, all of it zero.
     const EMPTY: Evaluation<Self>;

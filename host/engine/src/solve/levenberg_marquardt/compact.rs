@@ -4,6 +4,7 @@
 //! is known before the Jacobian is asked for; the tangent's triangle is the Jacobian in that frame.
 
 use super::super::{Compressed, Evaluator, Stop, Tangent};
+use super::STEP;
 use super::residuals::{Descended, IMPOSSIBLE};
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
@@ -11,7 +12,6 @@ use std::cell::{Cell, RefCell};
 
 /// The evaluator as a least-squares problem over the whole space.
 pub(super) struct Compact<'s, 'a> {
-    step: f64,
     compressed: &'a dyn Compressed,
     evaluator: RefCell<&'s mut Evaluator<'a>>,
     x: DVector<f64>,
@@ -21,13 +21,11 @@ pub(super) struct Compact<'s, 'a> {
 
 impl<'s, 'a> Compact<'s, 'a> {
     pub(super) fn new(
-        step: f64,
         compressed: &'a dyn Compressed,
         evaluator: &'s mut Evaluator<'a>,
         x: DVector<f64>,
     ) -> Self {
         Compact {
-            step,
             compressed,
             evaluator: RefCell::new(evaluator),
             x,
@@ -66,13 +64,7 @@ impl<'s, 'a> Compact<'s, 'a> {
 
     fn differences(&self) -> Result<Option<DMatrix<f64>>, Stop> {
         let x = self.inside();
-        let inwards = |x: &f64| {
-            if x + self.step > 1.0 {
-                -self.step
-            } else {
-                self.step
-            }
-        };
+        let inwards = |x: &f64| if x + STEP > 1.0 { -STEP } else { STEP };
         let mut steps: Vec<f64> = x.iter().map(inwards).collect();
         let all: Vec<usize> = (0..steps.len()).collect();
         let Some(mut tangent) = self.tangent(&x, &steps, &all)? else {

@@ -1,7 +1,7 @@
 //! The evaluator as the problem that the crate `levenberg-marquardt` solves.
 
 use super::super::{Evaluator, Stop};
-use super::{Differences, LevenbergMarquardt};
+use super::STEP;
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 use std::cell::{Cell, RefCell};
@@ -21,7 +21,6 @@ pub(super) trait Descended {
 
 /// The evaluator as a least-squares problem over the whole space.
 pub(super) struct Residuals<'s, 'a> {
-    settings: &'s LevenbergMarquardt,
     evaluator: RefCell<&'s mut Evaluator<'a>>,
     x: DVector<f64>,
     /// Residuals at `x`, kept for the Jacobian, which is only asked for where a step has ended.
@@ -30,13 +29,8 @@ pub(super) struct Residuals<'s, 'a> {
 }
 
 impl<'s, 'a> Residuals<'s, 'a> {
-    pub(super) fn new(
-        settings: &'s LevenbergMarquardt,
-        evaluator: &'s mut Evaluator<'a>,
-        x: DVector<f64>,
-    ) -> Self {
+    pub(super) fn new(evaluator: &'s mut Evaluator<'a>, x: DVector<f64>) -> Self {
         Residuals {
-            settings,
             evaluator: RefCell::new(evaluator),
             x,
             here: RefCell::new(DVector::zeros(0)),
@@ -72,18 +66,14 @@ impl<'s, 'a> Residuals<'s, 'a> {
     /// Derivative of the residuals by coordinate `axis`; zero where it cannot be had.
     fn column(&self, x: &DVector<f64>, axis: usize) -> Result<DVector<f64>, Stop> {
         let here = self.here.borrow();
-        let step = self.settings.step;
-        let above = self.moved(x, axis, step)?;
-        let below = match (&above, self.settings.differences) {
-            (Some(_), Differences::Forward) => None,
-            _ => self.moved(x, axis, -step)?,
-        };
-        Ok(match (above, below) {
-            (Some(above), Some(below)) => (above - below) / (2.0 * step),
-            (Some(above), None) => (above - &*here) / step,
-            (None, Some(below)) => (&*here - below) / step,
-            (None, None) => DVector::zeros(here.len()),
-        })
+        if let Some(above) = self.moved(x, axis, STEP)? {
+            return Ok((above - &*here) / STEP);
+        }
+        let below = self.moved(x, axis, -STEP)?;
+        Ok(below.map_or_else(
+            || DVector::zeros(here.len()),
+            |below| (&*here - below) / STEP,
+        ))
     }
 
     /// Whether coordinate `axis` stands at a wall, or beyond, and the cost falls outwards.

@@ -17,15 +17,10 @@ use servoid_engine::simulation::Method;
 /// Of each stretch.
 const STRETCH: Settings = Settings {
     evaluations: 120,
-    tolerance: 1e-4,
-    stride: 1,
-    enough: 0.0,
-    damping: 1e-9,
-    secant: false,
     // Far along the run a usual step would slip a detent.
     probe: 1e-7,
     probed: Some(0.02),
-    again: true,
+    ..Settings::THOROUGH
 };
 /// Fewest samples that say anything.
 const FEWEST: usize = 200;
@@ -52,7 +47,7 @@ pub fn follow_by_continuation(context: &Context<'_>, model: &FittedModel) -> Opt
     };
     let departs = |x: &[f64]| {
         book(context.data.len(), 1);
-        let candidate = structure.candidate(&structure.values(x));
+        let candidate = structure.candidate_at(x);
         let errors = scores::whole(context.data, &candidate, method).ok()?;
         Some(departure(context.data, &errors))
     };

@@ -36,6 +36,21 @@ pub struct Settings {
     pub again: bool,
 }
 
+impl Settings {
+    /// Of a search that shall converge: every residual, differences at every step, and once more from a wall.
+    pub const THOROUGH: Settings = Settings {
+        evaluations: 80,
+        tolerance: 1e-4,
+        stride: 1,
+        enough: 0.0,
+        damping: 1e-9,
+        secant: false,
+        probe: PROBE,
+        probed: None,
+        again: true,
+    };
+}
+
 /// Where a search ended.
 #[derive(Clone, Debug)]
 pub struct Descent {

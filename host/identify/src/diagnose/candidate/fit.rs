@@ -1,6 +1,6 @@
 //! The fit of a screened model by full simulation.
 
-use super::descent::{Descent, PROBE, Settings};
+use super::descent::{Descent, Settings};
 use super::observer::observe_all;
 use super::score::score_candidate;
 use super::search::{fit_problem, search};
@@ -12,15 +12,11 @@ use servoid_engine::simulation::Method;
 
 /// Of a fit by full simulation.
 const FULL: Settings = Settings {
-    evaluations: 80,
     tolerance: 1e-3,
     stride: 2,
-    enough: 0.0,
     damping: 1e-6,
     secant: true,
-    probe: PROBE,
-    probed: None,
-    again: true,
+    ..Settings::THOROUGH
 };
 /// Of a stage with a short memory.
 const FADE: Settings = Settings {
@@ -30,9 +26,7 @@ const FADE: Settings = Settings {
     enough: f64::INFINITY,
     damping: 1e-4,
     secant: true,
-    probe: PROBE,
-    probed: None,
-    again: true,
+    ..Settings::THOROUGH
 };
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];

@@ -1,7 +1,7 @@
 //! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
 
 use super::continuation::follow_by_continuation;
-use super::descent::{FINEST, PROBE, Settings};
+use super::descent::{FINEST, Settings};
 use super::observer::observe_like;
 use super::score::{refine_held_out_start, run_errors, score_candidate};
 use super::search::{fit_problem, search};
@@ -14,14 +14,8 @@ use servoid_engine::simulation::Method;
 /// Of one that must converge.
 const LAST: Settings = Settings {
     evaluations: 120,
-    tolerance: 1e-4,
-    stride: 1,
-    enough: 0.0,
-    damping: 1e-9,
-    secant: false,
-    probe: PROBE,
-    probed: None,
     again: false,
+    ..Settings::THOROUGH
 };
 /// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
 /// polished.

@@ -1,7 +1,7 @@
 //! One fit over several horizons together: free runs over windows show the motor's dynamics, whole runs show what acts
 //! slowly. Neither alone predicts well over the other's span.
 
-use super::descent::{PROBE, Settings, descend};
+use super::descent::{Settings, descend};
 use super::score::score_candidate;
 use super::search::fit_problem;
 use crate::diagnose::context::Context;
@@ -13,13 +13,10 @@ use servoid_engine::solve::Objective;
 const ROUND: Settings = Settings {
     evaluations: 60,
     tolerance: 1e-3,
-    stride: 1,
-    enough: 0.0,
     damping: 1e-6,
     secant: true,
-    probe: PROBE,
-    probed: None,
     again: false,
+    ..Settings::THOROUGH
 };
 /// Most rounds. The weights settle in two or three.
 const ROUNDS: usize = 3;

@@ -1,7 +1,7 @@
 //! The linear motor, fitted.
 
 use super::offset_regressor::{candidate_of, with_offset_regressor};
-use crate::diagnose::candidate::descent::{Descent, PROBE, Settings};
+use crate::diagnose::candidate::descent::{Descent, Settings};
 use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::{Context, floor_counts};
@@ -13,15 +13,8 @@ use shared::motor::Machine;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
-    evaluations: 80,
     tolerance: 1e-6,
-    stride: 1,
-    enough: 0.0,
-    damping: 1e-9,
-    secant: false,
-    probe: PROBE,
-    probed: None,
-    again: true,
+    ..Settings::THOROUGH
 };
 
 /// The linear motor, and the context with the floor that its time constant makes of the reading's noise.

@@ -43,7 +43,5 @@ pub fn regressed_beside_offset(
 /// The model that a problem starts from.
 pub fn candidate_of(problem: &FitProblem<'_>) -> Candidate {
     let start = problem.start.as_deref().unwrap_or_default();
-    problem
-        .structure
-        .candidate(&problem.structure.values(start))
+    problem.structure.candidate_at(start)
 }

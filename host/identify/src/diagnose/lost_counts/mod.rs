@@ -19,7 +19,7 @@ mod rate;
 mod repaired;
 mod step;
 
-use crate::diagnose::candidate::descent::{PROBE, Settings};
+use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
@@ -37,14 +37,7 @@ use shared::effects::Kind;
 /// Of the fit to a repaired recording.
 const FIT: Settings = Settings {
     evaluations: 60,
-    tolerance: 1e-4,
-    stride: 1,
-    enough: 0.0,
-    damping: 1e-9,
-    secant: false,
-    probe: PROBE,
-    probed: None,
-    again: true,
+    ..Settings::THOROUGH
 };
 /// Most rounds of finding and fitting.
 const ROUNDS: usize = 6;
@@ -324,6 +317,6 @@ fn without(model: &FittedModel) -> Option<(usize, FittedModel)> {
 
 /// How many parameters some effects have.
 fn parameters_of(effects: &[Kind]) -> usize {
-    let each = effects.iter().map(|kind| kind.description().parameters);
+    let each = effects.iter().map(|kind| kind.parameters());
     each.map(<[_]>::len).sum()
 }

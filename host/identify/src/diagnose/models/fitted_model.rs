@@ -103,7 +103,7 @@ impl FittedModel {
             self.candidate.start_speed,
         );
         let amplitude = |name: &str| {
-            let parameters = newest.description().parameters;
+            let parameters = newest.parameters();
             name.split_once('.').is_some_and(|(effect, name)| {
                 effect == newest.name() && parameters.iter().any(|p| p.amplitude && p.name == name)
             })
@@ -130,7 +130,7 @@ impl FittedModel {
         model.parameters.clear();
         model.structure.effects.clear();
         for &kind in &self.structure.effects {
-            let (own, further) = rest.split_at(kind.description().parameters.len());
+            let (own, further) = rest.split_at(kind.parameters().len());
             rest = further;
             if kind != place {
                 if !model.effects.contains(&kind) {

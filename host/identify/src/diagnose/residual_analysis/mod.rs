@@ -20,7 +20,7 @@ use servoid_engine::simulation::{Mode, segments};
 const FILTER_SAMPLES: f64 = 5.0;
 /// Shares that differ by less than one part in so many are equal.
 const ALIKE: f64 = 40.0;
-/// Parts of the recording in which the free run's error is told.
+/// Parts of the recording in which the free run's error is reported.
 const PARTS: usize = 8;
 
 /// Where a model fails.
@@ -89,7 +89,7 @@ impl ResidualAnalysis {
     }
 
     /// The quantity that explains most, if any explains more than chance would. None where a perfect model
-    /// would leave as much: what the drawing's own filter smears goes with something, too.
+    /// would leave as much: the smear of the drawing's own filter correlates with something, too.
     pub fn most(&self) -> Option<&Map> {
         let left = self.volts_rms > NOTICEABLE * self.perfect_volts_rms;
         self.maps.first().filter(|map| left && map.beyond_chance)

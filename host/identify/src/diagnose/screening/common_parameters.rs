@@ -15,7 +15,7 @@ pub struct EffectValues<'a> {
 impl EffectValues<'_> {
     fn parameters(&self) -> Vec<(Kind, &'static Parameter)> {
         let of = |&kind: &Kind| {
-            let parameters = kind.description().parameters.iter();
+            let parameters = kind.parameters().iter();
             parameters.map(move |parameter| (kind, parameter))
         };
         self.effects.iter().flat_map(of).collect()

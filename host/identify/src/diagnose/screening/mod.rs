@@ -7,7 +7,7 @@ mod starts;
 
 pub use common_parameters::{EffectValues, with_common_parameters};
 
-use crate::diagnose::candidate::descent::{PROBE, Settings};
+use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::fit::LOST;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::Context;
@@ -31,9 +31,7 @@ const SCREENING: Settings = Settings {
     enough: f64::INFINITY,
     damping: 1e-4,
     secant: true,
-    probe: PROBE,
-    probed: None,
-    again: true,
+    ..Settings::THOROUGH
 };
 
 /// Starts that are left after a glance at all of them.
@@ -56,7 +54,7 @@ pub fn screen(
         Some(orders) => vec![orders],
         None => starts(context, parent, kind, dry),
     };
-    let own = kind.description().parameters.len();
+    let own = kind.parameters().len();
     let times = starts.first()?.len().div_ceil(own);
     effects.extend(std::iter::repeat_n(kind, times));
     let structure = structure_near(context, &effects, parent);

@@ -80,13 +80,13 @@ impl Objective for SeriesParallel<'_> {
     }
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let errors = self.errors(&self.structure.candidate(&self.structure.values(x)))?;
+        let errors = self.errors(&self.structure.candidate_at(x))?;
         let cost = errors.iter().map(|e| e * e).sum();
         Some((errors, cost))
     }
 
     fn changes(&self, x: &[f64], moved: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
-        let candidate = |x: &[f64]| self.structure.candidate(&self.structure.values(x));
+        let candidate = |x: &[f64]| self.structure.candidate_at(x);
         let candidates: Vec<Candidate> = moved.iter().map(|x| candidate(x)).collect();
         let run = Batch {
             data: self.data,

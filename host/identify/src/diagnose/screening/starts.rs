@@ -19,7 +19,7 @@ pub fn starts(
     first: &[ScreenedModel],
 ) -> Vec<Vec<f64>> {
     let data = context.data;
-    let parameters = kind.description().parameters;
+    let parameters = kind.parameters();
     let typical: Vec<f64> = parameters
         .iter()
         .map(|p| {

@@ -4,16 +4,11 @@
 use super::judge::removes;
 use super::nested_models;
 use crate::diagnose::candidate::fit::fit_screened;
-use crate::diagnose::candidate::observer::observe_like;
-use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::screening::{free_run_error, restart, screen_from};
 use shared::effects::Kind;
-
-/// A model with one effect less is brought to its end if its score is no further behind than this.
-const NEAR: f64 = 3.0;
 
 /// `chosen` without the effects that no longer earn their place beside the others. Every model that was fitted
 /// for it goes to `known`.
@@ -78,11 +73,5 @@ fn fitted_without(context: &Context<'_>, chosen: &FittedModel, place: Kind) -> O
     if !screened.may_rival(chosen) {
         return None;
     }
-    let mut model = fit_screened(context, &screened).ok()?;
-    observe_like(context, &mut model, chosen).ok()?;
-    let behind = model.judged().score() - chosen.judged().score();
-    if !model.judged().at_floor() && behind < NEAR {
-        model = polish(context, &model).ok()?;
-    }
-    Some(model)
+    nested_models::fit_simpler(context, chosen, &screened)
 }

@@ -8,7 +8,7 @@ use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
-use crate::diagnose::models::{FittedModel, same};
+use crate::diagnose::models::{FittedModel, ScreenedModel, same};
 use crate::diagnose::screening::{free_run_error, restart};
 use shared::effects::Kind;
 
@@ -93,7 +93,16 @@ fn fitted(
     screened.simulated = free_run_error(context, &screened, f64::INFINITY);
     // Nothing was screened here: the error that may be hoped for is the chosen one's.
     screened.series_parallel = chosen.ran().fitted;
-    let mut model = fit_screened(context, &screened).ok()?;
+    fit_simpler(context, chosen, &screened)
+}
+
+/// Fits a simpler model than `chosen`, and brings it to its end if it comes near.
+pub fn fit_simpler(
+    context: &Context<'_>,
+    chosen: &FittedModel,
+    screened: &ScreenedModel,
+) -> Option<FittedModel> {
+    let mut model = fit_screened(context, screened).ok()?;
     observe_like(context, &mut model, chosen).ok()?;
     let behind = model.judged().score() - chosen.judged().score();
     if !model.judged().at_floor() && behind < NEAR {

@@ -332,11 +332,11 @@ fn delay_costs_margin_and_a_second_inertia_is_warned_of() {
 
 #[test]
 fn behind_a_gear_counts_stay_counts_and_radians_weigh_more() {
-    let kept = linear(&bench::Machine::gearmotor(), Known::All);
+    let found = linear(&bench::Machine::gearmotor(), Known::All);
     for loops in [Loops::Cascade, Loops::Voltage] {
         let sides = [Side::Motor, Side::Output { ratio: 30.0 }];
         let [motor, output] = sides.map(|side| {
-            let subject = subject(&kept, side);
+            let subject = subject(&found, side);
             let gains = Asked {
                 loops: Some(loops),
                 ..Asked::default()

@@ -40,9 +40,9 @@ fn write(format: &Format, subject: &Subject) -> Result<Written, ExportError> {
 /// Every text that can be written, with its format and what it was made from.
 fn texts() -> Vec<(&'static str, String, Subject, Written)> {
     let mut texts = Vec::new();
-    for (name, kept) in results() {
+    for (name, result) in results() {
         for side in [Side::Motor, OUTPUT] {
-            let subject = subject(&kept, side);
+            let subject = subject(&result, side);
             for format in FORMATS {
                 let case = format!("{}, {name}, {}", format.name, side.name());
                 match write(format, &subject) {

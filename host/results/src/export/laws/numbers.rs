@@ -104,8 +104,8 @@ fn feed_forward_asks_for_the_voltage_that_moved_the_motor() {
 #[test]
 fn the_output_s_numbers_are_those_of_the_motor_behind_its_gear() {
     let motor = bench::Machine::gearmotor();
-    let kept = result(&motor, &[Kind::Coulomb], Known::All);
-    let (here, there) = (subject(&kept, Side::Motor), subject(&kept, OUTPUT));
+    let found = result(&motor, &[Kind::Coulomb], Known::All);
+    let (here, there) = (subject(&found, Side::Motor), subject(&found, OUTPUT));
     let factor =
         |name: &str| there.determined(name).expect(name) / here.determined(name).expect(name);
     for (name, expected) in [
@@ -123,7 +123,7 @@ fn the_output_s_numbers_are_those_of_the_motor_behind_its_gear() {
         [&here, &there].map(|s| s.terms[0].values[0] / s.volts_per_torque().expect("R/Kt"));
     assert!((torques[1] / torques[0] / 30.0 - 1.0).abs() < 1e-9);
     // With a ratio of one, both sides are one.
-    let one = subject(&kept, Side::Output { ratio: 1.0 });
+    let one = subject(&found, Side::Output { ratio: 1.0 });
     assert_eq!(one.values, here.values);
 }
 

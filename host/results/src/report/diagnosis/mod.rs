@@ -23,7 +23,7 @@ use servoid_plant::Machine;
 use shared::effects::Kind;
 use std::path::Path;
 
-/// A diagnosis and all that is told beside it.
+/// A diagnosis with everything that its report states.
 pub struct DiagnosisReport<'a> {
     /// The fitted recording.
     pub data: &'a Data,
@@ -172,16 +172,6 @@ impl DiagnosisReport<'_> {
     /// Titles of the effects that were added; `None` for none.
     pub fn names(&self) -> Option<String> {
         (!self.diagnosis.steps.is_empty()).then(|| self.titles())
-    }
-
-    /// Where the linear motor fails, as a table.
-    pub fn where_text(&self) -> String {
-        let first = self.findings.steps.first().and_then(Option::as_ref);
-        format!(
-            "the linear motor misses the recording by {} counts RMS; where:\n{}",
-            bars::counts(self.diagnosis.base.rms_counts),
-            residual::table(first.unwrap_or(&self.findings.base))
-        )
     }
 
     /// The fault of the recordings by which any model must fail, where they are not explained; the one that was found

@@ -211,7 +211,7 @@ impl DiagnosisReport<'_> {
             ),
             _ => return String::new(),
         };
-        let kept = match last.followed_fraction {
+        let followed = match last.followed_fraction {
             part if part > 0.0 && part < 1.0 => format!(
                 " On its own it keeps to the readings over the first {:.0} % of the recording.",
                 100.0 * part
@@ -219,7 +219,7 @@ impl DiagnosisReport<'_> {
             _ => String::new(),
         };
         format!(
-            " {why}: {} counts fitted, {} held out.{kept}",
+            " {why}: {} counts fitted, {} held out.{followed}",
             counts(errors.fitted),
             counts(errors.held_out)
         )

@@ -1,9 +1,10 @@
 //! The page of a motor that commissioned itself, and of the host's check of it.
 
-use super::{Model, Recordings, diagnosis, failing, no_recording, recording_facts};
+use super::{
+    Model, Recordings, diagnosis, failing, no_recording, parameters, recording_facts, timelines,
+};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Estimates};
 use crate::report::diagnosis::bars::counts;
 use crate::schema::device::Outcome;
 use crate::schema::{DeviceRun, Estimate, Verification};
@@ -18,46 +19,27 @@ pub(super) fn page(run: &DeviceRun, recordings: Recordings<'_>) -> Result<Page, 
     if let Some(outcome) = &run.outcome {
         let model = model(outcome)?;
         let mut seen = Section::new("overlay", "Measured and the device's model");
-        match recordings.fitted {
-            Some(data) => {
-                let runs = [model.run(data)?];
-                let title = "What the device recorded and fitted";
-                let drawn =
-                    picture::timeline("timeline", title, data, &runs, None, picture::IN_A_FILE);
-                seen.blocks.push(Block::Picture(drawn));
-            }
-            None => seen.blocks.push(Block::Text(no_recording("fitted.csv"))),
+        if recordings.fitted.is_none() {
+            seen.blocks.push(Block::Text(no_recording("fitted.csv")));
         }
-        if let Some(data) = recordings.held_out {
-            let runs = [model.run_unseen(data)?];
-            let title = "What it verified on, never fitted";
-            let drawn = picture::timeline(
-                "timeline-held-out",
-                title,
-                data,
-                &runs,
-                None,
-                picture::IN_A_FILE,
-            );
-            seen.blocks.push(Block::Picture(drawn));
-        }
+        let titles = [
+            "What the device recorded and fitted",
+            "What it verified on, never fitted",
+        ];
+        let models = [model];
+        seen.blocks
+            .extend(timelines(titles, recordings, &models, None)?);
         sections.push(seen);
-        let position_loop = Loop::from(&model.candidate.machine);
         if let Some(data) = recordings.fitted {
-            sections.extend(failing("model", data, &[model])?);
+            sections.extend(failing("model", data, &models)?);
         }
-        let mut parameters = Section::new("parameters", "Parameters");
-        let found = estimates(outcome);
-        let sources = [Estimates {
-            name: "the device".to_owned(),
-            parameters: &found,
-        }];
-        let forest = picture::forest("forest", &sources);
-        parameters.blocks.extend(forest.map(Block::Picture));
-        let loops = [("the device's model".to_owned(), position_loop)];
-        let drawn = picture::bode("bode", &loops);
-        parameters.blocks.push(Block::Picture(drawn));
-        sections.push(parameters);
+        let loops = models.map(|m| {
+            (
+                "the device's model".to_owned(),
+                Loop::from(&m.candidate.machine),
+            )
+        });
+        sections.push(parameters("the device", &estimates(outcome), &[], &loops));
     }
     let mut facts = recording_facts(recordings, "fitted.csv");
     facts.extend([
@@ -89,12 +71,7 @@ pub(super) fn verification(
 ) -> Result<Page, Error> {
     let mut page = match &verification.diagnosis {
         Some(found) => diagnosis::page(found, recordings)?,
-        None => Page {
-            title: String::new(),
-            lead: Vec::new(),
-            facts: Vec::new(),
-            sections: Vec::new(),
-        },
+        None => Page::default(),
     };
     page.title = "The device's answer, checked by the host".to_owned();
     page.lead.insert(0, verification.verdict.clone());

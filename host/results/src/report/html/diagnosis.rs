@@ -1,14 +1,13 @@
 //! The page of a diagnosis.
 
 use super::fit::{model, named};
-use super::{Model, Recordings, failing, no_recording, recording_facts};
+use super::{Model, Recordings, failing, no_recording, parameters, recording_facts, timelines};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Estimates, LadderBar, Table};
+use crate::picture::{self, LadderBar, Table};
 use crate::report::diagnosis::bars::counts;
 use crate::schema::diagnosis::Step;
 use crate::schema::{Demo, Diagnosis};
-use servoid_engine::problem::Data;
 use servoid_identify::fit::margins::Loop;
 use shared::effects::Kind;
 
@@ -35,7 +34,14 @@ pub(super) fn page(diagnosis: &Diagnosis, recordings: Recordings<'_>) -> Result<
     if let Some(data) = recordings.fitted {
         sections.extend(failing("model", data, &models)?);
     }
-    sections.push(parameters(diagnosis, &loops[2 - models.len()..]));
+    let last = &diagnosis.last;
+    let loops = &loops[2 - models.len()..];
+    sections.push(parameters(
+        "this diagnosis",
+        &last.parameters,
+        &last.notes,
+        loops,
+    ));
     let mut facts = recording_facts(recordings, &diagnosis.recording);
     facts.push(("held out, never fitted".to_owned(), held_out(diagnosis)));
     facts.push(("verdict".to_owned(), diagnosis.verdict.replace('_', " ")));
@@ -115,23 +121,11 @@ fn seen(
     models: &[Model],
 ) -> Result<Section, Error> {
     let mut section = Section::new("overlay", "Measured and model");
-    let runs = |of: &dyn Fn(&Model) -> Result<picture::Run, Error>| -> Result<Vec<_>, Error> {
-        models.iter().map(of).collect()
-    };
-    let mut draw = |id: &str, title: &str, data: &Data, runs: &[picture::Run], from| {
-        let drawn = picture::timeline(id, title, data, runs, from, picture::IN_A_FILE);
-        section.blocks.push(Block::Picture(drawn));
-    };
-    if let Some(data) = recordings.fitted {
-        let runs = runs(&|model| model.run(data))?;
-        let from = diagnosis.held_out.from_s;
-        draw("timeline", "The fitted recording", data, &runs, from);
-    }
-    if let Some(data) = recordings.held_out {
-        let runs = runs(&|model| model.run_unseen(data))?;
-        let title = "The recording that was never fitted";
-        draw("timeline-held-out", title, data, &runs, None);
-    }
+    let titles = [
+        "The fitted recording",
+        "The recording that was never fitted",
+    ];
+    section.blocks = timelines(titles, recordings, models, diagnosis.held_out.from_s)?;
     if recordings.fitted.is_none() {
         let text = no_recording(&diagnosis.recording);
         section.blocks.push(Block::Text(text));
@@ -265,25 +259,5 @@ fn next(diagnosis: &Diagnosis) -> Section {
             .blocks
             .push(Block::List(diagnosis.cannot_tell.clone()));
     }
-    section
-}
-
-fn parameters(diagnosis: &Diagnosis, loops: &[(String, Loop)]) -> Section {
-    let mut section = Section::new("parameters", "Parameters");
-    let sources = [Estimates {
-        name: "this diagnosis".to_owned(),
-        parameters: &diagnosis.last.parameters,
-    }];
-    section
-        .blocks
-        .extend(picture::forest("forest", &sources).map(Block::Picture));
-    if !diagnosis.last.notes.is_empty() {
-        section
-            .blocks
-            .push(Block::List(diagnosis.last.notes.clone()));
-    }
-    section
-        .blocks
-        .push(Block::Picture(picture::bode("bode", loops)));
     section
 }

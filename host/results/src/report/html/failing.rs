@@ -91,7 +91,7 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
     Ok(vec![fails, noise])
 }
 
-/// The model without what goes with the angle; `None` if nothing in it does.
+/// The model without its effects of the angle; `None` if it has none.
 fn without_waves(candidate: &Candidate) -> Option<Candidate> {
     let waves = |kind: Kind| periodic_torque(kind).is_some();
     if !candidate.effects.iter().any(|(kind, _)| waves(kind)) {

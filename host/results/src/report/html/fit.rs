@@ -1,9 +1,9 @@
 //! The page of a fit.
 
-use super::{Model, Recordings, failing, no_recording, recording_facts};
+use super::{Model, Recordings, failing, no_recording, parameters, recording_facts, timelines};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Estimates, LadderBar};
+use crate::picture::{self, LadderBar};
 use crate::report::diagnosis::bars::counts;
 use crate::schema::{self, Fit};
 use servoid_identify::fit::margins::Loop;
@@ -11,39 +11,18 @@ use shared::encoder::FLOOR_RMS_COUNTS;
 
 pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error> {
     let model = model(&fit.name(), &fit.model, "model")?;
-    let mut sections = Vec::new();
-    if let Some(data) = recordings.fitted {
-        let mut seen = Section::new("overlay", "Measured and model");
-        let title = "The fitted recording";
-        let runs = [model.run(data)?];
-        seen.blocks.push(Block::Picture(picture::timeline(
-            "timeline",
-            title,
-            data,
-            &runs,
-            None,
-            picture::IN_A_FILE,
-        )));
-        if let Some(other) = recordings.held_out {
-            let runs = [model.run_unseen(other)?];
-            let title = "The recording that was never fitted";
-            seen.blocks.push(Block::Picture(picture::timeline(
-                "timeline-held-out",
-                title,
-                other,
-                &runs,
-                None,
-                picture::IN_A_FILE,
-            )));
-        }
-        sections.push(seen);
+    let mut seen = Section::new("overlay", "Measured and model");
+    let models = [model];
+    if recordings.fitted.is_some() {
+        let titles = [
+            "The fitted recording",
+            "The recording that was never fitted",
+        ];
+        seen.blocks = timelines(titles, recordings, &models, None)?;
     } else {
-        let mut missing = Section::new("overlay", "Measured and model");
-        missing
-            .blocks
-            .push(Block::Text(no_recording(&fit.recording)));
-        sections.push(missing);
+        seen.blocks.push(Block::Text(no_recording(&fit.recording)));
     }
+    let mut sections = vec![seen];
     if fit.ladder.len() > 1 {
         let mut ladder = Section::new("ladder", "What each effect brings");
         ladder.blocks.push(Block::Picture(picture::ladder(
@@ -52,11 +31,16 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
         )));
         sections.push(ladder);
     }
-    let position_loop = Loop::from(&model.candidate.machine);
     if let Some(data) = recordings.fitted {
-        sections.extend(failing("model", data, &[model])?);
+        sections.extend(failing("model", data, &models)?);
     }
-    sections.push(parameters(fit, position_loop));
+    let loops = models.map(|model| (fit.name(), Loop::from(&model.candidate.machine)));
+    sections.push(parameters(
+        &fit.algorithm,
+        &fit.parameters,
+        &fit.notes,
+        &loops,
+    ));
     let mut facts = recording_facts(recordings, &fit.recording);
     facts.extend([
         ("method".to_owned(), fit.algorithm.clone()),
@@ -137,21 +121,4 @@ fn entries(fit: &Fit) -> Vec<LadderBar> {
             held_out: entry.validate_rms_counts,
         })
         .collect()
-}
-
-fn parameters(fit: &Fit, position_loop: Loop) -> Section {
-    let mut section = Section::new("parameters", "Parameters");
-    let sources = [Estimates {
-        name: fit.algorithm.clone(),
-        parameters: &fit.parameters,
-    }];
-    section
-        .blocks
-        .extend(picture::forest("forest", &sources).map(Block::Picture));
-    section.blocks.push(Block::List(fit.notes.clone()));
-    section.blocks.push(Block::Picture(picture::bode(
-        "bode",
-        &[(fit.name(), position_loop)],
-    )));
-    section
 }

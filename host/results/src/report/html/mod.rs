@@ -25,9 +25,11 @@ pub use belongs::doubts;
 pub use failing::{Model, failing};
 
 use crate::error::Error;
-use crate::page::Page;
-use crate::schema::Document;
+use crate::page::{Block, Page, Section};
+use crate::picture::{self, Estimates, Run};
+use crate::schema::{Document, Estimate};
 use servoid_engine::problem::Data;
+use servoid_identify::fit::margins::Loop;
 
 /// The recordings that a result was made from, as far as they are at hand.
 #[derive(Clone, Copy, Default)]
@@ -76,6 +78,54 @@ fn recording_facts(recordings: Recordings<'_>, source: &str) -> Vec<(String, Str
         ));
     }
     facts
+}
+
+/// Measured against `models`: the fitted recording, and the one that was not fitted, as far as they are at hand. The end of
+/// the fitted one may be held out, from `held_out_from` s on.
+fn timelines(
+    titles: [&str; 2],
+    recordings: Recordings<'_>,
+    models: &[Model],
+    held_out_from: Option<f64>,
+) -> Result<Vec<Block>, Error> {
+    let draw = |id: &str, title: &str, data: &Data, runs: Vec<Run>, from: Option<f64>| {
+        let drawn = picture::timeline(id, title, data, &runs, from, picture::IN_A_FILE);
+        Block::Picture(drawn)
+    };
+    let mut blocks = Vec::new();
+    if let Some(data) = recordings.fitted {
+        let runs = models.iter().map(|model| model.run(data));
+        let runs = runs.collect::<Result<_, _>>()?;
+        blocks.push(draw("timeline", titles[0], data, runs, held_out_from));
+    }
+    if let Some(data) = recordings.held_out {
+        let runs = models.iter().map(|model| model.run_unseen(data));
+        let runs = runs.collect::<Result<_, _>>()?;
+        blocks.push(draw("timeline-held-out", titles[1], data, runs, None));
+    }
+    Ok(blocks)
+}
+
+/// Parameters with their intervals, notes on them, and position loops.
+fn parameters(
+    source: &str,
+    parameters: &[Estimate],
+    notes: &[String],
+    loops: &[(String, Loop)],
+) -> Section {
+    let sources = [Estimates {
+        name: source.to_owned(),
+        parameters,
+    }];
+    let mut section = Section::new("parameters", "Parameters");
+    let forest = picture::forest("forest", &sources);
+    section.blocks.extend(forest.map(Block::Picture));
+    if !notes.is_empty() {
+        section.blocks.push(Block::List(notes.to_vec()));
+    }
+    let bode = picture::bode("bode", loops);
+    section.blocks.push(Block::Picture(bode));
+    section
 }
 
 /// A remark in the place of the drawings of a recording that is not at hand.

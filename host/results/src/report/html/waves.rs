@@ -137,10 +137,13 @@ mod tests {
             let values = hidden.truth(&motor, showcase::COUNTS_PER_REV);
             let size = values[0].hypot(values[1]);
             for lines in [&found.forward, &found.backward] {
-                let told: Vec<_> = lines.iter().take(4).collect();
+                let strongest: Vec<_> = lines.iter().take(4).collect();
                 let line = lines.first().expect("lines");
-                assert_eq!(line.order, order, "{told:?}");
-                assert!((line.volts / size - 1.0).abs() < 0.25, "{size} V: {told:?}");
+                assert_eq!(line.order, order, "{strongest:?}");
+                assert!(
+                    (line.volts / size - 1.0).abs() < 0.25,
+                    "{size} V: {strongest:?}"
+                );
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Every fault of a diagnosis is told with its remedy.
+//! Every fault of a diagnosis is reported with its remedy.
 
 use super::*;
 

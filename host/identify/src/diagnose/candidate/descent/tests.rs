@@ -79,13 +79,7 @@ fn a_valley_that_slants_across_a_wall_is_followed_to_its_lowest_point_within() {
     let settings = Settings {
         evaluations: 400,
         tolerance: 1e-9,
-        stride: 1,
-        enough: 0.0,
-        damping: 1e-9,
-        secant: false,
-        probe: PROBE,
-        probed: None,
-        again: true,
+        ..Settings::THOROUGH
     };
     let stop = AtomicBool::new(false);
     let budget = Budget::usual(&stop);
@@ -134,13 +128,9 @@ fn steps_that_follow_what_they_change_find_the_bottom_of_a_fine_wave() {
     let settings = Settings {
         evaluations: 100,
         tolerance: 1e-9,
-        stride: 1,
-        enough: 0.0,
-        damping: 1e-9,
-        secant: false,
         probe: 1e-8,
         probed: Some(0.01),
-        again: true,
+        ..Settings::THOROUGH
     };
     let stop = AtomicBool::new(false);
     let budget = Budget::usual(&stop);

@@ -42,9 +42,7 @@ fn left(
     let stop = AtomicBool::new(false);
     let solver = LevenbergMarquardt::default();
     let found = fit::search(&problem, &solver, &options, &stop, &mut |_, _| {});
-    let candidate = problem
-        .structure
-        .candidate(&problem.structure.values(&found.x));
+    let candidate = problem.structure.candidate_at(&found.x);
     let errors = scores::whole(&data, &candidate, options.method).ok()?;
     whiteness(&data, &errors)
 }

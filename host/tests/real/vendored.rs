@@ -1,9 +1,9 @@
 //! The folder of recordings itself: nothing lies there unread or without its notices.
 
-use host::input::{MotorFile, read_recording};
+use servoid_io::input::{MotorFile, read_recording};
 use std::fs;
 use std::path::Path;
-use testing::recordings::{Kept, map};
+use testing::recordings::{Vendored, map};
 
 /// The curves, which no recording in time is made of; `steady` and `diagnoses` read them.
 const CURVES: [&str; 4] = [
@@ -15,11 +15,11 @@ const CURVES: [&str; 4] = [
 
 #[test]
 fn whatever_is_kept_is_read_and_has_its_notices() {
-    let names = Kept::names();
+    let names = Vendored::names();
     for curve in CURVES {
         assert!(names.iter().any(|name| name == curve), "{curve} is gone");
     }
-    let recordings = Kept::new();
+    let recordings = Vendored::new();
     for name in &names {
         let (source, _) = name.split_once('/').expect("a folder and a name");
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
