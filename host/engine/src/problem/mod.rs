@@ -24,5 +24,7 @@ pub use changes::Centring;
 pub use fit_problem::FitProblem;
 pub use moments::Moments;
 pub use residuals::{errors, rms_counts};
-pub use structure::{Base, ELECTRICAL_TIME_CONSTANT, START_OFFSET, START_SPEED, Structure};
+pub use structure::{
+    Base, ELECTRICAL_TIME_CONSTANT, START_OFFSET, START_SPEED, Structure, VISCOUS_PART,
+};
 pub use unknown::{Scale, Unknown};

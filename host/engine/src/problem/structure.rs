@@ -47,6 +47,8 @@ pub struct Structure {
 pub const START_SPEED: &str = "start_speed";
 /// Name of the unknown electrical time constant.
 pub const ELECTRICAL_TIME_CONSTANT: &str = "electrical_time_constant";
+/// Name of the unknown part of the damping that is viscous friction.
+pub const VISCOUS_PART: &str = "viscous_part";
 /// Name of the unknown start angle within the first cell.
 pub const START_OFFSET: &str = "start_offset";
 /// No delay is looked for beyond this, s.
@@ -319,12 +321,7 @@ fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown>
                 Unknown::new(ELECTRICAL_TIME_CONSTANT, "s", (0.0, slowest), Scale::Linear),
             ];
             if damping {
-                unknowns.push(Unknown::new(
-                    "viscous_part",
-                    "1",
-                    (0.0, 0.98),
-                    Scale::Linear,
-                ));
+                unknowns.push(Unknown::new(VISCOUS_PART, "1", (0.0, 0.98), Scale::Linear));
             }
             unknowns
         }

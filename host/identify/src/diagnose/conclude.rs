@@ -1,6 +1,6 @@
 //! Stage 6: the verdict on the named model, and what to do next.
 
-use super::context::moves_both_ways;
+use super::context::together_move_both_ways;
 use super::explain::advice::advise;
 use super::hypotheses::{probability_of, probable_sets};
 use super::models::Errors;
@@ -9,7 +9,7 @@ use super::outcome::{Diagnosis, Verdict};
 
 /// The diagnosis with its verdict and advice.
 pub fn conclude(named: Named<'_>) -> Diagnosis {
-    let both_ways = moves_both_ways(named.context.data);
+    let both_ways = together_move_both_ways(named.context.data, named.context.held_out);
     let budget = named.context.budget;
     let hypotheses = probable_sets(&named);
     let mut steps = named.steps;
@@ -34,7 +34,7 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
     diagnosis.verdict = verdict(&diagnosis, both_ways);
     if !both_ways {
         diagnosis.advice.push(
-            "the motor never reverses in this recording: friction, an offset and a load look alike, and may pass for \
+            "the motor never reverses, in neither recording: friction, an offset and a load look alike, and may pass for \
              another gain; record steps of both signs, or a slow triangle through zero"
                 .to_owned(),
         );

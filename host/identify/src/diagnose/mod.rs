@@ -59,7 +59,7 @@ mod suggest;
 
 pub use baseline::{Baseline, Prediction};
 pub use built_up::{built_up, is_lost};
-pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways};
+pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways, together_move_both_ways};
 pub use explain::{Findings, advice, evidence, findings, pair};
 pub use hypotheses::ProbableSet;
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};

@@ -4,7 +4,7 @@
 use super::baseline::{Baseline, Prediction};
 use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
-use super::context::{Context, moves_both_ways};
+use super::context::{Context, together_move_both_ways};
 use super::models::{FittedModel, same};
 use super::outcome::Step;
 use super::selection::{Level, backward_elimination, judge};
@@ -70,7 +70,9 @@ fn steps_to(
     as_one: bool,
 ) -> (Vec<Step>, FittedModel) {
     // A motor that never reverses cannot tell any of them apart: they are named as one.
-    let as_one = as_one || context.span.window_s.is_some() && !moves_both_ways(context.data);
+    let as_one = as_one
+        || context.span.window_s.is_some()
+            && !together_move_both_ways(context.data, context.held_out);
     let (mut steps, mut before) = (Vec::new(), base.clone());
     for (depth, &added) in chosen.effects.iter().enumerate() {
         let rivals = judge::rivals(chosen, added, known);

@@ -12,6 +12,7 @@
 //! | `uncertainty` | the covariance of the unknowns |
 //! | `resistance` | the resistance from a measured current |
 //! | `physical` | the six physical parameters from data and known facts |
+//! | `plausibility` | whether the machine can be one |
 //! | `margins` | stability margins of the position loop |
 //! | `scores` | errors over windows and of the equation, where the open loop drifts |
 //! | `validate` | the error on another recording |
@@ -27,6 +28,7 @@ pub(crate) mod filter;
 pub mod margins;
 mod options;
 pub mod physical;
+mod plausibility;
 pub(crate) mod recordings;
 pub mod regression;
 mod remarks;
@@ -43,6 +45,7 @@ pub use bound::Bound;
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use options::Options;
+pub use plausibility::{Contradiction, contradictions};
 pub use recordings::RecordingError;
 pub use remarks::EXPLAINED_COUNTS;
 pub use report::{Fit, LadderEntry, Parameter};

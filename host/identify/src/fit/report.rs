@@ -5,6 +5,7 @@ use super::options::Options;
 use super::physical::{
     CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, determined_by_data, reconcile,
 };
+use super::plausibility::contradictions;
 use super::recordings::RecordingError;
 use super::remarks;
 use super::resistance::resistance;
@@ -139,13 +140,21 @@ impl Fit {
             .as_ref()
             .filter(|spread| data.drive == Drive::Voltage && spread.converged)
             .map(|spread| reconcile(&evidence(problem, &candidate, spread), &options.known));
-        let parameters = parameters(
+        let mut parameters = parameters(
             problem,
             &values,
             spread.as_ref(),
             reconciled.as_ref(),
             &mut notes,
         );
+        for contradiction in contradictions(data, &candidate) {
+            for parameter in &mut parameters {
+                if contradiction.parameters.contains(&parameter.name) {
+                    (parameter.std, parameter.identifiable) = (None, false);
+                }
+            }
+            notes.push(contradiction.text);
+        }
         if let Some(reconciled) = &reconciled {
             describe(problem, reconciled, &options.known, &mut notes);
         }

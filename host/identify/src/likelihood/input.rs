@@ -59,6 +59,26 @@ impl Command {
             .collect()
     }
 
+    /// How many changes of the command, before `end`, s, the response is timed by: `(Σd²)²/Σd⁴` of the changes `d`, one for a
+    /// single edge however many small ones stand beside it.
+    pub(super) fn effective_edges(&self, end: f64) -> f64 {
+        let (mut squares, mut fourths) = (0.0, 0.0);
+        let mut last = self.before;
+        for (&value, &edge) in self.values.iter().zip(&self.edges) {
+            if edge < end {
+                let square = (value - last).powi(2);
+                squares += square;
+                fourths += square * square;
+            }
+            last = value;
+        }
+        if fourths > 0.0 {
+            squares * squares / fourths
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// Largest change from one value to the next before `end`, s, part of the range of all.
     pub(super) fn steepest_edge(&self, end: f64) -> f64 {
         let (mut low, mut high, mut steepest) = (self.before, self.before, 0.0f64);

@@ -67,6 +67,8 @@ pub struct Maximum {
     pub whiteness: Option<Whiteness>,
     coordinates: Vec<Coordinate>,
     errors: Option<Errors>,
+    /// Standard deviation of each recording's delay that comes from the log's ticks, s.
+    timing_errors_s: Vec<f64>,
 }
 
 /// Fits the `terms` to the recordings. `None` where they move too little for a motor, or where `stop` came before any result.
@@ -143,6 +145,7 @@ pub fn fit_from(
         whiteness: whiteness(&best),
         coordinates,
         errors,
+        timing_errors_s: recordings.iter().map(|r| r.timing_error_s()).collect(),
         parameters: best.parameters,
     })
 }
@@ -207,12 +210,13 @@ fn scaled(
 }
 
 impl Maximum {
-    /// Standard error, SI: the larger of curvature and sandwich. `None` where the model has no such number or the readings do
+    /// Standard error, SI: the larger of curvature and sandwich, and for a delay that of the log's ticks beside it. `None` where the model has no such number or the readings do
     /// not determine it.
     pub fn std(&self, c: Coordinate) -> Option<f64> {
         let at = self.place(c)?;
         let errors = self.errors.as_ref()?;
         let error = errors.of(&self.weights(&[(at, 1.0)]));
+        let error = error.hypot(self.timing_error_s(c));
         let p = &self.parameters;
         let most = match c {
             Coordinate::Inertia | Coordinate::Damping => UNDETERMINED * c.get(p),
@@ -260,8 +264,23 @@ impl Maximum {
         let own = [Coordinate::Delay(recording), Coordinate::CommonDelay];
         weights.extend(own.iter().find_map(|&c| self.place(c)).map(|at| (at, 1.0)));
         let std = self.errors.as_ref()?.of(&self.weights(&weights));
+        let std = std.hypot(self.timing_errors_s.get(recording).copied().unwrap_or(0.0));
         let lag = delay + p.time_constant();
         (lag.is_finite() && std.is_finite()).then_some((lag, std))
+    }
+
+    /// What the log's ticks add to the standard error of a delay, s. A common delay is seen in each recording.
+    fn timing_error_s(&self, c: Coordinate) -> f64 {
+        match c {
+            Coordinate::Delay(recording) => self.timing_errors_s[recording],
+            Coordinate::CommonDelay => {
+                let precision: f64 = (self.timing_errors_s.iter())
+                    .map(|error| error.powi(-2))
+                    .sum();
+                precision.powf(-0.5)
+            }
+            _ => 0.0,
+        }
     }
 
     fn place(&self, c: Coordinate) -> Option<usize> {

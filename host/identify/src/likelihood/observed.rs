@@ -154,6 +154,13 @@ impl Observed {
         self.command.steepest_edge(self.duration_s() - SETTLED_S)
     }
 
+    /// Standard deviation of a delay that comes from the log's ticks, s: a command takes effect, and a reading is taken, anywhere
+    /// between two ticks of the sensor, each uniformly; over several edges that averages out.
+    pub(super) fn timing_error_s(&self) -> f64 {
+        let edges = self.command.effective_edges(self.duration_s() - SETTLED_S);
+        self.interval_s * (2.0 / 12.0 / edges).sqrt()
+    }
+
     /// Duration, s.
     pub fn duration_s(&self) -> f64 {
         self.time_s.last().copied().unwrap_or(0.0)

@@ -12,9 +12,11 @@ use super::candidate::several_horizons::fit_over_horizons;
 use super::confirmation::Confirmed;
 use super::context::{Budget, Context};
 use super::models::{FittedModel, same};
+use crate::fit::contradictions;
 use models::{baseline_models, with_baseline_terms};
 pub use prediction::Prediction;
 use prediction::Windows;
+use servoid_engine::problem::{Data, Horizon};
 use shared::effects::Kind;
 
 /// A model may predict worse than the baseline by this part before it is given up: less is chance.
@@ -57,11 +59,14 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         let prediction = windows.prediction(context, &model)?;
         Some(Rated { model, prediction })
     };
-    // Each as it was fitted, and fitted anew over all horizons together.
+    // Each as it was fitted, and fitted anew over windows, over the whole recording, and over both together.
+    let spans = [windows.fitted.clone(), Horizon::Whole];
     let rate_all = |models: &[FittedModel]| -> Vec<Rated> {
-        let refitted = models
-            .iter()
-            .filter_map(|model| fit_over_horizons(context, model, &windows.fitted));
+        let refitted = models.iter().flat_map(|model| {
+            [&spans[..], &spans[..1], &spans[1..]]
+                .into_iter()
+                .filter_map(|horizons| fit_over_horizons(context, model, horizons))
+        });
         let all: Vec<FittedModel> = refitted.chain(models.iter().cloned()).collect();
         all.into_iter().filter_map(rate).collect()
     };
@@ -83,7 +88,7 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     confirmed.known.extend(further);
     confirmed.known.extend(baseline);
     confirmed.baseline = Some(limit.clone());
-    if let Some(best) = select(rated, &chosen, &limit.prediction) {
+    if let Some(best) = select(confirmed.context.data, rated, &chosen, &limit.prediction) {
         let kept = |kind: &Kind| best.model.effects.contains(kind);
         confirmed.not_named = confirmed.not_named.filter(|kind| !kept(kind));
         confirmed.predicts = Some(best.prediction);
@@ -109,7 +114,21 @@ fn is_explained(context: &Context<'_>, chosen: &FittedModel) -> bool {
 }
 
 /// The best of those that predict no worse than the baseline; of these the ones with the chosen effects first.
-fn select(rated: Vec<Rated>, chosen: &FittedModel, limit: &Prediction) -> Option<Rated> {
+fn select(
+    data: &Data,
+    rated: Vec<Rated>,
+    chosen: &FittedModel,
+    limit: &Prediction,
+) -> Option<Rated> {
+    // A machine that cannot be is taken only where no other is left.
+    let (possible, impossible): (Vec<Rated>, Vec<Rated>) = rated
+        .into_iter()
+        .partition(|rated| contradictions(data, &rated.model.candidate).is_empty());
+    let rated = if possible.is_empty() {
+        impossible
+    } else {
+        possible
+    };
     // Each parameter has its price: of models that predict alike the simplest is taken.
     let penalty =
         |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.parameters.len() as f64;

@@ -7,7 +7,7 @@ use crate::diagnose::context::{Context, constant_drive, moves_both_ways};
 use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::fit::base_for;
 use rayon::prelude::*;
-use servoid_engine::problem::{ELECTRICAL_TIME_CONSTANT, Structure};
+use servoid_engine::problem::{ELECTRICAL_TIME_CONSTANT, Structure, VISCOUS_PART};
 use shared::effects::Kind;
 
 /// Where the fits start: Coulomb friction in parts of the supply, and delays in s.
@@ -26,7 +26,7 @@ fn terms(context: &Context<'_>) -> Vec<Kind> {
 }
 
 /// The models with every set of the terms. None has an electrical time constant:
-/// beside a delay no recording without edges tells the two apart.
+/// beside a delay no recording without edges tells the two apart. Without one, viscous friction is damping like any other.
 pub fn baseline_models(context: &Context<'_>, base: &FittedModel) -> Vec<FittedModel> {
     let terms = terms(context);
     let fitted = |set: u32| {
@@ -62,7 +62,8 @@ fn fit_terms(
     let machine = &base.candidate.machine;
     let speed = base.structure.start_speed;
     let structure = Structure::around(data, base_for(data, effects), effects, machine, speed)
-        .with_fixed(ELECTRICAL_TIME_CONSTANT, 0.0);
+        .with_fixed(ELECTRICAL_TIME_CONSTANT, 0.0)
+        .with_fixed(VISCOUS_PART, 0.0);
     let parameters: Vec<f64> = effects
         .iter()
         .map(|kind| match kind {

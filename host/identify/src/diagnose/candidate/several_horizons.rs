@@ -65,19 +65,20 @@ impl Objective for Weighted<'_> {
     }
 }
 
-/// Fits a model over `windows` and over the whole recording together: minimises the product of both RMS errors, by least
-/// squares whose weights are each round's reciprocal errors. `None` where the model cannot run.
+/// Fits a model over all of `horizons` together: minimises the product of their RMS errors, by least squares whose weights are
+/// each round's reciprocal errors. `None` where the model cannot run, or is no better for it.
 pub fn fit_over_horizons(
     context: &Context<'_>,
     model: &FittedModel,
-    windows: &Horizon,
+    horizons: &[Horizon],
 ) -> Option<FittedModel> {
-    let problem = |horizon: &Horizon| FitProblem {
-        horizon: horizon.clone(),
-        ..fit_problem(context, &model.structure, model.method)
-    };
+    let problems = horizons.iter().map(|horizon| {
+        let problem = fit_problem(context, &model.structure, model.method);
+        let horizon = horizon.clone();
+        (FitProblem { horizon, ..problem }, 1.0)
+    });
     let mut weighted = Weighted {
-        problems: vec![(problem(windows), 1.0), (problem(&Horizon::Whole), 1.0)],
+        problems: problems.collect(),
     };
     let logarithms = |weighted: &Weighted<'_>, x: &[f64]| -> f64 {
         let costs = weighted.problems.iter().map(|(problem, _)| problem.cost(x));
@@ -95,7 +96,7 @@ pub fn fit_over_horizons(
         let Some(found) = descend(&weighted, &x, ROUND, context.budget) else {
             break;
         };
-        let runs = 2 * found.evaluations * usize::from(model.method.substeps.max(1));
+        let runs = horizons.len() * found.evaluations * usize::from(model.method.substeps.max(1));
         context.budget.book((context.data.len() * runs) as u64);
         let now = logarithms(&weighted, &found.x);
         let fell = left - now;

@@ -6,7 +6,7 @@ mod span;
 
 pub use budget::{Budget, USUAL_STEPS};
 pub use motion::Motion;
-pub use span::{Span, floor_counts, moves_both_ways};
+pub use span::{Span, floor_counts, moves_both_ways, together_move_both_ways};
 
 use crate::fit::Options;
 use servoid_engine::problem::{Data, Horizon, rms_counts};

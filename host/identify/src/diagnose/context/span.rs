@@ -89,17 +89,31 @@ impl Span {
 /// A motor that strays by this part of the motion's spread was not moved by its voltage and a constant alone.
 const LOST: f64 = 0.8;
 
+/// Part of the travel that must go against the prevailing direction.
+const AGAINST: f64 = 0.05;
+
 /// Whether a twentieth of the travel at least goes against the prevailing direction.
 pub fn moves_both_ways(data: &Data) -> bool {
-    let (mut forward, mut backward) = (0.0, 0.0);
-    for step in data.steps() {
-        if step > 0.0 {
-            forward += step
-        } else {
-            backward -= step
-        }
-    }
-    forward.min(backward) > 0.05 * (forward + backward)
+    let (forward, backward) = travel(data);
+    forward.min(backward) > AGAINST * (forward + backward)
+}
+
+/// The same of two recordings of one motor together: each may go one way only, if it is not the same one.
+pub fn together_move_both_ways(data: &Data, held_out: &Data) -> bool {
+    let (own, other) = (travel(data), travel(held_out));
+    let reversed = |(forward, backward): (f64, f64)| {
+        let all: f64 = forward + backward;
+        (forward > AGAINST * all, backward > AGAINST * all)
+    };
+    let (own, other) = (reversed(own), reversed(other));
+    (own.0 || other.0) && (own.1 || other.1)
+}
+
+/// Counts travelled forward and backward.
+fn travel(data: &Data) -> (f64, f64) {
+    data.steps().fold((0.0, 0.0), |(forward, backward), step| {
+        (forward + step.max(0.0), backward + (-step).max(0.0))
+    })
 }
 
 fn usual(data: &Data) -> Option<f64> {

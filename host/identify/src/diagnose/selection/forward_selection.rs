@@ -6,6 +6,7 @@ use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, same};
+use crate::fit::contradictions;
 
 /// Most effects that are added.
 const MOST_STEPS: usize = 4;
@@ -63,7 +64,8 @@ pub fn forward_selection(
         // One that no observer can hold to the readings keeps the errors of its free runs.
         let _ = observe_like(context, &mut before, &best);
         let walled = best.windowed.is_some() && best.at_wall();
-        let believed = judge::removes(&before, &best) && !walled;
+        let can_be = contradictions(context.data, &best.candidate).is_empty();
+        let believed = judge::removes(&before, &best) && !walled && can_be;
         before = best.clone();
         levels.push(Level {
             models,
