@@ -20,6 +20,8 @@ fn percent(part: f64) -> String {
 /// Sets of at least this probability are told in the verdict.
 const PROBABLE: f64 = 0.1;
 
+/// Sets of effects that are all less probable than this are no names.
+const NAMES_NOTHING: f64 = 0.02;
 /// Sets that fall short of the last model's by no more than this factor explain the data as well.
 const AS_PROBABLE: f64 = 0.4;
 
@@ -114,6 +116,13 @@ impl DiagnosisReport<'_> {
             Verdict::Unexplained => {
                 let begins = match diagnosis.steps.len() {
                     0 => format!("The linear motor misses this recording by {base} counts RMS"),
+                    _ if self.names_nothing() => format!(
+                        "No effect can be named: every set that was tried has a probability below {:.0} %. The model that \
+                         predicts best has {}; with it {}",
+                        100.0 * NAMES_NOTHING,
+                        self.titles(),
+                        changed("the error", diagnosis.base.rms_counts, fitted)
+                    ),
                     _ => format!(
                         "With {} {}",
                         self.titles(),
@@ -153,6 +162,12 @@ impl DiagnosisReport<'_> {
                  recording cannot tell what. See the advice for what to record."
             ),
         }
+    }
+
+    /// Whether the effects of the last model stand there for its prediction alone.
+    fn names_nothing(&self) -> bool {
+        let sets = &self.diagnosis.hypotheses;
+        sets.iter().all(|set| set.probability < NAMES_NOTHING)
     }
 
     /// RMS errors of the last model, counts.
