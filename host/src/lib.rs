@@ -14,6 +14,6 @@ pub mod workbench;
 
 pub use servoid_engine::{block_cost, compare, data, lanes, problem, simulation, solve};
 pub use servoid_identify::{diagnose, fit, likelihood, paper, plan, truth};
-pub use servoid_io::{input, output, recording, showcase};
+pub use servoid_io::{input, output, position_loop, recording, showcase};
 pub use servoid_plant as bench;
 pub use servoid_results::{export, page, picture, plot, report, schema};

@@ -10,6 +10,7 @@ mod fits;
 mod kept;
 mod likelihood;
 mod limits;
+mod position;
 mod program;
 mod recordings;
 mod source;

@@ -1,6 +1,7 @@
 //! Results as text for a terminal of 80 columns.
 
 use super::diagnosis::bars;
+use super::position_loop;
 use super::style::{GOOD, HEADING, painted};
 use crate::number_text::{short, with_error};
 use crate::schema::contest::least_cost;
@@ -71,6 +72,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         data.duration_s(),
         fit.effective_samples
     )?;
+    out.push_str(&position_loop::lines(data));
     writeln!(
         out,
         "{effects}, by {} in {} model evaluations (seed {})",
