@@ -4,6 +4,9 @@
 use super::{BenchError, DriveSample};
 use std::f64::consts::TAU;
 
+/// Times that differ by less are one, s: they are products and quotients of round numbers.
+const TOGETHER_S: f64 = 1e-9;
+
 /// A position loop, as the drive runs it.
 ///
 /// ```text
@@ -87,9 +90,11 @@ impl Controller {
         }
     }
 
-    /// Time of the next instant, s.
-    pub(super) fn next_s(&self) -> f64 {
-        self.instant as f64 / self.control.rate_hz
+    /// Time of the next instant if it comes before `end_s`. One that falls together with the end, but for rounding, comes after
+    /// it: there the next target is in force.
+    pub(super) fn next_before(&self, end_s: f64) -> Option<f64> {
+        let next = self.instant as f64 / self.control.rate_hz;
+        (next < end_s - TOGETHER_S).then_some(next)
     }
 
     /// What the bridge is told at this instant, for a target in rad.

@@ -166,9 +166,9 @@ impl Bench {
             }
             let mut begin = now;
             while let Some(controller) = &mut controller
-                && controller.next_s() < then
+                && let Some(next) = controller.next_before(then)
             {
-                let instant = controller.next_s().max(begin);
+                let instant = next.max(begin);
                 timeline.play(begin, instant, |sample, dt| {
                     plant.advance(self.feed(sample), dt)
                 })?;

@@ -35,7 +35,7 @@ impl Motion {
     pub(super) fn new(follower: &Follower<'_>, block: usize) -> Option<Self> {
         let samples = follower.time_s.len();
         let rad = follower.rad_per_count();
-        let mut speeds = Speeds::new(follower, (block / 4).max(2));
+        let mut speeds = Speeds::new(follower, (block / 8).max(2));
         let mut blocks = Vec::new();
         let mut rows: Vec<[f64; COLUMNS]> = Vec::new();
         let mut rises = Vec::new();

