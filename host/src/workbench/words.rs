@@ -130,6 +130,16 @@ mod tests {
                 "counts_per_rev = 2000\n[columns]\nvoltage = \"duty\"\n[units]\nvoltage = \"duty\"",
                 "fill it in",
             ),
+            (
+                "t_s,target_counts,angle_counts",
+                "counts_per_rev = 2000\n[drive]\nkind = \"position\"",
+                "fill in the supply",
+            ),
+            (
+                "t_s,target_counts,angle_counts",
+                "counts_per_rev = 2000\nsupply_v = 12\n[drive]\nkind = \"position\"",
+                "drop a motor.toml with the gain",
+            ),
         ] {
             let motor = MotorFile::parse(motor, MOTOR).expect("a motor file");
             let csv = format!("{header}\n{rows}");
