@@ -45,6 +45,7 @@ pub fn data(drive: impl Iterator<Item = f64>) -> Data {
         quantised: true,
         supply_v: Some(SUPPLY),
         drive: Drive::Voltage,
+        position: None,
     };
     Data::new(&recording).expect("valid bases")
 }

@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `recording` | one recording in SI units and encoder counts |
+//! | `position_loop` | from target angles to the volts of a drive that closes a position loop |
 //! | `input` | readers of foreign CSV files and of `motor.toml` |
 //! | `output` | files written whole or not at all |
 //! | `record` | the virtual bench as a recorder |
@@ -11,6 +12,7 @@
 
 pub mod input;
 pub mod output;
+pub mod position_loop;
 pub mod record;
 pub mod recording;
 pub mod showcase;

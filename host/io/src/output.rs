@@ -167,7 +167,8 @@ fn write_direct(
 /// the same numbers. Each line of `provenance` becomes a comment before the header.
 ///
 /// An angle that is not in whole counts goes into the column `angle_rev` (revolutions), which needs
-/// `angle = "rev"` under `[units]` of the motor file; it comes back to the last digit but one.
+/// `angle = "rev"` under `[units]` of the motor file; it comes back to the last digit but one. A position drive's targets
+/// stand in place of its volts, which come back with the drive's motor file.
 ///
 /// # Errors
 /// As [`write_whole`].
@@ -194,7 +195,12 @@ pub fn write_csv(
     } else {
         "angle_rev"
     };
-    write!(out, "t_s,voltage_v,{angle}")?;
+    let command = match (&recording.position, recording.quantised) {
+        (None, _) => "voltage_v",
+        (Some(_), true) => "target_counts",
+        (Some(_), false) => "target_rev",
+    };
+    write!(out, "t_s,{command},{angle}")?;
     if recording.current_a.is_some() {
         write!(out, ",current_a")?;
     }
@@ -327,7 +333,12 @@ fn write_comments(out: &mut dyn Write, provenance: &[String]) -> io::Result<()> 
 /// Debug formatting prints the shortest digits that read back to the same double, with an exponent where
 /// plain digits would be long.
 fn write_row(out: &mut dyn Write, recording: &Recording, k: usize) -> io::Result<()> {
-    write!(out, "{:?},{:?},", recording.time_s[k], recording.command[k])?;
+    let command = match &recording.position {
+        None => recording.command[k],
+        Some(position) if recording.quantised => position.target_counts[k],
+        Some(position) => position.target_counts[k] / recording.counts_per_rev,
+    };
+    write!(out, "{:?},{command:?},", recording.time_s[k])?;
     if recording.quantised {
         write!(out, "{}", recording.counts[k])?;
     } else {

@@ -1,5 +1,7 @@
 //! A recording in memory: what was commanded, what the encoder read, and when.
 
+use crate::position_loop::PositionLoop;
+
 /// What the command column drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
@@ -17,6 +19,15 @@ impl Drive {
             Drive::Current => "current",
         }
     }
+}
+
+/// Where the command is from, if a drive made it of target angles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PositionDrive {
+    /// The loop that made volts of them.
+    pub control: PositionLoop,
+    /// Target from its own row until the next, counts, from the same zero as the angle in the file.
+    pub target_counts: Vec<f64>,
 }
 
 /// One recording, in SI units and encoder counts, checked on entry: all columns have equal length,
@@ -43,6 +54,8 @@ pub struct Recording {
     pub supply_v: Option<f64>,
     /// What the command drives.
     pub drive: Drive,
+    /// The position loop that made the command, where the log holds targets.
+    pub position: Option<PositionDrive>,
 }
 
 impl Recording {
@@ -109,7 +122,14 @@ impl Recording {
                 .current_a
                 .as_ref()
                 .map(|current| current[rows.clone()].to_vec()),
-            enabled: self.enabled.as_ref().map(|enabled| enabled[rows].to_vec()),
+            enabled: self
+                .enabled
+                .as_ref()
+                .map(|enabled| enabled[rows.clone()].to_vec()),
+            position: self.position.as_ref().map(|position| PositionDrive {
+                control: position.control,
+                target_counts: position.target_counts[rows].to_vec(),
+            }),
             ..*self
         }
     }

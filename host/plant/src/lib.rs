@@ -20,6 +20,7 @@
 //! | `integrate` | the state moved forward, with stops, releases and contacts located |
 //! | `coupling` | the spring and the gap between motor and load |
 //! | `encoder` | from the shaft's angle to a counter reading |
+//! | `position` | a drive that closes a position loop |
 //! | `run` | the bench itself: the order in which the above happen |
 //!
 //! # Conventions
@@ -52,6 +53,7 @@ mod integrate;
 mod laws;
 mod machine;
 mod plant;
+mod position;
 mod run;
 mod timeline;
 
@@ -60,5 +62,6 @@ pub use coupling::Coupling;
 pub use error::BenchError;
 pub use hidden::Hidden;
 pub use machine::{Machine, PRESETS};
+pub use position::PositionControl;
 pub use run::{Amplifier, Bench, Reading, Run};
 pub use timeline::DriveSample;

@@ -5,17 +5,20 @@ use super::effects::{CATALOGUE, Effect};
 use super::encoder::Encoder;
 use super::integrate::DEFAULT_SUBSTEP_HZ;
 use super::plant::{Feed, Plant};
+use super::position::{Controller, PositionControl};
 use super::timeline::Timeline;
 use super::{BenchError, DriveSample, Hidden, Machine};
 use std::f64::consts::TAU;
 
 /// What the command sets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amplifier {
     /// The armature voltage, V.
     Voltage,
     /// The armature current, A: an ideal current loop, so that neither L nor back-EMF shows.
     Current,
+    /// A target angle, rad, from the counter's zero: a loop sets the armature voltage.
+    Position(PositionControl),
 }
 
 /// A motor on the bench, with its hidden effects, its encoder and its sources of chance.
@@ -50,7 +53,7 @@ pub struct Bench {
 pub struct Run {
     /// Time of the sample, s.
     pub time_s: Vec<f64>,
-    /// Command, V (or A, see [`Amplifier`]), given just after the reading and held until the next row.
+    /// Command, V (or A or rad, see [`Amplifier`]), given just after the reading and held until the next row.
     pub voltage_v: Vec<f64>,
     /// Whether the bridge is told to drive.
     pub enabled: Vec<bool>,
@@ -133,6 +136,10 @@ impl Bench {
         let mut timeline = Timeline::new(latency_s);
         let mut plant = Plant::new(self.machine, &effects, self.substep_hz, self.start_angle());
         let mut encoder = Encoder::new(&effects, self.counts_per_rev, self.seed);
+        let mut controller = match self.amplifier {
+            Amplifier::Position(control) => Some(Controller::new(control, self.counts_per_rev)),
+            Amplifier::Voltage | Amplifier::Current => None,
+        };
         let mut noise = Chance::new(self.seed, "current noise");
         let mut times = self.sample_times();
         let mut now = times(0);
@@ -153,9 +160,27 @@ impl Bench {
             let Some(sample) = next(&reading) else {
                 return Ok(());
             };
-            timeline.send(now, sample);
             let then = times(row);
-            timeline.play(now, then, |sample, dt| plant.advance(self.feed(sample), dt))?;
+            if controller.is_none() {
+                timeline.send(now, sample);
+            }
+            let mut begin = now;
+            while let Some(controller) = &mut controller
+                && let Some(next) = controller.next_before(then)
+            {
+                let instant = next.max(begin);
+                timeline.play(begin, instant, |sample, dt| {
+                    plant.advance(self.feed(sample), dt)
+                })?;
+                timeline.send(
+                    instant,
+                    controller.act(sample, encoder.read(plant.state.angle)),
+                );
+                begin = instant;
+            }
+            timeline.play(begin, then, |sample, dt| {
+                plant.advance(self.feed(sample), dt)
+            })?;
             encoder.pass((plant.state.angle - state.angle) / (then - now), then - now);
             now = then;
         }
@@ -165,7 +190,7 @@ impl Bench {
     fn feed(&self, sample: DriveSample) -> Feed {
         match (sample.enabled, self.amplifier) {
             (false, _) => Feed::Open,
-            (true, Amplifier::Voltage) => Feed::Volts(sample.volts),
+            (true, Amplifier::Voltage | Amplifier::Position(_)) => Feed::Volts(sample.volts),
             (true, Amplifier::Current) => Feed::Amps(sample.volts),
         }
     }
@@ -264,6 +289,9 @@ impl Bench {
         ];
         for (setting, value, holds, need) in settings {
             BenchError::require(holds, setting, value, need)?;
+        }
+        if let Amplifier::Position(control) = self.amplifier {
+            control.check()?;
         }
         let electrical = self.effects.iter().find(|hidden| hidden.is_electrical());
         match (self.amplifier, electrical) {

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 /// One sample of the drive, held until the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveSample {
-    /// Commanded armature voltage, V (or current, A, with [`Amplifier::Current`](super::Amplifier)).
+    /// Commanded armature voltage, V (or current, A, or target angle, rad: see [`Amplifier`](super::Amplifier)).
     pub volts: f64,
     /// False opens the bridge: no current flows and the motor coasts.
     pub enabled: bool,

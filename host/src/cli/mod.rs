@@ -139,7 +139,7 @@ pub struct SimulateArgs {
     /// Length, s; if not given, the usual one of the excitation, and 20 of a plan
     #[arg(long, value_name = "S")]
     pub seconds: Option<f64>,
-    /// Amplitude, as a part of the supply
+    /// Amplitude, as a part of the supply (with --drive position of --reach)
     #[arg(
         long,
         default_value_t = 1.0,
@@ -147,6 +147,20 @@ pub struct SimulateArgs {
         conflicts_with = "plan"
     )]
     pub amplitude: f64,
+    /// What the excitation sets: the voltage, or a target angle behind which the drive closes a position loop
+    #[arg(long, value_name = "voltage|position", value_parser = ["voltage", "position"], conflicts_with = "plan")]
+    pub drive: Option<String>,
+    /// Of the position loop: gain_v_per_rad, damping_v_s_per_rad, limit_v, dead_band_rad or rate_hz, as in gain_v_per_rad=3
+    #[arg(long = "loop", value_name = "WHAT=VALUE", conflicts_with = "plan")]
+    pub position_loop: Vec<String>,
+    /// Largest target with --drive position, revolutions
+    #[arg(
+        long,
+        default_value_t = 1.0,
+        value_name = "REV",
+        conflicts_with = "plan"
+    )]
+    pub reach: f64,
     /// Sample interval, s
     #[arg(
         long,
@@ -234,15 +248,18 @@ pub struct MotorArgs {
     /// Travel per revolution, m, for an angle logged in metres
     #[arg(long, value_name = "M")]
     pub metres_per_rev: Option<f64>,
-    /// Name of a column: time, voltage, angle, current or enabled, as in angle=qm
+    /// Name of a column: time, voltage (target with --drive position), angle, current or enabled, as in angle=qm
     #[arg(long, value_name = "WHAT=NAME")]
     pub column: Vec<String>,
     /// Unit of a column, as in angle=rad
     #[arg(long, value_name = "WHAT=UNIT")]
     pub unit: Vec<String>,
-    /// What the command drives
-    #[arg(long, value_name = "voltage|current")]
+    /// What the command sets; position: a target angle, behind which the drive closes a loop
+    #[arg(long, value_name = "voltage|current|position")]
     pub drive: Option<String>,
+    /// Of the position loop: gain_v_per_rad, damping_v_s_per_rad, limit_v, dead_band_rad or rate_hz, as in gain_v_per_rad=8.4
+    #[arg(long = "loop", value_name = "WHAT=VALUE")]
+    pub position_loop: Vec<String>,
     /// A known fact, as in resistance_ohm=1.2 or resistance_ohm=1.2~0.05 (5 % tolerance)
     #[arg(long, value_name = "FACT=VALUE")]
     pub known: Vec<String>,

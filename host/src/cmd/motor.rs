@@ -3,8 +3,9 @@
 use crate::cli::{MotorArgs, RecordingsArgs};
 use crate::error::Error;
 use crate::session::Session;
-use servoid_io::input::{MotorFile, read_recording};
-use servoid_io::recording::{Drive, Recording};
+use servoid_io::input::{DriveKind, MotorFile, read_recording};
+use servoid_io::position_loop::LoopSettings;
+use servoid_io::recording::Recording;
 use std::path::{Path, PathBuf};
 
 /// Checks that the `outputs` of a verb, and its JSON, replace nothing that it reads.
@@ -86,7 +87,13 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         Some(path) => MotorFile::read(path)?,
         None => MotorFile::find_beside(recording)?.unwrap_or_default(),
     };
-    let flags = from_flags(args, motor.drive)?;
+    let flags = from_flags(args, motor.drive_kind())?;
+    if flags.drive_kind() != motor.drive_kind() {
+        // The file's command is another one.
+        motor.columns.voltage = None;
+        motor.units.voltage = flags.units.voltage;
+        motor.units.target = None;
+    }
     motor.counts_per_rev = flags.counts_per_rev.or(motor.counts_per_rev);
     motor.supply_v = flags.supply_v.or(motor.supply_v);
     motor.metres_per_rev = flags.metres_per_rev.or(motor.metres_per_rev);
@@ -105,13 +112,14 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         match unit.split('=').next() {
             Some("time") => motor.units.time = flags.units.time,
             Some("voltage") => motor.units.voltage = flags.units.voltage,
+            Some("target") => motor.units.target = flags.units.target,
             Some("angle") => motor.units.angle = flags.units.angle,
             _ => motor.units.current = flags.units.current,
         }
     }
-    if args.drive.is_some() {
-        motor.drive = flags.drive;
-    }
+    motor.drive = flags.drive;
+    motor.position =
+        (flags.position).map(|settings| motor.position.unwrap_or_default().under(&settings));
     let (known, new) = (&mut motor.known, flags.known);
     known.resistance_ohm = new.resistance_ohm.or(known.resistance_ohm);
     known.inductance_h = new.inductance_h.or(known.inductance_h);
@@ -140,7 +148,7 @@ pub(super) fn recording(args: &MotorArgs, path: &Path) -> Result<(Recording, Mot
 
 /// What the flags say, read as lines of a motor file: its reader has all the checks and suggestions. Each
 /// flag is read alone first, so that a refusal names it. `drive` is the motor file's, for the units.
-fn from_flags(args: &MotorArgs, drive: Drive) -> Result<MotorFile, Error> {
+fn from_flags(args: &MotorArgs, drive: DriveKind) -> Result<MotorFile, Error> {
     let drive = args.drive.as_deref().unwrap_or(drive.name());
     let drive_line = format!("drive.kind = {}\n", toml::Value::from(drive));
     parse(&format!("--drive {drive}"), &drive_line)?;
@@ -195,6 +203,9 @@ fn lines(args: &MotorArgs) -> Result<Vec<Line>, Error> {
             });
         }
     }
+    for pair in &args.position_loop {
+        lines.push(loop_line(pair)?);
+    }
     for pair in &args.known {
         let (fact, value) = split("--known", pair, "resistance_ohm=1.2~0.05")?;
         let flag = format!("--known {pair}");
@@ -205,6 +216,36 @@ fn lines(args: &MotorArgs) -> Result<Vec<Line>, Error> {
         });
     }
     Ok(lines)
+}
+
+/// One `--loop`.
+fn loop_line(pair: &str) -> Result<Line, Error> {
+    let (what, value) = split("--loop", pair, "gain_v_per_rad=8.4")?;
+    let flag = format!("--loop {pair}");
+    let number: f64 = value.trim().parse().map_err(|_| {
+        Error::Usage(format!(
+            "{flag}: `{value}` is not a number; write it like --loop gain_v_per_rad=8.4"
+        ))
+    })?;
+    Ok(Line {
+        flag,
+        key: format!("drive.{what}"),
+        value: number.into(),
+    })
+}
+
+/// What flags say of a position loop.
+pub(super) fn loop_settings(pairs: &[String]) -> Result<LoopSettings, Error> {
+    let mut settings = LoopSettings::default();
+    for pair in pairs {
+        let Line { flag, key, value } = loop_line(pair)?;
+        let file = parse(
+            &flag,
+            &format!("drive.kind = \"position\"\n{key} = {value}\n"),
+        )?;
+        settings = settings.under(&file.position.unwrap_or_default());
+    }
+    Ok(settings)
 }
 
 /// `1.2`, `1.2~0.05` or `true`.

@@ -62,7 +62,10 @@ fn disagreements(there: &MotorFile, motor: &MotorFile) -> Vec<String> {
     for (section, differs) in [
         ("columns", there.columns != motor.columns),
         ("units", there.units != motor.units),
-        ("drive", there.drive != motor.drive),
+        (
+            "drive",
+            (there.drive, there.position) != (motor.drive, motor.position),
+        ),
     ] {
         if differs {
             found.push(format!("its [{section}] is of another log"));

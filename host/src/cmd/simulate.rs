@@ -1,5 +1,6 @@
 //! `servoid simulate`: the virtual bench makes a recording.
 
+use super::motor;
 use super::motor_beside::write_motor;
 use super::simulate_list::Offer;
 use crate::cli::SimulateArgs;
@@ -9,10 +10,12 @@ use serde::Serialize;
 use servoid_io::input::MotorFile;
 use servoid_io::input::suggest::did_you_mean;
 use servoid_io::output::write_recording;
+use servoid_io::position_loop::LoopSettings;
 use servoid_io::record::Record;
 use servoid_io::recording::Recording;
-use servoid_plant::{Bench, BenchError, DriveSample, Hidden, Machine};
+use servoid_plant::{Amplifier, Bench, BenchError, DriveSample, Hidden, Machine, PositionControl};
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
+use std::f64::consts::{PI, TAU};
 
 /// Usual length of a single shape, s.
 const USUAL_SECONDS: f64 = 10.0;
@@ -45,12 +48,18 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         .ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
     let motor_path = out.with_file_name("motor.toml");
     session.check_outputs(&[("--out", out)], &[("the motor file", &motor_path)])?;
-    let bench = bench(args, session.seed)?;
+    let mut bench = bench(args, session.seed)?;
     let machine = bench.machine;
+    let control = position(args, &machine)?;
+    let mut largest = machine.supply_v;
+    if let Some(control) = control {
+        bench.amplifier = Amplifier::Position(control);
+        largest = TAU * args.reach;
+    }
     let plan = plan(args)?;
     let drive: Vec<DriveSample> = commands::<f64>(&plan, args.sample, session.seed)
         .map(|c| DriveSample {
-            volts: c.drive * machine.supply_v,
+            volts: c.drive * largest,
             enabled: c.enabled,
         })
         .collect();
@@ -84,6 +93,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             name: Some(args.machine.clone()),
             counts_per_rev: Some(f64::from(args.counts_per_rev)),
             supply_v: Some(machine.supply_v),
+            position: control.map(settings),
             ..MotorFile::default()
         };
         text += &write_motor(session, &motor_path, &motor)?;
@@ -101,6 +111,45 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             seed: session.seed,
         },
     )
+}
+
+/// The loop of `--drive position`; `None` where the excitation is a voltage. Half a revolution of error takes all of the
+/// supply, if nothing else is said.
+fn position(args: &SimulateArgs, machine: &Machine) -> Result<Option<PositionControl>, Error> {
+    if args.drive.as_deref() != Some("position") {
+        return match args.position_loop.first() {
+            None => Ok(None),
+            Some(pair) => Err(Error::Usage(format!(
+                "--loop {pair}: is of a position loop; add --drive position"
+            ))),
+        };
+    }
+    if !(args.reach.is_finite() && args.reach > 0.0) {
+        return Err(Error::Usage(format!(
+            "--reach {}: must be a positive number of revolutions",
+            args.reach
+        )));
+    }
+    let said = motor::loop_settings(&args.position_loop)?;
+    let usual = PositionControl::proportional(machine.supply_v / PI, machine.supply_v);
+    Ok(Some(PositionControl {
+        gain_v_per_rad: said.gain_v_per_rad.unwrap_or(usual.gain_v_per_rad),
+        damping_v_s_per_rad: (said.damping_v_s_per_rad).unwrap_or(usual.damping_v_s_per_rad),
+        limit_v: said.limit_v.unwrap_or(usual.limit_v),
+        dead_band_rad: said.dead_band_rad.unwrap_or(usual.dead_band_rad),
+        rate_hz: said.rate_hz.unwrap_or(usual.rate_hz),
+    }))
+}
+
+/// What the owner of the drive knows of it.
+fn settings(control: PositionControl) -> LoopSettings {
+    LoopSettings {
+        gain_v_per_rad: Some(control.gain_v_per_rad),
+        damping_v_s_per_rad: Some(control.damping_v_s_per_rad).filter(|x| *x > 0.0),
+        limit_v: Some(control.limit_v),
+        dead_band_rad: Some(control.dead_band_rad).filter(|x| *x > 0.0),
+        rate_hz: Some(control.rate_hz),
+    }
 }
 
 /// One `--hide`.
@@ -127,6 +176,7 @@ pub(super) fn wrong_flag(error: BenchError) -> Error {
                 "sample_s" => "--sample",
                 "jitter_s" => "--jitter",
                 "substep_hz" => "--substep-hz",
+                "rate_hz" => "--loop rate_hz",
                 "current_noise_a" => "--current-noise",
                 _ => return error.into(),
             };

@@ -1,7 +1,7 @@
 //! What was written for a terminal, in the words of a page: its fields stand where flags would.
 
 /// What a flag would do, and how the page says it. The longer pieces come first.
-const IN_PLACE_OF: [(&str, &str); 21] = [
+const IN_PLACE_OF: [(&str, &str); 25] = [
     (
         " under [units] in what is said of the motor: angle = \"rad\" (or deg, rev, m)",
         " beside the column (for metres, drop a motor.toml with the file)",
@@ -14,6 +14,23 @@ const IN_PLACE_OF: [(&str, &str); 21] = [
     (
         "add `supply_v = 24.0` (your supply) at the top of what is said of the motor, or give --supply-v",
         "fill it in",
+    ),
+    (
+        "add `supply_v = 7.4` (your supply) at the top of what is said of the motor or `limit_v = 7.4` under [drive], or give \
+         --supply-v",
+        "fill in the supply, or drop a motor.toml with limit_v under [drive]",
+    ),
+    (
+        "give the gain (gain_v_per_rad = 8.4 under [drive] in what is said of the motor, or --loop gain_v_per_rad=8.4)",
+        "drop a motor.toml with the gain (gain_v_per_rad = 8.4 under [drive])",
+    ),
+    (
+        "give --loop gain_v_per_rad=",
+        "write under [drive] in a motor.toml gain_v_per_rad = ",
+    ),
+    (
+        "say that of the target with --unit target=deg (or counts, rad, rev), or under [units] in motor.toml",
+        "say that of the target under [units] in a motor.toml: target = \"deg\" (or counts, rad, rev)",
     ),
     (
         "fit again with --known resistance_ohm=… (an ohmmeter) and --kt-equals-kb or --known kt_n_m_a=… (a datasheet), or with \
@@ -112,6 +129,16 @@ mod tests {
                 "t_s,duty,angle_counts",
                 "counts_per_rev = 2000\n[columns]\nvoltage = \"duty\"\n[units]\nvoltage = \"duty\"",
                 "fill it in",
+            ),
+            (
+                "t_s,target_counts,angle_counts",
+                "counts_per_rev = 2000\n[drive]\nkind = \"position\"",
+                "fill in the supply",
+            ),
+            (
+                "t_s,target_counts,angle_counts",
+                "counts_per_rev = 2000\nsupply_v = 12\n[drive]\nkind = \"position\"",
+                "drop a motor.toml with the gain",
             ),
         ] {
             let motor = MotorFile::parse(motor, MOTOR).expect("a motor file");

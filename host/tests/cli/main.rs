@@ -23,6 +23,7 @@ mod main_job;
 mod paper;
 mod pipes;
 mod plan;
+mod position;
 mod prove;
 mod ranges;
 mod repeatable;

@@ -70,6 +70,7 @@ fn data(seed: u64, commands: Commands) -> Data {
         quantised: true,
         supply_v: Some(SUPPLY),
         drive: Drive::Voltage,
+        position: None,
     };
     let bases = Data::new(&recording).expect("valid bases");
     let mut effects = EffectSet::default();

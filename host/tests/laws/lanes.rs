@@ -42,6 +42,7 @@ fn data() -> Data {
         quantised: true,
         supply_v: Some(SUPPLY),
         drive: Drive::Voltage,
+        position: None,
     };
     Data::new(&recording).expect("valid bases")
 }

@@ -10,6 +10,7 @@ mod lanes;
 mod no_text;
 mod paper_contest;
 mod plans;
+mod position_drives;
 mod quick_costs;
 mod reader_laws;
 mod threads;

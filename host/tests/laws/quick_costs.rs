@@ -39,6 +39,7 @@ fn data(seed: u64, quantised: bool) -> Data {
         quantised,
         supply_v: Some(12.0),
         drive: Drive::Voltage,
+        position: None,
     };
     Data::new(&recording).expect("valid bases")
 }

@@ -7,6 +7,7 @@ use servoid_io::input::{
 };
 use servoid_io::input::{Columns, read_recording_from};
 use servoid_io::output::{write_csv, write_recording};
+use servoid_io::position_loop::LoopSettings;
 use servoid_io::recording::{Drive, Recording};
 
 fn check_promises(recording: &Recording) {
@@ -36,6 +37,8 @@ fn check_promises(recording: &Recording) {
     );
     assert!(recording.counts.iter().all(|x| x.abs() <= 2f64.powi(31)));
     assert!(!recording.quantised || recording.counts.iter().all(|x| x.fract() == 0.0));
+    let targets = recording.position.as_ref().map(|p| &p.target_counts);
+    assert!(targets.is_none_or(|t| t.len() == n && t.iter().all(|x| x.is_finite())));
     assert!(recording.counts_per_rev.is_finite() && recording.counts_per_rev > 0.0);
 }
 
@@ -54,15 +57,42 @@ fn read_every_way(bytes: &[u8]) {
                 },
                 ..MotorFile::default()
             };
-            match read_recording_from(bytes, "rec.csv", &motor) {
-                Ok(recording) => {
-                    check_promises(&recording);
-                    // Any verdict is fine; it must be one.
-                    drop(recording.check_excited());
-                }
-                Err(error) => assert!(error.to_string().starts_with("rec.csv:")),
-            }
+            read_one_way(bytes, &motor);
         }
+        for gain in [None, Some(3.0)] {
+            let motor = MotorFile {
+                counts_per_rev: Some(2048.0),
+                supply_v: Some(24.0),
+                metres_per_rev: Some(0.0025),
+                columns: Columns {
+                    voltage: Some("voltage_v".into()),
+                    ..Columns::default()
+                },
+                units: Units {
+                    target: Some(*angle),
+                    ..Units::default()
+                },
+                position: Some(LoopSettings {
+                    gain_v_per_rad: gain,
+                    damping_v_s_per_rad: Some(0.1),
+                    rate_hz: Some(700.0),
+                    ..LoopSettings::default()
+                }),
+                ..MotorFile::default()
+            };
+            read_one_way(bytes, &motor);
+        }
+    }
+}
+
+fn read_one_way(bytes: &[u8], motor: &MotorFile) {
+    match read_recording_from(bytes, "rec.csv", motor) {
+        Ok(recording) => {
+            check_promises(&recording);
+            // Any verdict is fine; it must be one.
+            drop(recording.check_excited());
+        }
+        Err(error) => assert!(error.to_string().starts_with("rec.csv:")),
     }
 }
 
@@ -156,6 +186,7 @@ fn recording() -> impl Strategy<Value = Recording> {
                 quantised: true,
                 supply_v: None,
                 drive: Drive::Voltage,
+                position: None,
             }
         })
 }
@@ -207,10 +238,22 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
         positive(),
         positive(),
     );
-    let units = (0..3usize, 0..4usize, 0..5usize, 0..2usize);
-    (numbers, columns, units, known).prop_map(
-        |((name, counts, supply, metres), columns, (t, v, a, i), known)| {
-            let voltage = CommandUnit::ALL[v].1;
+    let units = (0..3usize, 0..4usize, 0..5usize, 0..2usize, 0..6usize);
+    let position = prop::option::of((positive(), positive(), positive(), positive(), positive()));
+    (numbers, columns, units, position, known).prop_map(
+        |((name, counts, supply, metres), columns, (t, v, a, i, target), position, known)| {
+            let position = position.map(|(gain, damping, limit, dead, rate)| LoopSettings {
+                gain_v_per_rad: gain,
+                damping_v_s_per_rad: damping,
+                limit_v: limit,
+                dead_band_rad: dead,
+                rate_hz: rate,
+            });
+            let voltage = match position {
+                None => CommandUnit::ALL[v].1,
+                Some(_) => CommandUnit::default(),
+            };
+            let target = position.and(AngleUnit::ALL.get(target));
             let bridge = matches!(voltage, CommandUnit::Volts | CommandUnit::Duty);
             MotorFile {
                 source: Some("motor.toml".into()),
@@ -222,6 +265,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                 units: Units {
                     time: TimeUnit::ALL[t].1,
                     voltage,
+                    target: target.map(|(_, unit)| *unit),
                     angle: AngleUnit::ALL[a].1,
                     current: CurrentUnit::ALL[i].1,
                 },
@@ -230,6 +274,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                 } else {
                     Drive::Current
                 },
+                position,
                 known,
             }
         },
@@ -272,6 +317,33 @@ proptest! {
         let back = MotorFile::parse(&text, "motor.toml");
         prop_assert!(back.is_ok(), "{}\n{}", back.unwrap_err(), text);
         prop_assert_eq!(back.unwrap(), motor, "{}", text);
+    }
+}
+
+/// A position drive's targets are written in place of its volts, which come back.
+#[test]
+fn targets_are_written_and_read_back_the_same() {
+    for angle in ["angle_counts", "angle_rev"] {
+        let rows: String = (0..40)
+            .map(|k| format!("{},{},{}\n", f64::from(k) / 1e3, 5 * k, k * k))
+            .collect();
+        let unit = if angle == "angle_rev" {
+            "rev"
+        } else {
+            "counts"
+        };
+        let toml = format!(
+            "counts_per_rev = 2000\nsupply_v = 12\n[units]\nangle = \"{unit}\"\n[drive]\nkind = \"position\"\n\
+             gain_v_per_rad = 3\n"
+        );
+        let motor = MotorFile::parse(&toml, "motor.toml").unwrap();
+        let text = format!("t_s,target_{unit},{angle}\n{rows}");
+        let recording = read_recording_from(text.as_bytes(), "rec.csv", &motor).unwrap();
+        let mut bytes = Vec::new();
+        write_csv(&mut bytes, &recording, &[]).unwrap();
+        let counted = MotorFile::parse(&toml.replace("\"rev\"", "\"counts\""), "motor.toml");
+        let back = read_recording_from(&bytes[..], "rec.csv", &counted.unwrap()).unwrap();
+        assert_eq!(back, recording, "{unit}");
     }
 }
 

@@ -9,7 +9,7 @@ use shared::effects::Kind;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-fn fitted(data: &Data, effects: &[Kind], window_s: f64) -> Fit {
+pub fn fitted(data: &Data, effects: &[Kind], window_s: f64) -> Fit {
     let options = Options {
         effects: effects.to_vec(),
         window_s: Some(window_s),

@@ -9,6 +9,7 @@ mod diagnoses;
 mod fits;
 mod likelihood;
 mod limits;
+mod position;
 mod program;
 mod recordings;
 mod source;

@@ -1,6 +1,7 @@
 //! Several recordings of one motor as one.
 
 use super::{Data, Recordings};
+use servoid_io::position_loop::PositionLoop;
 use servoid_io::recording::Recording;
 use shared::error::ModelError;
 use std::ops::Range;
@@ -60,7 +61,7 @@ impl Data {
         }
         let mut list = recordings.into_iter();
         let mut whole = list.next().ok_or(JoinError::Empty)?;
-        let mut parts = Recordings::one(&whole.source, whole.len());
+        let mut parts = Recordings::one(&whole.source, whole.len()).driven_by(control(&whole));
         for next in list {
             if let Some(what) = difference(&whole, &next) {
                 return Err(JoinError::Differ {
@@ -69,7 +70,7 @@ impl Data {
                     what,
                 });
             }
-            parts.push(&next.source, next.len());
+            parts.push(&next.source, next.len(), control(&next));
             append(&mut whole, next);
         }
         whole.source = parts.sources().join(" + ");
@@ -78,15 +79,16 @@ impl Data {
 
     /// Each of the recordings alone, with the bases of all.
     pub fn parts(&self) -> impl Iterator<Item = Data> {
-        let sources = self.recordings.sources().iter();
-        (self.recordings.ranges().zip(sources)).map(|(range, source)| self.part(range, source))
+        (self.recordings.ranges().enumerate()).map(|(index, range)| self.part(index, range))
     }
 
-    fn part(&self, range: Range<usize>, source: &str) -> Data {
+    fn part(&self, index: usize, range: Range<usize>) -> Data {
+        let source = &self.recordings.sources()[index];
+        let control = self.recordings.loops()[index];
         let start = self.time_s.get(range.start).copied().unwrap_or(0.0);
         let some = |values: &[f64]| values[range.clone()].to_vec();
         Data {
-            source: source.to_owned(),
+            source: source.clone(),
             time_s: some(&self.time_s).iter().map(|t| t - start).collect(),
             command: some(&self.command),
             counts: some(&self.counts),
@@ -94,11 +96,16 @@ impl Data {
             current_a: self.current_a.as_deref().map(some),
             lengths: self.lengths.clone(),
             length_of: self.length_of[range.clone()].to_vec(),
-            recordings: Recordings::one(source, range.len()),
+            recordings: Recordings::one(source, range.len()).driven_by(control),
             end_of: None,
             ..*self
         }
     }
+}
+
+/// The position loop that made a recording's command, if one did.
+pub(super) fn control(recording: &Recording) -> Option<PositionLoop> {
+    (recording.position.as_ref()).map(|position| position.control)
 }
 
 /// In what two recordings differ that keeps them from being fitted together.
@@ -133,6 +140,8 @@ fn append(whole: &mut Recording, next: Recording) {
         (Some(one), Some(other)) => Some(one.max(other)),
         (one, other) => one.or(other),
     };
+    // The loops stand with the recordings' borders.
+    whole.position = None;
     whole.time_s.extend(next.time_s.iter().map(|t| t + shift));
     whole.command.extend(next.command);
     whole.counts.extend(next.counts);

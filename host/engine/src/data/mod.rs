@@ -66,6 +66,7 @@ impl Data {
     /// As [`new`](Self::new).
     pub fn taken(recording: Recording) -> Result<Self, ModelError> {
         let one = Recordings::one(&recording.source, recording.len());
+        let one = one.driven_by(joined::control(&recording));
         Data::of_recordings(recording, one)
     }
 

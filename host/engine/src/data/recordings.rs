@@ -1,14 +1,17 @@
 //! Where each of several recordings lies among the samples.
 
+use servoid_io::position_loop::PositionLoop;
 use std::ops::Range;
 
 /// The recordings that samples come from, one after the other. Nothing runs from one into the next.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Recordings {
     /// First sample of each; the first is 0.
     begins: Vec<usize>,
     /// Where each came from.
     sources: Vec<String>,
+    /// The position loop that made the command of each, if one did.
+    loops: Vec<Option<PositionLoop>>,
     /// Number of samples.
     end: usize,
 }
@@ -19,14 +22,25 @@ impl Recordings {
         Recordings {
             begins: vec![0],
             sources: vec![source.to_owned()],
+            loops: vec![None],
             end: samples,
         }
     }
 
+    /// The same, with the position loop that made the command of the last.
+    #[must_use]
+    pub(super) fn driven_by(mut self, control: Option<PositionLoop>) -> Self {
+        if let Some(last) = self.loops.last_mut() {
+            *last = control;
+        }
+        self
+    }
+
     /// Puts another one of so many samples behind them.
-    pub(super) fn push(&mut self, source: &str, samples: usize) {
+    pub(super) fn push(&mut self, source: &str, samples: usize, control: Option<PositionLoop>) {
         self.begins.push(self.end);
         self.sources.push(source.to_owned());
+        self.loops.push(control);
         self.end += samples;
     }
 
@@ -38,6 +52,7 @@ impl Recordings {
         Recordings {
             begins: self.begins[..count].to_vec(),
             sources: self.sources[..count].to_vec(),
+            loops: self.loops[..count].to_vec(),
             end,
         }
     }
@@ -55,6 +70,11 @@ impl Recordings {
     /// Where each came from.
     pub fn sources(&self) -> &[String] {
         &self.sources
+    }
+
+    /// The position loop that made the command of each, if one did.
+    pub fn loops(&self) -> &[Option<PositionLoop>] {
+        &self.loops
     }
 
     /// Samples of each.

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `finding` | what one look finds |
 //! | `command` | commands against the supply, and cut-off tops |
+//! | `position` | targets of a position loop against the readings, and its gain |
 //! | `clock` | the sample times |
 //! | `readings` | held readings, and readings that are no whole counts |
 //! | `standstill` | a reading that stands still although the motor is driven |
@@ -15,6 +16,7 @@
 mod clock;
 mod command;
 mod finding;
+mod position;
 mod reach;
 mod readings;
 mod response;
@@ -47,6 +49,7 @@ pub fn passed(recording: &Recording, force: bool) -> Result<Vec<Finding>, Error>
 pub fn examine(recording: &Recording) -> Vec<Finding> {
     let mut findings: Vec<Finding> = [
         command::findings,
+        position::findings,
         clock::findings,
         standstill::findings,
         readings::findings,

@@ -65,7 +65,10 @@ pub(super) fn findings(recording: &Recording) -> Vec<Finding> {
             Severity::Refusal,
             "the angle falls where the voltage should raise it, whatever gravity and friction do: the sign of the angle (or of \
              the voltage) is reversed",
-            "swap the encoder's channels or negate the column",
+            match recording.position {
+                None => "swap the encoder's channels or negate the column",
+                Some(_) => "negate the column of the angle or that of the target",
+            },
         )),
         DriveResponse::Unclear => findings.push(Finding::new(
             "no_response",
@@ -192,7 +195,10 @@ fn sign(x: f64) -> f64 {
 /// The median time from an edge of the command, after rest, to the first motion, s, and of how many edges; `None` where there is
 /// none or it is not late.
 fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
-    let (time, counts, command) = (&recording.time_s, &recording.counts, &recording.command);
+    let (time, counts) = (&recording.time_s, &recording.counts);
+    // Behind a position loop there is always some voltage: its edges are those of the target.
+    let targets = recording.position.as_ref().map(|p| &p.target_counts);
+    let command = targets.unwrap_or(&recording.command);
     let largest = command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let mut still_since = 0;
     let mut late: Vec<f64> = Vec::new();
@@ -201,7 +207,8 @@ fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
             still_since = k;
         }
         let edge = (command[k] - command[k - 1]).abs() >= EDGE * largest;
-        let rested = time[k] - time[still_since] >= REST_S && command[k - 1] == 0.0;
+        let unbiased = targets.is_some() || command[k - 1] == 0.0;
+        let rested = time[k] - time[still_since] >= REST_S && unbiased;
         if !(edge && rested) {
             continue;
         }

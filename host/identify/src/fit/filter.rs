@@ -198,6 +198,7 @@ mod tests {
             quantised: true,
             supply_v: Some(12.0),
             drive: Drive::Voltage,
+            position: None,
         };
         Data::new(&recording).expect("valid bases")
     }

@@ -2,8 +2,9 @@
 
 use super::options::Options;
 use super::uncertainty::Uncertainty;
-use servoid_engine::problem::{Base, FitProblem};
+use servoid_engine::problem::{Base, Data, FitProblem};
 use servoid_engine::solve::Found;
+use servoid_io::position_loop::GainOrigin;
 
 /// Open-loop error up to which the model explains the recording down to the encoder, counts RMS.
 pub const EXPLAINED_COUNTS: f64 = 0.35;
@@ -41,6 +42,7 @@ pub(super) fn remarks(
             "there are gaps in time, up to {longest:.4} s: the command is taken as held throughout them"
         ));
     }
+    notes.extend(estimated_gains(data));
     if found.evaluations >= options.budget {
         notes.push(format!(
             "the budget of {} evaluations ran out before the search had converged",
@@ -62,6 +64,20 @@ pub(super) fn remarks(
                 .to_owned(),
         );
     }
+}
+
+/// Gains of position loops that recordings told.
+fn estimated_gains(data: &Data) -> impl Iterator<Item = String> {
+    let loops = data.recordings.loops().iter().flatten();
+    loops.filter_map(|control| match control.origin {
+        GainOrigin::Given => None,
+        GainOrigin::Estimated(estimate) => Some(format!(
+            "the position loop's gain is estimated as {} V/rad, to {:.1} %: all that is in volts shares this error beside its \
+             own",
+            plain(control.gain_v_per_rad),
+            100.0 * estimate.relative_std
+        )),
+    })
 }
 
 /// What a user should be told about the ends of the search ranges: which parameter ended on one, and which range was widened.

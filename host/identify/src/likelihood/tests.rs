@@ -109,6 +109,7 @@ impl Motor {
             quantised: true,
             supply_v: Some(12.0),
             drive: Drive::Voltage,
+            position: None,
         }
     }
 }

@@ -23,21 +23,22 @@ pub(super) fn in_counter_range(counts: f64) -> Result<f64, ReadFault> {
 }
 
 /// Snaps converted angles to whole counts if they are whole counts plus one common fraction (an angle zeroed
-/// between two counts); the fraction is dropped, since a recording starts anywhere. Returns whether it did.
+/// between two counts); the fraction is dropped, since a recording starts anywhere. Returns the fraction, `None` where they
+/// are not whole.
 ///
 /// The common fraction is the circular mean of the readings' fractions, which no reading's own error can turn.
-pub(super) fn snap_to_whole(counts: &mut [f64]) -> bool {
+pub(super) fn snap_to_whole(counts: &mut [f64]) -> Option<f64> {
     let fraction = common_fraction(counts);
     let distance = |x: f64| (x - fraction - (x - fraction).round()).abs();
     let first = counts.first().map_or(0.0, |x| (x - fraction).round());
     let moved = counts.iter().any(|x| (x - fraction).round() != first);
     if !moved || counts.len() < SNAP_SAMPLES || counts.iter().any(|x| distance(*x) > SNAP_COUNTS) {
-        return false;
+        return None;
     }
     for x in counts {
         *x = (*x - fraction).round() + 0.0;
     }
-    true
+    Some(fraction)
 }
 
 /// Circular mean of the fractions, −0.5 … 0.5 counts.
@@ -67,7 +68,7 @@ mod tests {
             prop_assume!(whole.iter().any(|x| x != &whole[0]));
             let mut counts: Vec<f64> =
                 whole.iter().zip(&errors).map(|(x, error)| f64::from(*x) + offset + error).collect();
-            prop_assert!(snap_to_whole(&mut counts));
+            prop_assert!(snap_to_whole(&mut counts).is_some());
             for (x, y) in whole.iter().zip(&counts) {
                 prop_assert_eq!(y - counts[0], f64::from(*x) - f64::from(whole[0]));
                 prop_assert_eq!(y.fract(), 0.0);
@@ -79,15 +80,15 @@ mod tests {
         fn a_continuous_angle_stays(step in 0.21f64..0.79, start in -100.0f64..100.0) {
             let ramp: Vec<f64> = (0..50).map(|k| start + step * f64::from(k)).collect();
             let mut counts = ramp.clone();
-            prop_assert!(!snap_to_whole(&mut counts));
+            prop_assert_eq!(snap_to_whole(&mut counts), None);
             prop_assert_eq!(counts, ramp);
         }
     }
 
     #[test]
     fn too_little_to_tell_is_left_alone() {
-        assert!(!snap_to_whole(&mut []));
-        assert!(!snap_to_whole(&mut [1.0, 2.0, 3.0]));
-        assert!(!snap_to_whole(&mut [0.25; 100]));
+        assert_eq!(snap_to_whole(&mut []), None);
+        assert_eq!(snap_to_whole(&mut [1.0, 2.0, 3.0]), None);
+        assert_eq!(snap_to_whole(&mut [0.25; 100]), None);
     }
 }

@@ -14,8 +14,9 @@ use super::place::Place;
 use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
 use super::sample::{Sample, SampleReader};
-use super::scale::Scale;
-use crate::recording::Recording;
+use super::scale::{Scale, positive};
+use crate::position_loop::{Follower, LoopSettings};
+use crate::recording::{PositionDrive, Recording};
 
 /// Most samples of a recording: 4.6 hours at 1 kHz, at most 0.6 GB in memory. Longer files are refused
 /// rather than risk the memory of the machine.
@@ -120,7 +121,15 @@ impl Samples {
         if self.time_s.len() < 2 {
             return Err(ReadFault::TooFewSamples(self.time_s.len()));
         }
-        let quantised = motor.units.angle == AngleUnit::Counts || snap_to_whole(&mut self.counts);
+        let mut position = (motor.position)
+            .map(|settings| self.followed(settings, motor, scale))
+            .transpose()?;
+        let dropped = match motor.units.angle {
+            AngleUnit::Counts => Some(0.0),
+            _ => snap_to_whole(&mut self.counts),
+        };
+        let targets = position.iter_mut().flat_map(|p| &mut p.target_counts);
+        targets.for_each(|target| *target -= dropped.unwrap_or(0.0));
         Ok(Recording {
             source: source.into(),
             time_s: self.time_s,
@@ -129,9 +138,40 @@ impl Samples {
             current_a: self.current_a,
             enabled: self.enabled,
             counts_per_rev: scale.counts_per_rev,
-            quantised,
+            quantised: dropped.is_some(),
             supply_v: motor.supply_v,
             drive: motor.drive,
+            position,
+        })
+    }
+
+    /// Targets become the volts that the loop makes of them. The readings are as they came: the loop knows no other zero.
+    fn followed(
+        &mut self,
+        settings: LoopSettings,
+        motor: &MotorFile,
+        scale: &Scale,
+    ) -> Result<PositionDrive, ReadFault> {
+        let called = || motor.called().to_owned();
+        let limit = positive("limit_v", settings.limit_v.or(motor.supply_v))?;
+        let limit = limit.ok_or_else(|| ReadFault::NoLimit { motor: called() })?;
+        let target_counts = std::mem::take(&mut self.command);
+        let follower = Follower {
+            time_s: &self.time_s,
+            target_counts: &target_counts,
+            counts: &self.counts,
+            enabled: self.enabled.as_deref(),
+            counts_per_rev: scale.counts_per_rev,
+        };
+        let control = follower.control(&settings, limit);
+        let control = control.map_err(|why| ReadFault::LoopGain {
+            why,
+            motor: called(),
+        })?;
+        self.command = follower.volts(&control);
+        Ok(PositionDrive {
+            control,
+            target_counts,
         })
     }
 }

@@ -107,7 +107,7 @@ impl Finder<'_> {
 
 fn unit_told_by(name: &str, key: &str) -> Option<&'static str> {
     let endings = match key {
-        "angle" => ANGLE_ENDINGS,
+        "angle" | "target" => ANGLE_ENDINGS,
         "time" => TIME_ENDINGS,
         _ => &[],
     };

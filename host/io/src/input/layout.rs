@@ -1,12 +1,12 @@
 //! Which column of the file is what: the contract's names, or those of `[columns]`.
 
 use super::finder::{Finder, Wanted};
+use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
 use super::shown::shown;
-use crate::recording::Drive;
 
 /// The columns of one file.
 pub(super) struct Layout {
@@ -99,10 +99,13 @@ fn wanted(motor: &MotorFile) -> [Wanted<'_>; 5] {
             aliases: &["t", "time", "timestamp", "seconds"],
         },
         Wanted {
-            key: "voltage",
+            key: motor.drive_kind().command_key(),
             mapped: columns.voltage.as_deref(),
-            names: units.voltage.default_names(),
-            aliases: command_aliases(motor.drive),
+            names: match motor.drive_kind() {
+                DriveKind::Position => units.of_target().target_names(),
+                _ => units.voltage.default_names(),
+            },
+            aliases: command_aliases(motor.drive_kind()),
         },
         Wanted {
             key: "angle",
@@ -127,10 +130,10 @@ fn wanted(motor: &MotorFile) -> [Wanted<'_>; 5] {
     ]
 }
 
-fn command_aliases(drive: Drive) -> &'static [&'static str] {
-    match drive {
-        Drive::Voltage => &["voltage", "u", "v", "volts", "command", "pwm"],
-        Drive::Current => &[
+fn command_aliases(kind: DriveKind) -> &'static [&'static str] {
+    match kind {
+        DriveKind::Voltage => &["voltage", "u", "v", "volts", "command", "pwm"],
+        DriveKind::Current => &[
             "current",
             "current_a",
             "torque",
@@ -138,6 +141,18 @@ fn command_aliases(drive: Drive) -> &'static [&'static str] {
             "i",
             "voltage",
             "u",
+        ],
+        DriveKind::Position => &[
+            "target",
+            "goal",
+            "target_position",
+            "goal_position",
+            "setpoint",
+            "reference",
+            "command",
+            "goal_rad",
+            "goal_deg",
+            "action",
         ],
     }
 }

@@ -125,6 +125,16 @@ pub enum MotorFault {
         /// What to do.
         remedy: &'static str,
     },
+    /// A key that this kind of drive has no use for.
+    #[error("`{key}` does not go with a drive of kind {kind:?}; {remedy}")]
+    NotOfDrive {
+        /// The key.
+        key: &'static str,
+        /// Kind of the drive.
+        kind: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// `kt_equals_kb` contradicts the two values given.
     #[error(
         "kt_equals_kb says that kt and kb are one number, but kt_n_m_a is {kt} and kb_v_s_rad is {kb}; in SI units \

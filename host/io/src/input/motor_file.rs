@@ -7,6 +7,7 @@ use std::path::Path;
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_units::Units;
 use super::place::Place;
+use crate::position_loop::LoopSettings;
 use crate::recording::Drive;
 
 /// A motor file larger than this is something else.
@@ -30,8 +31,10 @@ pub struct MotorFile {
     pub columns: Columns,
     /// Units of the columns in the recording.
     pub units: Units,
-    /// What the command drives.
+    /// What the motor gets.
     pub drive: Drive,
+    /// What is said of the position loop, where the command is a target angle.
+    pub position: Option<LoopSettings>,
     /// Facts from a datasheet or a meter.
     pub known: Known,
 }
@@ -41,7 +44,7 @@ pub struct MotorFile {
 pub struct Columns {
     /// Time.
     pub time: Option<String>,
-    /// The command, whatever it drives.
+    /// The command, whatever it drives; `target` in the file of a position drive.
     pub voltage: Option<String>,
     /// The encoder reading or an angle.
     pub angle: Option<String>,
@@ -90,6 +93,7 @@ impl Default for MotorFile {
             columns: Columns::default(),
             units: Units::default(),
             drive: Drive::Voltage,
+            position: None,
             known: Known::default(),
         }
     }

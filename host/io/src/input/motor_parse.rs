@@ -1,13 +1,10 @@
 //! The text of a `motor.toml` to a [`MotorFile`].
 
+use super::motor_drive::{DRIVE_KEYS, DriveKind, drive};
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::{Columns, Fact, Known, MotorFile};
 use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
 use super::section::{Found, NumberOrTable, Section, Text};
-use crate::recording::Drive;
-
-pub(super) const DRIVES: &[(&str, Drive)] =
-    &[("voltage", Drive::Voltage), ("current", Drive::Current)];
 
 const FACTS: [&str; 7] = [
     "resistance_ohm",
@@ -24,7 +21,7 @@ const TOP: [&str; 4] = ["name", "counts_per_rev", "supply_v", "metres_per_rev"];
 const HOMES: [(&str, &[&str]); 4] = [
     ("", &TOP),
     ("columns", &["enabled"]),
-    ("drive", &["kind"]),
+    ("drive", &DRIVE_KEYS),
     ("known", &FACTS),
 ];
 
@@ -44,13 +41,16 @@ impl MotorFile {
             counts_per_rev: value(top.positive("counts_per_rev")?),
             supply_v: value(top.positive("supply_v")?),
             metres_per_rev: value(top.positive("metres_per_rev")?),
-            columns: columns(top.section("columns")?)?,
             ..MotorFile::default()
         };
+        let column_section = top.section("columns")?;
         let unit_section = top.section("units")?;
         let drive_section = top.section("drive")?;
-        file.drive = drive(drive_section)?;
-        file.units = units(unit_section, file.drive)?;
+        let kind;
+        (kind, file.position) = drive(drive_section)?;
+        file.drive = kind.of_motor();
+        file.columns = columns(column_section, kind)?;
+        file.units = units(unit_section, kind)?;
         file.known = known(top.section("known")?)?;
         top.finish(|key| home_of(key, ""))?;
         Ok(file)
@@ -61,10 +61,12 @@ fn value<T>(found: Option<Found<T>>) -> Option<T> {
     found.map(|found| found.value)
 }
 
-fn columns(mut section: Section<'_>) -> Result<Columns, MotorFileError> {
+fn columns(mut section: Section<'_>, kind: DriveKind) -> Result<Columns, MotorFileError> {
+    let command = kind.command_key();
+    kind.refuses_other_key(&section)?;
     let columns = Columns {
         time: section.column("time")?,
-        voltage: section.column("voltage")?,
+        voltage: section.column(command)?,
         angle: section.column("angle")?,
         current: section.column("current")?,
         enabled: section.column("enabled")?,
@@ -73,20 +75,19 @@ fn columns(mut section: Section<'_>) -> Result<Columns, MotorFileError> {
     Ok(columns)
 }
 
-fn drive(mut section: Section<'_>) -> Result<Drive, MotorFileError> {
-    let kind = value(section.word("kind", DRIVES)?);
-    section.finish(|key| home_of(key, "drive"))?;
-    Ok(kind.unwrap_or(Drive::Voltage))
-}
-
-fn units(mut section: Section<'_>, drive: Drive) -> Result<Units, MotorFileError> {
-    let voltage = section.word("voltage", CommandUnit::ALL)?;
+fn units(mut section: Section<'_>, kind: DriveKind) -> Result<Units, MotorFileError> {
+    kind.refuses_other_key(&section)?;
+    let (voltage, target) = match kind {
+        DriveKind::Position => (None, section.word("target", AngleUnit::ALL)?),
+        _ => (section.word("voltage", CommandUnit::ALL)?, None),
+    };
     if let Some(found) = &voltage {
-        fits_drive(found.value, drive).map_err(|fault| section.error(&found.span, fault))?;
+        fits_drive(found.value, kind).map_err(|fault| section.error(&found.span, fault))?;
     }
     let units = Units {
         time: value(section.word("time", TimeUnit::ALL)?).unwrap_or_default(),
         voltage: value(voltage).unwrap_or_default(),
+        target: value(target),
         angle: value(section.word("angle", AngleUnit::ALL)?).unwrap_or_default(),
         current: value(section.word("current", CurrentUnit::ALL)?).unwrap_or_default(),
     };
@@ -95,9 +96,9 @@ fn units(mut section: Section<'_>, drive: Drive) -> Result<Units, MotorFileError
 }
 
 /// A current amplifier takes volts at its input or amperes; a bridge takes volts or a duty.
-fn fits_drive(unit: CommandUnit, drive: Drive) -> Result<(), MotorFault> {
-    match (unit, drive) {
-        (CommandUnit::Amperes, Drive::Voltage) | (CommandUnit::Milliamperes, Drive::Voltage) => {
+fn fits_drive(unit: CommandUnit, kind: DriveKind) -> Result<(), MotorFault> {
+    match (unit, kind) {
+        (CommandUnit::Amperes | CommandUnit::Milliamperes, DriveKind::Voltage) => {
             let unit = if unit == CommandUnit::Amperes {
                 "A"
             } else {
@@ -110,7 +111,7 @@ fn fits_drive(unit: CommandUnit, drive: Drive) -> Result<(), MotorFault> {
                 remedy,
             })
         }
-        (CommandUnit::Duty, Drive::Current) => {
+        (CommandUnit::Duty, DriveKind::Current) => {
             let remedy = "a duty is a voltage: write kind = \"voltage\" under [drive], or give the command in V or A";
             Err(MotorFault::DriveUnit {
                 unit: "duty",
@@ -194,7 +195,7 @@ fn fact(section: &mut Section<'_>, key: &'static str) -> Result<Option<Fact>, Mo
 
 /// Where a key belongs that stands in the wrong section `here`. A key written below a `[section]` falls
 /// into it, the commonest slip in TOML.
-fn home_of(key: &str, here: &str) -> Option<String> {
+pub(super) fn home_of(key: &str, here: &str) -> Option<String> {
     let (home, _) = HOMES
         .iter()
         .find(|(home, keys)| *home != here && keys.contains(&key))?;

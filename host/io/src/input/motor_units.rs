@@ -61,6 +61,8 @@ pub struct Units {
     pub time: TimeUnit,
     /// Of the command column.
     pub voltage: CommandUnit,
+    /// Of the command column where it holds target angles; the angle's own if not said.
+    pub target: Option<AngleUnit>,
     /// Of the angle column.
     pub angle: AngleUnit,
     /// Of the current column.
@@ -91,6 +93,13 @@ impl TimeUnit {
             TimeUnit::Milliseconds => &["t_ms", "t_s"],
             TimeUnit::Microseconds => &["t_us", "t_s"],
         }
+    }
+}
+
+impl Units {
+    /// Unit of target angles.
+    pub fn of_target(&self) -> AngleUnit {
+        self.target.unwrap_or(self.angle)
     }
 }
 
@@ -142,6 +151,17 @@ impl AngleUnit {
             AngleUnit::Radians => &["angle_rad", "angle_counts"],
             AngleUnit::Revolutions => &["angle_rev", "angle_counts"],
             AngleUnit::Metres => &["position_m", "angle_counts"],
+        }
+    }
+
+    /// The same for target angles.
+    pub(super) fn target_names(self) -> &'static [&'static str] {
+        match self {
+            AngleUnit::Counts => &["target_counts"],
+            AngleUnit::Degrees => &["target_deg"],
+            AngleUnit::Radians => &["target_rad"],
+            AngleUnit::Revolutions => &["target_rev"],
+            AngleUnit::Metres => &["target_m"],
         }
     }
 }

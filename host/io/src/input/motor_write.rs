@@ -2,10 +2,9 @@
 
 use toml::Value;
 
+use super::motor_drive::DriveKind;
 use super::motor_file::{Fact, Known, MotorFile};
-use super::motor_parse::DRIVES;
 use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit};
-use crate::recording::Drive;
 
 /// A key and the text of its value, `None` where the default says it already.
 type Line = (&'static str, Option<String>);
@@ -28,7 +27,10 @@ impl MotorFile {
             "columns",
             &[
                 ("time", self.columns.time.as_deref().map(quoted)),
-                ("voltage", self.columns.voltage.as_deref().map(quoted)),
+                (
+                    self.drive_kind().command_key(),
+                    self.columns.voltage.as_deref().map(quoted),
+                ),
                 ("angle", self.columns.angle.as_deref().map(quoted)),
                 ("current", self.columns.current.as_deref().map(quoted)),
                 ("enabled", self.columns.enabled.as_deref().map(quoted)),
@@ -43,6 +45,10 @@ impl MotorFile {
                     word(CommandUnit::ALL, units.voltage, CommandUnit::default()),
                 ),
                 (
+                    "target",
+                    (units.target).and_then(|unit| name(AngleUnit::ALL, unit)),
+                ),
+                (
                     "angle",
                     word(AngleUnit::ALL, units.angle, AngleUnit::default()),
                 ),
@@ -52,9 +58,21 @@ impl MotorFile {
                 ),
             ],
         );
+        let kind = Some(self.drive_kind()).filter(|kind| *kind != DriveKind::Voltage);
+        let control = self.position.unwrap_or_default();
         let drive = section(
             "drive",
-            &[("kind", word(DRIVES, self.drive, Drive::Voltage))],
+            &[
+                ("kind", kind.map(|kind| quoted(kind.name()))),
+                ("gain_v_per_rad", control.gain_v_per_rad.map(number)),
+                (
+                    "damping_v_s_per_rad",
+                    control.damping_v_s_per_rad.map(number),
+                ),
+                ("limit_v", control.limit_v.map(number)),
+                ("dead_band_rad", control.dead_band_rad.map(number)),
+                ("rate_hz", control.rate_hz.map(number)),
+            ],
         );
         [top, columns, units, drive, known(&self.known)].concat()
     }
@@ -102,9 +120,14 @@ fn number(value: f64) -> String {
 }
 
 fn word<T: PartialEq>(all: &[(&str, T)], value: T, default: T) -> Option<String> {
-    let named = all
-        .iter()
-        .find(|(_, unit)| *unit == value && value != default);
+    if value == default {
+        return None;
+    }
+    name(all, value)
+}
+
+fn name<T: PartialEq>(all: &[(&str, T)], value: T) -> Option<String> {
+    let named = all.iter().find(|(_, unit)| *unit == value);
     named.map(|(name, _)| quoted(name))
 }
 

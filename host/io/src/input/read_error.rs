@@ -5,6 +5,7 @@ use std::io;
 use super::missing::{MissingColumn, missing_text};
 use super::place::Place;
 use super::shown::plain;
+use crate::position_loop::GainUnknown;
 
 /// A recording that cannot be used: where, and why.
 #[derive(Debug, thiserror::Error)]
@@ -197,6 +198,27 @@ pub enum ReadFault {
          {motor}, or give --supply-v"
     )]
     NoSupply {
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// A position loop of unknown limit.
+    #[error(
+        "the largest voltage of the position loop is not known; add `supply_v = 7.4` (your supply) at the top of \
+         {motor} or `limit_v = 7.4` under [drive], or give --supply-v"
+    )]
+    NoLimit {
+        /// How to speak of the motor file.
+        motor: String,
+    },
+    /// A position loop of unknown gain, in a recording that does not tell it.
+    #[error(
+        "volts cannot be told from the position loop's gain: {why}; give the gain (gain_v_per_rad = 8.4 under [drive] in \
+         {motor}, or --loop gain_v_per_rad=8.4), or record a step of the target large enough that the drive's voltage \
+         reaches its limit"
+    )]
+    LoopGain {
+        /// Why this recording does not tell it.
+        why: GainUnknown,
         /// How to speak of the motor file.
         motor: String,
     },

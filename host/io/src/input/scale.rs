@@ -15,6 +15,8 @@ pub(super) struct Scale<'m> {
     pub(super) counts_per_rev: f64,
     volts_per_duty: f64,
     angle_per_rev: f64,
+    /// The same of target angles, where the command is one.
+    target_per_rev: Option<f64>,
 }
 
 impl<'m> Scale<'m> {
@@ -30,18 +32,25 @@ impl<'m> Scale<'m> {
             _ => 1.0,
         };
         let metres = positive("metres_per_rev", motor.metres_per_rev)?;
-        let metres = match motor.units.angle {
-            AngleUnit::Metres => {
-                metres.ok_or_else(|| ReadFault::NoMetresPerRev { motor: named() })?
-            }
-            _ => 1.0,
+        let per_rev = |unit: AngleUnit| {
+            let metres = match unit {
+                AngleUnit::Metres => {
+                    metres.ok_or_else(|| ReadFault::NoMetresPerRev { motor: named() })?
+                }
+                _ => 1.0,
+            };
+            Ok(unit.per_revolution(counts_per_rev, metres))
         };
-        let angle_per_rev = motor.units.angle.per_revolution(counts_per_rev, metres);
+        let angle_per_rev = per_rev(motor.units.angle)?;
+        let target_per_rev = (motor.position)
+            .map(|_| per_rev(motor.units.of_target()))
+            .transpose()?;
         Ok(Scale {
             motor,
             counts_per_rev,
             volts_per_duty,
             angle_per_rev,
+            target_per_rev,
         })
     }
 
@@ -50,8 +59,11 @@ impl<'m> Scale<'m> {
         Ok(self.motor.units.time.seconds(time))
     }
 
-    /// Volts, or amperes where the command is a current.
+    /// Volts, amperes where the command is a current, or counts where it is a target angle.
     pub(super) fn command(&self, command: f64) -> Result<f64, ReadFault> {
+        if let Some(per_rev) = self.target_per_rev {
+            return in_counter_range(command / per_rev * self.counts_per_rev);
+        }
         Ok(match self.motor.units.voltage {
             CommandUnit::Volts | CommandUnit::Amperes => command,
             CommandUnit::Milliamperes => command / 1e3,
@@ -84,7 +96,7 @@ impl<'m> Scale<'m> {
 }
 
 /// The motor file's own reader refuses such numbers, but a flag may have set one.
-fn positive(key: &'static str, value: Option<f64>) -> Result<Option<f64>, ReadFault> {
+pub(super) fn positive(key: &'static str, value: Option<f64>) -> Result<Option<f64>, ReadFault> {
     match value {
         Some(value) if !(value.is_finite() && value > 0.0) => {
             Err(ReadFault::NotPositive { key, value })

@@ -49,7 +49,12 @@ pub(super) enum NumberOrTable<'t> {
 type Outcome<T> = Result<T, MotorFileError>;
 
 /// Facts that a user may know to be nothing at all.
-const MAY_BE_ZERO: [&str; 2] = ["inductance_h", "viscous_n_m_s"];
+const MAY_BE_ZERO: [&str; 4] = [
+    "inductance_h",
+    "viscous_n_m_s",
+    "damping_v_s_per_rad",
+    "dead_band_rad",
+];
 
 impl<'t> Section<'t> {
     /// Parses the whole file.
@@ -197,6 +202,11 @@ impl<'t> Section<'t> {
                 hint,
             },
         ))
+    }
+
+    /// Where a key stands, without asking for it.
+    pub(super) fn span_of(&self, key: &str) -> Option<Range<usize>> {
+        self.table.get(key).map(Spanned::span)
     }
 
     /// An error at a place inside this file.

@@ -189,5 +189,6 @@ fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Reco
         quantised: true,
         supply_v: Some(saved.supply_v),
         drive: Drive::Voltage,
+        position: None,
     }
 }

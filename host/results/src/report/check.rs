@@ -1,6 +1,7 @@
 //! The findings on recordings as text.
 
 use super::fold::folded;
+use super::position_loop::described;
 use crate::schema::check::{Check, Checked};
 
 /// All recordings, a block each.
@@ -20,6 +21,10 @@ fn block(checked: &Checked) -> String {
         number(checked.interval_s),
         number(checked.largest_command),
     );
+    if let Some(control) = &checked.position_loop {
+        out.push_str(&folded(&format!("  {}", described(control)), "    "));
+        out.push('\n');
+    }
     if checked.findings.is_empty() {
         out.push_str("  nothing to remark\n");
     }

@@ -8,5 +8,6 @@ pub mod html;
 mod likelihood;
 pub mod paper;
 pub mod plan;
+mod position_loop;
 pub mod style;
 pub mod text;

@@ -2,6 +2,7 @@
 
 use super::diagnosis::bars;
 use super::fold::folded;
+use super::position_loop;
 use super::style::{GOOD, HEADING, painted};
 use crate::number_text::{short, with_error};
 use crate::schema::contest::least_cost;
@@ -72,6 +73,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         data.duration_s(),
         fit.effective_samples
     )?;
+    out.push_str(&position_loop::lines(data));
     writeln!(
         out,
         "{effects}, by {} in {} model evaluations (seed {})",

@@ -1,6 +1,6 @@
 //! `servoid.check/1`: what recordings can be trusted for.
 
-use super::{VERSION, finite};
+use super::{PositionLoop, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::check;
@@ -39,7 +39,11 @@ pub struct Checked {
     pub quantised: bool,
     /// What the command drives: `voltage` or `current`.
     pub drive: String,
-    /// Largest command, V or A.
+    /// The position loop that makes volts of a target angle; absent where there is none. `drive` is then what the motor gets,
+    /// `voltage`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position_loop: Option<PositionLoop>,
+    /// Largest command, V or A; behind the position loop where there is one.
     pub largest_command: Option<f64>,
     /// What was found, the gravest first.
     pub findings: Vec<Finding>,
@@ -81,6 +85,8 @@ impl Checked {
             counts_per_rev: finite(recording.counts_per_rev),
             quantised: recording.quantised,
             drive: recording.drive.name().to_owned(),
+            position_loop: (recording.position.as_ref())
+                .map(|position| PositionLoop::new(&recording.source, &position.control)),
             largest_command: finite(largest),
             findings: findings
                 .iter()

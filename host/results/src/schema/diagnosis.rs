@@ -3,7 +3,7 @@
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::{Bounded, Likelihood};
 use super::residual::{Residual, Where};
-use super::{Machine, Model, ModelParameter, RecordingError, finite};
+use super::{Machine, Model, ModelParameter, PositionLoop, RecordingError, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose;
@@ -123,6 +123,10 @@ pub struct Diagnosis {
     /// What the command drives: `voltage` or `current`.
     #[serde(default)]
     pub drive: String,
+    /// The position loop behind each recording of target angles; absent where there is none. `drive` is then what the motor
+    /// gets, `voltage`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub position_loops: Vec<PositionLoop>,
     /// Seed of everything random.
     pub seed: u64,
     /// Whether the user stopped the work.

@@ -3,7 +3,7 @@
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::Likelihood;
-use super::{Model, RecordingError, VERSION, finite};
+use super::{Model, PositionLoop, RecordingError, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
@@ -71,6 +71,10 @@ pub struct Fit {
     /// What the command drives: `voltage` or `current`.
     #[serde(default)]
     pub drive: String,
+    /// The position loop behind each recording of target angles; absent where there is none. `drive` is then what the motor
+    /// gets, `voltage`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub position_loops: Vec<PositionLoop>,
     /// Supply, V.
     pub supply_v: Option<f64>,
     /// Encoder counts per revolution.
@@ -195,6 +199,7 @@ impl Fit {
             validate: validate.map(str::to_owned),
             recordings: fit.recordings.iter().map(Into::into).collect(),
             drive: data.drive.name().to_owned(),
+            position_loops: PositionLoop::all(data),
             supply_v: finite(data.supply),
             counts_per_rev: finite(data.units.counts_per_rev),
             sample_s: finite(data.units.interval),

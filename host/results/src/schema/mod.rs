@@ -16,6 +16,7 @@
 //! | `verification` | `servoid.verify/1` |
 //! | `proof` | `servoid.prove/1` |
 //! | `model` | a model with all its numbers, which runs again |
+//! | `position_loop` | the position loop that made the volts of a recording |
 //! | `estimate` | parameters with their errors, response, margins |
 //! | `identified` | what an export needs of any of these: the model, and how well each number is known |
 //! | `hypotheses` | what a plan needs of a diagnosis: the models that explain the data alike |
@@ -37,6 +38,7 @@ mod model;
 mod model_fault;
 mod partial;
 pub mod plan;
+pub mod position_loop;
 pub mod proof;
 mod recording_error;
 pub mod residual;
@@ -57,6 +59,7 @@ pub use model::{Integrator, Machine, Model, ModelParameter};
 pub use model_fault::ModelFault;
 pub(crate) use model_fault::{json_place, number};
 pub use plan::Plan;
+pub use position_loop::PositionLoop;
 pub use proof::Proof;
 pub use recording_error::RecordingError;
 pub use residual::Residual;

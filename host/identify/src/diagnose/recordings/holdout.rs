@@ -127,6 +127,7 @@ mod tests {
             quantised: true,
             supply_v: None,
             drive: Drive::Voltage,
+            position: None,
             time_s,
         }
     }

@@ -3,7 +3,7 @@
 use super::DiagnosisReport;
 use crate::schema::diagnosis::{Alternative, Base, Candidate, Final, HeldOut, SCHEMA, Step};
 use crate::schema::residual::{Residual, Where};
-use crate::schema::{Diagnosis, Model, VERSION, finite};
+use crate::schema::{Diagnosis, Model, PositionLoop, VERSION, finite};
 use servoid_identify::diagnose::{self, FittedModel, Remark};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -57,6 +57,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
                 .to_owned(),
             recordings: report.recordings.iter().map(Into::into).collect(),
             drive: report.data.drive.name().to_owned(),
+            position_loops: PositionLoop::all(report.data),
             seed: report.seed,
             interrupted: report.interrupted,
             ran_out: diagnosis.ran_out,

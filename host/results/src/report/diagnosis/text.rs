@@ -5,6 +5,7 @@ use super::residual::{table, whiteness_text};
 use super::{DiagnosisReport, names};
 use crate::report::fold::folded;
 use crate::report::likelihood;
+use crate::report::position_loop;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
@@ -28,6 +29,7 @@ impl DiagnosisReport<'_> {
         let end = self.data.duration_s();
         let samples = self.data.len();
         writeln!(out, "{}: {samples} samples, {end:.3} s", self.data.source)?;
+        out.push_str(&position_loop::lines(self.data));
         writeln!(out, "{}\n", folded(&self.held_out_text(), ""))?;
         writeln!(out, "{}\n", verdict(self.verdict(), &self.verdict_text()))?;
         self.ladder(out)?;
