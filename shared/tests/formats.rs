@@ -86,14 +86,13 @@ fn every_format_stays_within_one_count_of_f64_over_ten_seconds() {
 fn every_effect_in_every_format_stays_within_one_count_of_f64() {
     let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
     for bench in &BENCHES {
-        for &kind in Kind::ALL {
-            let values: Vec<f64> = typical(kind, bench);
+        for (kind, values) in Kind::ALL.iter().flat_map(|&kind| in_all_forms(kind, bench)) {
             let plan = plan(bench, &[(kind, &values)]);
             let exact = run::<f64>(&plan, &drive);
             let single = furthest(&exact, &run::<f32>(&plan, &drive));
             let fixed = furthest(&exact, &run::<Fixed>(&plan, &drive));
             println!(
-                "{:34} {:14}: f32 {single:.4}, fixed {fixed:.5}",
+                "{:34} {:14}: f32 {single:.4}, fixed {fixed:.5} {values:?}",
                 bench.name,
                 kind.name()
             );
@@ -121,4 +120,21 @@ fn typical(kind: Kind, bench: &Bench) -> Vec<f64> {
         .iter()
         .map(|p| p.scaled(p.typical, bench.supply, no_load))
         .collect()
+}
+
+/// Typical values of an effect in SI for a bench, in the textbook's form and at both ends of its blends.
+fn in_all_forms(kind: Kind, bench: &Bench) -> Vec<(Kind, Vec<f64>)> {
+    let mut all = vec![(kind, typical(kind, bench))];
+    for (index, parameter) in kind.parameters().iter().enumerate() {
+        if parameter.form {
+            for end in [parameter.range.0, parameter.range.1] {
+                // Not at the typical size: a form that jumps would jump at a command of the mix, on either side of it by the
+                // format's last digit.
+                let mut values: Vec<f64> = typical(kind, bench).iter().map(|x| 1.003 * x).collect();
+                values[index] = end;
+                all.push((kind, values));
+            }
+        }
+    }
+    all
 }
