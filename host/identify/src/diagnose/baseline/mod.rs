@@ -111,8 +111,7 @@ fn is_explained(context: &Context<'_>, chosen: &FittedModel) -> bool {
 /// The best of those that predict no worse than the baseline; of these the ones with the chosen effects first.
 fn select(rated: Vec<Rated>, chosen: &FittedModel, limit: &Prediction) -> Option<Rated> {
     // Each parameter has its price: of models that predict alike the simplest is taken.
-    let penalty =
-        |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.parameters.len() as f64;
+    let penalty = |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.freedom() as f64;
     let allowed = if chosen.observed.is_some() {
         CHAOTIC
     } else {
