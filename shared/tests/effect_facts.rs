@@ -35,6 +35,21 @@ fn names_of_effects_and_of_the_parameters_of_each_are_unique() {
 }
 
 #[test]
+fn a_form_is_the_last_parameter_and_has_the_textbooks_and_its_relative_inside_its_range() {
+    for &kind in Kind::ALL {
+        let parameters = kind.parameters();
+        for (index, form) in parameters.iter().enumerate().filter(|(_, p)| p.form) {
+            assert_eq!(index + 1, parameters.len(), "{kind:?}.{}", form.name);
+            assert_eq!(
+                form.typical, 0.0,
+                "{kind:?}: the textbook's form is typical"
+            );
+            assert!(form.range.0 <= 0.0 && 1.0 < form.range.1, "{kind:?}");
+        }
+    }
+}
+
+#[test]
 fn whatever_an_effect_says_of_others_is_of_effects_of_the_catalogue() {
     for &kind in Kind::ALL {
         for name in kind.description().look_alikes {

@@ -54,7 +54,8 @@ fn motor(rng: &mut Generator) -> Plan<f64> {
     }
 }
 
-/// The typical effects of a motor, each parameter between a third and three times its typical value, within its range.
+/// The typical effects of a motor, each parameter between a third and three times its typical value, within its range;
+/// any form.
 fn with_effects(plan: Plan<f64>, kinds: &[Kind], rng: &mut Generator) -> Plan<f64> {
     let supply = plan.units.volts;
     let no_load = supply * plan.machine.response().gain;
@@ -63,6 +64,9 @@ fn with_effects(plan: Plan<f64>, kinds: &[Kind], rng: &mut Generator) -> Plan<f6
         let parameters = kind.parameters().iter();
         let values: Vec<f64> = parameters
             .map(|p| {
+                if p.form {
+                    return p.range.0 + (p.range.1 - p.range.0) * rng::uniform::<f64>(rng);
+                }
                 let value = p.typical * between(rng, 1.0 / 3.0, 3.0);
                 p.scaled(value.clamp(p.range.0, p.range.1), supply, no_load)
             })

@@ -3,7 +3,7 @@
 
 mod motors;
 
-use motors::{BENCHES, INTERVAL, furthest, run};
+use motors::{BENCHES, Bench, INTERVAL, furthest, run};
 use shared::effects::Kind;
 use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
 use shared::scalar::Fixed;
@@ -53,13 +53,13 @@ fn every_format_stays_within_one_count_of_f64_over_ten_seconds() {
 fn every_effect_in_every_format_stays_within_one_count_of_f64() {
     let drive: Vec<_> = commands::<f64>(&COMMISSIONING, INTERVAL, 1).collect();
     for bench in &BENCHES {
-        for &kind in Kind::ALL {
-            let plan = bench.plan(&[(kind, &bench.typical(kind))], SUBSTEPS);
+        for (kind, values) in Kind::ALL.iter().flat_map(|&kind| in_all_forms(kind, bench)) {
+            let plan = bench.plan(&[(kind, &values)], SUBSTEPS);
             let exact = run::<f64>(&plan, &drive);
             let single = furthest(&exact, &run::<f32>(&plan, &drive));
             let fixed = furthest(&exact, &run::<Fixed>(&plan, &drive));
             println!(
-                "{:34} {:14}: f32 {single:.4}, fixed {fixed:.5}",
+                "{:34} {:14}: f32 {single:.4}, fixed {fixed:.5} {values:?}",
                 bench.name,
                 kind.name()
             );
@@ -77,4 +77,21 @@ fn every_effect_in_every_format_stays_within_one_count_of_f64() {
             );
         }
     }
+}
+
+/// Typical values of an effect in SI for a bench, in the textbook's form and at both ends of its blends.
+fn in_all_forms(kind: Kind, bench: &Bench) -> Vec<(Kind, Vec<f64>)> {
+    let mut all = vec![(kind, bench.typical(kind))];
+    for (index, parameter) in kind.parameters().iter().enumerate() {
+        if parameter.form {
+            for end in [parameter.range.0, parameter.range.1] {
+                // Not at the typical size: a form that jumps would jump at a command of the mix, on either side of it by the
+                // format's last digit.
+                let mut values: Vec<f64> = bench.typical(kind).iter().map(|x| 1.003 * x).collect();
+                values[index] = end;
+                all.push((kind, values));
+            }
+        }
+    }
+    all
 }

@@ -98,6 +98,16 @@ pub fn identify_data(
         problem = again;
         found = better;
     }
+    if !found.interrupted
+        && let Some(again) = fit::forms::with_forms_free(&problem, &found)
+    {
+        let spent = found.evaluations;
+        let freed = search(&again, solver.as_ref(), options, spent, progress);
+        if fit::forms::earned(&problem, &found, &freed) {
+            problem = again;
+            found = freed;
+        }
+    }
     let mut fit = Fit::conclude(
         &problem,
         &options.algorithm,

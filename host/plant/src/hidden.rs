@@ -112,7 +112,18 @@ impl Hidden {
 
     /// True parameters of the effect in a model that is referred to the winding: see [`Kind::truth`].
     pub fn truth(&self, machine: &Machine, counts_per_rev: u32) -> Vec<f64> {
-        (self.kind.truth)(&self.effective(), machine, counts_per_rev)
+        let mut truth = (self.kind.truth)(&self.effective(), machine, counts_per_rev);
+        let form = self.law.and_then(|law| law.form);
+        if let Some((last, form)) = truth.last_mut().zip(form) {
+            *last = form;
+        }
+        truth
+    }
+
+    /// The names of its effect's other curves that a model can be, by its last parameter.
+    pub fn other_forms(&self) -> impl Iterator<Item = &'static str> {
+        let laws = self.kind.other_laws.iter();
+        laws.filter(|law| law.form.is_some()).map(|law| law.name)
     }
 
     /// The effect's name.

@@ -132,3 +132,21 @@ fn every_shape_of_the_stribeck_hump_leaves_the_encoders_own_error_on_every_machi
         }
     }
 }
+
+#[test]
+fn every_other_form_leaves_the_encoders_own_error_on_every_machine() {
+    for name in PRESETS {
+        let machine = Machine::preset(name).expect("a preset");
+        for kind in Kind::ALL {
+            let typical = Hidden::typical(kind.name(), &machine).expect("in the catalogue");
+            for law in typical.other_forms() {
+                let hidden = vec![typical.clone().by_law(law).expect("its own law")];
+                let run = record(machine, hidden.clone(), &COMMISSIONING);
+                let error = rms(&machine, &hidden, &run, FINE);
+                let case = format!("{name} with {} as {law}", kind.name());
+                println!("{case}: {error:.4} counts RMS");
+                assert!(LIMITS.contains(&error), "{case}: {error} counts RMS");
+            }
+        }
+    }
+}

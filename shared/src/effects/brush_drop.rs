@@ -6,7 +6,7 @@ use super::{
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
-/// A voltage against the current: proportional up to the knee, constant beyond.
+/// A voltage against the current: proportional up to the knee, constant beyond. Its form is blended into a hyperbolic tangent.
 #[derive(Clone, Copy, Debug)]
 pub struct BrushDrop<S> {
     brush: Brush<S>,
@@ -22,12 +22,17 @@ impl<S: Scalar> Effect<S> for BrushDrop<S> {
         parameters: &[
             Parameter::amplitude("voltage", Quantity::Voltage, (0.0, 0.5), 0.04),
             Parameter::shape("knee", Quantity::Voltage, (0.001, 0.1), 0.01),
+            // Nothing is sharper than a sharp knee.
+            Parameter {
+                range: (0.0, 1.5),
+                ..Parameter::form("form")
+            },
         ],
-        equation: "v = u - Vb*max(-1, min(R*i/V0, 1))",
+        equation: "v = u - Vb*((1 - f)*max(-1, min(R*i/V0, 1)) + f*tanh(R*i/V0))",
         signature: "residual voltage changes sign with the current and does not grow with it",
         exposed_by: "braking and driving at the same speed; coasting tells it from friction",
         look_alikes: &["coulomb", "dead_zone"],
-        source: "Modelica Standard Library, Machines.Losses.DCMachines.Brush",
+        source: "Modelica Standard Library, Machines.Losses.DCMachines.Brush; Hughes, Drury, Electric Motors and Drives, 2019 (rounded)",
         facts: Facts {
             starts: Starts::Shares(&[(1, &[1.0, 0.2])]),
             evidence: Evidence::ChangesSign,
@@ -53,6 +58,7 @@ impl<S: Scalar> Effect<S> for BrushDrop<S> {
             brush: Brush {
                 drop: units.number(values[0], Quantity::Voltage),
                 knee: units.number(values[1], Quantity::Voltage),
+                form: units.number(values[2], Quantity::Ratio),
             },
         }
     }

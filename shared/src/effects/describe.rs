@@ -4,7 +4,10 @@ use super::Facts;
 use crate::units::Quantity;
 
 /// Most parameters of one effect.
-pub const MAX_PARAMETERS: usize = 5;
+pub const MAX_PARAMETERS: usize = 6;
+
+/// Range of a blend of two forms: neither of the two is at its end.
+const FORMS: (f64, f64) = (-0.5, 1.5);
 
 /// One parameter of an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +29,9 @@ pub struct Parameter {
     /// Value, in the same measure as the range, at which the effect vanishes; `None` for a
     /// parameter that only shapes it.
     pub neutral: Option<f64>,
+    /// Whether it bends the textbook's equation, which it is at 0, towards a relative of it. It is held there until a
+    /// recording speaks for another form, so that freedom costs nothing where the textbook is right.
+    pub form: bool,
 }
 
 impl Parameter {
@@ -44,6 +50,7 @@ impl Parameter {
             typical,
             amplitude: true,
             neutral: Some(0.0),
+            form: false,
         }
     }
 
@@ -62,6 +69,16 @@ impl Parameter {
             typical,
             amplitude: false,
             neutral: None,
+            form: false,
+        }
+    }
+
+    /// A parameter that blends the textbook's form, at 0, into the relative that the equation states, at 1. Both lie
+    /// inside the range. Where a model does not state it, it is 0.
+    pub const fn form(name: &'static str) -> Self {
+        Parameter {
+            form: true,
+            ..Parameter::shape(name, Quantity::Ratio, FORMS, 0.0)
         }
     }
 

@@ -10,6 +10,9 @@ pub struct Facts {
     pub contains: &'static [Contained],
     /// Where a search for its parameters starts.
     pub starts: Starts,
+    /// Whether the relative of its form is so unlike the textbook's that a search must look at both: a fit of the one
+    /// is no start for the other.
+    pub both_forms: bool,
     /// Whether a search for it takes as long as a dozen others, so that it is tried where nothing else will do.
     pub costly: bool,
     /// Whether a series-parallel model, which is set to the measured state at every sample, follows it: not
@@ -36,6 +39,7 @@ impl Facts {
     pub const PLAIN: Facts = Facts {
         contains: &[],
         starts: Starts::Typical,
+        both_forms: false,
         costly: false,
         series_parallel: true,
         by_chance: false,

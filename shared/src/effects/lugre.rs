@@ -15,11 +15,17 @@ use crate::units::{PerUnit, Quantity};
 /// For a steady speed the bristles have an exact solution, and only the travel `a` (in deflections)
 /// enters: `u` tends to `±(1 + r·exp…)` as `exp(−|a|/(1 + r·exp…))`. It is used for each part, so
 /// that the part may be much longer than the bristles take to bend.
+///
+/// Its form is blended into damping `σ1·exp(−(ω/ωs)²)`, which leaves fast sliding alone (Olsson).
 #[derive(Clone, Copy, Debug)]
 pub struct Lugre<S: Scalar> {
     torque: S,
     /// Deflections beyond one at which slow bristles slide.
-    excess: Hump<S>,
+    excess: S,
+    /// How slow they are: one at rest.
+    slow: Hump<S>,
+    /// Part of the damping that falls with the speed.
+    form: S,
     /// Travel that bends the bristles as far as they go, turns.
     far: S,
     per_deflection: S::Coefficient,
@@ -34,6 +40,8 @@ pub struct Lugre<S: Scalar> {
 lanes!(Lugre {
     torque,
     excess,
+    slow,
+    form,
     far,
     per_deflection,
     damping,
@@ -55,12 +63,13 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
             Parameter::shape("speed", Quantity::Speed, (0.001, 0.3), 0.03),
             Parameter::shape("presliding", Quantity::Angle, (0.0005, 0.1), 0.008),
             Parameter::shape("damping_time", Quantity::Time, (0.0, 0.05), 0.003),
+            Parameter::form("form"),
         ],
-        equation: "dz/dt = w - |w|*z/zs(w), T = s0*(z + t1*dz/dt), s0*zs(w) = Tc*(1 + r*exp(-(w/ws)^2)), zs(0) = presliding",
+        equation: "dz/dt = w - |w|*z/zs(w), T = s0*(z + t1*(1 - f + f*exp(-(w/ws)^2))*dz/dt), s0*zs(w) = Tc*(1 + r*exp(-(w/ws)^2)), zs(0) = presliding",
         signature: "hysteresis at small reversals; the angle moves before it breaks away",
         exposed_by: "small reversals below break-away",
         look_alikes: &["coulomb", "stribeck", "backlash", "compliance"],
-        source: "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40(3), 1995",
+        source: "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40(3), 1995; Olsson, Control Systems with Friction, 1996 (falling damping)",
         facts: Facts {
             contains: &[
                 Contained {
@@ -109,7 +118,9 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         let deflection = presliding.max(SHORTEST) / (1.0 + excess);
         Lugre {
             torque: units.number(values[0], Quantity::Torque),
-            excess: Hump::new(R::from_f64(excess), speed, R::from_f64(2.0)),
+            excess: S::from_f64(excess),
+            slow: Hump::new(R::from_f64(1.0), speed, R::from_f64(2.0)),
+            form: units.number(values[5], Quantity::Ratio),
             far: S::from_f64(4.0 * REACH * deflection),
             per_deflection: S::coefficient(1.0 / deflection),
             damping: units.multiplier::<S>(values[4], Quantity::Time),
@@ -130,8 +141,8 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
         let further = compliance.times(self.per_deflection) * bent.further;
         Stiff {
             torque: self.torque * (bent.mean - late * bent.further)
-                + self.damped(self.torque * (bent.end - memory), shaft),
-            slope: further.times(half) + self.damped(further, shaft),
+                + self.damped(self.torque * (bent.end - memory), shaft) * bent.damping,
+            slope: further.times(half) + self.damped(further, shaft) * bent.damping,
             doubt: self.torque * late.abs() * bent.to_go,
         }
     }
@@ -152,6 +163,8 @@ struct Bent<S> {
     to_go: S,
     /// By how much it grows there with further travel, both in deflections; not negative.
     further: S,
+    /// Part of the damping that the speed leaves; not negative.
+    damping: S,
 }
 
 impl<S: Scalar> Lugre<S> {
@@ -169,11 +182,11 @@ impl<S: Scalar> Lugre<S> {
     fn bent(&self, from: S, shaft: &Shaft<S>) -> Bent<S> {
         let one = S::from_f64(1.0);
         let half = S::from_f64(0.5);
-        let steady = one
-            + shaft.mean_over_speed(
-                #[inline(always)]
-                |speed| self.excess.at(speed),
-            );
+        let slow = shaft.mean_over_speed(
+            #[inline(always)]
+            |speed| self.slow.at(speed),
+        );
+        let steady = one + self.excess * slow;
         // A quarter of the deflections travelled, x/4, at most seven: its eighth is a part.
         let quarter = S::coefficient(0.25);
         let travel = shaft.travel.abs().min(self.far).times(quarter);
@@ -199,6 +212,7 @@ impl<S: Scalar> Lugre<S> {
             end: goal + gap * left,
             to_go,
             further: (share * left).times(S::coefficient(2.0)),
+            damping: (one - self.form + self.form * slow).max(S::zero()),
         }
     }
 }

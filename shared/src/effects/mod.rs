@@ -40,12 +40,13 @@ mod hump;
 mod lowered;
 mod set;
 mod shaft;
+mod tangent;
 
 pub use describe::{Description, MAX_PARAMETERS, Parameter, Place};
 pub use facts::{AtSpeed, Contained, Evidence, Facts, Order, Other, Pair, Starts, ToldFrom, Value};
 pub use lowered::Lowered;
 pub use set::EffectSet;
-pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, Winding};
+pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, WHOLE_DROP, Winding};
 
 use crate::motor::Machine;
 use crate::scalar::{FromLanes, Real, Scalar};

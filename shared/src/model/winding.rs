@@ -10,10 +10,10 @@
 //! defines the volts `E` that the plain winding must see instead. Its mean is solved for, with the
 //! gain `g` of the mean current: the current follows within the substep when the winding is fast, and
 //! an explicit formula would overshoot. `D = Vb·clamp(c/knee, ±1)` has one bend each way and is
-//! solved exactly.
+//! solved exactly; a rounded knee by Newton's method from there.
 
 use super::substep_map::SubstepTiming;
-use crate::effects::{Brush, Shaft, Winding};
+use crate::effects::{Brush, Shaft, WHOLE_DROP, Winding};
 use crate::scalar::{Mask, Scalar};
 
 /// Volts `E` of a substep whose mean shaft, with the plain winding at `volts`, is `free`.
@@ -45,9 +45,38 @@ pub fn extra_volts<S: Scalar>(
     // The current without brushes, times the stiffness.
     let current = free.current * stiffness + gain * given;
     let most = brush.drop + rate * brush.drop;
-    let part = current.abs().part_of(brush.knee * stiffness + gain * most);
+    let knee = brush.knee * stiffness;
+    let mut part = current.abs().part_of(knee + gain * most);
+    if brush.is_rounded().any() {
+        let rounded = rounded_part(brush, current.abs(), part, knee, gain * most);
+        part = S::select(brush.is_rounded(), rounded, part);
+    }
     let drop = most * part * current.signum();
     (given - drop) * scale
+}
+
+/// Newton's steps for a rounded knee. It is a concave curve but for the corner that a blend has.
+const NEWTON_STEPS: usize = 8;
+
+/// The part of the drop that a rounded knee loses: `knee·u + most·φ(u) = current` for the current `u` in knees, from where the
+/// `sharp` one has it.
+#[inline(always)]
+fn rounded_part<S: Scalar>(brush: &Brush<S>, current: S, sharp: S, knee: S, most: S) -> S {
+    let zero = S::zero();
+    let farthest = S::from_f64(WHOLE_DROP);
+    let whole = knee * farthest;
+    let beyond = (current - most).max(zero).part_of(whole) * farthest;
+    let mut knees = sharp.max(beyond);
+    for _ in 0..NEWTON_STEPS {
+        let (part, slope) = brush.lost(knees);
+        let missing = current - knee * knees - most * part;
+        // A blend beyond the sharp knee falls a little, and must not turn the step round.
+        let steep = (knee + most * slope).max(knee.times(S::coefficient(0.25)));
+        let step = missing.abs().part_of(steep * farthest) * farthest;
+        let (up, down) = (step.min(farthest - knees), step.min(knees));
+        knees = S::select(missing.less(zero), knees - down, knees + up);
+    }
+    brush.lost(knees).0
 }
 
 /// Whether the current passes a bend of the brushes' law within the substep.

@@ -70,13 +70,21 @@ impl Structure {
         for &kind in effects {
             for parameter in kind.parameters() {
                 let scaled = |x| parameter.scaled(x, data.supply, no_load);
+                let name = format!("{}.{}", kind.name(), parameter.name);
+                let unit = parameter.quantity.unit();
+                if parameter.form {
+                    let (low, high) = parameter.range;
+                    let range = (scaled(low), scaled(high));
+                    unknowns.push(Unknown::held(&name, unit, 0.0, range));
+                    continue;
+                }
                 let most = match kind {
                     Kind::Delay => longest_delay(data, parameter.range.1),
                     _ => scaled(parameter.range.1),
                 };
                 let unknown = Unknown::new(
-                    &format!("{}.{}", kind.name(), parameter.name),
-                    parameter.quantity.unit(),
+                    &name,
+                    unit,
                     (scaled(parameter.range.0), most),
                     if parameter.amplitude || parameter.range.0 <= 0.0 {
                         Scale::Linear
@@ -139,6 +147,54 @@ impl Structure {
             any |= unknown.widen_at(x);
         }
         any.then_some(wider)
+    }
+
+    /// The same with every form searched for that is held at the textbook's; `None` where none is.
+    pub fn with_forms_free(&self) -> Option<Structure> {
+        let mut freed = self.clone();
+        freed.unknowns.iter_mut().for_each(Unknown::free);
+        (freed.held() < self.held()).then_some(freed)
+    }
+
+    /// The same with the form of `kind` held at `form`.
+    #[must_use]
+    pub fn with_form_at(mut self, kind: Kind, form: f64) -> Self {
+        for parameter in kind.parameters().iter().filter(|parameter| parameter.form) {
+            let name = format!("{}.{}", kind.name(), parameter.name);
+            let of_kind = |unknown: &&mut Unknown| unknown.name == name;
+            for unknown in self.unknowns.iter_mut().filter(of_kind) {
+                unknown.hold_at(form);
+            }
+        }
+        self
+    }
+
+    /// Searches for the forms that `other` searches for, and holds the others where it holds them.
+    pub fn take_forms_of(&mut self, other: &Structure) {
+        let held = self.unknowns.iter_mut().filter(|u| u.held_from.is_some());
+        for unknown in held {
+            let same = other.unknowns.iter().find(|u| u.name == unknown.name);
+            match same {
+                Some(known) if known.held_from.is_some() => unknown.hold_at(known.range.0),
+                Some(_) => unknown.free(),
+                None => {}
+            }
+        }
+    }
+
+    /// Searches for the forms that are not the textbook's in `values`, which has a value of each unknown.
+    pub fn free_forms_in(&mut self, values: &[f64]) {
+        for (unknown, &value) in self.unknowns.iter_mut().zip(values) {
+            if value != 0.0 {
+                unknown.free();
+            }
+        }
+    }
+
+    /// How many of the unknowns are held.
+    pub fn held(&self) -> usize {
+        let held = |unknown: &&Unknown| unknown.held_from.is_some();
+        self.unknowns.iter().filter(held).count()
     }
 
     /// Number of unknowns.

@@ -27,6 +27,8 @@ pub struct Unknown {
     pub usual: f64,
     /// Upper end to which the range may be widened.
     pub widest: f64,
+    /// The range that it has when it is searched for, where it is held at one value so far.
+    pub held_from: Option<(f64, f64)>,
     /// How the range is searched.
     pub scale: Scale,
 }
@@ -39,7 +41,31 @@ impl Unknown {
             range,
             usual: range.1,
             widest: range.1,
+            held_from: None,
             scale,
+        }
+    }
+
+    /// One that stays at `value` until it is [freed](Self::free).
+    pub(super) fn held(name: &str, unit: &'static str, value: f64, range: (f64, f64)) -> Self {
+        Unknown {
+            held_from: Some(range),
+            ..Unknown::new(name, unit, (value, value), Scale::Linear)
+        }
+    }
+
+    /// Holds it at another value, where it is held.
+    pub(super) fn hold_at(&mut self, value: f64) {
+        if self.held_from.is_some() {
+            self.range = (value, value);
+            (self.usual, self.widest) = self.range;
+        }
+    }
+
+    /// Searches for it, where it was held.
+    pub(super) fn free(&mut self) {
+        if let Some(range) = self.held_from {
+            self.confine(range);
         }
     }
 
@@ -52,6 +78,7 @@ impl Unknown {
     pub fn confine(&mut self, range: (f64, f64)) {
         self.range = range;
         (self.usual, self.widest) = (range.1, range.1);
+        self.held_from = None;
     }
 
     /// Whether the coordinate `x` is beyond the usual range, in a part that a search has added.

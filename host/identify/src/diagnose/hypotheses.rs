@@ -85,7 +85,7 @@ fn sorted(effects: &[Kind]) -> Vec<Kind> {
 /// Weight of a model beside the chosen one, of which none is better: what was chosen was judged by more than these errors.
 fn weight(model: &FittedModel, chosen: &FittedModel, per_parameter: f64) -> f64 {
     let behind = (model.judged().score() - chosen.judged().score()).max(0.0);
-    let (parameters, effects) = (model.parameters.len() as f64, model.effects.len() as f64);
+    let (parameters, effects) = (model.freedom() as f64, model.effects.len() as f64);
     (-behind / TEMPERATURE - per_parameter * parameters - PER_EFFECT * effects).exp()
 }
 

@@ -93,7 +93,7 @@ fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<FittedModel,
         .flat_map(|(_, values)| values.to_vec())
         .collect();
     let data = context.data;
-    let structure = Structure::around(
+    let mut structure = Structure::around(
         data,
         base_for(data, &effects),
         &effects,
@@ -101,6 +101,7 @@ fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<FittedModel,
         candidate.start_speed != 0.0,
     );
     let x = structure.values_of(&candidate.machine, &values, candidate.start_speed);
+    structure.free_forms_in(&x);
     let x = structure.coordinates(&x);
     let squares = fit_problem(context, &structure, context.method).cost(&x);
     let found = Descent {

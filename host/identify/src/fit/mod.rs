@@ -7,6 +7,7 @@
 //! | `regression` | a first guess at the model, without a simulation |
 //! | `start` | the problem that recording and options state, started at the best guess |
 //! | `search` | its search by one method |
+//! | `forms` | other forms than the textbook's, where those leave something to explain |
 //! | `correlation_time` | for how long an error is correlated with itself |
 //! | `sensitivity` | sums over the Jacobian of the residuals |
 //! | `uncertainty` | the covariance of the unknowns |
@@ -25,6 +26,7 @@ mod bound;
 mod correlation_time;
 mod error_ladder;
 pub(crate) mod filter;
+pub(crate) mod forms;
 pub mod margins;
 mod options;
 pub mod physical;

@@ -254,7 +254,9 @@ fn parameters(
     let mut parameters = Vec::new();
     let torque_scale = reconciled.and_then(|r| r.volts_per_torque);
     let mut in_volts = false;
-    for (k, unknown) in problem.structure.unknowns.iter().enumerate() {
+    // A form that is held at the textbook's is nothing that was found; its relative, one of two, was chosen.
+    let unknowns = problem.structure.unknowns.iter().enumerate();
+    for (k, unknown) in unknowns.filter(|(k, u)| u.held_from.is_none() || values[*k] != 0.0) {
         let std = spread
             .and_then(|s| s.std(k))
             .filter(|std| *std < values[k].abs().max(1e-300) * 1e3);
@@ -272,7 +274,8 @@ fn parameters(
                 None => in_volts = true,
             }
         }
-        if parameter.std.is_none() && spread.is_some_and(|s| s.converged) {
+        let chosen = unknown.held_from.is_some();
+        if parameter.std.is_none() && !chosen && spread.is_some_and(|s| s.converged) {
             notes.push(format!(
                 "{}: this recording does not determine it",
                 parameter.name

@@ -146,8 +146,10 @@ impl Trial<'_> {
 fn problem<'a>(data: &'a Data, hypothesis: &Hypothesis, options: &Options) -> FitProblem<'a> {
     let base = Base::Response { damping: true };
     let machine = &hypothesis.machine;
-    let structure = Structure::around(data, base, &hypothesis.effects, machine, false);
-    let start = structure.coordinates(&values_of(&structure, hypothesis));
+    let mut structure = Structure::around(data, base, &hypothesis.effects, machine, false);
+    let values = values_of(&structure, hypothesis);
+    structure.free_forms_in(&values);
+    let start = structure.coordinates(&values);
     FitProblem {
         data,
         structure,

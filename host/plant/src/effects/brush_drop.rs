@@ -42,6 +42,7 @@ pub(super) static KIND: Kind = Kind {
                 inductance_h: machine.inductance_h,
             })
         },
+        form: Some(1.0),
     }],
     build: |values, machine| {
         Box::new(BrushDrop {
@@ -51,7 +52,7 @@ pub(super) static KIND: Kind = Kind {
         })
     },
     draw: |typical, _, random| vec![("knee", typical[1] * random.log_uniform(0.3, 3.0))],
-    truth: |values, machine, _| vec![values[0], values[1] * machine.resistance_ohm],
+    truth: |values, machine, _| vec![values[0], values[1] * machine.resistance_ohm, 0.0],
 };
 
 impl Effect for BrushDrop {

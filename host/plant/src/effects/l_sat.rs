@@ -32,6 +32,7 @@ pub(super) static KIND: Kind = Kind {
                 rate_per_s: machine.resistance_ohm / machine.inductance_h,
             })
         },
+        form: Some(1.0),
     }],
     build: |values, machine| {
         Box::new(LSat {
@@ -40,7 +41,7 @@ pub(super) static KIND: Kind = Kind {
         })
     },
     draw: only_its_size,
-    truth: |values, machine, _| vec![machine.per_square_volt(values[0])],
+    truth: |values, machine, _| vec![machine.per_square_volt(values[0]), 0.0],
 };
 
 impl Effect for LSat {

@@ -30,6 +30,7 @@ pub(super) static KIND: Kind = Kind {
                 speed_rad_s: 0.03 * machine.top_speed_rad_s(),
             })
         },
+        form: None,
     }],
     build: |values, _| Box::new(LoadFriction { share: values[0] }),
     draw: only_its_size,

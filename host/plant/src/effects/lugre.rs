@@ -65,6 +65,7 @@ pub(super) static KIND: Kind = Kind {
         name: "falling_damping",
         about: "the damping of the bristles falls as exp(-(w/ws)^2)",
         build: |values, machine| Box::new(Lugre::new(values, machine, true)),
+        form: Some(1.0),
     }],
     build: |values, machine| Box::new(Lugre::new(values, machine, false)),
     draw: |_, machine, random| {
@@ -91,6 +92,7 @@ pub(super) static KIND: Kind = Kind {
             speed,
             presliding,
             damping / stiffness,
+            0.0,
         ]
     },
 };

@@ -89,6 +89,9 @@ pub struct Law {
     pub about: &'static str,
     /// As [`Kind::build`].
     pub build: fn(&[f64], &Machine) -> Box<dyn Effect>,
+    /// Where the model has a form that is this curve: the value of its last parameter, which is 0 for the effect's own
+    /// curve. `None` where the model's form is never this curve.
+    pub form: Option<f64>,
 }
 
 /// Values of some parameters, by name.

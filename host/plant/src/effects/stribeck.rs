@@ -60,6 +60,7 @@ pub(super) static KIND: Kind = Kind {
                 speed_rad_s: values[2],
             })
         },
+        form: None,
     }],
     build: |values, _| {
         Box::new(Stribeck {

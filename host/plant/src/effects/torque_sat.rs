@@ -29,6 +29,7 @@ pub(super) static KIND: Kind = Kind {
                 cubic_per_a2: values[0],
             })
         },
+        form: Some(1.0),
     }],
     build: |values, _| {
         Box::new(TorqueSat {
@@ -36,7 +37,7 @@ pub(super) static KIND: Kind = Kind {
         })
     },
     draw: only_its_size,
-    truth: |values, machine, _| vec![machine.per_square_volt(values[0])],
+    truth: |values, machine, _| vec![machine.per_square_volt(values[0]), 0.0],
 };
 
 impl Effect for TorqueSat {

@@ -29,6 +29,7 @@ pub(super) static KIND: Kind = Kind {
                 none: values[0] == 0.0,
             })
         },
+        form: Some(1.0),
     }],
     build: |values, machine| {
         Box::new(VoltageSat {
@@ -36,7 +37,7 @@ pub(super) static KIND: Kind = Kind {
         })
     },
     draw: only_its_size,
-    truth: |values, machine, _| vec![machine.supply_v - values[0]],
+    truth: |values, machine, _| vec![machine.supply_v - values[0], 0.0],
 };
 
 impl Effect for VoltageSat {

@@ -29,6 +29,7 @@ pub(super) static KIND: Kind = Kind {
                 drag: values[0] * reference.powf(0.25),
             })
         },
+        form: None,
     }],
     build: |values, _| {
         Box::new(Windage {

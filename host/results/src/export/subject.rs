@@ -120,7 +120,9 @@ impl Subject {
                 term.values
                     .push(refer(&name, value, parameter.quantity.unit())?);
                 let stated = values.iter().filter(|v| v.name == name).nth(earlier);
-                term.determined.push(stated.is_some_and(|v| v.determined));
+                // A form that nobody searched for is the textbook's.
+                let determined = stated.map_or(parameter.form, |v| v.determined);
+                term.determined.push(determined);
             }
             Ok(term)
         });

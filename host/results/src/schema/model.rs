@@ -218,6 +218,11 @@ pub(super) fn terms(
         for parameter in kind.parameters() {
             let name = format!("{effect}.{}", parameter.name);
             let at = left.iter().position(|known| known.name == name);
+            // Results from before the effect had a form have the textbook's.
+            if at.is_none() && parameter.form {
+                values.push(0.0);
+                continue;
+            }
             let Some(known) = at.map(|at| left.remove(at)) else {
                 return Err(ModelFault::Parameter {
                     place: place.to_owned(),

@@ -130,8 +130,7 @@ fn select(
         possible
     };
     // Each parameter has its price: of models that predict alike the simplest is taken.
-    let penalty =
-        |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.parameters.len() as f64;
+    let penalty = |rated: &Rated| rated.prediction.score() + AS_GOOD * rated.model.freedom() as f64;
     let allowed = if chosen.observed.is_some() {
         CHAOTIC
     } else {

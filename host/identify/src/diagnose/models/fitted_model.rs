@@ -87,6 +87,11 @@ impl FittedModel {
         self.is_proven() || (self.judged().at_floor() && !tight)
     }
 
+    /// Number of its effects' parameters that were searched for: a form that is held at the textbook's is none.
+    pub fn freedom(&self) -> usize {
+        self.parameters.len() - self.structure.held()
+    }
+
     /// Order by what they are judged by, best first.
     pub fn by_score(&self, other: &FittedModel) -> Ordering {
         self.judged().score().total_cmp(&other.judged().score())

@@ -22,6 +22,8 @@ use shared::effects::{Kind, MAX_EFFECTS, Starts};
 use shared::units::Quantity;
 use starts::starts;
 
+/// The textbook's form of an effect, and its relative.
+const FORMS: [f64; 2] = [0.0, 1.0];
 /// Most orders of a cogging torque in a model.
 const MOST_ORDERS: usize = 5;
 const SCREENING: Settings = Settings {
@@ -58,14 +60,20 @@ pub fn screen(
     let times = starts.first()?.len().div_ceil(own);
     effects.extend(std::iter::repeat_n(kind, times));
     let structure = structure_near(context, &effects, parent);
-    let mut begun: Vec<ScreenedModel> = starts
-        .into_iter()
-        .map(|start| {
+    let forms = if kind.facts().both_forms {
+        &FORMS[..]
+    } else {
+        &FORMS[..1]
+    };
+    let mut begun: Vec<ScreenedModel> = Vec::new();
+    for &form in forms {
+        let structure = structure.clone().with_form_at(kind, form);
+        begun.extend(starts.iter().map(|start| {
             let mut parameters = parent.parameters.clone();
             parameters.extend(start);
             ScreenedModel::standing(structure.clone(), &parent.candidate, &parameters)
-        })
-        .collect();
+        }));
+    }
     // Where every fit is a simulation, a glance at each start shows which of them is worth one.
     if !follows(kind) && begun.len() > 1 {
         for screened in &mut begun {
@@ -76,7 +84,7 @@ pub fn screen(
     }
     let mut best: Option<ScreenedModel> = None;
     for start in begun {
-        let Some(screened) = screen_from(context, &structure, start.x) else {
+        let Some(screened) = screen_from(context, &start.structure, start.x) else {
             continue;
         };
         if best
@@ -140,7 +148,7 @@ pub fn restart(context: &Context<'_>, rest: &FittedModel) -> ScreenedModel {
     ScreenedModel::standing(structure, &rest.candidate, &rest.parameters)
 }
 
-/// The unknowns of a model with `effects` and a machine near that of `there`.
+/// The unknowns of a model with `effects` and a machine near that of `there`, with the forms that it has.
 fn structure_near(context: &Context<'_>, effects: &[Kind], there: &FittedModel) -> Structure {
     let mut structure = Structure::around(
         context.data,
@@ -149,6 +157,7 @@ fn structure_near(context: &Context<'_>, effects: &[Kind], there: &FittedModel) 
         &there.candidate.machine,
         there.structure.start_speed,
     );
+    structure.take_forms_of(&there.structure);
     if context.span.window_s.is_some() {
         widen(&mut structure, context.data.supply);
         if !context.data.coasts() && !effects.iter().any(needs_current) {

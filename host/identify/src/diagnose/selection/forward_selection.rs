@@ -1,7 +1,7 @@
 //! The search: effects are added one by one, each level of models building on the best of the one before.
 
 use super::extension::{extensions, sort};
-use super::{cross_start, judge, nested_models};
+use super::{cross_start, forms, judge, nested_models};
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
@@ -142,7 +142,7 @@ const POLISHED: usize = 2;
 /// A model whose score is so far behind the best is not polished.
 const BEHIND: f64 = 1.0;
 
-/// Polishes the best models of a level that are not at the floor yet.
+/// Polishes the best models of a level that are not at the floor yet, and tries them with other forms than the textbook's.
 fn polish_best(context: &Context<'_>, models: &mut [FittedModel]) {
     if models.first().is_none_or(|model| model.ran().at_floor()) {
         return;
@@ -159,6 +159,9 @@ fn polish_best(context: &Context<'_>, models: &mut [FittedModel]) {
         }
         if let Ok(polished) = polish(context, model) {
             *model = polished;
+        }
+        if let Some(freed) = forms::with_other_forms(context, model) {
+            *model = freed;
         }
     }
     models.sort_by(FittedModel::by_score);

@@ -23,7 +23,7 @@ pub fn best(models: &[FittedModel]) -> Option<&FittedModel> {
     let best = models
         .iter()
         .take_while(|model| model.judged().score() - least < AS_GOOD)
-        .min_by_key(|model| model.parameters.len())?;
+        .min_by_key(|model| model.freedom())?;
     Some(models.iter().fold(
         best,
         |best, model| {
@@ -36,7 +36,7 @@ pub fn best(models: &[FittedModel]) -> Option<&FittedModel> {
 /// are above the reading's own, any further parameter lowers them a little: the other must remove as much of the
 /// simpler one's excess as a further effect would have to.
 pub fn replaces(simpler: &FittedModel, other: &FittedModel) -> bool {
-    simpler.parameters.len() < other.parameters.len()
+    simpler.freedom() < other.freedom()
         && differ_by_look_alike(simpler, other)
         && !removes(simpler, other)
 }
@@ -123,11 +123,8 @@ fn instead(chosen: &FittedModel, place: Kind, other: &FittedModel) -> Option<Kin
 pub fn p_value(data: &Data, before: &FittedModel, after: &FittedModel) -> f64 {
     let samples = data.transitions() as f64;
     let statistic = 2.0 * samples * (before.ran().fitted / after.ran().fitted).ln();
-    let added = after
-        .structure
-        .dim()
-        .saturating_sub(before.structure.dim())
-        .max(1);
+    let searched = |model: &FittedModel| model.structure.dim() - model.structure.held();
+    let added = searched(after).saturating_sub(searched(before)).max(1);
     let law = ChiSquared::new(added as f64).ok();
     let law = law.filter(|_| statistic.is_finite());
     law.map_or(1.0, |law| law.sf(statistic.max(0.0)))

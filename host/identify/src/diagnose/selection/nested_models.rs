@@ -27,7 +27,7 @@ pub fn simplify(
         let plainest = tried
             .iter()
             .filter(|plain| !removes(plain, &chosen))
-            .min_by_key(|plain| plain.parameters.len())
+            .min_by_key(|plain| plain.freedom())
             .cloned();
         // What was fitted from here stands in the place of what was fitted from elsewhere, if it is better.
         for plain in tried {

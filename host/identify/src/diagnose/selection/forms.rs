@@ -1,0 +1,42 @@
+//! Forms other than the textbook's. They are searched for where the textbook's leave something to explain, and must earn
+//! their freedom as an effect must: a parameter that is free in every model would cost naming power in every diagnosis.
+
+use super::judge::removes;
+use crate::diagnose::candidate::polish::polish;
+use crate::diagnose::context::Context;
+use crate::diagnose::models::FittedModel;
+use servoid_engine::problem::Structure;
+
+/// Where the search for the forms begins: at the textbook's, and at their relatives. Between the two may lie a ridge.
+const STARTS: [f64; 2] = [0.0, 1.0];
+
+/// `model` with its forms free, if that removes enough of what it leaves. `None` where nothing is left, no form is held, or
+/// free runs are chaotic.
+pub fn with_other_forms(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> {
+    if model.ran().at_floor() || model.losses.is_some() || model.observed.is_some() {
+        return None;
+    }
+    let structure = model.structure.with_forms_free()?;
+    let freed = STARTS.iter().filter_map(|&form| {
+        context.budget.checkpoint();
+        polish(context, &started_at(model, &structure, form)).ok()
+    });
+    freed
+        .min_by(FittedModel::by_score)
+        .filter(|freed| removes(model, freed))
+}
+
+/// `model` in the freedom of `structure`, with each form that it holds at `form`.
+fn started_at(model: &FittedModel, structure: &Structure, form: f64) -> FittedModel {
+    let mut values = model.structure.values(&model.x);
+    for (unknown, value) in model.structure.unknowns.iter().zip(&mut values) {
+        if unknown.held_from.is_some() {
+            *value = form;
+        }
+    }
+    FittedModel {
+        x: structure.coordinates(&values),
+        structure: structure.clone(),
+        ..model.clone()
+    }
+}
