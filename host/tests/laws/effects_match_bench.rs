@@ -142,8 +142,13 @@ fn every_other_form_leaves_the_encoders_own_error_on_every_machine() {
             for law in typical.other_forms() {
                 let hidden = vec![typical.clone().by_law(law).expect("its own law")];
                 let run = record(machine, hidden.clone(), &COMMISSIONING);
-                let error = rms(&machine, &hidden, &run, FINE);
-                let case = format!("{name} with {} as {law}", kind.name());
+                // Damping that falls with the speed changes within the hundredth of a sample in which bristles bend.
+                let substeps = if *kind == Kind::Lugre { 4 * FINE } else { FINE };
+                let error = rms(&machine, &hidden, &run, substeps);
+                let case = format!(
+                    "{name} with {} as {law} at {substeps} substeps",
+                    kind.name()
+                );
                 println!("{case}: {error:.4} counts RMS");
                 assert!(LIMITS.contains(&error), "{case}: {error} counts RMS");
             }

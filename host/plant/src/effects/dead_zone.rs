@@ -42,7 +42,7 @@ pub(super) static KIND: Kind = Kind {
                 cut: 1.0,
             })
         },
-        form: Some(1.0),
+        form: None,
     }],
     build: |values, _| {
         Box::new(DeadZone {
@@ -51,7 +51,7 @@ pub(super) static KIND: Kind = Kind {
         })
     },
     draw: only_its_size,
-    truth: |values, _, _| values.to_vec(),
+    truth: |values, _, _| vec![values[0]],
 };
 
 impl Effect for DeadZone {

@@ -149,7 +149,11 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             );
         }
     }
+    let rounded =
+        |t: &Term| t.kind == Kind::VoltageSat && t.values.last().is_some_and(|form| *form != 0.0);
+    let rounds = subject.terms.iter().any(rounded);
     written.judge(subject, |kind| match kind {
+        Kind::VoltageSat if rounds => Carried::Without("the limit is sharp"),
         Kind::Cogging | Kind::VoltageSat => Carried::Whole,
         Kind::Lugre if bristles.is_some() => Carried::Whole,
         Kind::Delay => Carried::Not("MuJoCo 4 has `delay` for it, in its own steps"),
@@ -237,13 +241,14 @@ fn cogging(subject: &Subject, ratio: f64) -> Option<(Kind, String)> {
 /// The sliding friction (V), and `stiffness damping coulomb static stribeck`, with `σ0 = Tc·(1 + r)/z(0)` and `σ1 = σ0·t1`.
 fn bristles(subject: &Subject, ratio: f64) -> Option<(f64, String)> {
     let term = first(subject, Kind::Lugre)?;
-    let [torque, excess, speed, presliding, time] = term.values[..] else {
+    let [torque, excess, speed, presliding, time, form] = term.values[..] else {
         return None;
     };
     let sliding = torque / ratio;
     let holding = sliding * (1.0 + excess);
     let stiffness = holding / presliding;
-    let fits = presliding > 0.0 && speed > 0.0 && stiffness.is_finite();
+    // MuJoCo's damping does not fall with the speed.
+    let fits = presliding > 0.0 && speed > 0.0 && stiffness.is_finite() && form == 0.0;
     fits.then(|| {
         let damping = stiffness * time;
         let text = format!("{stiffness:?} {damping:?} {sliding:?} {holding:?} {speed:?}");

@@ -263,6 +263,26 @@ mod tests {
     use servoid_plant as bench;
 
     #[test]
+    fn a_form_that_is_not_stated_is_the_textbooks_and_any_other_parameter_is_missed() {
+        let motor = bench::Machine::gearmotor();
+        for &kind in Kind::ALL {
+            let candidate = Hypothesis::typical(kind, &motor).candidate();
+            let candidate = candidate.expect("a model");
+            let whole = Model::of(&candidate, Method::default());
+            for (index, parameter) in kind.parameters().iter().enumerate() {
+                let mut lacking = whole.clone();
+                lacking.parameters.remove(index);
+                let read = lacking.candidate("model");
+                match read {
+                    Ok(read) => assert_eq!(format!("{read:?}"), format!("{candidate:?}")),
+                    Err(_) => assert!(!parameter.form, "{kind:?}.{}", parameter.name),
+                }
+                assert_eq!(lacking.candidate("model").is_ok(), parameter.form);
+            }
+        }
+    }
+
+    #[test]
     fn every_model_of_one_and_two_effects_is_read_as_it_was_written() {
         let motor = bench::Machine::gearmotor();
         for &first in Kind::ALL {
