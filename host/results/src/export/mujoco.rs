@@ -149,9 +149,9 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             );
         }
     }
-    let rounded =
+    let is_round =
         |t: &Term| t.kind == Kind::VoltageSat && t.values.last().is_some_and(|form| *form != 0.0);
-    let rounds = subject.terms.iter().any(rounded);
+    let rounds = subject.terms.iter().any(is_round);
     written.judge(subject, |kind| match kind {
         Kind::VoltageSat if rounds => Carried::Without("the limit is sharp"),
         Kind::Cogging | Kind::VoltageSat => Carried::Whole,
