@@ -5,8 +5,8 @@ use servoid_engine::solve::Found;
 use shared::cost::Cost;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
-/// Part of the squared error above the encoder's floor that other forms must remove, as a named effect must.
-const MUST_REMOVE: f64 = 0.6;
+/// Part of the squared error above the encoder's floor that other forms, or a named effect, must remove.
+pub(crate) const MUST_REMOVE: f64 = 0.6;
 
 /// The problem with its forms free, begun where `found` ended. `None` where no form is held, or nothing is left to explain.
 pub fn with_forms_free<'a>(problem: &FitProblem<'a>, found: &Found) -> Option<FitProblem<'a>> {

@@ -210,8 +210,8 @@ fn scaled(
 }
 
 impl Maximum {
-    /// Standard error, SI: the larger of curvature and sandwich, and for a delay that of the log's ticks beside it. `None` where the model has no such number or the readings do
-    /// not determine it.
+    /// Standard error, SI: the larger of curvature and sandwich, and for a delay that of the log's ticks beside it. `None` where
+    /// the model has no such number or the readings do not determine it.
     pub fn std(&self, c: Coordinate) -> Option<f64> {
         let at = self.place(c)?;
         let errors = self.errors.as_ref()?;

@@ -94,26 +94,23 @@ const AGAINST: f64 = 0.05;
 
 /// Whether a twentieth of the travel at least goes against the prevailing direction.
 pub fn moves_both_ways(data: &Data) -> bool {
-    let (forward, backward) = travel(data);
-    forward.min(backward) > AGAINST * (forward + backward)
+    together_move_both_ways(data, data)
 }
 
 /// The same of two recordings of one motor together: each may go one way only, if it is not the same one.
 pub fn together_move_both_ways(data: &Data, held_out: &Data) -> bool {
-    let (own, other) = (travel(data), travel(held_out));
-    let reversed = |(forward, backward): (f64, f64)| {
-        let all: f64 = forward + backward;
-        (forward > AGAINST * all, backward > AGAINST * all)
-    };
-    let (own, other) = (reversed(own), reversed(other));
+    let (own, other) = (ways(data), ways(held_out));
     (own.0 || other.0) && (own.1 || other.1)
 }
 
-/// Counts travelled forward and backward.
-fn travel(data: &Data) -> (f64, f64) {
-    data.steps().fold((0.0, 0.0), |(forward, backward), step| {
+/// Whether a recording moves forward, and whether backward, for more than a twentieth of its travel.
+fn ways(data: &Data) -> (bool, bool) {
+    let travel = data.steps().fold((0.0, 0.0), |(forward, backward), step| {
         (forward + step.max(0.0), backward + (-step).max(0.0))
-    })
+    });
+    let (forward, backward): (f64, f64) = travel;
+    let least = AGAINST * (forward + backward);
+    (forward > least, backward > least)
 }
 
 fn usual(data: &Data) -> Option<f64> {

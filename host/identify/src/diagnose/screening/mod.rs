@@ -23,7 +23,7 @@ use shared::units::Quantity;
 use starts::starts;
 
 /// The textbook's form of an effect, and its relative.
-const FORMS: [f64; 2] = [0.0, 1.0];
+pub const FORMS: [f64; 2] = [0.0, 1.0];
 /// Most orders of a cogging torque in a model.
 const MOST_ORDERS: usize = 5;
 const SCREENING: Settings = Settings {

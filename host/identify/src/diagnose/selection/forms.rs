@@ -5,10 +5,8 @@ use super::judge::removes;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
+use crate::diagnose::screening::FORMS;
 use servoid_engine::problem::Structure;
-
-/// Where the search for the forms begins: at the textbook's, and at their relatives. Between the two may lie a ridge.
-const STARTS: [f64; 2] = [0.0, 1.0];
 
 /// `model` with its forms free, if that removes enough of what it leaves. `None` where nothing is left, no form is held, or
 /// free runs are chaotic.
@@ -17,7 +15,8 @@ pub fn with_other_forms(context: &Context<'_>, model: &FittedModel) -> Option<Fi
         return None;
     }
     let structure = model.structure.with_forms_free()?;
-    let freed = STARTS.iter().filter_map(|&form| {
+    // From the textbook's and from their relatives: between the two may lie a ridge.
+    let freed = FORMS.iter().filter_map(|&form| {
         context.budget.checkpoint();
         polish(context, &started_at(model, &structure, form)).ok()
     });

@@ -1,6 +1,7 @@
 //! Which model may be believed, and beside which others.
 
 use crate::diagnose::models::FittedModel;
+use crate::fit::forms::MUST_REMOVE;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -8,8 +9,6 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// Errors within this factor of the floor leave nothing to explain: five standard deviations of what a recording
 /// of some thousand readings has.
 const EXACT: f64 = 1.02;
-/// Part of the held-out excess over the encoder's floor that a named effect must remove.
-const MUST_REMOVE: f64 = 0.6;
 /// Models whose score is within this of the best explain the recording alike.
 const EQUIVALENT: f64 = 0.1;
 /// Of models within this of the best score the simplest is taken: 2 % in each error.
