@@ -63,6 +63,7 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     let spans = [windows.fitted.clone(), Horizon::Whole];
     let rate_all = |models: &[FittedModel]| -> Vec<Rated> {
         let refitted = models.iter().flat_map(|model| {
+            own.checkpoint();
             [&spans[..], &spans[..1], &spans[1..]]
                 .into_iter()
                 .filter_map(|horizons| fit_over_horizons(context, model, horizons))

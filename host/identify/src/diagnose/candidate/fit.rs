@@ -42,23 +42,23 @@ const AS_GOOD: f64 = 0.04;
 /// # Errors
 /// [`Error::Failed`] where the model cannot run from there.
 pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<FittedModel, Error> {
-    let settings = Settings {
-        enough: (context.floor * ROOM).powi(2) * context.samples() as f64,
-        ..FULL
-    };
-    let predicted = screened.predicted();
-    let fit = |start: &[f64]| {
-        let (structure, found) = search_widening(context, &screened.structure, start, settings)?;
-        score_candidate(context, structure, &found, predicted, context.method)
-    };
     // Where the simulation is far worse than the series-parallel model predicted, the free run has lost its way.
     if context.span.window_s.is_some()
         || screened.simulated <= LOST * screened.series_parallel.max(NOISE_COUNTS)
     {
-        return fit(&screened.x);
+        fit_from(context, screened, &screened.x)
+    } else {
+        fit_chaotic(context, screened)
     }
+}
+
+/// Fits a screened model whose free runs are chaotic: under an observer first, which forgets later from stage to stage.
+///
+/// # Errors
+/// [`Error::Failed`] where the model cannot run from there.
+pub fn fit_chaotic(context: &Context<'_>, screened: &ScreenedModel) -> Result<FittedModel, Error> {
     let faded = fit_with_growing_memory(context, &screened.structure, &screened.x);
-    let free = fit(&faded)?;
+    let free = fit_from(context, screened, &faded)?;
     if free.ran().at_floor() {
         return Ok(free);
     }
@@ -72,7 +72,7 @@ pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<F
         context,
         screened.structure.clone(),
         &stand,
-        predicted,
+        screened.predicted(),
         context.method,
     )?;
     let mut both = [free, faded];
@@ -87,6 +87,26 @@ pub fn fit_screened(context: &Context<'_>, screened: &ScreenedModel) -> Result<F
     } else {
         faded
     })
+}
+
+/// Fits a screened model over the span of the diagnosis, from `start`.
+fn fit_from(
+    context: &Context<'_>,
+    screened: &ScreenedModel,
+    start: &[f64],
+) -> Result<FittedModel, Error> {
+    let settings = Settings {
+        enough: (context.floor * ROOM).powi(2) * context.samples() as f64,
+        ..FULL
+    };
+    let (structure, found) = search_widening(context, &screened.structure, start, settings)?;
+    score_candidate(
+        context,
+        structure,
+        &found,
+        screened.predicted(),
+        context.method,
+    )
 }
 
 /// Descends with a memory that grows from stage to stage, so that the search meets the rough cost of the

@@ -2,11 +2,27 @@
 //! their freedom as an effect must: a parameter that is free in every model would cost naming power in every diagnosis.
 
 use super::judge::removes;
+use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::polish::polish;
+use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::screening::FORMS;
+use crate::fit::forms::MUST_REMOVE;
 use servoid_engine::problem::Structure;
+
+/// Of a search that says whether a form is worth a fit that converges, which costs many times as much.
+const TRIAL: Settings = Settings {
+    evaluations: 40,
+    tolerance: 1e-2,
+    stride: 4,
+    damping: 1e-4,
+    secant: true,
+    again: false,
+    ..Settings::THOROUGH
+};
+/// Part of what a form must remove that its trial has to remove, since it ends before it has converged.
+const PROMISING: f64 = 0.5;
 
 /// `model` with its forms free, if that removes enough of what it leaves. `None` where nothing is left, no form is held, or
 /// free runs are chaotic.
@@ -18,11 +34,25 @@ pub fn with_other_forms(context: &Context<'_>, model: &FittedModel) -> Option<Fi
     // From the textbook's and from their relatives: between the two may lie a ridge.
     let freed = FORMS.iter().filter_map(|&form| {
         context.budget.checkpoint();
-        polish(context, &started_at(model, &structure, form)).ok()
+        let tried = tried(context, model, started_at(model, &structure, form))?;
+        polish(context, &tried).ok()
     });
     freed
         .min_by(FittedModel::by_score)
         .filter(|freed| removes(model, freed))
+}
+
+/// `freed` after a short search; `None` where that removes too little of what `freed` was to remove.
+fn tried(context: &Context<'_>, model: &FittedModel, freed: FittedModel) -> Option<FittedModel> {
+    let problem = fit_problem(context, &freed.structure, freed.method);
+    let found = search(context, &problem, &freed.x, TRIAL, freed.method)?;
+    let ran = model.ran();
+    let excess = |mean_square: f64| (mean_square - ran.floor.powi(2)).max(0.0);
+    let left = excess(found.squares / context.samples() as f64) / excess(ran.fitted.powi(2));
+    (1.0 - left > PROMISING * MUST_REMOVE).then(|| FittedModel {
+        x: found.x,
+        ..freed
+    })
 }
 
 /// `model` in the freedom of `structure`, with each form that it holds at `form`.

@@ -3,7 +3,7 @@
 //! that it contains, from where it stands, and must be worth its further parameters.
 
 use super::judge::removes;
-use crate::diagnose::candidate::fit::fit_screened;
+use crate::diagnose::candidate::fit::{fit_chaotic, fit_screened};
 use crate::diagnose::candidate::observer::observe_like;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::context::Context;
@@ -102,7 +102,13 @@ pub fn fit_simpler(
     chosen: &FittedModel,
     screened: &ScreenedModel,
 ) -> Option<FittedModel> {
-    let mut model = fit_screened(context, screened).ok()?;
+    // Where free runs are chaotic, they say nothing of a model that was not screened.
+    let fit = if chosen.observed.is_some() {
+        fit_chaotic
+    } else {
+        fit_screened
+    };
+    let mut model = fit(context, screened).ok()?;
     observe_like(context, &mut model, chosen).ok()?;
     let behind = model.judged().score() - chosen.judged().score();
     if !model.judged().at_floor() && behind < NEAR {
