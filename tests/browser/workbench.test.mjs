@@ -132,6 +132,58 @@ test("a bad file shows the reader's message, a foreign one asks which column is 
   await bench.end();
 });
 
+test("runs of one motor are fitted together, on the command line, by dropping, and in a session", async () => {
+  desk.run("simulate --hide coulomb --out third.csv --seed 3");
+  const text = (name) => readFileSync(desk.path(name), "utf8");
+  const together = async (page) => {
+    await settled(page, 1);
+    assert.match(await page.textContent("#about"), /rec\.csv \+ other\.csv: 40000 samples.*never fitted: third\.csv/);
+    return error(page);
+  };
+  // The last judges, as in a diagnosis; the error is over both that are fitted.
+  const bench = await desk.bench("rec.csv other.csv third.csv --session several.json");
+  const page = await open(chrome, bench.url);
+  const shown = await together(page);
+  await page.context().close();
+  await bench.end();
+  const again = await desk.bench("several.json");
+  const reopened = await open(chrome, again.url);
+  assert.equal(await together(reopened), shown);
+  await reopened.context().close();
+  await again.end();
+  // The same by dropping all three, and by adding one after the other.
+  const empty = await desk.bench("");
+  const dropped = await open(chrome, empty.url);
+  const motor = ["motor.toml", "counts_per_rev = 2000\n"];
+  await drop(dropped, [motor, ...["rec.csv", "other.csv", "third.csv"].map((name) => [name, text(name)])]);
+  assert.equal(await together(dropped), shown);
+  assert.deepEqual(dropped.faults, []);
+  const add = async (name, role) => {
+    await drop(dropped, [[name, text(name)]]);
+    await dropped.waitForSelector("#columns[open]");
+    await dropped.fill("#map-counts_per_rev", "2000");
+    await dropped.selectOption("#role", role);
+    await dropped.waitForFunction(() => !document.getElementById("load").disabled);
+    await dropped.click("#load");
+  };
+  await add("rec.csv", "fitted");
+  await settled(dropped, 1);
+  for (const [name, role] of [["third.csv", "held_out"], ["other.csv", "beside"]]) {
+    await add(name, role);
+    await dropped.waitForFunction((name) => document.getElementById("about").textContent.includes(name), name);
+    await settled(dropped, 1);
+  }
+  assert.equal(await together(dropped), shown);
+  // One that judges is not fitted as well, nor the other way round.
+  for (const [name, role, words] of [["third.csv", "beside", "no test"], ["rec.csv", "held_out", "no test"], ["rec.csv", "beside", "same samples"]]) {
+    await add(name, role);
+    await dropped.waitForFunction((words) => document.getElementById("column-fault").textContent.includes(words), words);
+    await dropped.click("#columns button[value=cancel]");
+  }
+  await dropped.context().close();
+  await empty.end();
+});
+
 test("a second tab does not break the first, and a session is opened again as it was", async () => {
   const bench = await desk.bench("rec.csv --validate other.csv --session kept.json");
   const first = await open(chrome, bench.url);

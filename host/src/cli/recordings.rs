@@ -16,28 +16,32 @@ pub struct RecordingsArgs {
 }
 
 impl RecordingsArgs {
-    /// Those that are fitted. Where none stands before `--validate`, it is the last one behind it:
-    /// `fit --validate b.csv a.csv` fits a.csv.
+    /// Those that are fitted.
     pub fn fitted(&self) -> &[PathBuf] {
-        match self.split() {
-            Some((_, last)) => std::slice::from_ref(last),
-            None => &self.fitted,
-        }
+        split(&self.fitted, &self.validate).0
     }
 
     /// Those that are not.
     pub fn held_out(&self) -> &[PathBuf] {
-        self.split()
-            .map_or(&self.validate, |(held_out, _)| held_out)
+        split(&self.fitted, &self.validate).1
     }
 
     /// The first that is fitted.
     pub fn first(&self) -> Option<&Path> {
         self.fitted().first().map(PathBuf::as_path)
     }
+}
 
-    fn split(&self) -> Option<(&[PathBuf], &PathBuf)> {
-        let (last, others) = self.validate.split_last()?;
-        (self.fitted.is_empty() && !others.is_empty()).then_some((others, last))
+/// Those that are fitted, and those that are not. Where none stands before `--validate`, it is the last one behind it:
+/// `fit --validate b.csv a.csv` fits a.csv.
+pub(super) fn split<'a>(
+    fitted: &'a [PathBuf],
+    validate: &'a [PathBuf],
+) -> (&'a [PathBuf], &'a [PathBuf]) {
+    match validate {
+        [others @ .., last] if fitted.is_empty() && !others.is_empty() => {
+            (std::slice::from_ref(last), others)
+        }
+        _ => (fitted, validate),
     }
 }

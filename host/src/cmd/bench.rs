@@ -8,7 +8,7 @@ use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, Source};
 use serde::Serialize;
 use servoid_io::output::is_same_file;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 #[derive(Serialize)]
 struct BenchJson {
@@ -39,7 +39,7 @@ pub(super) fn run(session: &Session, args: &BenchArgs) -> Result<(), Error> {
 
 /// Checks before anything is read that the bench replaces no file but the session that it goes on with.
 fn check_files(session: &Session, args: &BenchArgs) -> Result<(), Error> {
-    if let (None, Some(other)) = (&args.recording, &args.validate) {
+    if let ([], [other, ..]) = (args.fitted(), args.held_out()) {
         return Err(Error::Usage(format!(
             "--validate {}: there is no recording beside it that could be fitted; name that one first: servoid bench REC \
              --validate {0}",
@@ -49,17 +49,15 @@ fn check_files(session: &Session, args: &BenchArgs) -> Result<(), Error> {
     let outputs: Vec<_> = (args.session.as_deref().into_iter())
         .map(|path| ("--session", path))
         .collect();
-    let inputs: Vec<_> = (args.recording.as_deref().into_iter())
-        .map(|path| ("the recording", path))
-        .chain(
-            args.validate
-                .as_deref()
-                .map(|path| ("the --validate recording", path)),
-        )
+    let fitted = args.fitted().iter().map(|path| ("the recording", &**path));
+    let held_out = args.held_out().iter();
+    let held_out = held_out.map(|path| ("the --validate recording", &**path));
+    let inputs: Vec<_> = fitted
+        .chain(held_out)
         .filter(|(_, path)| !is_session(path))
         .collect();
     session.check_outputs(&outputs, &inputs)?;
-    let (Some(recording), Some(session_file)) = (&args.recording, &args.session) else {
+    let ([recording, ..], Some(session_file)) = (args.fitted(), &args.session) else {
         return Ok(());
     };
     // What is opened may be kept where it lies; anything else that is there already is somebody's work.
@@ -75,36 +73,41 @@ fn check_files(session: &Session, args: &BenchArgs) -> Result<(), Error> {
 }
 
 fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
-    let Some(path) = &args.recording else {
+    let all = || args.fitted().iter().chain(args.held_out());
+    let Some(first) = args.fitted().first() else {
         // A session that is kept goes on where it was.
         return match &args.session {
             Some(path) if path.exists() => saved(path),
             _ => Ok(Opening::Empty),
         };
     };
-    if is_session(path) {
-        if args.validate.is_some() {
+    if let Some(file) = all().find(|path| is_session(path)) {
+        if all().count() > 1 {
             return Err(Error::Usage(format!(
-                "--validate: {} is a session, which has its recordings; leave --validate away",
-                path.display()
+                "{}: is a session, which has its recordings; leave --validate away, and name it alone",
+                file.display()
             )));
         }
-        return saved(path);
+        return saved(first);
     }
-    let fitted = loaded(args, path)?;
-    let held_out = match &args.validate {
-        Some(other) => Some(loaded(args, other)?).filter(|other| {
-            let copied = other.is_copy_of(&fitted);
-            if copied {
-                session.remark(
-                    "--validate is the recording itself, which is no test: the end of the recording is held out instead",
-                );
-            }
-            !copied
-        }),
-        None => None,
+    let fitted = loaded(args, args.fitted())?;
+    let mut held_out = Vec::new();
+    for path in args.held_out() {
+        let other = loaded(args, std::slice::from_ref(path))?;
+        if other.has_copy_of(&fitted) {
+            session.remark(&format!(
+                "--validate {}: is fitted, too, which is no test: it is not held out",
+                path.display()
+            ));
+        } else {
+            held_out.push(path.clone());
+        }
+    }
+    let held_out = match held_out.is_empty() {
+        true => None,
+        false => Some(Box::new(loaded(args, &held_out)?)),
     };
-    Ok(Opening::Recording(Box::new(fitted), held_out.map(Box::new)))
+    Ok(Opening::Recording(Box::new(fitted), held_out))
 }
 
 fn saved(path: &Path) -> Result<Opening, Error> {
@@ -126,12 +129,15 @@ fn text(path: &Path) -> Result<String, Error> {
         .map_err(|error| Error::Failed(format!("{}: cannot be read: {error}", path.display())))
 }
 
-fn loaded(args: &BenchArgs, path: &Path) -> Result<Loaded, Error> {
-    // Read once as every verb does, for its messages.
-    let (_, motor) = motor::recording(&args.motor, path)?;
-    Loaded::read(Source {
-        name: path.display().to_string(),
-        csv: text(path)?,
-        motor: motor.to_toml(),
-    })
+fn loaded(args: &BenchArgs, paths: &[PathBuf]) -> Result<Loaded, Error> {
+    let source = |path: &PathBuf| -> Result<Source, Error> {
+        // Read once as every verb does, for its messages.
+        let (_, motor) = motor::recording(&args.motor, path)?;
+        Ok(Source {
+            name: path.display().to_string(),
+            csv: text(path)?,
+            motor: motor.to_toml(),
+        })
+    };
+    Loaded::read(paths.iter().map(source).collect::<Result<_, _>>()?)
 }

@@ -38,7 +38,7 @@ pub(super) fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loa
             recording.time_s[k], recording.command[k], recording.counts[k]
         );
     }
-    Ok(Arc::new(Loaded::read(Source {
+    Ok(Arc::new(Loaded::read(vec![Source {
         name: name.to_owned(),
         csv,
         motor: format!(
@@ -46,5 +46,5 @@ pub(super) fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loa
             showcase::COUNTS_PER_REV,
             showcase::machine().supply_v
         ),
-    })?))
+    }])?))
 }

@@ -1,4 +1,4 @@
-//! A recording as it came, and as it is fitted.
+//! Recordings of one motor as they came, and as they are fitted.
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
@@ -23,69 +23,93 @@ pub struct Source {
 /// What messages call the motor file, whether it was a file or fields of the page.
 pub(super) const MOTOR: &str = "what is said of the motor";
 
-/// A recording on the bench.
+/// Recordings on the bench that are taken as one: one, or several of one motor.
 pub struct Loaded {
-    /// As it came.
-    pub source: Source,
-    /// Read.
-    pub recording: Recording,
-    /// As it is fitted.
+    /// As they came.
+    pub sources: Vec<Source>,
+    /// Read, in the same order.
+    recordings: Vec<Recording>,
+    /// As they are fitted.
     pub data: Arc<Data>,
     /// Facts about the motor.
     pub known: Known,
     cut: OnceLock<Option<Cut>>,
 }
 
-/// A recording in two parts, where there is no other one to judge by.
+/// Recordings in two parts, where there is no other one to judge by: the end of the only one is held out, or the last of several.
 pub struct Cut {
     /// The part to fit.
     pub fitted: Data,
-    /// The end to hold out.
+    /// The part to hold out.
     pub held_out: Data,
-    /// Where that begins, s.
-    pub from_s: f64,
     /// The same in the words of a diagnosis.
     pub kind: HeldOut,
 }
 
 impl Loaded {
-    /// Reads a recording.
+    /// Reads recordings of one motor; what is known of it stands beside the first.
     ///
     /// # Errors
-    /// What the reader of recordings and of motor files refuse, in their words.
-    pub fn read(source: Source) -> Result<Self, Error> {
-        let motor = MotorFile::parse(&source.motor, MOTOR)?;
-        let recording = read_recording_from(source.csv.as_bytes(), &source.name, &motor)?;
-        recording.check_excited()?;
+    /// What the reader of recordings and of motor files refuse, in their words; recordings that cannot be taken together.
+    pub fn read(sources: Vec<Source>) -> Result<Self, Error> {
+        let mut known = None;
+        let mut recordings = Vec::new();
+        for source in &sources {
+            let motor = MotorFile::parse(&source.motor, MOTOR)?;
+            let recording = read_recording_from(source.csv.as_bytes(), &source.name, &motor)?;
+            recording.check_excited()?;
+            known.get_or_insert(motor.known);
+            recordings.push(recording);
+        }
         Ok(Loaded {
-            data: Arc::new(Data::new(&recording)?),
-            known: motor.known,
-            recording,
-            source,
+            data: Arc::new(joined(&recordings)?),
+            known: known.unwrap_or_default(),
+            recordings,
+            sources,
             cut: OnceLock::new(),
         })
     }
 
-    /// Whether it holds the same samples: then it tests nothing that was fitted to the other.
-    pub fn is_copy_of(&self, other: &Loaded) -> bool {
-        self.recording.is_copy_of(&other.recording)
+    /// These recordings and further ones.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn with(&self, further: &Loaded) -> Result<Self, Error> {
+        let all = self.sources.iter().chain(&further.sources);
+        Loaded::read(all.cloned().collect())
     }
 
-    /// The part to fit and the end to hold out, made when they are first asked for. `None` where it is too short.
+    /// Whether one of them holds the same samples as one of the others: then it tests nothing that was fitted to that.
+    pub fn has_copy_of(&self, other: &Loaded) -> bool {
+        let mut own = self.recordings.iter();
+        own.any(|own| other.recordings.iter().any(|other| own.is_copy_of(other)))
+    }
+
+    /// The part to fit and the part to hold out, made when they are first asked for. `None` where it is too short.
     pub fn cut(&self) -> Option<&Cut> {
         self.cut.get_or_init(|| self.cut_now()).as_ref()
     }
 
     fn cut_now(&self) -> Option<Cut> {
-        let (first, rest, kind) = holdout::cut(&self.recording)?;
-        let HeldOut::End { from_s, .. } = kind else {
-            return None;
-        };
-        Some(Cut {
-            fitted: Data::new(&first).ok()?,
-            held_out: Data::new(&rest).ok()?.at_end_of(Arc::clone(&self.data)),
-            from_s,
-            kind,
-        })
+        match &self.recordings[..] {
+            [] => None,
+            [only] => {
+                let (first, rest, kind) = holdout::cut(only)?;
+                Some(Cut {
+                    fitted: Data::new(&first).ok()?,
+                    held_out: Data::new(&rest).ok()?.at_end_of(Arc::clone(&self.data)),
+                    kind,
+                })
+            }
+            [first @ .., last] => Some(Cut {
+                fitted: joined(first).ok()?,
+                held_out: Data::new(last).ok()?,
+                kind: HeldOut::Recording(last.source.clone()),
+            }),
+        }
     }
+}
+
+fn joined(recordings: &[Recording]) -> Result<Data, Error> {
+    Ok(Data::joined(recordings.to_vec()).map_err(servoid_identify::Error::from)?)
 }

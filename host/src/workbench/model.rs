@@ -33,14 +33,14 @@ pub(super) struct Model {
 /// Recordings of one piece of work.
 #[derive(Clone)]
 pub(super) struct Recordings {
-    /// The fitted one, whole.
+    /// The fitted ones, whole.
     pub(super) fitted: Arc<Loaded>,
-    /// Another one, never fitted.
+    /// Others, never fitted.
     pub(super) held_out: Option<Arc<Loaded>>,
 }
 
 impl Recordings {
-    /// What is fitted and what is held out: the other recording, or the end of the only one where it is long enough.
+    /// What is fitted and what is held out: the other recordings, or a part of the fitted ones where they are long enough.
     pub(super) fn parts(&self) -> (&Data, &Data) {
         if let Some(other) = &self.held_out {
             return (&self.fitted.data, &other.data);
@@ -51,10 +51,18 @@ impl Recordings {
         }
     }
 
+    /// What is drawn: all that is fitted, and the end of the only recording, which may be held out.
+    pub(super) fn shown(&self) -> &Data {
+        match self.kind() {
+            HeldOut::Recording(_) => self.parts().0,
+            HeldOut::End { .. } | HeldOut::Nothing => &self.fitted.data,
+        }
+    }
+
     /// What is held out, in the words of a diagnosis.
     pub(super) fn kind(&self) -> HeldOut {
         if let Some(other) = &self.held_out {
-            return HeldOut::Recording(other.source.name.clone());
+            return HeldOut::Recording(other.data.source.clone());
         }
         self.fitted
             .cut()
@@ -66,7 +74,10 @@ impl Recordings {
         if self.held_out.is_some() {
             return None;
         }
-        self.fitted.cut().map(|cut| cut.from_s)
+        match self.fitted.cut()?.kind {
+            HeldOut::End { from_s, .. } => Some(from_s),
+            _ => None,
+        }
     }
 }
 
@@ -121,9 +132,8 @@ impl Model {
 
     /// As `servoid.fit/1`.
     pub(super) fn json(&self, recordings: &Recordings) -> Result<Value, Error> {
-        let other = recordings.held_out.as_ref();
-        let validate = other.map(|loaded| loaded.source.name.as_str());
-        let json = schema::Fit::new(&self.fit, &recordings.fitted.data, validate);
+        let kind = recordings.kind();
+        let json = schema::Fit::new(&self.fit, recordings.shown(), kind.source());
         serde_json::to_value(json).map_err(|error| Error::Failed(error.to_string()))
     }
 

@@ -14,12 +14,25 @@ use axum::extract::State;
 use serde::Deserialize;
 use std::sync::Arc;
 
+/// What a recording is taken as.
+#[derive(Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Role {
+    /// The one to fit, on a bench of its own.
+    #[default]
+    Fitted,
+    /// Fitted together with what is fitted.
+    Beside,
+    /// Never fitted.
+    HeldOut,
+}
+
 #[derive(Deserialize)]
 pub(super) struct Sent {
     name: String,
     csv: String,
     #[serde(default)]
-    held_out: bool,
+    role: Role,
     mapping: Option<Mapping>,
     /// A `motor.toml` in the place of a mapping.
     motor: Option<String>,
@@ -32,38 +45,59 @@ pub(super) async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> A
     aside(move || {
         let mapping = sent.mapping.map(|mapping| mapping.motor());
         let motor = sent.motor.or(mapping).unwrap_or_default();
-        let loaded = Arc::new(Loaded::read(Source {
+        let loaded = Loaded::read(vec![Source {
             name: sent.name,
             csv: sent.csv,
             motor,
-        })?);
+        }])?;
         if sent.check {
             return Ok(());
         }
         let before = bench.state().recordings.clone();
-        let copied = before.as_ref().is_some_and(|before| loaded.is_copy_of(&before.fitted));
-        if sent.held_out && copied {
-            return Err(Error::Usage(format!(
-                "{}: is the recording that is fitted, which is no test of it; take another run of the same motor",
-                loaded.source.name
-            )));
-        }
-        let recordings = match (sent.held_out, before) {
-            (true, Some(before)) => Recordings {
-                held_out: Some(loaded),
-                ..before
-            },
-            _ => Recordings {
-                fitted: loaded,
-                held_out: None,
-            },
-        };
+        let recordings = placed(loaded, sent.role, before)?;
         free(&bench)?;
         bench.change(|state| state.begin(recordings));
         Ok(())
     })
     .await?;
     done()
+}
+
+/// The recordings of the bench with one more.
+fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Recordings, Error> {
+    let Some(before) = before.filter(|_| role != Role::Fitted) else {
+        return Ok(Recordings {
+            fitted: Arc::new(loaded),
+            held_out: None,
+        });
+    };
+    let together = |those: &Loaded| those.with(&loaded).map(Arc::new);
+    let judged_by = match role {
+        Role::HeldOut => Some(&before.fitted),
+        _ => before.held_out.as_ref(),
+    };
+    if judged_by.is_some_and(|other| loaded.has_copy_of(other)) {
+        return Err(Error::Usage(format!(
+            "{}: is fitted and held out, which is no test; take another run of the same motor",
+            loaded.data.source
+        )));
+    }
+    if role == Role::Beside {
+        return Ok(Recordings {
+            fitted: together(&before.fitted)?,
+            ..before
+        });
+    }
+    // Another encoder or another drive would judge nothing.
+    together(&before.fitted)?;
+    let held_out = match &before.held_out {
+        Some(others) => together(others)?,
+        None => Arc::new(loaded),
+    };
+    Ok(Recordings {
+        held_out: Some(held_out),
+        ..before
+    })
 }
 
 /// Recordings are not changed under work that is going on.

@@ -176,7 +176,7 @@ async fn trial(State(bench): Shared, Json(trial): Json<Trial>) -> Answer {
         };
         let mut by_hand = shown::drawn("moved by hand", &model);
         by_hand.candidate = shown::moved(&by_hand.candidate, &trial.values)?;
-        let data = &recordings.fitted.data;
+        let data = recordings.shown();
         let run = by_hand.run(data)?;
         let squares: f64 = run.residual.iter().map(|e| e * e).sum();
         let rms = (squares / data.len() as f64).sqrt();

@@ -26,8 +26,14 @@ pub struct SessionFile {
     #[serde(default)]
     version: String,
     fitted: Option<Source>,
+    /// Others that are fitted with it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    fitted_with: Vec<Source>,
     #[serde(default)]
     held_out: Option<Source>,
+    /// Others that are held out with it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    held_out_with: Vec<Source>,
     #[serde(default)]
     models: Vec<SavedModel>,
     #[serde(default)]
@@ -57,13 +63,17 @@ impl SessionFile {
         let place = |id: Option<usize>| {
             id.and_then(|id| state.models.iter().position(|model| model.id == id))
         };
-        let source = |loaded: &Arc<Loaded>| loaded.source.clone();
+        let first = |loaded: &Arc<Loaded>| loaded.sources.first().cloned();
+        let others = |loaded: &Arc<Loaded>| loaded.sources.iter().skip(1).cloned().collect();
         let recordings = state.recordings.as_ref();
+        let held_out = recordings.and_then(|r| r.held_out.as_ref());
         SessionFile {
             schema: SCHEMA.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            fitted: recordings.map(|r| source(&r.fitted)),
-            held_out: recordings.and_then(|r| r.held_out.as_ref().map(source)),
+            fitted: recordings.and_then(|r| first(&r.fitted)),
+            fitted_with: recordings.map_or(Vec::new(), |r| others(&r.fitted)),
+            held_out: held_out.and_then(first),
+            held_out_with: held_out.map_or(Vec::new(), others),
             models: state
                 .models
                 .iter()
@@ -128,9 +138,13 @@ impl SessionFile {
             state.clear();
             return Ok(());
         };
-        let held_out = self.held_out.map(Loaded::read).transpose()?;
+        let read = |first: Source, others: Vec<Source>| {
+            Loaded::read(std::iter::once(first).chain(others).collect())
+        };
+        let others = self.held_out_with;
+        let held_out = self.held_out.map(|first| read(first, others)).transpose()?;
         let recordings = Recordings {
-            fitted: Arc::new(Loaded::read(fitted)?),
+            fitted: Arc::new(read(fitted, self.fitted_with)?),
             held_out: held_out.map(Arc::new),
         };
         state.begin(recordings.clone());

@@ -51,14 +51,14 @@ pub(super) fn view(bench: &Bench) -> Value {
 }
 
 fn recording(recordings: &Recordings) -> Value {
-    let data = &recordings.fitted.data;
+    let data = recordings.shown();
     json!({
-        "name": recordings.fitted.source.name,
+        "name": data.source,
         "samples": data.len(),
         "seconds": data.time_s.last(),
         "counts_per_rev": data.units.counts_per_rev,
         "supply_v": data.supply,
-        "held_out": recordings.held_out.as_ref().map(|other| other.source.name.clone()),
+        "held_out": recordings.kind().source(),
         "held_out_from_s": recordings.held_out_from(),
     })
 }
@@ -185,7 +185,7 @@ pub(super) fn drawn(name: &str, model: &Model) -> Drawn {
 
 /// Measured against the models, the best last.
 pub(super) fn timeline(recordings: &Recordings, models: &[Drawn]) -> Result<Value, Error> {
-    let data = &recordings.fitted.data;
+    let data = recordings.shown();
     let runs: Vec<picture::Run> = models
         .iter()
         .map(|model| model.run(data))
@@ -227,7 +227,7 @@ pub(super) fn pictures(bench: &Bench) -> Result<Value, Error> {
     let timeline = timeline(&recordings, &shown)?;
     let mut sections = vec![ladder(&models)];
     if !shown.is_empty() {
-        sections.extend(failing("bench", &recordings.fitted.data, &shown)?);
+        sections.extend(failing("bench", recordings.shown(), &shown)?);
     }
     if let Some(model) = &chosen {
         sections.push(parameters(model, against.as_ref()));
@@ -302,8 +302,8 @@ pub(super) fn report(bench: &Bench) -> Result<String, Error> {
     };
     let document = Document::from_json(json).map_err(|fault| Error::Failed(fault.to_string()))?;
     let drawn = html::Recordings {
-        fitted: Some(&recordings.fitted.data),
-        held_out: recordings.held_out.as_ref().map(|other| &*other.data),
+        fitted: Some(recordings.shown()),
+        held_out: recordings.kind().source().map(|_| recordings.parts().1),
     };
     Ok(html::page(&document, drawn)?.render())
 }

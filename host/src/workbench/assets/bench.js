@@ -374,11 +374,13 @@
     if (motor) {
       try {
         await send({ motor: dropped.motor, check: true });
-        await load({ motor: dropped.motor });
-        if (csv.length > 1) {
-          dropped = { name: csv[1].name, csv: csv[1].text, motor: motor.text };
-          await load({ motor: motor.text, held_out: true });
+        // As on the command line: of several the last judges, and the others are fitted together.
+        for (const [place, file] of csv.entries()) {
+          dropped = { name: file.name, csv: file.text, motor: motor.text };
+          const last = place > 0 && place === csv.length - 1;
+          await send({ motor: motor.text, role: place === 0 ? "fitted" : last ? "held_out" : "beside" });
         }
+        await fitNow();
         return;
       } catch (error) {
         say(error);
@@ -391,6 +393,10 @@
 
   async function load(more) {
     await send(more);
+    await fitNow();
+  }
+
+  async function fitNow() {
     if (at("columns").open) at("columns").close();
     await work({ what: "fit", effects: [], algorithm: "lm" });
   }
@@ -450,8 +456,8 @@
 
   at("columns").addEventListener("change", checkColumns);
   at("load").addEventListener("click", () => {
-    const heldOut = at("role").value === "held_out" && Boolean(bench.recording);
-    Promise.resolve().then(() => load({ mapping: mapping(), held_out: heldOut })).catch((error) => {
+    const role = bench.recording ? at("role").value : "fitted";
+    Promise.resolve().then(() => load({ mapping: mapping(), role })).catch((error) => {
       at("column-fault").hidden = false;
       at("column-fault").textContent = error.message;
     });
