@@ -28,7 +28,10 @@ fn no_file_that_was_there_is_replaced_by_a_bench_with_a_recording() {
         ("--validate other.csv", "name that one first"),
         ("kept.json --validate other.csv", "leave --validate away"),
         ("rec.csv kept.json", "is a session"),
-        ("rec.csv other.csv --session other.csv", "also the recording"),
+        (
+            "rec.csv other.csv --session other.csv",
+            "also the recording",
+        ),
     ] {
         desk.refused(&bench(flags), 2, &[says]);
     }

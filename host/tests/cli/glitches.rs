@@ -86,6 +86,39 @@ fn a_held_out_recording_at_fault_is_named_in_the_verdict() {
     }
 }
 
+/// The reading of `rec.csv` falls behind the shaft once, or runs ahead of it.
+#[test]
+fn one_event_of_lost_counts_is_named_and_one_of_gained_counts_is_not() {
+    let desk = Desk::with_pair("--seconds 6");
+    let text = desk.read("rec.csv");
+    let readings: Vec<f64> = (text.lines().skip(1))
+        .filter_map(|line| line.split(',').nth(2)?.parse().ok())
+        .collect();
+    let moving = |row: usize| readings[row] - readings[row - 1];
+    let rows: Vec<usize> = [700, 2100, 4300]
+        .into_iter()
+        .map(|from| (from..).find(|&row| moving(row).abs() > 3.0).expect("motion"))
+        .collect();
+    for (row, lost) in rows.into_iter().zip([3.0, 8.0, 40.0]) {
+        for (lost, named) in [(lost, true), (-lost, false)] {
+            let off = lost * moving(row).signum();
+            rewritten(&desk, "rec.csv", "event.csv", |k, cells| {
+                if k >= row {
+                    cells[2] = format!("{}", number(&cells[2]) - off);
+                }
+            });
+            let diagnosis = desk.json("diagnose event.csv --validate other.csv");
+            let steps = diagnosis["steps"].as_array().expect("a list");
+            let what = format!("{lost} counts lost at row {row}: {}", diagnosis["summary"]);
+            let lossy = |step: &Value| step["added"] == "missed_counts";
+            assert_eq!(steps.iter().any(lossy), named, "{what}");
+            let errors = &diagnosis["final"];
+            let left = errors["validate_rms_counts"].as_f64().expect("a number");
+            assert!(!named || (steps.len() == 1 && left < 0.33), "{what}");
+        }
+    }
+}
+
 #[test]
 fn confidence_falls_with_what_stays_unexplained() {
     let desk = pair();

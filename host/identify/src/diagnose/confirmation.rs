@@ -1,11 +1,12 @@
 //! Stage 4: every effect that was selected must still hold beside the others, against its look-alikes, and against
-//! simpler effects in its place. What was selected first was judged without the rest.
+//! simpler effects in its place, and be large enough to matter. What was selected first was judged without the rest.
 
 use super::baseline::{Baseline, Prediction};
 use super::built_up::added;
 use super::context::{Context, constant_drive};
 use super::lost_counts;
 use super::models::FittedModel;
+use super::negligible::without_negligible;
 use super::selection::{Level, Selected, backward_elimination, nested_models, substitution};
 use shared::effects::Kind;
 
@@ -48,7 +49,7 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
         known = last.models.clone();
         let held = held_against_others(&context, last.best.clone(), levels.len() > 1, &mut known);
         known.extend(sums(&context, &held));
-        chosen = Some(held);
+        chosen = without_negligible(&context, held, &known);
     }
     Confirmed {
         context,

@@ -28,6 +28,7 @@
 //! | `candidate` | one model: searched for, scored, held to the readings by an observer, polished |
 //! | `spectrum` | the orders of the angle at which a torque repeats |
 //! | `screening` | one effect more, fitted roughly along the measured motion |
+//! | `negligible` | which effects are too small to be named |
 //! | `lost_counts` | jumps of the reading by whole counts |
 //! | `residual_analysis` | where a model fails: volts against speed, voltage, angle, time |
 //!
@@ -47,6 +48,7 @@ mod linear;
 mod lost_counts;
 mod models;
 mod naming;
+mod negligible;
 mod outcome;
 mod recordings;
 pub mod residual_analysis;

@@ -43,8 +43,6 @@ const FIT: Settings = Settings {
 const ROUNDS: usize = 6;
 /// Samples over which a bend is looked for, at first and when losses are known.
 const LAGS: (usize, usize) = (8, 64);
-/// Fewest losses in the fitted recording: one alone may be a fault of the recording.
-const FEWEST: usize = 2;
 /// Where the rest is not the encoder's own error, only losses of so many counts are beyond doubt, and there
 /// must be so many of them in the fitted recording and in the held-out one.
 const STRONG: (f64, usize, usize) = (5.0, 3, 2);
@@ -156,8 +154,7 @@ fn repair(
         .filter_map(|x| in_recording(context.held_out, structure, parent.method, &x, &[], depth))
         .max_by_key(Vec::len)?;
     let enough = |losses: &[Loss], least: usize| depth == Depth::Single || strong(losses) >= least;
-    if held_out.is_empty()
-        || held_out.len() > most(context.held_out)
+    if held_out.len() > most(context.held_out)
         || !enough(&fitted, STRONG.1)
         || !enough(&held_out, STRONG.2)
     {
@@ -200,8 +197,12 @@ fn settled(
     let mut losses = known.to_vec();
     for _ in 0..ROUNDS {
         let next = in_recording(context.data, structure, parent.method, &x, &losses, depth)?;
-        let few = depth == Depth::Clear && strong(&next) < STRONG.1;
-        if few || next.len() < FEWEST || next.len() > most(context.data) {
+        let few = match depth {
+            Depth::Clear => strong(&next) < STRONG.1,
+            // One is enough where nothing else is left: the repaired recordings must come down to the encoder's error.
+            Depth::Single => next.is_empty(),
+        };
+        if few || next.len() > most(context.data) {
             return None;
         }
         let same = next == losses;

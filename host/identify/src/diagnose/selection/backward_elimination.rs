@@ -38,6 +38,12 @@ pub fn eliminate(
     chosen
 }
 
+/// The best model that is left of `chosen` without `place`. `None` where none comes near it.
+pub fn left(context: &Context<'_>, chosen: &FittedModel, place: Kind) -> Option<FittedModel> {
+    let rest = without_one(context, chosen, place).into_iter();
+    rest.min_by(FittedModel::by_score)
+}
+
 /// `chosen` without one of its effects.
 fn without_one(context: &Context<'_>, chosen: &FittedModel, place: Kind) -> Vec<FittedModel> {
     if chosen.losses.is_some() {
