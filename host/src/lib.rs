@@ -6,6 +6,7 @@
 
 pub mod cli;
 pub mod cmd;
+pub mod coverage;
 pub mod device;
 pub mod error;
 pub mod prove;

@@ -2,6 +2,7 @@
 
 use crate::export::Motor;
 use crate::schema::check::Check;
+use crate::schema::coverage::Coverage;
 use crate::schema::{Contest, Demo, DeviceRun, Diagnosis, Fit, Plan, Proof, Steady, Verification};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
@@ -25,6 +26,7 @@ pub fn all() -> Vec<Reference> {
         of::<Contest>("compare"),
         of::<Plan>("plan"),
         of::<Proof>("prove"),
+        of::<Coverage>("coverage"),
         of::<DeviceRun>("device"),
         of::<Verification>("verify"),
         of::<Motor<'_>>("motor"),

@@ -1,6 +1,7 @@
 //! `servoid prove`: random cases from the virtual bench, diagnosed blind.
 
 use crate::cli::ProveArgs;
+use crate::coverage;
 use crate::error::Error;
 use crate::prove::report::text;
 use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError};
@@ -12,6 +13,9 @@ use std::sync::atomic::Ordering;
 pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
     if !args.merge.is_empty() {
         return merge(session, args);
+    }
+    if args.coverage {
+        return coverage(session, args);
     }
     let outputs: Vec<(&str, &Path)> = [("--out", &args.out), ("--resume", &args.resume)]
         .into_iter()
@@ -40,6 +44,16 @@ pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
     bar.finish_and_clear();
     outcomes.sort_by_key(|outcome| outcome.case);
     deliver(session, &header, &outcomes)
+}
+
+/// How often standard errors hold the truth.
+fn coverage(session: &Session, args: &ProveArgs) -> Result<(), Error> {
+    let shard = args.shard.unwrap_or(Shard::WHOLE);
+    let bar = session.progress(coverage::recordings(args.cases, shard), "coverage");
+    let (cases, stop) = (args.cases, session.stop());
+    let found = coverage::run(session.seed, cases, shard, stop, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    session.deliver(&coverage::report::text(&found), &found)
 }
 
 /// The joint table of several files.

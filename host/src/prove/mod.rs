@@ -39,8 +39,10 @@ mod tests;
 
 pub use case::{Case, Drawn};
 pub use content::{Content, merge, read};
+pub(crate) use draws::Draws;
 pub use header::Header;
 pub use hide::surprise;
+pub(crate) use interval::Count;
 pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};

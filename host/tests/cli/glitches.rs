@@ -97,7 +97,11 @@ fn one_event_of_lost_counts_is_named_and_one_of_gained_counts_is_not() {
     let moving = |row: usize| readings[row] - readings[row - 1];
     let rows: Vec<usize> = [700, 2100, 4300]
         .into_iter()
-        .map(|from| (from..).find(|&row| moving(row).abs() > 3.0).expect("motion"))
+        .map(|from| {
+            (from..)
+                .find(|&row| moving(row).abs() > 3.0)
+                .expect("motion")
+        })
         .collect();
     for (row, lost) in rows.into_iter().zip([3.0, 8.0, 40.0]) {
         for (lost, named) in [(lost, true), (-lost, false)] {

@@ -233,8 +233,8 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     }
     let mut own = spread.covariance.view((0, 0), (count, count)).into_owned();
     for entry in own.iter_mut() {
-        // A column without influence has infinite variance: say "very large".
-        *entry = entry.clamp(-1e30, 1e30);
+        // An unknown without influence has an infinite variance: say "very large".
+        *entry = entry.min(1e30);
     }
     Evidence {
         machine: candidate.machine,

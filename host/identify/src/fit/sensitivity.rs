@@ -4,6 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
 
+/// Places of the fitted path in its cell, over which its rounding errors are counted.
+const PLACES: usize = 64;
 /// Time segments that count as independent.
 pub(super) const SEGMENTS: usize = 24;
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
@@ -17,6 +19,9 @@ pub(super) struct Sensitivity {
     pub squares: DMatrix<f64>,
     /// Jᵀ·r of each time segment, a vector of unknowns each.
     pub gradients: Vec<DVector<f64>>,
+    /// Jᵀ·e for the rounding errors e that the counter makes of the fitted path, in each place that the path may have in its
+    /// cell; none where the reading is no count.
+    pub roundings: Vec<DVector<f64>>,
 }
 
 /// The models to both sides of an unknown's value, and the distance between them in the unknown's unit.
@@ -37,7 +42,8 @@ pub(super) fn sensitivity(
         .iter()
         .flat_map(|pair| [pair.ahead, pair.behind])
         .collect();
-    let mut sums = Sums::new(pairs.len(), residuals);
+    let places = if problem.data.quantised { PLACES } else { 0 };
+    let mut sums = Sums::new(pairs.len(), residuals, places);
     let mut columns = vec![Vec::new(); pairs.len()];
     let here = problem.structure.candidate(values);
     let centring = problem.stream_changes(&here, &models, |changes| {
@@ -119,11 +125,20 @@ struct Sums<'r> {
     squares: DMatrix<f64>,
     /// Jᵀ·r and Σ r of each segment.
     segments: Vec<(DVector<f64>, f64)>,
+    /// Jᵀ·e and Σ e of each place in the cell.
+    places: Vec<(DVector<f64>, f64)>,
+}
+
+/// Error of a counter that rounds down to the centre of its cell, counts, of a path that is `from_centre` beside the centre of the
+/// cell that was read, moved on by `place` of a cell.
+fn rounding(from_centre: f64, place: f64) -> f64 {
+    0.5 - (0.5 + from_centre + place).rem_euclid(1.0)
 }
 
 impl<'r> Sums<'r> {
-    fn new(columns: usize, residuals: &'r [f64]) -> Self {
+    fn new(columns: usize, residuals: &'r [f64], places: usize) -> Self {
         Sums {
+            places: vec![(DVector::zeros(columns), 0.0); places],
             residuals,
             samples: 0,
             sum: DVector::zeros(columns),
@@ -160,6 +175,18 @@ impl<'r> Sums<'r> {
                     self.squares[(i, k)] += dot(column, &other[from..to]);
                 }
             }
+            let cells = self.places.len() as f64;
+            let mut errors = vec![0.0; residuals.len()];
+            for (place, (gradient, sum)) in self.places.iter_mut().enumerate() {
+                let moved = (place as f64 + 0.5) / cells;
+                for (error, residual) in errors.iter_mut().zip(residuals) {
+                    *error = rounding(*residual, moved);
+                }
+                *sum += errors.iter().sum::<f64>();
+                for (gradient, column) in gradient.iter_mut().zip(columns) {
+                    *gradient += dot(&column[from..to], &errors);
+                }
+            }
             self.samples += to - from;
             from = to;
         }
@@ -179,13 +206,14 @@ impl<'r> Sums<'r> {
                     self.squares.column_mut(k).fill(0.0);
                 }
             }
-            for (gradient, residual) in &mut self.segments {
-                *gradient -= &mean * *residual;
+            for (gradient, sum) in self.segments.iter_mut().chain(&mut self.places) {
+                *gradient -= &mean * *sum;
             }
         }
         Sensitivity {
             squares: self.squares,
             gradients: self.segments.into_iter().map(|(g, _)| g).collect(),
+            roundings: self.places.into_iter().map(|(g, _)| g).collect(),
         }
     }
 }
@@ -212,7 +240,7 @@ mod tests {
                 .map(|_| 1 + (draw().abs() * 40.0) as usize)
                 .collect();
             for centring in [Centring::Done, Centring::Pending] {
-                let mut sums = Sums::new(columns, &residuals);
+                let mut sums = Sums::new(columns, &residuals, 0);
                 let mut from = 0;
                 for part in &parts {
                     let to = (from + part).min(rows);
@@ -257,7 +285,7 @@ mod tests {
     #[test]
     fn a_change_that_is_the_same_everywhere_is_none() {
         let residuals = [0.3; 1000];
-        let mut sums = Sums::new(2, &residuals);
+        let mut sums = Sums::new(2, &residuals, 0);
         sums.add(&[vec![0.1; 1000], (0..1000).map(f64::from).collect()]);
         let found = sums.centred(Centring::Pending);
         assert_eq!(found.squares[(0, 0)], 0.0);

@@ -6,6 +6,11 @@
 //! covariance is the cluster-robust sandwich `H⁻¹·(Σ gₛ·gₛᵀ)·H⁻¹` over time segments s (White, 1980;
 //! Liang, Zeger, 1986), where `gₛ` is a segment's part of the gradient: whatever the correlation
 //! within a segment, it is counted once.
+//!
+//! That fails in two ways. Where a few segments hold all the information, the fit has made their gradients vanish; and
+//! where the excitation repeats itself, so do the rounding errors, coherent across segments. So the rounding errors that the
+//! counter makes of the fitted path are counted as well, over all places of the path in its cell, and the covariance
+//! is in no direction below the one that they make (a parametric bootstrap, Efron and Tibshirani, 1993, of the quantiser).
 
 use super::correlation_time::correlation_sum;
 use super::sensitivity::sensitivity;
@@ -15,6 +20,8 @@ use servoid_engine::problem::{Data, FitProblem};
 /// Singular values of the column-scaled Jacobian below this belong to directions that the data do not determine.
 const FLAT: f64 = 1e-6;
 
+/// Variances below this part of the largest are rounding errors of the arithmetic.
+const ROUNDED: f64 = 1e-14;
 /// Coordinates nearer than this to a wall of the cube lie on it.
 const WALL: f64 = 1e-9;
 /// Part of the squared error that one more step would remove, above which the search has not converged.
@@ -98,13 +105,24 @@ pub fn uncertainty(
     }
     let segments = found.gradients.len() as f64;
     let correction = segments / (segments - (columns as f64).min(segments - 1.0));
-    let scaled_covariance = &inverse * middle * &inverse * correction + &away * away.transpose();
+    let sandwich = &inverse * middle * &inverse * correction + &away * away.transpose();
+    let scaled_covariance = match &found.roundings[..] {
+        [] => sandwich,
+        roundings => {
+            let mut rounding = DMatrix::zeros(columns, columns);
+            for gradient in roundings.iter().map(scaled) {
+                rounding += &gradient * gradient.transpose() / roundings.len() as f64;
+            }
+            not_below(&sandwich, &(&inverse * rounding * &inverse))
+        }
+    };
     let covariance = DMatrix::from_fn(columns, columns, |i, k| {
         let scale = scales[i] * scales[k];
-        if scale > 0.0 {
-            scaled_covariance[(i, k)] / scale
-        } else {
-            f64::INFINITY
+        match (scale > 0.0, i == k) {
+            (true, _) => scaled_covariance[(i, k)] / scale,
+            (false, true) => f64::INFINITY,
+            // What nothing determines goes with nothing.
+            (false, false) => 0.0,
         }
     });
     Some(Uncertainty {
@@ -113,6 +131,27 @@ pub fn uncertainty(
         converged: removable < UNCONVERGED,
         effective_samples: effective_samples(problem.data, residuals),
     })
+}
+
+/// A covariance that is in no direction below `a` or `b`: `a`, and what `b` has beyond it in the metric of their sum.
+fn not_below(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let sum = (a + b).symmetric_eigen();
+    let largest = sum.eigenvalues.iter().copied().fold(0.0, f64::max);
+    let powered = |power: f64| {
+        let values = sum.eigenvalues.map(|value| {
+            if value > ROUNDED * largest {
+                value.powf(power)
+            } else {
+                0.0
+            }
+        });
+        &sum.eigenvectors * DMatrix::from_diagonal(&values) * sum.eigenvectors.transpose()
+    };
+    let (root, inverse_root) = (powered(0.5), powered(-0.5));
+    let beyond = (&inverse_root * (b - a) * &inverse_root).symmetric_eigen();
+    let values = DMatrix::from_diagonal(&beyond.eigenvalues.map(|value| value.max(0.0)));
+    let beyond = &beyond.eigenvectors * values * beyond.eigenvectors.transpose();
+    a + &root * beyond * &root
 }
 
 /// Samples divided by the sum of the residuals' autocorrelation ([`correlation_sum`]), and never more than the changes of the reading.

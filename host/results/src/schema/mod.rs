@@ -15,6 +15,7 @@
 //! | `device` | `servoid.device/1`, the report of a device's run |
 //! | `verification` | `servoid.verify/1` |
 //! | `proof` | `servoid.prove/1` |
+//! | `coverage` | `servoid.coverage/1` |
 //! | `model` | a model with all its numbers, which runs again |
 //! | `position_loop` | the position loop that made the volts of a recording |
 //! | `estimate` | parameters with their errors, response, margins |
@@ -24,6 +25,7 @@
 
 pub mod check;
 pub mod contest;
+pub mod coverage;
 pub mod device;
 pub mod diagnosis;
 mod document;

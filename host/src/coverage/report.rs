@@ -1,0 +1,58 @@
+//! The table of coverage as text.
+
+use servoid_results::schema::coverage::{Condition, Coverage, Covered};
+
+/// The table.
+pub fn text(coverage: &Coverage) -> String {
+    let mut out = format!(
+        "{} recordings of random motors, seed {}: how often the stated intervals hold the truth\n",
+        coverage.recordings, coverage.seed
+    );
+    if coverage.failures > 0 {
+        out += &format!("{} could not be recorded or fitted\n", coverage.failures);
+    }
+    for condition in &coverage.conditions {
+        out += &rows(condition);
+    }
+    out += "\nright are 68 % within one standard error, 95 % within 1.96, mean 0 and deviation 1 of the\nerrors in standard errors\n";
+    out
+}
+
+fn rows(condition: &Condition) -> String {
+    let mut out = format!(
+        "\n{}, {} s, {} counts a revolution\n  {:26}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
+        condition.excitation,
+        condition.seconds,
+        condition.counts_per_rev,
+        "",
+        "68 %",
+        "95 %",
+        "",
+        "mean",
+        "sd",
+        "none",
+    );
+    for covered in &condition.parameters {
+        out += &row(covered);
+    }
+    out
+}
+
+fn row(covered: &Covered) -> String {
+    let percent = |part: f64| format!("{:.0}", 100.0 * part);
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
+    let part = |rate: Option<f64>| rate.map_or("-".to_owned(), percent);
+    let (one, two) = (covered.within_1.rate, covered.within_2.rate);
+    let interval = two.map_or(String::new(), |rate| {
+        format!("({}-{})", percent(rate.low), percent(rate.high))
+    });
+    format!(
+        "  {:26}{:>6}{:>6}   {interval:11}{:>7}{:>7}{:>8}\n",
+        covered.name,
+        part(one.map(|rate| rate.part)),
+        part(two.map(|rate| rate.part)),
+        number(covered.z_mean),
+        number(covered.z_sd),
+        covered.not_stated,
+    )
+}
