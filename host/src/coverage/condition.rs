@@ -5,6 +5,7 @@ use crate::prove::{Draws, Motor};
 use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
 use servoid_identify::{Silent, identify_data};
+use servoid_io::input::Known;
 use servoid_io::record::Record;
 use servoid_plant::{Bench, DriveSample, Machine};
 use shared::excite::{COMMISSIONING, Experiment, Shape, commands};
@@ -13,6 +14,8 @@ use shared::excite::{COMMISSIONING, Experiment, Shape, commands};
 const INTERVAL_S: f64 = 1e-3;
 /// Part of the supply.
 const AMPLITUDE: f64 = 0.8;
+/// Noise of the current sensor, standard deviation, as a part of the stall current.
+const CURRENT_NOISE: f64 = 0.002;
 /// Encoders, counts per revolution.
 const ENCODERS: [u32; 2] = [2000, 200];
 
@@ -63,7 +66,15 @@ impl Condition {
         let Some(data) = self.record(machine, draws.seed()) else {
             return Ok(None);
         };
-        let Ok(fit) = identify_data(&data, None, &Options::default(), &Silent::default()) else {
+        let known = Known {
+            kt_equals_kb: true,
+            ..Known::default()
+        };
+        let options = Options {
+            known,
+            ..Options::default()
+        };
+        let Ok(fit) = identify_data(&data, None, &options, &Silent::default()) else {
             return Ok(None);
         };
         let error = |(name, truth): (&'static str, f64)| {
@@ -79,6 +90,7 @@ impl Condition {
         bench.counts_per_rev = self.counts_per_rev;
         bench.sample_s = INTERVAL_S;
         bench.seed = seed;
+        bench.current_noise_a = CURRENT_NOISE * machine.stall_current_a();
         let drive: Vec<DriveSample> = commands::<f64>(&self.plan(), INTERVAL_S, seed)
             .map(|command| DriveSample {
                 volts: command.drive * machine.supply_v,
@@ -109,8 +121,8 @@ impl Condition {
 }
 
 /// What a fit of the linear motor states, of the bench's machine: gain Kt/D, a1 = (R·J + L·f)/D, a2/a1 with a2 = L·J/D, where
-/// D = Kt·Kb + R·f; and the resistance, which the current shows.
-fn truth(machine: &Machine) -> [(&'static str, f64); 4] {
+/// D = Kt·Kb + R·f; and what the current shows where Kt = Kb.
+fn truth(machine: &Machine) -> [(&'static str, f64); 8] {
     let m = machine;
     let total = m.kt_n_m_a * m.kb_v_s_rad + m.resistance_ohm * m.viscous_n_m_s;
     let a1 = (m.resistance_ohm * m.inertia_kg_m2 + m.inductance_h * m.viscous_n_m_s) / total;
@@ -120,5 +132,9 @@ fn truth(machine: &Machine) -> [(&'static str, f64); 4] {
         ("a1", a1),
         ("electrical_time_constant", a2 / a1),
         ("resistance", m.resistance_ohm),
+        ("inductance", m.inductance_h),
+        ("kt", m.kt_n_m_a),
+        ("inertia", m.inertia_kg_m2),
+        ("viscous", m.viscous_n_m_s),
     ]
 }

@@ -187,9 +187,9 @@ impl<'a> Simulation<'a> {
         current
     }
 
-    /// Current at each sample as the voltage across the resistance, V, from rest at `angle` counts;
+    /// Current at each sample as the voltage across the resistance, V, and speed, rad/s, from rest at `angle` counts;
     /// in further recordings from where they begin.
-    pub fn currents(&self, angle: f64) -> Vec<f64> {
+    pub fn currents_and_speeds(&self, angle: f64) -> Vec<(f64, f64)> {
         let mut state = self.start(0, angle, 0.0);
         (0..self.data.len())
             .map(|k| {
@@ -197,9 +197,10 @@ impl<'a> Simulation<'a> {
                     state = self.start(k, self.data.centre(k), 0.0);
                 }
                 let volts = state.motion.current * self.data.units.volts;
+                let speed = state.motion.speed * self.data.units.speed;
                 let model = self.model(k);
                 model.step(&mut state, self.data.command[k], self.data.is_open(k));
-                volts
+                (volts, speed)
             })
             .collect()
     }

@@ -11,7 +11,7 @@
 //! | `correlation_time` | for how long an error is correlated with itself |
 //! | `sensitivity` | sums over the Jacobian of the residuals |
 //! | `uncertainty` | the covariance of the unknowns |
-//! | `resistance` | the resistance from a measured current |
+//! | `armature_current` | what a measured current says of inertia and viscous friction |
 //! | `physical` | the six physical parameters from data and known facts |
 //! | `plausibility` | whether the machine can be one |
 //! | `margins` | stability margins of the position loop |
@@ -22,6 +22,7 @@
 //! | `report` | the fitted model with all of these |
 //! | `error_ladder` | the error as effects are added one by one |
 
+mod armature_current;
 mod bound;
 mod correlation_time;
 mod error_ladder;
@@ -35,7 +36,7 @@ pub(crate) mod recordings;
 pub mod regression;
 mod remarks;
 pub mod report;
-mod resistance;
+
 pub mod scores;
 mod search;
 mod sensitivity;

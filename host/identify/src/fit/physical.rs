@@ -42,15 +42,24 @@ pub struct Estimate {
     pub std: f64,
 }
 
-/// What the data determine: a machine, its covariance, and a resistance if the current was measured.
+/// What a measured current says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurrentEvidence {
+    /// Inertia over the torque constant, `J/Kt`, A·s²/rad.
+    pub inertia: Estimate,
+    /// Viscous friction over the torque constant, `f/Kt`, A·s/rad.
+    pub friction: Estimate,
+}
+
+/// What the data determine: a machine, its covariance, and what the current says if it was measured.
 #[derive(Clone, Debug)]
 pub struct Evidence {
     /// The machine that was fitted.
     pub machine: Machine<f64>,
     /// Covariance of `(D, a1·D, a2·D)`, or of these and `p` where the viscous part was fitted too.
     pub covariance: DMatrix<f64>,
-    /// Resistance from measured current, Ω.
-    pub resistance: Option<Estimate>,
+    /// What the measured current says.
+    pub current: Option<CurrentEvidence>,
 }
 
 /// What data and facts say together.
@@ -122,7 +131,7 @@ fn gradient(model: &dyn Fn(&Vector) -> f64, u: &Vector, sizes: &Vector) -> Vecto
 }
 
 /// Statements of the facts.
-fn facts(known: &Known, resistance: Option<Estimate>, start: &Vector) -> Vec<Statement> {
+fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec<Statement> {
     // A fact may be zero (no inductance, no viscous friction): then the size of what it is compared
     // with counts.
     let size = |value: f64, k: usize| {
@@ -144,11 +153,19 @@ fn facts(known: &Known, resistance: Option<Estimate>, start: &Vector) -> Vec<Sta
             });
         }
     }
-    if let Some(r) = resistance {
+    if let Some(CurrentEvidence { inertia, friction }) = current {
+        let exact = CONSTANT * inertia.value;
+        // m/R and b/R, with the coordinates that they are made of.
         statements.push(Statement {
-            model: Box::new(|u| physical(u)[0]),
-            value: r.value,
-            std: r.std.max(CONSTANT * r.value),
+            model: Box::new(|u| u[3] / u[0].exp()),
+            value: inertia.value,
+            std: inertia.std.max(exact),
+        });
+        let per_time = start[2].abs() / start[3].abs().max(f64::MIN_POSITIVE);
+        statements.push(Statement {
+            model: Box::new(|u| u[5] * u[2] / u[0].exp()),
+            value: friction.value,
+            std: friction.std.max(exact * per_time),
         });
     }
     if known.kt_equals_kb {
@@ -176,7 +193,7 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     let resistance = known
         .resistance_ohm
         .map(|f| f.value)
-        .or(evidence.resistance.map(|r| r.value));
+        .or(evidence.current.map(|c| machine.inertia / c.inertia.value));
     let kt = known.kt_n_m_a.map_or(total, |f| f.value);
     let start = Vector::from([
         resistance.unwrap_or(1.0).max(1e-12).ln(),
@@ -189,7 +206,7 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     let sizes = sizes(&start);
     let measured = determined_by_data(machine);
     let whitening = whitening(&evidence.covariance, &measured);
-    let statements = facts(known, evidence.resistance, &start);
+    let statements = facts(known, evidence.current, &start);
     // All that is stated, as rows of unit variance: slope, and what is still missing.
     let rows_at = |u: &Vector| {
         let mut rows: Vec<(Vector, f64)> = statements
@@ -374,7 +391,7 @@ mod tests {
         let evidence = Evidence {
             machine,
             covariance,
-            resistance: None,
+            current: None,
         };
         let fact = |value: f64| {
             Some(Fact {

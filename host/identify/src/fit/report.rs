@@ -1,5 +1,6 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
+use super::armature_current::current_evidence;
 use super::margins::{Loop, Margins};
 use super::options::Options;
 use super::physical::{
@@ -8,7 +9,6 @@ use super::physical::{
 use super::plausibility::contradictions;
 use super::recordings::RecordingError;
 use super::remarks;
-use super::resistance::resistance;
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
 use super::validate::validate;
@@ -239,7 +239,7 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
     Evidence {
         machine: candidate.machine,
         covariance: &slope * own * slope.transpose(),
-        resistance: resistance(problem.data, candidate, problem.method),
+        current: current_evidence(problem, candidate, spread),
     }
 }
 
