@@ -136,3 +136,68 @@ fn wrong_use_is_refused_before_the_work() {
         );
     }
 }
+
+/// Least coverage of the 95 % intervals that so few recordings must leave possible, and most of the spread of the errors.
+const COVERAGE: f64 = 0.92;
+const SPREAD: f64 = 1.8;
+
+/// Every parameter of every drive and encoder: what is stated as 95 % may be that.
+#[test]
+fn stated_intervals_hold_the_truth_as_often_as_they_say() {
+    let desk = Desk::new();
+    let line = "prove --coverage --cases 30 --seed 20261125 --json c.json";
+    let outcome = desk.done(line);
+    println!("{outcome}");
+    for line in outcome.stdout.lines() {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+    let json = desk.read_json("c.json");
+    assert_eq!(json["schema"], "servoid.coverage/1");
+    has(
+        &json,
+        "version: text, seed: number, recordings: number, failures: number, conditions: list, interrupted: flag",
+    );
+    assert_eq!(json["failures"], 0);
+    let conditions = list(&json, "conditions");
+    assert_eq!(json["recordings"], 30 * conditions.len());
+    for condition in conditions {
+        for covered in list(condition, "parameters") {
+            let z = list(covered, "z").len();
+            let what = format!(
+                "{}, {}: {covered}",
+                condition["excitation"], condition["counts_per_rev"]
+            );
+            // What a triangle or a coarse encoder hardly shows need not be stated.
+            assert!(z >= 20, "{what}");
+            let most = covered["within_2"]["rate"]["high"]
+                .as_f64()
+                .expect("a number");
+            assert!(most >= COVERAGE, "{what}");
+            let spread = covered["z_sd"].as_f64().expect("a number");
+            assert!(spread <= SPREAD, "{what}");
+        }
+    }
+}
+
+#[test]
+fn parts_of_a_coverage_are_those_of_the_whole() {
+    let desk = Desk::new();
+    let all = |flags: &str| desk.json(&format!("prove --coverage --cases 4 --seed 3 {flags}"));
+    let errors = |json: &serde_json::Value| -> Vec<f64> {
+        let conditions = list(json, "conditions");
+        let covered = conditions.iter().flat_map(|c| list(c, "parameters"));
+        let z = covered.flat_map(|p| list(p, "z"));
+        z.filter_map(serde_json::Value::as_f64).collect()
+    };
+    let sorted = |mut errors: Vec<f64>| {
+        errors.sort_by(f64::total_cmp);
+        errors
+    };
+    let whole = sorted(errors(&all("")));
+    let (one, other) = (all("--shard 1/2"), all("--shard 2/2"));
+    let parts = [errors(&one), errors(&other)].concat();
+    assert_eq!(sorted(parts), whole);
+    for flags in ["--hidden one", "--out x.jsonl", "--only 1", "--law other"] {
+        desk.refused(&format!("prove --coverage {flags}"), 2, &["--coverage"]);
+    }
+}

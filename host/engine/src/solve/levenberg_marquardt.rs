@@ -2,9 +2,9 @@
 //! translation of MINPACK), with the Jacobian by finite differences.
 //!
 //! The crate knows no bounds. Steps that leave the cube are projected onto it, a coordinate that
-//! stands at a wall with the cost falling outwards is held there (its column of the Jacobian is
-//! zero), and a run that met a wall is repeated from where it ended as long as that helps: a
-//! coordinate once held must be able to come back.
+//! stands at a wall with a cost that does not fall inwards is held there (its column of the Jacobian is
+//! zero), and a run that met a wall is repeated from a little inside of where it ended as long as that helps: a
+//! coordinate once held must be able to come back, and where the cost is flat at the wall no slope leads it back.
 //!
 //! Sources: D. W. Marquardt, *J. SIAM* 11, 431, 1963, doi:10.1137/0111030; J. J. Moré, *Numerical
 //! Analysis*, Lecture Notes in Mathematics 630, 105, 1978, doi:10.1007/BFb0067700.
@@ -38,6 +38,8 @@ const STEP: f64 = 1e-6;
 const IMPOSSIBLE_STARTS: usize = 100;
 /// A run from the wall is repeated if it lowered the sum of squares by more than this part.
 const WORTHWHILE: f64 = 1e-6;
+/// Distance from a wall at which it is repeated, as a share of the cube's side.
+const INSIDE: f64 = 1e-3;
 /// Evaluations allowed to one run, per coordinate; the budget ends it long before.
 const PATIENCE: usize = 1_000_000;
 
@@ -84,7 +86,7 @@ impl LevenbergMarquardt {
                 };
             let again = end.met_wall() && squares < last * (1.0 - WORTHWHILE);
             let begun = end.evaluated();
-            x = end.inside();
+            x = end.inside().map(|x| x.clamp(INSIDE, 1.0 - INSIDE));
             if !again {
                 return begun;
             }

@@ -2,6 +2,7 @@
 //! the effect: flanks about a gap of nothing swing as a spring does, and beside a sag of nothing viscous friction is free. Such an
 //! effect is not named, whatever its error says.
 
+use super::candidate::polish::polish;
 use super::candidate::search::fit_problem;
 use super::context::Context;
 use super::models::FittedModel;
@@ -40,7 +41,13 @@ pub fn without_negligible(
             _ => backward_elimination::left(context, &chosen, place),
         };
         let fewer = |model: &FittedModel| model.effects.len() < chosen.effects.len();
-        match other.or_else(rest)? {
+        let model = other.or_else(rest)?;
+        // What is chosen in its place is brought to its end as the chosen one was.
+        let model = match model.is_proven() {
+            true => model,
+            false => polish(context, &model).unwrap_or(model),
+        };
+        match model {
             model if fewer(&model) => chosen = model,
             // An equal that was found on another way is not looked at again.
             model => return Some(model),

@@ -93,10 +93,10 @@ impl<'s, 'a> Compact<'s, 'a> {
         let mut jacobian = DMatrix::zeros(triangle.nrows(), steps.len());
         for (axis, step) in steps.iter().enumerate() {
             let column = triangle.column(axis + 1) * (sign / step);
-            // The first row is the gradient. A coordinate at a wall is held where the cost falls outwards.
+            // The first row is the gradient. A coordinate at a wall is held where the cost does not fall inwards.
             let gradient = column[0];
             let at = self.x[axis];
-            if (at <= 0.0 && gradient > 0.0) || (at >= 1.0 && gradient < 0.0) {
+            if (at <= 0.0 && gradient >= 0.0) || (at >= 1.0 && gradient <= 0.0) {
                 self.met_wall.set(true);
             } else {
                 jacobian.set_column(axis, &column);

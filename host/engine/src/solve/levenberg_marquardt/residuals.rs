@@ -76,10 +76,10 @@ impl<'s, 'a> Residuals<'s, 'a> {
         ))
     }
 
-    /// Whether coordinate `axis` stands at a wall, or beyond, and the cost falls outwards.
+    /// Whether coordinate `axis` stands at a wall, or beyond, and the cost does not fall inwards.
     fn held(&self, axis: usize, column: &DVector<f64>) -> bool {
         let gradient = column.dot(&self.here.borrow());
-        (self.x[axis] <= 0.0 && gradient > 0.0) || (self.x[axis] >= 1.0 && gradient < 0.0)
+        (self.x[axis] <= 0.0 && gradient >= 0.0) || (self.x[axis] >= 1.0 && gradient <= 0.0)
     }
 
     fn finite_differences(&self) -> Result<DMatrix<f64>, Stop> {
