@@ -42,7 +42,7 @@ fn covered(errors: &[&[Error]], k: usize) -> Covered {
     let count = z.len() as f64;
     let mean = z.iter().sum::<f64>() / count;
     let squares: f64 = z.iter().map(|z| (z - mean).powi(2)).sum();
-    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+    let some = |least: usize, x: f64| Some(x).filter(|_| z.len() >= least);
     Covered {
         name: errors
             .first()
@@ -51,8 +51,8 @@ fn covered(errors: &[&[Error]], k: usize) -> Covered {
         within_1: Count::of(&z, |z| z.abs() <= 1.0).share("within_1"),
         within_2: Count::of(&z, |z| z.abs() <= 1.96).share("within_2"),
         not_stated: (stated.len() - z.len()) as u64,
-        z_mean: finite(mean),
-        z_sd: finite((squares / (count - 1.0)).sqrt()),
+        z_mean: some(1, mean),
+        z_sd: some(2, (squares / (count - 1.0)).sqrt()),
         z,
     }
 }

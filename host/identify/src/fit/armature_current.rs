@@ -153,19 +153,15 @@ impl Plane {
     /// The slopes, with the larger of two standard errors: errors that are correlated over time count once a segment, as for the other
     /// parameters; and where one segment holds all that is known of the slope, each error counts alone.
     fn slopes(&self, model: &[(f64, f64)], measured: &[f64], used: &[bool]) -> [Estimate; 2] {
-        let rows: Vec<_> = model.iter().zip(measured).zip(used).collect();
         let mut squares = 0.0;
-        let mut segment = |rows: &[((&(f64, f64), &f64), &bool)]| {
-            let mut gradient = Vector3::zeros();
-            for &((&at, &i), _) in rows.iter().filter(|&&(_, &used)| used) {
-                let error = i - self.at(at);
-                gradient += row(at, self.scales) * error;
-                squares += error * error;
-            }
-            gradient * gradient.transpose()
-        };
-        let segments = rows.chunks(rows.len().div_ceil(SEGMENTS).max(1));
-        let middle: Matrix3<f64> = segments.map(&mut segment).sum();
+        let length = measured.len().div_ceil(SEGMENTS).max(1);
+        let mut gradients = vec![Vector3::zeros(); measured.len().div_ceil(length)];
+        for k in (0..measured.len()).filter(|&k| used[k]) {
+            let error = measured[k] - self.at(model[k]);
+            gradients[k / length] += row(model[k], self.scales) * error;
+            squares += error * error;
+        }
+        let middle: Matrix3<f64> = gradients.iter().map(|g| g * g.transpose()).sum();
         let sandwich = self.inverse * middle * self.inverse;
         let count = used.iter().filter(|&&used| used).count() as f64;
         let alone = self.inverse * (squares / (count - 3.0).max(1.0));

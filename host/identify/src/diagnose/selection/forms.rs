@@ -49,7 +49,7 @@ fn tried(context: &Context<'_>, model: &FittedModel, freed: FittedModel) -> Opti
     let ran = model.ran();
     let excess = |mean_square: f64| (mean_square - ran.floor.powi(2)).max(0.0);
     let left = excess(found.squares / context.samples() as f64) / excess(ran.fitted.powi(2));
-    (1.0 - left > PROMISING * MUST_REMOVE).then(|| FittedModel {
+    (1.0 - left > PROMISING * MUST_REMOVE).then_some(FittedModel {
         x: found.x,
         ..freed
     })
