@@ -139,7 +139,7 @@ fn wrong_use_is_refused_before_the_work() {
 
 /// Least coverage of the 95 % intervals that so few recordings must leave possible, and most of the spread of the errors.
 const COVERAGE: f64 = 0.92;
-const SPREAD: f64 = 1.8;
+const SPREAD: f64 = 1.6;
 
 /// Every parameter of every drive and encoder: what is stated as 95 % may be that.
 #[test]

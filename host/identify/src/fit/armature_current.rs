@@ -34,15 +34,18 @@ pub fn current_evidence(
         .values(&problem.structure.point(candidate));
     let slopes = |k: usize| {
         let std = spread.std(k).filter(|std| *std > 0.0)?;
-        let moved = |by: f64| {
+        // No further than the model reaches: an inductance is not negative.
+        let (low, high) = problem.structure.unknowns[k].range;
+        let (up, down) = ((values[k] + std).min(high), (values[k] - std).max(low));
+        let moved = |to: f64| {
             let mut values = values.clone();
-            values[k] += by;
+            values[k] = to;
             let moved = problem.structure.candidate(&values);
             let found = at(problem.data, &moved, problem.method)?;
             Some([found.inertia.value, found.friction.value])
         };
-        let (up, down) = (moved(std)?, moved(-std)?);
-        Some([0, 1].map(|n| (up[n] - down[n]) / (2.0 * std)))
+        let (above, below) = (moved(up)?, moved(down)?);
+        (up > down).then(|| [0, 1].map(|n| (above[n] - below[n]) / (up - down)))
     };
     let slopes: Vec<[f64; 2]> = (0..values.len())
         .map(|k| slopes(k).unwrap_or_default())
