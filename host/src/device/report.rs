@@ -25,6 +25,7 @@ pub fn report(run: &Run, order: &Order) -> DeviceRun {
         at_s: f64::from(failure.at) * f64::from(run.about.period_us) * 1e-6,
         seen: failure.seen,
         limit: failure.limit,
+        unit: Some(failure.fault.unit().to_owned()).filter(|unit| !unit.is_empty()),
     });
     if let Some(report) = report {
         let period_s = f64::from(run.about.period_us) * 1e-6;

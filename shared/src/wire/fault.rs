@@ -52,6 +52,22 @@ impl Fault {
         Fault::TimeUp,
         Fault::NothingToFit,
     ];
+
+    /// The unit of the number that broke the limit, and of the limit; nothing where there is none.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Fault::Stall | Fault::Overtravel | Fault::Runaway => "counts",
+            Fault::NotVerified => "hundredths of a count RMS",
+            Fault::Overcurrent | Fault::Overheated => "mA",
+            Fault::Overspeed => "counts a period",
+            Fault::TimeUp => "periods",
+            Fault::Stopped
+            | Fault::LinkLost
+            | Fault::Overrun
+            | Fault::Bridge
+            | Fault::NothingToFit => "",
+        }
+    }
 }
 
 impl fmt::Display for Fault {

@@ -94,6 +94,9 @@ pub struct Failure {
     pub seen: i32,
     /// The limit, in the same unit.
     pub limit: i32,
+    /// That unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
 }
 
 /// The keys of [`Settings`], which the firmware shares and which knows nothing of schemas.

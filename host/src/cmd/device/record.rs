@@ -174,7 +174,13 @@ fn into_folder(
                 failure.at_s,
                 failure.message,
                 if failure.limit != 0 {
-                    format!(" (seen {}, limit {})", failure.seen, failure.limit)
+                    let unit = failure.unit.as_deref().unwrap_or_default();
+                    let number = |x: i32| format!("{x} {unit}").trim_end().to_owned();
+                    format!(
+                        " (seen {}, limit {})",
+                        number(failure.seen),
+                        number(failure.limit)
+                    )
                 } else {
                     String::new()
                 }

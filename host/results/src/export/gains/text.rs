@@ -108,7 +108,7 @@ fn text(section: &Section, subject: &Subject, written: &mut Written) -> String {
         );
     }
     out += &format!("crossover_hz = {:?}\n", rounded(hz(closed.crossover)));
-    out += &format!("phase_margin_deg = {:?}\n", closed.phase_margin);
+    out += &format!("phase_margin_deg = {:?}\n", rounded(closed.phase_margin));
     out += &match closed.bandwidth {
         Some(bandwidth) => format!(
             "bandwidth_hz = {:?} # -3 dB of the closed loop\n",
