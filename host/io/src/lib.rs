@@ -6,10 +6,12 @@
 //! | `position_loop` | from target angles to the volts of a drive that closes a position loop |
 //! | `input` | readers of foreign CSV files and of `motor.toml` |
 //! | `output` | files written whole or not at all |
+//! | `excitation` | excitations by name, and what an amplifier is told by one |
 //! | `record` | the virtual bench as a recorder |
 //! | `showcase` | the recordings of a demonstration |
 #![forbid(unsafe_code)]
 
+pub mod excitation;
 pub mod input;
 pub mod output;
 pub mod position_loop;

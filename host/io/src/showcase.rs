@@ -1,9 +1,10 @@
 //! The recordings of a demonstration: a gearmotor of the virtual bench with something hidden in it.
 
+use crate::excitation;
 use crate::record::Record;
 use crate::recording::Recording;
-use servoid_plant::{Bench, BenchError, DriveSample, Hidden, Machine};
-use shared::excite::{COMMISSIONING, commands};
+use servoid_plant::{Bench, BenchError, Hidden, Machine};
+use shared::excite::COMMISSIONING;
 
 /// Sample interval, s.
 const INTERVAL_S: f64 = 1e-3;
@@ -26,11 +27,6 @@ pub fn record(hidden: &Hidden, seed: u64, name: &str) -> Result<Recording, Bench
     bench.sample_s = INTERVAL_S;
     bench.seed = seed;
     bench.effects = vec![hidden.clone()];
-    let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, INTERVAL_S, seed)
-        .map(|c| DriveSample {
-            volts: c.drive * machine.supply_v,
-            enabled: c.enabled,
-        })
-        .collect();
+    let drive = excitation::drive(&COMMISSIONING, INTERVAL_S, seed, machine.supply_v);
     bench.record(&drive, name, false)
 }

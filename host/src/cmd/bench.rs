@@ -91,7 +91,7 @@ fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
         return saved(first);
     }
     let fitted = loaded(args, args.fitted())?;
-    let mut held_out = Vec::new();
+    let mut held_out: Option<Loaded> = None;
     for path in args.held_out() {
         let other = loaded(args, std::slice::from_ref(path))?;
         if other.has_copy_of(&fitted) {
@@ -99,15 +99,14 @@ fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
                 "--validate {}: is fitted, too, which is no test: it is not held out",
                 path.display()
             ));
-        } else {
-            held_out.push(path.clone());
+            continue;
         }
+        held_out = Some(match held_out {
+            Some(others) => others.with(&other)?,
+            None => other,
+        });
     }
-    let held_out = match held_out.is_empty() {
-        true => None,
-        false => Some(Box::new(loaded(args, &held_out)?)),
-    };
-    Ok(Opening::Recording(Box::new(fitted), held_out))
+    Ok(Opening::Recording(Box::new(fitted), held_out.map(Box::new)))
 }
 
 fn saved(path: &Path) -> Result<Opening, Error> {

@@ -7,18 +7,17 @@ use crate::cli::SimulateArgs;
 use crate::error::Error;
 use crate::session::Session;
 use serde::Serialize;
+use servoid_io::excitation;
 use servoid_io::input::MotorFile;
 use servoid_io::input::suggest::did_you_mean;
 use servoid_io::output::write_recording;
 use servoid_io::position_loop::LoopSettings;
 use servoid_io::record::Record;
 use servoid_io::recording::Recording;
-use servoid_plant::{Amplifier, Bench, BenchError, DriveSample, Hidden, Machine, PositionControl};
-use shared::excite::{COMMISSIONING, COMMISSIONING_COAST, Experiment, Shape, commands};
+use servoid_plant::{Amplifier, Bench, BenchError, Hidden, Machine, PositionControl};
+use shared::excite::Experiment;
 use std::f64::consts::{PI, TAU};
 
-/// Usual length of a single shape, s.
-const USUAL_SECONDS: f64 = 10.0;
 /// Longest recording, samples: a day at 1 kHz would be a slip of a unit.
 const MOST_SAMPLES: f64 = 2e7;
 
@@ -57,12 +56,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         largest = TAU * args.reach;
     }
     let plan = plan(args)?;
-    let drive: Vec<DriveSample> = commands::<f64>(&plan, args.sample, session.seed)
-        .map(|c| DriveSample {
-            volts: c.drive * largest,
-            enabled: c.enabled,
-        })
-        .collect();
+    let drive = excitation::drive(&plan, args.sample, session.seed, largest);
     let with_current = args.current || bench.current_noise_a > 0.0;
     if drive.len() < 2 {
         return Err(Error::Usage(format!(
@@ -249,31 +243,15 @@ fn plan(args: &SimulateArgs) -> Result<Vec<Experiment>, Error> {
             args.amplitude
         )));
     }
-    let single;
-    let base: &[Experiment] = match args.excite.as_str() {
-        "commissioning" => &COMMISSIONING,
-        "commissioning-coast" => &COMMISSIONING_COAST,
-        name => {
-            let names: Vec<&str> = excitations().collect();
-            let (_, shape) = Shape::ALL
-                .iter()
-                .find(|(known, _)| *known == name)
-                .ok_or_else(|| {
-                    Error::Usage(format!(
-                        "--excite {name}: unknown; {}",
-                        did_you_mean(name, &names)
-                    ))
-                })?;
-            single = [Experiment {
-                shape: *shape,
-                seconds: USUAL_SECONDS,
-                amplitude: 1.0,
-            }];
-            &single
-        }
-    };
-    let usual: f64 = base.iter().map(|e| e.seconds).sum();
-    let seconds = args.seconds.unwrap_or(usual);
+    let usual = excitation::named(&args.excite).ok_or_else(|| {
+        let names: Vec<&str> = excitation::names().collect();
+        let name = &args.excite;
+        Error::Usage(format!(
+            "--excite {name}: unknown; {}",
+            did_you_mean(name, &names)
+        ))
+    })?;
+    let seconds = args.seconds.unwrap_or(excitation::length(&usual));
     if !(seconds.is_finite()
         && seconds >= 2.0 * args.sample
         && seconds / args.sample <= MOST_SAMPLES)
@@ -283,18 +261,7 @@ fn plan(args: &SimulateArgs) -> Result<Vec<Experiment>, Error> {
             args.sample
         )));
     }
-    let stretch = |e: &Experiment| Experiment {
-        seconds: e.seconds * seconds / usual,
-        amplitude: e.amplitude * args.amplitude,
-        ..*e
-    };
-    Ok(base.iter().map(stretch).collect())
-}
-
-fn excitations() -> impl Iterator<Item = &'static str> {
-    ["commissioning", "commissioning-coast"]
-        .into_iter()
-        .chain(Shape::ALL.iter().map(|(name, _)| *name))
+    Ok(excitation::stretched(&usual, seconds, args.amplitude))
 }
 
 fn provenance(args: &SimulateArgs, hidden: &[String], seed: u64) -> Vec<String> {

@@ -1,14 +1,15 @@
 //! Drives and encoders, and the recordings of random motors under them.
 
-use crate::error::Error as Failure;
+use crate::error::Error;
 use crate::prove::{Draws, Motor};
 use servoid_engine::problem::Data;
 use servoid_identify::fit::Options;
-use servoid_identify::{Silent, identify_data};
+use servoid_identify::{Silent, identify_data, truth};
+use servoid_io::excitation;
 use servoid_io::input::Known;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, DriveSample, Machine};
-use shared::excite::{COMMISSIONING, Experiment, Shape, commands};
+use servoid_plant::{Bench, Machine};
+use shared::motor::Response;
 
 /// Sample interval, s.
 const INTERVAL_S: f64 = 1e-3;
@@ -21,7 +22,7 @@ const ENCODERS: [u32; 2] = [2000, 200];
 
 /// A drive and an encoder.
 pub struct Condition {
-    /// `commissioning`, or the name of one of [`Shape::ALL`].
+    /// `commissioning`, or the name of a shape.
     pub excitation: &'static str,
     /// Length, s.
     pub seconds: f64,
@@ -29,11 +30,11 @@ pub struct Condition {
     pub counts_per_rev: u32,
 }
 
-/// The error of one parameter.
-pub struct Error {
+/// The error of one parameter in its standard errors.
+pub struct Standardised {
     /// The parameter.
     pub name: &'static str,
-    /// In standard errors; `None` where the fit states none.
+    /// Estimate less truth over the standard error; `None` where the fit states none.
     pub z: Option<f64>,
 }
 
@@ -60,7 +61,7 @@ impl Condition {
     ///
     /// # Errors
     /// None, as long as the catalogues agree with each other.
-    pub fn errors(&self, seed: u64, number: u64) -> Result<Option<Vec<Error>>, Failure> {
+    pub fn errors(&self, seed: u64, number: u64) -> Result<Option<Vec<Standardised>>, Error> {
         let mut draws = Draws::of(&[seed, number]);
         let machine = Motor::draw(&mut draws)?.machine;
         let Some(data) = self.record(machine, draws.seed()) else {
@@ -80,7 +81,7 @@ impl Condition {
         let error = |(name, truth): (&'static str, f64)| {
             let parameter = fit.parameters.iter().find(|p| p.name == name);
             let z = parameter.and_then(|p| Some((p.value - truth) / p.std?));
-            Error { name, z }
+            Standardised { name, z }
         };
         Ok(Some(truth(&machine).map(error).into()))
     }
@@ -91,50 +92,27 @@ impl Condition {
         bench.sample_s = INTERVAL_S;
         bench.seed = seed;
         bench.current_noise_a = CURRENT_NOISE * machine.stall_current_a();
-        let drive: Vec<DriveSample> = commands::<f64>(&self.plan(), INTERVAL_S, seed)
-            .map(|command| DriveSample {
-                volts: command.drive * machine.supply_v,
-                enabled: command.enabled,
-            })
-            .collect();
+        let usual = excitation::named(self.excitation)?;
+        let plan = excitation::stretched(&usual, self.seconds, AMPLITUDE);
+        let drive = excitation::drive(&plan, INTERVAL_S, seed, machine.supply_v);
         let recording = bench.record(&drive, self.excitation, true).ok()?;
         Data::new(&recording).ok()
     }
-
-    fn plan(&self) -> Vec<Experiment> {
-        let shape = Shape::ALL.iter().find(|(name, _)| *name == self.excitation);
-        if let Some(&(_, shape)) = shape {
-            return vec![Experiment {
-                shape,
-                seconds: self.seconds,
-                amplitude: AMPLITUDE,
-            }];
-        }
-        let usual: f64 = COMMISSIONING.iter().map(|part| part.seconds).sum();
-        let part = |part: &Experiment| Experiment {
-            seconds: part.seconds * self.seconds / usual,
-            amplitude: part.amplitude * AMPLITUDE,
-            ..*part
-        };
-        COMMISSIONING.iter().map(part).collect()
-    }
 }
 
-/// What a fit of the linear motor states, of the bench's machine: gain Kt/D, a1 = (R·J + L·f)/D, a2/a1 with a2 = L·J/D, where
-/// D = Kt·Kb + R·f; and what the current shows where Kt = Kb.
+/// What a fit of the linear motor states, of the bench's machine: what voltage and angle determine, and what the current shows
+/// where Kt = Kb.
 fn truth(machine: &Machine) -> [(&'static str, f64); 8] {
-    let m = machine;
-    let total = m.kt_n_m_a * m.kb_v_s_rad + m.resistance_ohm * m.viscous_n_m_s;
-    let a1 = (m.resistance_ohm * m.inertia_kg_m2 + m.inductance_h * m.viscous_n_m_s) / total;
-    let a2 = m.inductance_h * m.inertia_kg_m2 / total;
+    let physical = truth::physical(machine);
+    let Response { gain, a1, a2 } = physical.machine().response();
     [
-        ("gain", m.kt_n_m_a / total),
+        ("gain", gain),
         ("a1", a1),
         ("electrical_time_constant", a2 / a1),
-        ("resistance", m.resistance_ohm),
-        ("inductance", m.inductance_h),
-        ("kt", m.kt_n_m_a),
-        ("inertia", m.inertia_kg_m2),
-        ("viscous", m.viscous_n_m_s),
+        ("resistance", physical.resistance),
+        ("inductance", physical.inductance),
+        ("kt", physical.kt),
+        ("inertia", physical.inertia),
+        ("viscous", physical.viscous),
     ]
 }

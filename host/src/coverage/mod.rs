@@ -13,7 +13,7 @@ mod tally;
 
 use crate::error::Error;
 use crate::prove::Shard;
-use condition::{Condition, Error as Standardised};
+use condition::{Condition, Standardised};
 use rayon::prelude::*;
 use servoid_results::schema::coverage::Coverage;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,17 +1,15 @@
 //! The table of coverage as text.
 
-use servoid_results::report::fold::folded_to;
+use crate::prove::report::folded;
 use servoid_results::schema::coverage::{Condition, Coverage, Covered};
-
-/// Width of the text, columns.
-const WIDTH: usize = 80;
 
 /// The table.
 pub fn text(coverage: &Coverage) -> String {
-    let mut out = folded(&format!(
+    let title = format!(
         "{} recordings of random motors, seed {}: how often the stated intervals hold the truth",
         coverage.recordings, coverage.seed
-    ));
+    );
+    let mut out = folded(&title, "");
     if coverage.failures > 0 {
         out += &format!("{} could not be recorded or fitted\n", coverage.failures);
     }
@@ -22,11 +20,8 @@ pub fn text(coverage: &Coverage) -> String {
     out + &folded(
         "right are 68 % within one standard error, 95 % within 1.96 (in brackets what so few recordings can say), and errors \
          in standard errors with mean 0 and deviation 1",
+        "",
     )
-}
-
-fn folded(text: &str) -> String {
-    folded_to(WIDTH, text, "") + "\n"
 }
 
 fn rows(condition: &Condition) -> String {

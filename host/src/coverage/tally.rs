@@ -1,6 +1,6 @@
 //! How the errors lie.
 
-use super::condition::{Condition, Error};
+use super::condition::{Condition, Standardised};
 use crate::prove::Count;
 use servoid_results::schema::coverage::{Condition as Row, Coverage, Covered};
 
@@ -8,12 +8,13 @@ use servoid_results::schema::coverage::{Condition as Row, Coverage, Covered};
 pub fn tally(
     seed: u64,
     conditions: &[Condition],
-    found: &[(usize, Option<Vec<Error>>)],
+    found: &[(usize, Option<Vec<Standardised>>)],
     interrupted: bool,
 ) -> Coverage {
     let row = |(place, condition): (usize, &Condition)| {
         let own = found.iter().filter(|(at, _)| *at == place);
-        let errors: Vec<&[Error]> = own.filter_map(|(_, errors)| errors.as_deref()).collect();
+        let errors: Vec<&[Standardised]> =
+            own.filter_map(|(_, errors)| errors.as_deref()).collect();
         let parameters = errors.first().map_or(0, |errors| errors.len());
         Row {
             excitation: condition.excitation.to_owned(),
@@ -35,7 +36,7 @@ pub fn tally(
 }
 
 /// Parameter `k` over all recordings.
-fn covered(errors: &[&[Error]], k: usize) -> Covered {
+fn covered(errors: &[&[Standardised]], k: usize) -> Covered {
     let of_parameter = errors.iter().filter_map(|errors| errors.get(k));
     let stated: Vec<Option<f64>> = of_parameter.map(|error| error.z).collect();
     let z: Vec<f64> = stated.iter().copied().flatten().collect();
@@ -69,9 +70,9 @@ mod tests {
         let mut draws = Draws::of(&[seed]);
         let mut normal = || (0..12).map(|_| draws.uniform(0.0, 1.0)).sum::<f64>() - 6.0;
         for (scale, expected) in [(1.0, 0.95), (2.0, 0.673)] {
-            let found: Vec<(usize, Option<Vec<Error>>)> = (0..4000)
+            let found: Vec<(usize, Option<Vec<Standardised>>)> = (0..4000)
                 .map(|_| {
-                    let error = |z: Option<f64>| Error { name: "gain", z };
+                    let error = |z: Option<f64>| Standardised { name: "gain", z };
                     (0, Some(vec![error(Some(scale * normal())), error(None)]))
                 })
                 .collect();

@@ -6,9 +6,10 @@ use super::{Excite, SetUp, hide};
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
+use servoid_io::excitation;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, BenchError, DriveSample, Hidden};
-use shared::excite::{COMMISSIONING, Experiment, Shape, commands};
+use servoid_plant::{Bench, BenchError, Hidden};
+use shared::excite::Shape;
 
 /// Sample interval, s.
 const INTERVAL_S: f64 = 1e-3;
@@ -159,32 +160,10 @@ impl Drawn {
         bench.sample_s = INTERVAL_S;
         bench.seed = seed;
         bench.effects = self.hidden()?;
-        let drive: Vec<DriveSample> = commands::<f64>(&self.plan(), INTERVAL_S, seed)
-            .map(|command| DriveSample {
-                volts: command.drive * machine.supply_v,
-                enabled: command.enabled,
-            })
-            .collect();
+        let usual = excitation::named(&self.excitation).unwrap_or_default();
+        let plan = excitation::stretched(&usual, SECONDS, self.amplitude);
+        let drive = excitation::drive(&plan, INTERVAL_S, seed, machine.supply_v);
         let source = ["fitted recording", "held-out recording"][which];
         Ok(Data::new(&bench.record(&drive, source, false)?)?)
-    }
-
-    fn plan(&self) -> Vec<Experiment> {
-        let whole = |shape: Shape| Experiment {
-            shape,
-            seconds: SECONDS,
-            amplitude: self.amplitude,
-        };
-        let mut shapes = Shape::ALL.iter();
-        match shapes.find(|(name, _)| *name == self.excitation) {
-            Some((_, shape)) => vec![whole(*shape)],
-            None => COMMISSIONING
-                .iter()
-                .map(|part| Experiment {
-                    amplitude: part.amplitude * self.amplitude,
-                    ..*part
-                })
-                .collect(),
-        }
     }
 }

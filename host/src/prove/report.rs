@@ -157,6 +157,7 @@ fn confusions_text(rows: &[Confusion]) -> String {
     out
 }
 
-fn folded(text: &str, indent: &str) -> String {
+/// The text in lines of the table's width, the further ones indented.
+pub(crate) fn folded(text: &str, indent: &str) -> String {
     folded_to(WIDTH, text, indent) + "\n"
 }

@@ -61,9 +61,17 @@ impl Loaded {
             known.get_or_insert(motor.known);
             recordings.push(recording);
         }
+        Self::taken(sources, recordings, known.unwrap_or_default())
+    }
+
+    fn taken(
+        sources: Vec<Source>,
+        recordings: Vec<Recording>,
+        known: Known,
+    ) -> Result<Self, Error> {
         Ok(Loaded {
             data: Arc::new(joined(&recordings)?),
-            known: known.unwrap_or_default(),
+            known,
             recordings,
             sources,
             cut: OnceLock::new(),
@@ -73,10 +81,11 @@ impl Loaded {
     /// These recordings and further ones.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// Recordings that cannot be taken together.
     pub fn with(&self, further: &Loaded) -> Result<Self, Error> {
-        let all = self.sources.iter().chain(&further.sources);
-        Loaded::read(all.cloned().collect())
+        let sources = [&self.sources[..], &further.sources].concat();
+        let recordings = [&self.recordings[..], &further.recordings].concat();
+        Self::taken(sources, recordings, self.known.clone())
     }
 
     /// Whether one of them holds the same samples as one of the others: then it tests nothing that was fitted to that.

@@ -7,11 +7,12 @@
 //! bench itself in the volts-referred terms of the model.
 
 use servoid_identify::truth;
-use servoid_plant::{Bench, DriveSample, Hidden, Machine, PRESETS, Run};
+use servoid_io::excitation;
+use servoid_plant::{Bench, Hidden, Machine, PRESETS, Run};
 use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
 use shared::encoder::FLOOR_OFFSET_COUNTS;
-use shared::excite::{COMMISSIONING, Experiment, commands};
+use shared::excite::{COMMISSIONING, Experiment};
 use shared::model::{Model, Plan, State};
 use shared::units::PerUnit;
 use std::f64::consts::TAU;
@@ -23,12 +24,7 @@ const START_RAD: f64 = 0.3;
 const SEED: u64 = 1;
 
 fn record(machine: Machine, effects: Vec<Hidden>, plan: &[Experiment]) -> Run {
-    let drive: Vec<DriveSample> = commands::<f64>(plan, INTERVAL_S, SEED)
-        .map(|command| DriveSample {
-            volts: command.drive * machine.supply_v,
-            enabled: command.enabled,
-        })
-        .collect();
+    let drive = excitation::drive(plan, INTERVAL_S, SEED, machine.supply_v);
     let bench = Bench {
         effects,
         counts_per_rev: COUNTS_PER_REV,

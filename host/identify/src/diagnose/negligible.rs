@@ -40,17 +40,17 @@ pub fn without_negligible(
             0 | 1 => None,
             _ => backward_elimination::left(context, &chosen, place),
         };
-        let fewer = |model: &FittedModel| model.effects.len() < chosen.effects.len();
         let model = other.or_else(rest)?;
+        let fewer = model.effects.len() < chosen.effects.len();
         // What is chosen in its place is brought to its end as the chosen one was.
-        let model = match model.is_proven() {
-            true => model,
-            false => polish(context, &model).unwrap_or(model),
+        chosen = if model.is_proven() {
+            model
+        } else {
+            polish(context, &model).unwrap_or(model)
         };
-        match model {
-            model if fewer(&model) => chosen = model,
-            // An equal that was found on another way is not looked at again.
-            model => return Some(model),
+        // An equal that was found on another way is not looked at again.
+        if !fewer {
+            break;
         }
     }
     Some(chosen)
@@ -97,12 +97,10 @@ fn unsure_in(context: &Context<'_>, model: &FittedModel) -> Option<Kind> {
     }
     let problem = fit_problem(context, &model.structure, model.method);
     let values = model.structure.values(&model.x);
-    let centre = context.data.centre(0) - context.data.counts[0];
-    let mut residuals = problem.errors(&model.candidate).ok()?;
-    for residual in &mut residuals {
-        *residual -= centre;
+    let spread = uncertainty(&problem, &values).ok()??;
+    if !spread.converged {
+        return None;
     }
-    let spread = uncertainty(&problem, &values, &residuals).filter(|spread| spread.converged)?;
     let is_known = |name: &str| {
         let places = model.structure.unknowns.iter().enumerate();
         let mut places = places.filter(|(_, unknown)| unknown.name == name);

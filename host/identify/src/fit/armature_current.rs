@@ -50,14 +50,13 @@ pub fn current_evidence(
     let slopes: Vec<[f64; 2]> = (0..values.len())
         .map(|k| slopes(k).unwrap_or_default())
         .collect();
+    let covariance = spread.finite_covariance();
     for (n, estimate) in [&mut found.inertia, &mut found.friction]
         .into_iter()
         .enumerate()
     {
         let slopes = DVector::from_iterator(slopes.len(), slopes.iter().map(|slope| slope[n]));
-        // What has no slope here may have an infinite variance.
-        let own = spread.covariance.map(|entry| entry.min(f64::MAX));
-        let variance = slopes.dot(&(own * &slopes)).max(0.0);
+        let variance = slopes.dot(&(&covariance * &slopes)).max(0.0);
         estimate.std = estimate.std.hypot(variance.sqrt());
     }
     Some(found)

@@ -128,13 +128,7 @@ impl Fit {
         let values = problem.structure.values(&found.x);
         let candidate = problem.structure.candidate(&values);
         let rms_counts = rms_counts(data, &scores::whole(data, &candidate, options.method)?);
-        let centre = data.centre(0) - data.counts[0];
-        let mut residuals = problem.errors(&candidate)?;
-        for residual in &mut residuals {
-            *residual -= centre;
-        }
-        let spread = uncertainty(problem, &values, &residuals);
-        drop(residuals);
+        let spread = uncertainty(problem, &values)?;
         let mut notes = Vec::new();
         let reconciled = spread
             .as_ref()
@@ -231,11 +225,8 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
             slope[(row, k)] = (up[row] - down[row]) / (2.0 * step);
         }
     }
-    let mut own = spread.covariance.view((0, 0), (count, count)).into_owned();
-    for entry in own.iter_mut() {
-        // An unknown without influence has an infinite variance: say "very large".
-        *entry = entry.min(1e30);
-    }
+    let finite = spread.finite_covariance();
+    let own = finite.view((0, 0), (count, count));
     Evidence {
         machine: candidate.machine,
         covariance: &slope * own * slope.transpose(),

@@ -16,12 +16,15 @@ use super::correlation_time::correlation_sum;
 use super::sensitivity::sensitivity;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Data, FitProblem};
+use shared::error::ModelError;
 
 /// Singular values of the column-scaled Jacobian below this belong to directions that the data do not determine.
 const FLAT: f64 = 1e-6;
 
 /// Variances below this part of the largest are rounding errors of the arithmetic.
 const ROUNDED: f64 = 1e-14;
+/// Stands for a variance without end.
+const VERY_LARGE: f64 = 1e30;
 /// Coordinates nearer than this to a wall of the cube lie on it.
 const WALL: f64 = 1e-9;
 /// Part of the squared error that one more step would remove, above which the search has not converged.
@@ -41,6 +44,12 @@ pub struct Uncertainty {
 }
 
 impl Uncertainty {
+    /// The covariance in finite numbers, to be multiplied by slopes: an unknown without influence has an infinite variance, which
+    /// is a very large one here.
+    pub fn finite_covariance(&self) -> DMatrix<f64> {
+        self.covariance.map(|entry| entry.min(VERY_LARGE))
+    }
+
     /// Standard error of unknown `k`; `None` where the data do not determine it.
     pub fn std(&self, k: usize) -> Option<f64> {
         let variance = self.covariance[(k, k)];
@@ -49,12 +58,24 @@ impl Uncertainty {
     }
 }
 
-/// The sandwich covariance at `values`, SI, where the residuals are `residuals`, counts. `None` where a model cannot run.
+/// The covariance at `values`, SI. `None` where a model beside them cannot run.
+///
+/// # Errors
+/// Where the model itself cannot run.
 pub fn uncertainty(
     problem: &FitProblem<'_>,
     values: &[f64],
-    residuals: &[f64],
-) -> Option<Uncertainty> {
+) -> Result<Option<Uncertainty>, ModelError> {
+    let mut residuals = problem.errors(&problem.structure.candidate(values))?;
+    let centre = problem.data.centre(0) - problem.data.counts[0];
+    for residual in &mut residuals {
+        *residual -= centre;
+    }
+    Ok(covariance(problem, values, &residuals))
+}
+
+/// The same where the errors from the centres of the cells are `residuals`, counts.
+fn covariance(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) -> Option<Uncertainty> {
     let found = sensitivity(problem, values, residuals)?;
     let columns = values.len();
     // Of columns of length one.

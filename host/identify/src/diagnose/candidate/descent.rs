@@ -49,6 +49,16 @@ impl Settings {
         probed: None,
         again: true,
     };
+    /// Of a search that is to come near: few evaluations, every fourth residual, and one Jacobian as long as it holds.
+    pub const ROUGH: Settings = Settings {
+        evaluations: 40,
+        tolerance: 1e-2,
+        stride: 4,
+        damping: 1e-4,
+        secant: true,
+        again: false,
+        ..Settings::THOROUGH
+    };
 }
 
 /// Where a search ended.

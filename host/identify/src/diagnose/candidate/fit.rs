@@ -18,16 +18,6 @@ const FULL: Settings = Settings {
     secant: true,
     ..Settings::THOROUGH
 };
-/// Of a stage with a short memory.
-const FADE: Settings = Settings {
-    evaluations: 40,
-    tolerance: 1e-2,
-    stride: 4,
-    enough: f64::INFINITY,
-    damping: 1e-4,
-    secant: true,
-    ..Settings::THOROUGH
-};
 /// How long errors are remembered, stage by stage.
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 /// A stage that leaves so many times the error of the one before has lost its way.
@@ -119,7 +109,7 @@ fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f6
             horizon: Horizon::Observer(memory_s),
             ..fit_problem(context, structure, context.method)
         };
-        let Some(found) = search(context, &problem, &x, FADE, context.method) else {
+        let Some(found) = search(context, &problem, &x, Settings::ROUGH, context.method) else {
             break;
         };
         let rms = (found.squares / context.data.len() as f64).sqrt();

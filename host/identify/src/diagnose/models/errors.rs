@@ -32,7 +32,16 @@ impl Errors {
 
     /// Mean square error on the held-out recording beyond the reading's own.
     pub fn excess(&self) -> f64 {
-        (self.held_out.powi(2) - self.floor.powi(2)).max(0.0)
+        self.beyond_floor(self.held_out)
+    }
+
+    /// The same on the fitted recording.
+    pub fn fitted_excess(&self) -> f64 {
+        self.beyond_floor(self.fitted)
+    }
+
+    fn beyond_floor(&self, rms: f64) -> f64 {
+        (rms.powi(2) - self.floor.powi(2)).max(0.0)
     }
 
     /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.

@@ -3,10 +3,11 @@
 use super::*;
 use crate::diagnose::evidence::sentence;
 use crate::truth;
+use servoid_io::excitation;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, DriveSample, Hidden, Machine};
+use servoid_plant::{Bench, Hidden, Machine};
 use shared::effects::{EffectSet, Kind};
-use shared::excite::{COMMISSIONING, commands};
+use shared::excite::COMMISSIONING;
 
 /// What the true linear machine misses, and what the true model does, with one effect hidden.
 fn missing(kind: Kind) -> (ResidualAnalysis, ResidualAnalysis) {
@@ -16,12 +17,7 @@ fn missing(kind: Kind) -> (ResidualAnalysis, ResidualAnalysis) {
     bench.counts_per_rev = 8000;
     bench.sample_s = 1e-3;
     bench.effects = vec![hidden.clone()];
-    let drive: Vec<DriveSample> = commands::<f64>(&COMMISSIONING, 1e-3, 5)
-        .map(|c| DriveSample {
-            volts: c.drive * machine.supply_v,
-            enabled: c.enabled,
-        })
-        .collect();
+    let drive = excitation::drive(&COMMISSIONING, 1e-3, 5, machine.supply_v);
     let recording = bench.record(&drive, "bench", false).expect("a recording");
     let data = Data::new(&recording).expect("data");
     let linear = Candidate {

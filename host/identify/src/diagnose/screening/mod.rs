@@ -27,13 +27,8 @@ pub const FORMS: [f64; 2] = [0.0, 1.0];
 /// Most orders of a cogging torque in a model.
 const MOST_ORDERS: usize = 5;
 const SCREENING: Settings = Settings {
-    evaluations: 40,
     tolerance: 5e-3,
-    stride: 4,
-    enough: f64::INFINITY,
-    damping: 1e-4,
-    secant: true,
-    ..Settings::THOROUGH
+    ..Settings::ROUGH
 };
 
 /// Starts that are left after a glance at all of them.

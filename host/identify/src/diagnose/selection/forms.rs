@@ -6,21 +6,11 @@ use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::FittedModel;
+use crate::diagnose::models::{Errors, FittedModel};
 use crate::diagnose::screening::FORMS;
 use crate::fit::forms::MUST_REMOVE;
 use servoid_engine::problem::Structure;
 
-/// Of a search that says whether a form is worth a fit that converges, which costs many times as much.
-const TRIAL: Settings = Settings {
-    evaluations: 40,
-    tolerance: 1e-2,
-    stride: 4,
-    damping: 1e-4,
-    secant: true,
-    again: false,
-    ..Settings::THOROUGH
-};
 /// Part of what a form must remove that its trial has to remove, since it ends before it has converged.
 const PROMISING: f64 = 0.5;
 
@@ -42,13 +32,14 @@ pub fn with_other_forms(context: &Context<'_>, model: &FittedModel) -> Option<Fi
         .filter(|freed| removes(model, freed))
 }
 
-/// `freed` after a short search; `None` where that removes too little of what `freed` was to remove.
+/// `freed` after a short search, which costs a small part of one that converges; `None` where that removes too little of what
+/// `model` leaves.
 fn tried(context: &Context<'_>, model: &FittedModel, freed: FittedModel) -> Option<FittedModel> {
     let problem = fit_problem(context, &freed.structure, freed.method);
-    let found = search(context, &problem, &freed.x, TRIAL, freed.method)?;
+    let found = search(context, &problem, &freed.x, Settings::ROUGH, freed.method)?;
     let ran = model.ran();
-    let excess = |mean_square: f64| (mean_square - ran.floor.powi(2)).max(0.0);
-    let left = excess(found.squares / context.samples() as f64) / excess(ran.fitted.powi(2));
+    let fitted = (found.squares / context.samples() as f64).sqrt();
+    let left = Errors { fitted, ..ran }.fitted_excess() / ran.fitted_excess();
     (1.0 - left > PROMISING * MUST_REMOVE).then_some(FittedModel {
         x: found.x,
         ..freed

@@ -3,9 +3,10 @@
 use super::*;
 use crate::fit::{self, Options, scores};
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
+use servoid_io::excitation;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, DriveSample, Hidden, Machine};
-use shared::excite::{Experiment, Shape, commands};
+use servoid_plant::{Bench, Hidden, Machine};
+use shared::excite::{Experiment, Shape};
 use std::sync::atomic::AtomicBool;
 
 const SEEDS: u64 = 96;
@@ -30,12 +31,7 @@ fn left(
         seconds: 4.0,
         amplitude: 0.3 + 0.7 * (seed % 10) as f64 / 10.0,
     }];
-    let drive: Vec<DriveSample> = commands::<f64>(&plan, 1e-3, seed)
-        .map(|c| DriveSample {
-            volts: c.drive * machine.supply_v,
-            enabled: c.enabled,
-        })
-        .collect();
+    let drive = excitation::drive(&plan, 1e-3, seed, machine.supply_v);
     let data = Data::new(&bench.record(&drive, "bench", false).ok()?).ok()?;
     let options = Options::default();
     let problem = fit::problem(&data, &options).ok()?;
