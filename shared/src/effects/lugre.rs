@@ -86,6 +86,7 @@ impl<S: Scalar> Effect<S> for Lugre<S> {
                         Value::Product(1, 0),
                         Value::Own(2),
                         Value::Fixed(2.0),
+                        Value::Fixed(0.0),
                     ],
                     at_rest: &[(3, 0.0), (4, 0.0)],
                     whole: false,

@@ -38,6 +38,7 @@ mod facts;
 mod harmonic;
 mod hump;
 mod lowered;
+mod quotient;
 mod set;
 mod shaft;
 mod tangent;

@@ -60,7 +60,7 @@ pub(super) static KIND: Kind = Kind {
                 speed_rad_s: values[2],
             })
         },
-        form: None,
+        form: Some(1.0),
     }],
     build: |values, _| {
         Box::new(Stribeck {
@@ -86,6 +86,7 @@ pub(super) static KIND: Kind = Kind {
             machine.winding_volts(values[1]),
             values[2],
             values[3],
+            0.0,
         ]
     },
 };
