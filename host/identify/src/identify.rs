@@ -3,6 +3,7 @@
 use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
+use crate::fit::own_parameters::{self, fit_own};
 use crate::fit::recordings::{add_spread, recording_errors};
 use crate::fit::{self, Fit, Options};
 use crate::likelihood;
@@ -68,6 +69,7 @@ pub fn identify_data(
     let solver = solve::by_name(&options.algorithm)
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;
+    own_parameters::check(&problem, options)?;
     let mut found = search(&problem, solver.as_ref(), options, 0, progress);
     if let Some(start) = second_start(&problem, &found, options, progress) {
         let again = problem.begun_at(&start);
@@ -108,6 +110,9 @@ pub fn identify_data(
             found = freed;
         }
     }
+    if !options.own.is_empty() {
+        return with_own_parameters(&problem, &found, validation, options, progress);
+    }
     let mut fit = Fit::conclude(
         &problem,
         &options.algorithm,
@@ -122,6 +127,29 @@ pub fn identify_data(
     fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
     add_spread(&mut fit, data, options, progress.stop());
     fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
+    Ok(fit)
+}
+
+/// The fit in which recordings have parameters of their own, from where the search for common ones ended.
+fn with_own_parameters(
+    problem: &FitProblem<'_>,
+    found: &Found,
+    validation: Option<&Data>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Fit, Error> {
+    let own = fit_own(problem, found, options, progress.stop())?;
+    let mut fit = Fit::of_solved(
+        problem,
+        &options.algorithm,
+        options.cost_name(),
+        &own.found,
+        options,
+        validation,
+        own.solved,
+    )?;
+    fit.recordings = recording_errors(problem.data, validation, &fit.candidate, options.method)?;
+    own.recordings.write_into(&mut fit);
     Ok(fit)
 }
 

@@ -314,6 +314,9 @@ pub struct FitArgs {
     /// Model evaluations at most
     #[arg(long, default_value_t = 20_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub budget: u64,
+    /// Parameters that each of several recordings has for itself, as in offset_voltage.voltage
+    #[arg(long, value_delimiter = ',', value_name = "PARAMETER,…")]
+    pub own: Vec<String>,
     /// Fit a recording that `servoid check` refuses
     #[arg(long)]
     pub force: bool,

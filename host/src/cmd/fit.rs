@@ -39,6 +39,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         algorithm: args.algorithm.clone(),
         error_ladder: true,
         force: args.force,
+        own: args.own.clone(),
         ..model::options(&args.model, read.motor.known, session.seed, args.budget)?
     };
     let watched = Watched::search(session, options.budget);

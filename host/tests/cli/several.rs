@@ -134,3 +134,44 @@ fn recordings_that_do_not_belong_together_are_refused() {
         desk.refused(&line("again.csv"), 1, &copies);
     }
 }
+
+/// Amplifiers with another offset at each recording, V.
+const OFFSETS_V: [f64; 3] = [0.1, -0.25, 0.4];
+
+#[test]
+fn each_recording_may_have_an_offset_of_its_own() {
+    let desk = Desk::new();
+    for (seed, (shape, offset)) in FITTED.iter().zip(OFFSETS_V).enumerate() {
+        desk.done(&format!(
+            "simulate --excite {shape} --seconds 5 --hide coulomb --hide offset_voltage:offset={offset} --seed {seed} \
+             --out {shape}.csv"
+        ));
+    }
+    let line = "fit telegraph.csv steps.csv chirp.csv --with coulomb,offset_voltage";
+    assert!(number(&desk.json(line), "rms_counts") > 1000.0);
+    let fit = desk.json(&format!("{line} --own offset_voltage.voltage"));
+    assert!(number(&fit, "rms_counts") < FLOOR, "{fit}");
+    for (recording, offset) in in_role(&fit, "fitted").iter().zip(OFFSETS_V) {
+        assert!(number(recording, "rms_counts") < FLOOR, "{recording}");
+        let own = &list(recording, "own")[0];
+        assert_eq!(own["name"], "offset_voltage.voltage");
+        let away = (number(own, "value") - offset) / number(own, "std");
+        assert!(away.abs() < 4.0, "{own}: {offset} V is hidden");
+    }
+    let mean = parameter(&fit, "offset_voltage.voltage");
+    let hidden = OFFSETS_V.iter().sum::<f64>() / OFFSETS_V.len() as f64;
+    assert!((number(mean, "value") - hidden).abs() < 1e-4, "{mean}");
+}
+
+#[test]
+fn what_no_recording_can_have_for_itself_is_refused() {
+    let desk = desk();
+    let all = "fit telegraph.csv steps.csv";
+    for (line, why) in [
+        ("fit steps.csv --own gain", "several recordings"),
+        (&format!("{all} --own gian"), "did you mean `gain`"),
+        (&format!("{all} --own gain --cost iae"), "leave out --cost"),
+    ] {
+        desk.refused(line, 2, &[why]);
+    }
+}

@@ -18,6 +18,7 @@
 //! | `scores` | errors over windows and of the equation, where the open loop drifts |
 //! | `validate` | the error on another recording |
 //! | `remarks` | what a user should know before believing a fit |
+//! | `own_parameters` | several recordings with parameters of their own beside the common ones |
 //! | `recordings` | the error on each of several recordings, and how far their parameters spread |
 //! | `report` | the fitted model with all of these |
 //! | `error_ladder` | the error as effects are added one by one |
@@ -30,6 +31,7 @@ pub(crate) mod filter;
 pub(crate) mod forms;
 pub mod margins;
 mod options;
+pub(crate) mod own_parameters;
 pub mod physical;
 mod plausibility;
 pub(crate) mod recordings;
@@ -48,6 +50,7 @@ pub use bound::Bound;
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use options::Options;
+pub use own_parameters::OwnParameter;
 pub use plausibility::{Contradiction, contradictions};
 pub use recordings::RecordingError;
 pub use remarks::EXPLAINED_COUNTS;

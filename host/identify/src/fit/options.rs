@@ -29,6 +29,8 @@ pub struct Options {
     pub algorithm: String,
     /// Ranges of unknowns that the user set.
     pub bounds: Vec<Bound>,
+    /// Names of unknowns that each of several recordings has for itself.
+    pub own: Vec<String>,
     /// A model near the solution, if the caller knows one: where least squares starts once more if it ends elsewhere.
     pub start: Option<Candidate>,
     /// Whether the result has the errors of the models that lead to it, effect by effect.
@@ -68,6 +70,7 @@ impl Default for Options {
             known: Known::default(),
             algorithm: LEAST_SQUARES.to_owned(),
             bounds: Vec::new(),
+            own: Vec::new(),
             start: None,
             error_ladder: false,
             force: false,

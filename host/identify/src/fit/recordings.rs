@@ -1,6 +1,7 @@
 //! Several recordings of one motor: the error on each, and how far the parameters spread that each alone gives.
 
 use super::options::Options;
+use super::own_parameters::OwnParameter;
 use super::report::Fit;
 use super::scores;
 use super::search::search;
@@ -23,6 +24,8 @@ pub struct RecordingError {
     pub samples: usize,
     /// RMS of model minus reading over the whole recording, counts.
     pub rms_counts: f64,
+    /// The parameters that this recording has for itself.
+    pub own: Vec<OwnParameter>,
 }
 
 /// The error of a model on each recording, where more than one is fitted or more than one held out; else none.
@@ -55,6 +58,7 @@ fn each(data: &Data, errors: &[f64], held_out: bool) -> Vec<RecordingError> {
             held_out,
             samples: range.len(),
             rms_counts: rms_counts(data, &errors[range]),
+            own: Vec::new(),
         })
         .collect()
 }
@@ -116,7 +120,8 @@ pub fn add_spread(fit: &mut Fit, data: &Data, options: &Options, stop: &AtomicBo
     }
 }
 
-fn standard_deviation(values: &[f64]) -> f64 {
+/// Of values of a sample.
+pub(super) fn standard_deviation(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();

@@ -108,6 +108,16 @@ pub struct Fit {
     pub likelihood: Option<Likelihood>,
 }
 
+/// Where a search ended.
+pub(crate) struct Solved {
+    /// Values of the unknowns.
+    pub values: Vec<f64>,
+    /// Their covariance; `None` where a model beside them cannot run.
+    pub uncertainty: Option<Uncertainty>,
+    /// RMS of model minus reading over the whole recording, counts.
+    pub rms_counts: f64,
+}
+
 impl Fit {
     /// Draws conclusions from a finished search.
     pub fn conclude(
@@ -127,8 +137,33 @@ impl Fit {
         let data = problem.data;
         let values = problem.structure.values(&found.x);
         let candidate = problem.structure.candidate(&values);
-        let rms_counts = rms_counts(data, &scores::whole(data, &candidate, options.method)?);
-        let spread = uncertainty(problem, &values)?;
+        let solved = Solved {
+            rms_counts: rms_counts(data, &scores::whole(data, &candidate, options.method)?),
+            uncertainty: uncertainty(problem, &values)?,
+            values,
+        };
+        Self::of_solved(
+            problem, algorithm, cost_kind, found, options, validation, solved,
+        )
+    }
+
+    /// As [`conclude`](Self::conclude), where the unknowns' values, their covariance and the error are known.
+    pub(crate) fn of_solved(
+        problem: &FitProblem<'_>,
+        algorithm: &str,
+        cost_kind: &'static str,
+        found: &Found,
+        options: &Options,
+        validation: Option<&Data>,
+        solved: Solved,
+    ) -> Result<Self, Error> {
+        let Solved {
+            values,
+            uncertainty: spread,
+            rms_counts,
+        } = solved;
+        let data = problem.data;
+        let candidate = problem.structure.candidate(&values);
         let mut notes = Vec::new();
         let reconciled = spread
             .as_ref()

@@ -13,7 +13,7 @@
 //! is in no direction below the one that they make (a parametric bootstrap, Efron and Tibshirani, 1993, of the quantiser).
 
 use super::correlation_time::correlation_sum;
-use super::sensitivity::sensitivity;
+use super::sensitivity::{Sensitivity, sensitivity};
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Data, FitProblem};
 use shared::error::ModelError;
@@ -77,7 +77,21 @@ pub fn uncertainty(
 /// The same where the errors from the centres of the cells are `residuals`, counts.
 fn covariance(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) -> Option<Uncertainty> {
     let found = sensitivity(problem, values, residuals)?;
-    let columns = values.len();
+    let x = problem.structure.coordinates(values);
+    let squares = residuals.iter().map(|r| r * r).sum();
+    let effective = effective_samples(problem.data, residuals);
+    Some(solve(&found, &x, squares, effective))
+}
+
+/// Covariance from the sums over the Jacobian `found` at the point `x` of the unit cube, where the residuals' squares sum to
+/// `squares` and are worth so many independent ones.
+pub(super) fn solve(
+    found: &Sensitivity,
+    x: &[f64],
+    squares: f64,
+    effective_samples: f64,
+) -> Uncertainty {
+    let columns = x.len();
     // Of columns of length one.
     let scales = found
         .squares
@@ -107,18 +121,13 @@ fn covariance(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) -> Op
     // Distance to the minimum, by one Gauss-Newton step. It counts as error too; where the step would remove
     // much of the squared error, no standard error is stated. Unknowns on a wall stay there.
     let mut gradient = scaled(&found.gradients.iter().sum());
-    for (k, x) in problem.structure.coordinates(values).iter().enumerate() {
+    for (k, x) in x.iter().enumerate() {
         if !(WALL..=1.0 - WALL).contains(x) {
             gradient[k] = 0.0;
         }
     }
     let away = -(&inverse * &gradient);
-    let removable = gradient.dot(&(&inverse * &gradient))
-        / residuals
-            .iter()
-            .map(|r| r * r)
-            .sum::<f64>()
-            .max(f64::MIN_POSITIVE);
+    let removable = gradient.dot(&(&inverse * &gradient)) / squares.max(f64::MIN_POSITIVE);
 
     let mut middle = DMatrix::zeros(columns, columns);
     for gradient in found.gradients.iter().map(scaled) {
@@ -146,12 +155,12 @@ fn covariance(problem: &FitProblem<'_>, values: &[f64], residuals: &[f64]) -> Op
             (false, false) => 0.0,
         }
     });
-    Some(Uncertainty {
+    Uncertainty {
         covariance,
         flat,
         converged: removable < UNCONVERGED,
-        effective_samples: effective_samples(problem.data, residuals),
-    })
+        effective_samples,
+    }
 }
 
 /// A covariance that is in no direction below `a` or `b`: `a`, and what `b` has beyond it in the metric of their sum.

@@ -160,6 +160,13 @@ pub(super) fn recordings(errors: &[RecordingError]) -> String {
             "  {role:9} {:>12.4} counts RMS  {}\n",
             error.rms_counts, error.source
         );
+        for own in &error.own {
+            let value = match own.std {
+                Some(_) => with_error(own.value, own.std),
+                None => short(own.value),
+            };
+            out += &format!("{:26}{} = {value} {}\n", "", own.name, own.unit);
+        }
     }
     out
 }

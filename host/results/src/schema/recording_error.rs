@@ -16,6 +16,33 @@ pub struct RecordingError {
     pub samples: usize,
     /// RMS of model minus reading over the whole recording, open loop, counts.
     pub rms_counts: Option<f64>,
+    /// The parameters that this recording has for itself (`fit --own`); absent where it has none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub own: Vec<OwnParameter>,
+}
+
+/// A parameter that one of several recordings has for itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OwnParameter {
+    /// Name, as among the parameters.
+    pub name: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// Standard error; null where the recording does not determine it.
+    pub std: Option<f64>,
+    /// Unit symbol.
+    pub unit: String,
+}
+
+impl From<&fit::OwnParameter> for OwnParameter {
+    fn from(own: &fit::OwnParameter) -> Self {
+        OwnParameter {
+            name: own.name.clone(),
+            value: own.value,
+            std: own.std.and_then(finite),
+            unit: own.unit.to_owned(),
+        }
+    }
 }
 
 impl From<&fit::RecordingError> for RecordingError {
@@ -26,6 +53,7 @@ impl From<&fit::RecordingError> for RecordingError {
             role: role.to_owned(),
             samples: error.samples,
             rms_counts: finite(error.rms_counts),
+            own: error.own.iter().map(Into::into).collect(),
         }
     }
 }
