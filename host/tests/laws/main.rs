@@ -8,6 +8,7 @@ mod drawn_diagnoses;
 mod effects_match_bench;
 mod lanes;
 mod no_text;
+mod one_recording;
 mod paper_contest;
 mod plans;
 mod position_drives;

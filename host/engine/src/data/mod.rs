@@ -244,6 +244,14 @@ impl Data {
         speed.abs() * self.units.interval * COUNTER_HALF_WIDTH as f64 > 1.0
     }
 
+    /// Speed at `k`, the first sample of a recording, rad/s: the measured one where the samples show any motion at all.
+    pub fn start_speed(&self, k: usize) -> f64 {
+        if !self.may_start_moving(k) {
+            return 0.0;
+        }
+        self.measured_state(k).1 / self.units.counts_per_rev * core::f64::consts::TAU
+    }
+
     /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
     /// `2·half + 1` samples, fewer at the ends.
     pub fn speed_counts_s(&self, k: usize, half: usize) -> f64 {

@@ -11,6 +11,8 @@ pub enum Scale {
 
 /// A coordinate nearer than this to the end of its range is at the end.
 const AT_END: f64 = 1e-4;
+/// A search that was held by a bound ended nearer than this to it.
+const AT_BOUND: f64 = 1e-9;
 /// A range is widened by this factor at a time.
 const WIDER: f64 = 3.0;
 
@@ -84,6 +86,13 @@ impl Unknown {
     /// Whether the coordinate `x` is beyond the usual range, in a part that a search has added.
     pub fn is_beyond_usual(&self, x: f64) -> bool {
         self.range.1 > self.usual && self.value(x) > (1.0 + AT_END) * self.usual
+    }
+
+    /// Whether a value is at an end of the range. Zero is where many quantities rightly end, and no bound that somebody chose.
+    pub fn ends_at(&self, value: f64) -> bool {
+        let (low, high) = self.range;
+        let x = self.coordinate(value);
+        low < high && (x > 1.0 - AT_BOUND || (x < AT_BOUND && low != 0.0))
     }
 
     /// Widens the range where the coordinate `x` is at its upper end. Returns whether it did.

@@ -33,18 +33,12 @@ pub fn whole(data: &Data, candidate: &Candidate, start_angle: StartAngle) -> Seg
 fn further(data: &Data, start_angle: StartAngle) -> impl Iterator<Item = Segment> {
     data.recordings.ranges().skip(1).map(move |range| {
         let first = range.start;
-        let moving = data.may_start_moving(first);
-        let speed = if moving {
-            data.measured_state(first).1
-        } else {
-            0.0
-        };
         Segment {
             angle: match start_angle {
                 StartAngle::Known => data.counts[first],
                 StartAngle::Free => data.centre(first),
             },
-            speed: speed / data.units.counts_per_rev * core::f64::consts::TAU,
+            speed: data.start_speed(first),
             range,
         }
     })

@@ -15,6 +15,9 @@ use shared::encoder::FLOOR_RMS_COUNTS;
 /// A model follows the readings if it errs by no more than this, counts RMS.
 const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
 
+/// An error is forgotten after so many times the time that it is remembered for.
+const SETTLED: f64 = 6.0;
+
 /// Adds the errors that are forgotten within `memory_s`.
 ///
 /// # Errors
@@ -32,7 +35,7 @@ fn observe(context: &Context<'_>, model: &mut FittedModel, memory_s: f64) -> Res
         errors(
             data,
             &Candidate {
-                start_speed: 0.0,
+                start_speed: data.start_speed(0),
                 start_offset: 0.0,
                 ..model.candidate
             },
@@ -41,7 +44,7 @@ fn observe(context: &Context<'_>, model: &mut FittedModel, memory_s: f64) -> Res
             StartAngle::Free,
             Cost::Squared,
         )
-        .map(|errors| rms_counts(data, &errors))
+        .map(|errors| rms_counts(data, &errors[settled_at(data, memory_s)..]))
     };
     let errors = Errors {
         fitted: observed(context.data)?,
@@ -52,6 +55,16 @@ fn observe(context: &Context<'_>, model: &mut FittedModel, memory_s: f64) -> Res
     model.observed = Some(observed);
     model.observed_runs.push(observed);
     Ok(())
+}
+
+/// The first sample at which the error of a start in motion is forgotten: a few readings tell its speed only roughly.
+fn settled_at(data: &Data, memory_s: f64) -> usize {
+    let Some(&start) = data.time_s.first().filter(|_| data.may_start_moving(0)) else {
+        return 0;
+    };
+    let settled = (data.time_s).partition_point(|t| t - start < SETTLED * memory_s);
+    // A recording that is no longer than that is judged as it is.
+    if settled < data.len() / 2 { settled } else { 0 }
 }
 
 /// Observes a model as another one is, which it is to be compared with; not at all if that is not.
