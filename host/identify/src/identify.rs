@@ -1,10 +1,12 @@
 //! The front door of a fit: every face (command line, workbench, check of a device, library user) comes through here.
 
+use crate::certificate::{self, certify};
 use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
 use crate::fit::own_parameters::{self, fit_own};
 use crate::fit::recordings::{add_spread, recording_errors};
+use crate::fit::report::Solved;
 use crate::fit::{self, Fit, Options};
 use crate::likelihood;
 use crate::progress::Progress;
@@ -70,6 +72,9 @@ pub fn identify_data(
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;
     own_parameters::check(&problem, options)?;
+    if options.certificate {
+        certificate::check(&problem)?;
+    }
     let mut found = search(&problem, solver.as_ref(), options, 0, progress);
     if let Some(start) = second_start(&problem, &found, options, progress) {
         let again = problem.begun_at(&start);
@@ -110,22 +115,51 @@ pub fn identify_data(
             found = freed;
         }
     }
+    let mut integration_error = None;
+    if options.algorithm == LEAST_SQUARES {
+        let few = Options {
+            budget: options.budget.min(fit::integration::evaluations(&problem)),
+            ..options.clone()
+        };
+        let refined = fit::integration::refined(problem, found, |finer, spent| {
+            search(finer, solver.as_ref(), &few, spent, progress)
+        });
+        (problem, found, integration_error) = (refined.problem, refined.found, refined.left);
+    }
+    let asked = options.method;
+    let options = &Options {
+        method: problem.method,
+        ..options.clone()
+    };
     if !options.own.is_empty() {
         return with_own_parameters(&problem, &found, validation, options, progress);
     }
-    let mut fit = Fit::conclude(
+    let mut solved = Solved::of(&problem, &found)?;
+    if let Some(error) = &integration_error {
+        solved = solved.with_error(error);
+    }
+    let mut fit = Fit::of_solved(
         &problem,
         &options.algorithm,
         options.cost_name(),
         &found,
         options,
         validation,
+        solved,
     )?;
+    fit.notes.extend(fit::integration::note(
+        asked,
+        problem.method,
+        integration_error.is_some(),
+    ));
     if options.error_ladder && !options.effects.is_empty() {
         fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
     }
     fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
     add_spread(&mut fit, data, options, progress.stop());
+    if options.certificate {
+        fit.certificate = Some(certify(&problem, &found)?);
+    }
     fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
     Ok(fit)
 }

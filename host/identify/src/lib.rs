@@ -13,6 +13,7 @@
 //! | `truth` | what the virtual bench hides, in the model's terms |
 #![forbid(unsafe_code)]
 
+pub mod certificate;
 pub mod check;
 mod datasets;
 pub mod diagnose;

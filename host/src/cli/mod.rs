@@ -317,6 +317,9 @@ pub struct FitArgs {
     /// Parameters that each of several recordings has for itself, as in offset_voltage.voltage
     #[arg(long, value_delimiter = ',', value_name = "PARAMETER,…")]
     pub own: Vec<String>,
+    /// Say whether one model reproduces every reading, and how far each parameter may then go
+    #[arg(long)]
+    pub certificate: bool,
     /// Fit a recording that `servoid check` refuses
     #[arg(long)]
     pub force: bool,

@@ -40,6 +40,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         error_ladder: true,
         force: args.force,
         own: args.own.clone(),
+        certificate: args.certificate,
         ..model::options(&args.model, read.motor.known, session.seed, args.budget)?
     };
     let watched = Watched::search(session, options.budget);

@@ -78,6 +78,7 @@ fn entry(state: &State, model: &Model) -> Value {
         "notes": fit.notes.iter().map(|note| on_the_page(note)).collect::<Vec<_>>(),
         "parameters": fit.parameters.iter().map(|p| json!({
             "name": p.name, "value": p.value, "unit": p.unit, "std": p.std, "identifiable": p.identifiable,
+            "at_bound": p.at_bound,
         })).collect::<Vec<_>>(),
         "sliders": (state.chosen == Some(model.id)).then(|| sliders(&fit.candidate)),
     })

@@ -3,9 +3,11 @@
 
 mod bad_motor_files;
 mod bad_recordings;
+mod certificates;
 mod compressed;
 mod drawn_diagnoses;
 mod effects_match_bench;
+mod integration;
 mod lanes;
 mod no_text;
 mod one_recording;

@@ -9,6 +9,7 @@ use crate::simulation::Candidate;
 use shared::effects::{EffectSet, Kind};
 use shared::model::MAX_DELAY;
 use shared::motor::{Machine, Physical, Response};
+use shared::units::Quantity;
 
 /// The coordinates of the linear machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +93,10 @@ impl Structure {
                         Scale::Log
                     },
                 );
+                let unknown = match parameter.quantity {
+                    Quantity::PerRev => unknown.whole(),
+                    _ => unknown,
+                };
                 unknowns.push(if parameter.widest > parameter.range.1 {
                     unknown.widening_to(scaled(parameter.widest))
                 } else {

@@ -33,6 +33,8 @@ pub struct Unknown {
     pub held_from: Option<(f64, f64)>,
     /// How the range is searched.
     pub scale: Scale,
+    /// Whether it is a whole number, as the waves of a revolution are.
+    pub whole: bool,
 }
 
 impl Unknown {
@@ -45,6 +47,7 @@ impl Unknown {
             widest: range.1,
             held_from: None,
             scale,
+            whole: false,
         }
     }
 
@@ -68,6 +71,14 @@ impl Unknown {
     pub(super) fn free(&mut self) {
         if let Some(range) = self.held_from {
             self.confine(range);
+        }
+    }
+
+    /// The same as a whole number.
+    pub(super) fn whole(self) -> Self {
+        Unknown {
+            whole: true,
+            ..self
         }
     }
 
@@ -107,10 +118,11 @@ impl Unknown {
     /// Value at the coordinate `x` in `[0, 1]`.
     pub fn value(&self, x: f64) -> f64 {
         let (low, high) = self.range;
-        match self.scale {
+        let value = match self.scale {
             Scale::Linear => low + (high - low) * x,
             Scale::Log => low * (high / low).powf(x),
-        }
+        };
+        if self.whole { value.round() } else { value }
     }
 
     /// Coordinate of a value, clamped to `[0, 1]`.

@@ -82,14 +82,10 @@ fn with_losses(fit: &mut Fit, last: &FittedModel) {
         for parameter in kind.parameters() {
             let Some(&value) = values.next() else { return };
             if kind.facts().by_chance {
-                fit.parameters.push(Parameter {
-                    name: format!("{}.{}", kind.name(), parameter.name),
-                    value,
-                    unit: parameter.quantity.unit(),
-                    std: None,
-                    identifiable: false,
-                    spread: None,
-                });
+                let name = format!("{}.{}", kind.name(), parameter.name);
+                let unit = parameter.quantity.unit();
+                fit.parameters
+                    .push(Parameter::without_error(name, value, unit));
             }
         }
     }

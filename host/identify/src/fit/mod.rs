@@ -7,6 +7,7 @@
 //! | `regression` | a first guess at the model, without a simulation |
 //! | `start` | the problem that recording and options state, started at the best guess |
 //! | `search` | its search by one method |
+//! | `integration` | whether the model's steps are short enough for the standard errors |
 //! | `forms` | other forms than the textbook's, where those leave something to explain |
 //! | `correlation_time` | for how long an error is correlated with itself |
 //! | `sensitivity` | sums over the Jacobian of the residuals |
@@ -20,6 +21,7 @@
 //! | `remarks` | what a user should know before believing a fit |
 //! | `own_parameters` | several recordings with parameters of their own beside the common ones |
 //! | `recordings` | the error on each of several recordings, and how far their parameters spread |
+//! | `parameter` | its parameters with their standard errors, in the units that a user can use |
 //! | `report` | the fitted model with all of these |
 //! | `error_ladder` | the error as effects are added one by one |
 
@@ -29,9 +31,11 @@ mod correlation_time;
 mod error_ladder;
 pub(crate) mod filter;
 pub(crate) mod forms;
+pub(crate) mod integration;
 pub mod margins;
 mod options;
 pub(crate) mod own_parameters;
+mod parameter;
 pub mod physical;
 mod plausibility;
 pub(crate) mod recordings;
@@ -51,10 +55,11 @@ pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use options::Options;
 pub use own_parameters::OwnParameter;
+pub use parameter::{Parameter, Usual};
 pub use plausibility::{Contradiction, contradictions};
 pub use recordings::RecordingError;
 pub use remarks::EXPLAINED_COUNTS;
-pub use report::{Fit, LadderEntry, Parameter};
+pub use report::{Fit, LadderEntry};
 pub use search::search;
 pub use start::{SPEED_HALF_WIDTH, base_for, is_reversed, problem};
 pub use validate::{START_OFFSETS, departure, validate, validate_roughly, validation_errors};

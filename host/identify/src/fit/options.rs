@@ -31,6 +31,8 @@ pub struct Options {
     pub bounds: Vec<Bound>,
     /// Names of unknowns that each of several recordings has for itself.
     pub own: Vec<String>,
+    /// Whether the result has its [certificate](crate::certificate).
+    pub certificate: bool,
     /// A model near the solution, if the caller knows one: where least squares starts once more if it ends elsewhere.
     pub start: Option<Candidate>,
     /// Whether the result has the errors of the models that lead to it, effect by effect.
@@ -71,6 +73,7 @@ impl Default for Options {
             algorithm: LEAST_SQUARES.to_owned(),
             bounds: Vec::new(),
             own: Vec::new(),
+            certificate: false,
             start: None,
             error_ladder: false,
             force: false,

@@ -8,8 +8,6 @@ use servoid_io::position_loop::GainOrigin;
 
 /// Open-loop error up to which the model explains the recording down to the encoder, counts RMS.
 pub const EXPLAINED_COUNTS: f64 = 0.35;
-/// Nearer than this to a wall of the search range is on it.
-const WALL: f64 = 1e-9;
 /// A sample interval this many times the usual one is a gap.
 const GAP: f64 = 3.0;
 
@@ -94,9 +92,7 @@ pub(super) fn range_notes(problem: &FitProblem<'_>, found: &Found) -> Vec<String
                 plain(high)
             ));
         }
-        // Zero is where many quantities rightly end; it is not a bound that somebody chose.
-        let at_zero = *x < WALL && low == 0.0;
-        if !(WALL..=1.0 - WALL).contains(x) && !at_zero {
+        if unknown.ends_at(unknown.value(*x)) {
             notes.push(format!(
                 "{} ended on a bound of its search range ({} to {} {}): widen it with `servoid fit --bounds`",
                 unknown.name,

@@ -3,43 +3,25 @@
 use super::armature_current::current_evidence;
 use super::margins::{Loop, Margins};
 use super::options::Options;
-use super::physical::{
-    CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, determined_by_data, reconcile,
-};
+use super::parameter::{Parameter, parameters};
+use super::physical::{CONTRADICTION, Evidence, NAMES, Reconciled, determined_by_data, reconcile};
 use super::plausibility::contradictions;
 use super::recordings::RecordingError;
 use super::remarks;
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
 use super::validate::validate;
+use crate::certificate::Certificate;
 use crate::error::Error;
 use crate::likelihood::Likelihood;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::rms_counts;
-use servoid_engine::problem::{Base, Candidate, Data, FitProblem};
+use servoid_engine::problem::{Base, Candidate, Data, FitProblem, Unknown};
 use servoid_engine::simulation::Method;
 use servoid_engine::solve::Found;
 use servoid_io::input::Known;
 use servoid_io::recording::Drive;
 use shared::motor::Response;
-use shared::units::Quantity;
-
-/// One parameter of a fitted model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// Name; an effect's parameters carry its name before a point.
-    pub name: String,
-    /// Value.
-    pub value: f64,
-    /// Unit symbol.
-    pub unit: &'static str,
-    /// Standard error; `None` where the data do not determine it.
-    pub std: Option<f64>,
-    /// Whether the data (with the known facts) determine it.
-    pub identifiable: bool,
-    /// Standard deviation of the values that several recordings give, each fitted alone.
-    pub spread: Option<f64>,
-}
 
 /// The error of a model with some of the effects.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,6 +88,8 @@ pub struct Fit {
     pub recordings: Vec<RecordingError>,
     /// The fit with process noise, where the free run is not at the encoder's floor; only of the front door.
     pub likelihood: Option<Likelihood>,
+    /// What is certain of the readings and this model, where it was asked for; only of the front door.
+    pub certificate: Option<Certificate>,
 }
 
 /// Where a search ended.
@@ -116,6 +100,33 @@ pub(crate) struct Solved {
     pub uncertainty: Option<Uncertainty>,
     /// RMS of model minus reading over the whole recording, counts.
     pub rms_counts: f64,
+}
+
+impl Solved {
+    /// The end of a search as it stands.
+    ///
+    /// # Errors
+    /// Where the model cannot run.
+    pub fn of(problem: &FitProblem<'_>, found: &Found) -> Result<Self, Error> {
+        let values = problem.structure.values(&found.x);
+        let candidate = problem.structure.candidate(&values);
+        let errors = scores::whole(problem.data, &candidate, problem.method)?;
+        Ok(Solved {
+            rms_counts: rms_counts(problem.data, &errors),
+            uncertainty: uncertainty(problem, &values)?,
+            values,
+        })
+    }
+
+    /// The same with an error of each unknown besides, in its unit.
+    #[must_use]
+    pub fn with_error(mut self, error: &[f64]) -> Self {
+        let error = DVector::from_column_slice(error);
+        if let Some(uncertainty) = &mut self.uncertainty {
+            uncertainty.covariance += &error * error.transpose();
+        }
+        self
+    }
 }
 
 impl Fit {
@@ -134,14 +145,7 @@ impl Fit {
                 found.evaluations
             )));
         }
-        let data = problem.data;
-        let values = problem.structure.values(&found.x);
-        let candidate = problem.structure.candidate(&values);
-        let solved = Solved {
-            rms_counts: rms_counts(data, &scores::whole(data, &candidate, options.method)?),
-            uncertainty: uncertainty(problem, &values)?,
-            values,
-        };
+        let solved = Solved::of(problem, found)?;
         Self::of_solved(
             problem, algorithm, cost_kind, found, options, validation, solved,
         )
@@ -232,6 +236,7 @@ impl Fit {
             error_ladder: Vec::new(),
             recordings: Vec::new(),
             likelihood: None,
+            certificate: None,
         })
     }
 }
@@ -240,7 +245,9 @@ impl Fit {
 fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertainty) -> Evidence {
     let values = problem.structure.values_of(&candidate.machine, &[], 0.0);
     let count = values.len().min(spread.covariance.nrows());
+    let free = |(unknown, &value): (&Unknown, &f64)| !unknown.ends_at(value);
     let with_part = matches!(problem.structure.base, Base::Response { damping: true })
+        && problem.structure.unknowns.iter().zip(&values).all(free)
         && !spread.flat[..count].iter().any(|&flat| flat);
     let wanted = |candidate: &Candidate| determined_by_data(&candidate.machine);
     let rows = if with_part { 4 } else { 3 };
@@ -267,93 +274,6 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
         covariance: &slope * own * slope.transpose(),
         current: current_evidence(problem, candidate, spread),
     }
-}
-
-/// The unknowns and the physical parameters, with units that a user can use.
-fn parameters(
-    problem: &FitProblem<'_>,
-    values: &[f64],
-    spread: Option<&Uncertainty>,
-    reconciled: Option<&Reconciled>,
-    notes: &mut Vec<String>,
-) -> Vec<Parameter> {
-    let mut parameters = Vec::new();
-    let torque_scale = reconciled.and_then(|r| r.volts_per_torque);
-    let mut in_volts = false;
-    // A form that is held at the textbook's is nothing that was found; its relative, one of two, was chosen.
-    let unknowns = problem.structure.unknowns.iter().enumerate();
-    for (k, unknown) in unknowns.filter(|(k, u)| u.held_from.is_none() || values[*k] != 0.0) {
-        let std = spread
-            .and_then(|s| s.std(k))
-            .filter(|std| *std < values[k].abs().max(1e-300) * 1e3);
-        let mut parameter = Parameter {
-            name: unknown.name.clone(),
-            value: values[k],
-            unit: unknown.unit,
-            std,
-            identifiable: std.is_some_and(|std| std < 0.5 * values[k].abs()),
-            spread: None,
-        };
-        if is_torque(problem, &unknown.name) {
-            match torque_scale {
-                Some(scale) => to_newton_metres(&mut parameter, scale),
-                None => in_volts = true,
-            }
-        }
-        let chosen = unknown.held_from.is_some();
-        if parameter.std.is_none() && !chosen && spread.is_some_and(|s| s.converged) {
-            notes.push(format!(
-                "{}: this recording does not determine it",
-                parameter.name
-            ));
-        }
-        parameters.push(parameter);
-    }
-    if problem.data.drive == Drive::Current {
-        notes.push(
-            "behind a current loop inertia, friction and torques are in units of the command: \
-             multiply by its torque (or force) per unit"
-                .to_owned(),
-        );
-    } else if in_volts {
-        notes.push(
-            "torques are given as the voltage T*R/Kt that they use up: state the resistance and \
-             kt_equals_kb (or kt) under [known] to get N*m"
-                .to_owned(),
-        );
-    }
-    for ((name, unit), estimate) in NAMES.iter().zip(reconciled.iter().flat_map(|r| r.physical)) {
-        if let Some(Estimate { value, std }) = estimate {
-            parameters.push(Parameter {
-                name: (*name).to_owned(),
-                value,
-                unit,
-                std: Some(std),
-                identifiable: std == 0.0 || std < 0.5 * value.abs(),
-                spread: None,
-            });
-        }
-    }
-    parameters
-}
-
-/// Whether the unknown called `name` is a torque in volts.
-fn is_torque(problem: &FitProblem<'_>, name: &str) -> bool {
-    problem.structure.effects.iter().any(|kind| {
-        kind.parameters().iter().any(|p| {
-            p.quantity == Quantity::Torque && name == format!("{}.{}", kind.name(), p.name)
-        })
-    })
-}
-
-fn to_newton_metres(parameter: &mut Parameter, volts_per_torque: Estimate) {
-    let torque = parameter.value / volts_per_torque.value;
-    let relative = volts_per_torque.std / volts_per_torque.value;
-    parameter.std = parameter
-        .std
-        .map(|std| (std / volts_per_torque.value).hypot(torque * relative));
-    parameter.value = torque;
-    parameter.unit = "N*m";
 }
 
 /// Says in words what stays open and what would settle it.

@@ -69,6 +69,8 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> Identifie
             std: determined.then_some(1e-4 * value.abs()),
             identifiable: determined,
             spread: None,
+            at_bound: false,
+            usual: None,
         });
     };
     if known == Known::Current {

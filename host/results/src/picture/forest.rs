@@ -90,6 +90,10 @@ fn cells(source: &str, parameter: &Estimate) -> [String; 5] {
             ),
             "not seen".to_owned(),
         ),
+        (None, _) if parameter.at_bound => (
+            crate::number_text::short(parameter.value),
+            "held by a bound of its search range".to_owned(),
+        ),
         (None, _) => ("-".to_owned(), "not determined".to_owned()),
     };
     [

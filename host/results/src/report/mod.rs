@@ -1,5 +1,6 @@
 //! One result, one writer a format.
 
+mod certificate;
 pub mod check;
 pub mod demo;
 pub mod diagnosis;

@@ -23,11 +23,17 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
                 p.unit
             );
         }
+        (None, _) if p.at_bound => format!(
+            "{} {}, held by a bound of its search range",
+            short(p.value),
+            p.unit
+        ),
         (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
         (Some(_), true) => format!(
-            "{} {}{}",
+            "{} {}{}{}",
             with_error(p.value, p.std),
             p.unit,
+            usual(p),
             spread(p.spread)
         ),
         (Some(std), false) => {
@@ -39,6 +45,14 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
         }
     };
     format!("  {:26} {value}\n", p.name)
+}
+
+/// The value in its usual unit, where the line has room for it.
+fn usual(p: &Parameter) -> String {
+    match (p.usual, p.spread) {
+        (Some(usual), None) => format!(" = {} {}", short(usual.value), usual.unit),
+        _ => String::new(),
+    }
 }
 
 /// How far the recordings differ that were fitted alone.
@@ -144,6 +158,9 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     }
     if let Some(own) = &fit.likelihood {
         super::likelihood::write(out, own)?;
+    }
+    if let Some(certificate) = &fit.certificate {
+        super::certificate::write(out, certificate)?;
     }
     for note in &fit.notes {
         write!(out, "{}", wrapped(note))?;

@@ -23,6 +23,21 @@ pub struct Estimate {
     /// Standard deviation of the values that several recordings give, each fitted alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread: Option<f64>,
+    /// Whether a bound of its search range holds it: then it has no standard deviation. Absent where not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub at_bound: bool,
+    /// The value in the unit in which such a quantity is usually stated, where that is another one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub usual: Option<Usual>,
+}
+
+/// A value in the unit in which such a quantity is usually stated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Usual {
+    /// The value.
+    pub value: f64,
+    /// Its unit: `% of stall torque`, `count` or `rpm`.
+    pub unit: String,
 }
 
 impl From<&Parameter> for Estimate {
@@ -34,6 +49,11 @@ impl From<&Parameter> for Estimate {
             std: p.std,
             identifiable: p.identifiable,
             spread: p.spread.and_then(finite),
+            at_bound: p.at_bound,
+            usual: p.usual.map(|usual| Usual {
+                value: usual.value,
+                unit: usual.unit.to_owned(),
+            }),
         }
     }
 }

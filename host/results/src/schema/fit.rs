@@ -1,5 +1,6 @@
 //! `servoid.fit/1`, of `fit`, and of `demo` with its truth and its diagnosis.
 
+use super::certificate::Certificate;
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::Likelihood;
@@ -87,6 +88,9 @@ pub struct Fit {
     /// The fit with process noise; absent where the free run is at the encoder's floor or the equations do not apply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub likelihood: Option<Likelihood>,
+    /// What is certain of the readings and this model (`fit --certificate`); absent where nobody asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Certificate>,
     /// Version of the program.
     #[serde(default)]
     pub version: String,
@@ -205,6 +209,7 @@ impl Fit {
             sample_s: finite(data.units.interval),
             interrupted: fit.interrupted,
             likelihood: fit.likelihood.as_ref().map(Likelihood::from),
+            certificate: fit.certificate.as_ref().map(Certificate::from),
             version: VERSION.to_owned(),
         }
     }

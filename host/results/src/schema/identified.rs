@@ -188,6 +188,8 @@ impl Identified {
                 std: found.std,
                 identifiable: outcome.converged && found.std.is_some_and(known),
                 spread: None,
+                at_bound: false,
+                usual: None,
             });
         }
         Ok(Identified {

@@ -23,6 +23,7 @@
 //! | `hypotheses` | what a plan needs of a diagnosis: the models that explain the data alike |
 //! | `partial` | the keys that these two look for in files of any version |
 
+pub mod certificate;
 pub mod check;
 pub mod contest;
 pub mod coverage;

@@ -120,6 +120,8 @@ fn estimates(outcome: &Outcome) -> Vec<Estimate> {
             std: p.std,
             identifiable: p.std.is_some_and(|std| 2.0 * std < p.value.abs()),
             spread: None,
+            at_bound: false,
+            usual: None,
         })
         .collect()
 }
