@@ -3,9 +3,11 @@
 use super::{Model, Recordings, failing, no_recording, parameters, recording_facts, timelines};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, LadderBar};
+use crate::picture::{self, Drawing, LadderBar, Picture, Table};
 use crate::report::diagnosis::bars::counts;
+use crate::schema::certificate::Certificate;
 use crate::schema::{self, Fit};
+use servoid_engine::problem::Data;
 use servoid_identify::fit::margins::Loop;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -31,6 +33,11 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
         )));
         sections.push(ladder);
     }
+    sections.extend(
+        fit.certificate
+            .as_ref()
+            .map(|c| certificate(c, recordings.fitted)),
+    );
     if let Some(data) = recordings.fitted {
         sections.extend(failing("model", data, &models)?);
     }
@@ -57,6 +64,50 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
         facts,
         sections,
     })
+}
+
+/// Whether one model reproduces every reading, and its bounds or where it is refuted.
+fn certificate(certificate: &Certificate, fitted: Option<&Data>) -> Section {
+    let mut section = Section::new("certificate", "Certificate");
+    let Certificate {
+        readings,
+        reproduced,
+        ..
+    } = certificate;
+    let what = if certificate.feasible {
+        "Beyond the bounds below a model near the fit contradicts at least one reading."
+    } else {
+        "No model of this structure near the fit reproduces all."
+    };
+    let text = format!("{reproduced} of {readings} readings are reproduced. {what}");
+    section.blocks.push(Block::Text(text));
+    if certificate.feasible {
+        let mut table = Table::new(&["parameter", "from", "to", "unit"]);
+        for bounds in &certificate.bounds {
+            let end = |end: Option<f64>| end.map_or_else(|| "-".to_owned(), |end| end.to_string());
+            table.row([
+                bounds.name.clone(),
+                end(bounds.low),
+                end(bounds.high),
+                bounds.unit.clone(),
+            ]);
+        }
+        section.blocks.push(Block::Picture(Picture {
+            id: "certificate-bounds".to_owned(),
+            title: "Bounds of the parameters".to_owned(),
+            caption: "A dash is where the search range ends before the readings say so.".to_owned(),
+            drawing: Drawing::Nothing,
+            table: Some(table),
+        }));
+    }
+    let measured = |data: &Data| {
+        let times = data.time_s.iter().copied();
+        times.zip(data.counts.iter().copied()).collect::<Vec<_>>()
+    };
+    let measured = fitted.map(measured).unwrap_or_default();
+    let drawn = picture::refuted("refuted", certificate, &measured);
+    section.blocks.extend(drawn.map(Block::Picture));
+    section
 }
 
 /// A model of the result with its name.
