@@ -7,6 +7,7 @@ mod bad_flags;
 mod bad_outputs;
 mod bad_recordings;
 mod bench;
+mod certificate;
 mod check;
 mod colour;
 mod contract;

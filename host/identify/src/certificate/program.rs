@@ -10,8 +10,8 @@ const STRETCHES: usize = 48;
 const ROUNDS: usize = 60;
 /// A violation that is smaller is none, counts.
 const VIOLATED: f64 = 1e-8;
-/// A start angle is no further from the fitted one, counts.
-const FARTHEST_SHIFT: f64 = 4.0;
+/// A start angle is no further from the fitted one, counts: any is allowed, and a linear program wants an end.
+const FARTHEST_SHIFT: f64 = 1e6;
 /// Bounds of the room, counts: half a cell is the most that there can be.
 const ROOM: (f64, f64) = (-1e6, 0.5);
 
