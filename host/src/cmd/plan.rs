@@ -25,6 +25,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         .ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
     let diagnosis = (args.plan.after.as_deref()).map(|path| ("the diagnosis", path));
     session.check_outputs(&[("--out", out)], diagnosis.as_slice())?;
+    super::simulate::check_replaceable(out)?;
     let limits = limits(&args.plan)?;
     let (hypotheses, setup) = match &args.plan.after {
         Some(path) => diagnosed(path)?,

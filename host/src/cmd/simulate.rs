@@ -17,9 +17,34 @@ use servoid_io::recording::Recording;
 use servoid_plant::{Amplifier, Bench, BenchError, Hidden, Machine, PositionControl};
 use shared::excite::Experiment;
 use std::f64::consts::{PI, TAU};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 
 /// Longest recording, samples: a day at 1 kHz would be a slip of a unit.
 const MOST_SAMPLES: f64 = 2e7;
+
+/// How a recording that the virtual bench made begins.
+const MADE: &str = "# made by servoid ";
+
+/// Refuses to replace a file that is no recording of the virtual bench: it may be a measurement.
+pub(super) fn check_replaceable(out: &Path) -> Result<(), Error> {
+    let mut begin = Vec::new();
+    // A pipe or a device has no content to lose.
+    let regular = out.metadata().is_ok_and(|it| it.is_file());
+    let Some(file) = regular.then(|| File::open(out).ok()).flatten() else {
+        return Ok(());
+    };
+    // A file that cannot be read is not one to replace either.
+    let read = file.take(MADE.len() as u64).read_to_end(&mut begin);
+    if read.is_ok() && (begin.is_empty() || begin == MADE.as_bytes()) {
+        return Ok(());
+    }
+    Err(Error::Usage(format!(
+        "--out {}: stands there and was not made by simulate; give another name, or remove it first",
+        out.display()
+    )))
+}
 
 #[derive(Serialize)]
 struct Simulated<'a> {
@@ -47,6 +72,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         .ok_or_else(|| Error::Usage("--out FILE: say where to".into()))?;
     let motor_path = out.with_file_name("motor.toml");
     session.check_outputs(&[("--out", out)], &[("the motor file", &motor_path)])?;
+    check_replaceable(out)?;
     let mut bench = bench(args, session.seed)?;
     let machine = bench.machine;
     let control = position(args, &machine)?;

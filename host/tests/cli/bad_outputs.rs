@@ -91,3 +91,20 @@ fn an_old_result_survives_a_failed_run_and_a_link_stays_a_link() {
     let link = fs::symlink_metadata(desk.path("link.json")).expect("the link");
     assert!(link.file_type().is_symlink());
 }
+
+#[test]
+fn the_bench_replaces_its_own_recordings_and_nobody_elses() {
+    let desk = Desk::new();
+    desk.write("measured.csv", "t_s,voltage_v,angle_counts\n0,1,0\n");
+    for verb in ["simulate --seconds 1", "simulate --plan --seconds 5"] {
+        desk.refused(
+            &format!("{verb} --out measured.csv"),
+            2,
+            &["not made by simulate", "another name"],
+        );
+        assert!(desk.read("measured.csv").ends_with("0,1,0\n"));
+    }
+    desk.done("simulate --seconds 1 --out bench.csv");
+    desk.done("simulate --seconds 1 --seed 2 --out bench.csv");
+    assert!(desk.read("bench.csv").contains("seed 2"));
+}

@@ -20,6 +20,15 @@ const LINE: f64 = 0.2;
 /// Phases of one line in the two directions that are nearer than this belong together, degrees.
 const IN_PHASE: f64 = 40.0;
 
+/// The quantity against which the volts of an effect are drawn, where its equation names one.
+pub fn axis(kind: Kind) -> Option<Against> {
+    match kind.facts().evidence {
+        Evidence::ChangesSign | Evidence::Constant | Evidence::Grows => Some(Against::Speed),
+        Evidence::Drifts => Some(Against::Time),
+        Evidence::Repeats | Evidence::LargestShare => None,
+    }
+}
+
 /// The model before step `index`.
 pub fn before(diagnosis: &Diagnosis, index: usize) -> &FittedModel {
     let earlier = index.checked_sub(1).and_then(|k| diagnosis.steps.get(k));

@@ -9,6 +9,7 @@ mod text;
 mod verdict;
 
 pub use steady::SteadyReport;
+pub(super) use text::nothing_else;
 
 use servoid_engine::problem::Data;
 use servoid_identify::Diagnosed;

@@ -1,16 +1,17 @@
 //! Where a model fails, as tables.
 
+use crate::report::fold::folded;
 use servoid_identify::diagnose::evidence::plain;
 use servoid_identify::diagnose::residual_analysis::whiteness::{
     AUTOCORRELATION_LIMIT, INPUT_LIMIT,
 };
-use servoid_identify::diagnose::residual_analysis::{ResidualAnalysis, Whiteness};
+use servoid_identify::diagnose::residual_analysis::{Against, ResidualAnalysis, Whiteness};
 
 /// Half the width of a bar, characters.
 const HALF: usize = 12;
 
-/// The shares of all quantities, and the table of the one that explains most.
-pub(super) fn table(found: &ResidualAnalysis) -> String {
+/// The shares of all quantities, and the table of the `wanted` one, or of that which explains most.
+pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String {
     let shares: Vec<String> = found
         .maps
         .iter()
@@ -28,7 +29,15 @@ pub(super) fn table(found: &ResidualAnalysis) -> String {
     let Some(most) = found.most() else {
         return out + "   it goes with none of speed, voltage, current and time\n";
     };
-    out += &format!("   it goes with {}\n", shares.join(", "));
+    let overlap = if shares.len() > 1 {
+        "; they overlap"
+    } else {
+        ""
+    };
+    let text = format!("   explained by each alone: {}{overlap}", shares.join(", "));
+    out += &(folded(&text, "     ") + "\n");
+    let own = wanted.and_then(|against| found.map(against));
+    let most = own.filter(|map| map.beyond_chance).unwrap_or(most);
     let (name, unit) = most.against.name();
     out += &format!(
         "   {:>22}   {:>9}\n",

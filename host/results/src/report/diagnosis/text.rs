@@ -9,6 +9,7 @@ use crate::report::position_loop;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
+use servoid_identify::diagnose::evidence;
 use servoid_identify::diagnose::{HeldOut, Step, Verdict};
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
@@ -46,7 +47,7 @@ impl DiagnosisReport<'_> {
             };
             let heading = painted(HEADING, "where the last model fails,");
             writeln!(out, "\n{heading} {what}")?;
-            out.push_str(&table(found));
+            out.push_str(&table(found, None));
         }
         let white = whiteness_text(self.findings.last_whiteness.as_ref());
         writeln!(out, "\n{}", folded(&white, ""))?;
@@ -206,7 +207,7 @@ impl DiagnosisReport<'_> {
         }
         say("confidence", &format!("{:.2}", step.confidence))?;
         if let Some(found) = self.findings.steps.get(index).and_then(Option::as_ref) {
-            out.push_str(&table(found));
+            out.push_str(&table(found, evidence::axis(step.added)));
         }
         Ok(())
     }
@@ -216,7 +217,7 @@ impl DiagnosisReport<'_> {
         let (alike, refine) = (self.look_alikes(step), self.refinements(step));
         let sums = self.other_sets(step.added);
         let mut text = if alike.is_empty() && sums.is_empty() {
-            "nothing else of the catalogue explains these data as well".to_owned()
+            nothing_else(self.interrupted || self.diagnosis.ran_out).to_owned()
         } else if alike.is_empty() {
             format!("{} would explain these data as well", sums.join(", or "))
         } else {
@@ -262,4 +263,13 @@ pub(super) fn verdict(verdict: Verdict, text: &str) -> String {
     };
     let folded = folded(&format!("{name}: {text}"), "");
     folded.replacen(name, &painted(style.bold(), name), 1)
+}
+
+/// Where no other effect explains the data as well: a diagnosis that was stopped has not tried all of them.
+pub(in crate::report) fn nothing_else(stopped: bool) -> &'static str {
+    if stopped {
+        "the work was stopped before all others had been tried"
+    } else {
+        "nothing else of the catalogue explains these data as well"
+    }
 }

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, LadderBar, Table};
 use crate::report::diagnosis::bars::counts;
+use crate::report::diagnosis::nothing_else;
 use crate::schema::diagnosis::Step;
 use crate::schema::{Demo, Diagnosis};
 use servoid_identify::fit::margins::Loop;
@@ -139,10 +140,11 @@ fn seen(
 /// One section for each effect that was added.
 fn named_effects(diagnosis: &Diagnosis) -> Vec<Section> {
     let steps = diagnosis.steps.iter().enumerate();
-    steps.map(|(k, step)| effect(k, step)).collect()
+    let stopped = diagnosis.interrupted || diagnosis.ran_out;
+    steps.map(|(k, step)| effect(k, step, stopped)).collect()
 }
 
-fn effect(index: usize, step: &Step) -> Section {
+fn effect(index: usize, step: &Step, stopped: bool) -> Section {
     let description = Kind::by_name(&step.added).map(|kind| kind.description());
     let title = description.map_or("", |d| d.title);
     let heading = format!("{}. {}: {title}", index + 1, step.added);
@@ -153,7 +155,7 @@ fn effect(index: usize, step: &Step) -> Section {
         say("equation", description.equation.to_owned());
     }
     say("evidence", step.evidence.clone());
-    say("looks alike here", company(step));
+    say("looks alike here", company(step, stopped));
     if let Some(confidence) = step.confidence {
         say("confidence", format!("{:.0} %", 100.0 * confidence));
     }
@@ -178,14 +180,14 @@ fn effect(index: usize, step: &Step) -> Section {
 }
 
 /// Other effects that explain the data as well, in the words of the terminal.
-fn company(step: &Step) -> String {
+fn company(step: &Step, stopped: bool) -> String {
     let refines = |name: &&String| step.refined_by.contains(name);
     let alike: Vec<String> = (step.indistinguishable_from.iter())
         .filter(|name| !refines(name))
         .cloned()
         .collect();
     let mut text = if alike.is_empty() {
-        "nothing else of the catalogue explains these data as well".to_owned()
+        nothing_else(stopped).to_owned()
     } else {
         format!("{} would explain these data as well", alike.join(", "))
     };
