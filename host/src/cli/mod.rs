@@ -434,8 +434,8 @@ pub struct ProveArgs {
     #[arg(long, default_value_t = 100, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub cases: u64,
     /// In place of diagnoses: how often the standard errors of fits hold the truth, over --cases recordings of each of several
-    /// drives and encoders
-    #[arg(long, conflicts_with_all = ["hidden", "excite", "effect", "law", "only", "out", "resume", "merge"])]
+    /// drives and encoders, or with each --effect
+    #[arg(long, conflicts_with_all = ["hidden", "excite", "law", "only", "out", "resume", "merge"])]
     pub coverage: bool,
     /// How many effects a case hides
     #[arg(long, value_enum, default_value_t = HowMany::Mix)]

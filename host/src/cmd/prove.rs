@@ -1,11 +1,12 @@
 //! `servoid prove`: random cases from the virtual bench, diagnosed blind.
 
 use crate::cli::ProveArgs;
-use crate::coverage;
+use crate::coverage::{self, Condition};
 use crate::error::Error;
 use crate::prove::report::text;
 use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError};
 use crate::session::Session;
+use shared::effects::Kind;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -49,9 +50,19 @@ pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
 /// How often standard errors hold the truth.
 fn coverage(session: &Session, args: &ProveArgs) -> Result<(), Error> {
     let shard = args.shard.unwrap_or(Shard::WHOLE);
-    let bar = session.progress(coverage::recordings(args.cases, shard), "coverage");
-    let (cases, stop) = (args.cases, session.stop());
-    let found = coverage::run(session.seed, cases, shard, stop, &|| bar.inc(1))?;
+    let effects = args.effect.iter().filter_map(|name| Kind::by_name(name));
+    let conditions = match args.effect.is_empty() {
+        true => Condition::linear(),
+        false => effects.map(Condition::with_effect).collect(),
+    };
+    let plan = coverage::Plan {
+        seed: session.seed,
+        cases: args.cases,
+        shard,
+        conditions,
+    };
+    let bar = session.progress(plan.recordings(), "coverage");
+    let found = plan.run(session.stop(), &|| bar.inc(1))?;
     bar.finish_and_clear();
     session.deliver(&coverage::report::text(&found), &found)
 }

@@ -1,15 +1,17 @@
 //! Drives and encoders, and the recordings of random motors under them.
 
 use crate::error::Error;
-use crate::prove::{Draws, Motor};
+use crate::prove::{Draws, Motor, draw_hidden};
 use servoid_engine::problem::Data;
-use servoid_identify::fit::Options;
+use servoid_identify::fit::{EXPLAINED_COUNTS, Options};
 use servoid_identify::{Silent, identify_data, truth};
 use servoid_io::excitation;
 use servoid_io::input::Known;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, Machine};
+use servoid_plant::{Bench, Hidden, Machine};
+use shared::effects::{Kind, Pair};
 use shared::motor::Response;
+use shared::units::Quantity;
 
 /// Sample interval, s.
 const INTERVAL_S: f64 = 1e-3;
@@ -20,6 +22,14 @@ const CURRENT_NOISE: f64 = 0.002;
 /// Encoders, counts per revolution.
 const ENCODERS: [u32; 2] = [2000, 200];
 
+/// Drives, with their lengths, s.
+const DRIVES: [(&str, f64); 4] = [
+    ("commissioning", 20.0),
+    ("commissioning", 3.0),
+    ("step", 10.0),
+    ("triangle", 10.0),
+];
+
 /// A drive and an encoder.
 pub struct Condition {
     /// `commissioning`, or the name of a shape.
@@ -28,33 +38,41 @@ pub struct Condition {
     pub seconds: f64,
     /// Encoder counts per revolution.
     pub counts_per_rev: u32,
+    /// The effect that is hidden, and fitted.
+    pub effect: Option<Kind>,
 }
 
 /// The error of one parameter in its standard errors.
 pub struct Standardised {
     /// The parameter.
-    pub name: &'static str,
+    pub name: String,
     /// Estimate less truth over the standard error; `None` where the fit states none.
     pub z: Option<f64>,
 }
 
 impl Condition {
-    /// All that are tried.
-    pub fn all() -> Vec<Condition> {
-        let drives = [
-            ("commissioning", 20.0),
-            ("commissioning", 3.0),
-            ("step", 10.0),
-            ("triangle", 10.0),
-        ];
+    /// Every drive with every encoder, of a linear motor.
+    pub fn linear() -> Vec<Condition> {
         let with = |counts_per_rev| {
-            drives.map(|(excitation, seconds)| Condition {
+            DRIVES.map(|(excitation, seconds)| Condition {
                 excitation,
                 seconds,
                 counts_per_rev,
+                effect: None,
             })
         };
         ENCODERS.into_iter().flat_map(with).collect()
+    }
+
+    /// The first drive and encoder, with an effect of random size that is fitted as well.
+    pub fn with_effect(kind: Kind) -> Condition {
+        let (excitation, seconds) = DRIVES[0];
+        Condition {
+            excitation,
+            seconds,
+            counts_per_rev: ENCODERS[0],
+            effect: Some(kind),
+        }
     }
 
     /// Records motor `number` of the seed and fits it. `None` where it cannot be recorded or fitted.
@@ -64,7 +82,11 @@ impl Condition {
     pub fn errors(&self, seed: u64, number: u64) -> Result<Option<Vec<Standardised>>, Error> {
         let mut draws = Draws::of(&[seed, number]);
         let machine = Motor::draw(&mut draws)?.machine;
-        let Some(data) = self.record(machine, draws.seed()) else {
+        let hidden = match self.effect {
+            Some(kind) => Some(draw_hidden(kind.name(), &machine, &mut draws)?),
+            None => None,
+        };
+        let Some(data) = self.record(machine, hidden.clone(), draws.seed()) else {
             return Ok(None);
         };
         let known = Known {
@@ -72,22 +94,40 @@ impl Condition {
             ..Known::default()
         };
         let options = Options {
+            effects: self.effect.into_iter().collect(),
             known,
             ..Options::default()
         };
         let Ok(fit) = identify_data(&data, None, &options, &Silent::default()) else {
             return Ok(None);
         };
-        let error = |(name, truth): (&'static str, f64)| {
+        let truth: Vec<(String, f64)> = match (self.effect, hidden) {
+            (Some(kind), Some(hidden)) => {
+                own_truth(kind, &hidden.truth(&machine, self.counts_per_rev))
+            }
+            _ => truth(&machine)
+                .map(|(name, value)| (name.to_owned(), value))
+                .into(),
+        };
+        // A torque is the volts that the winding spends on it, until the facts tell N·m.
+        let in_unit = |value: f64, unit: &str| match unit {
+            "N*m" => value / machine.winding_volts(1.0),
+            _ => value,
+        };
+        // Far from the encoder's floor another valley was found, which no standard error is about.
+        let explained = fit.rms_counts < EXPLAINED_COUNTS;
+        let error = |(name, truth): (String, f64)| {
             let parameter = fit.parameters.iter().find(|p| p.name == name);
-            let z = parameter.and_then(|p| Some((p.value - truth) / p.std?));
+            let z = parameter.and_then(|p| Some((p.value - in_unit(truth, p.unit)) / p.std?));
+            let z = z.filter(|z| explained && z.is_finite());
             Standardised { name, z }
         };
-        Ok(Some(truth(&machine).map(error).into()))
+        Ok(Some(truth.into_iter().map(error).collect()))
     }
 
-    fn record(&self, machine: Machine, seed: u64) -> Option<Data> {
+    fn record(&self, machine: Machine, hidden: Option<Hidden>, seed: u64) -> Option<Data> {
         let mut bench = Bench::new(machine);
+        bench.effects = hidden.into_iter().collect();
         bench.counts_per_rev = self.counts_per_rev;
         bench.sample_s = INTERVAL_S;
         bench.seed = seed;
@@ -98,6 +138,19 @@ impl Condition {
         let recording = bench.record(&drive, self.excitation, true).ok()?;
         Data::new(&recording).ok()
     }
+}
+
+/// Sizes and shapes of an effect in the model's terms, and of the machine what an effect takes nothing of. A whole number has no
+/// error, and of a pair that shares its common part with the machine no part has one.
+fn own_truth(kind: Kind, values: &[f64]) -> Vec<(String, f64)> {
+    if kind.facts().pair == Some(Pair::Difference) {
+        return Vec::new();
+    }
+    let parameters = kind.parameters().iter().zip(values);
+    parameters
+        .filter(|(parameter, _)| !parameter.form && parameter.quantity != Quantity::PerRev)
+        .map(|(parameter, &value)| (format!("{}.{}", kind.name(), parameter.name), value))
+        .collect()
 }
 
 /// What a fit of the linear motor states, of the bench's machine: what voltage and angle determine, and what the current shows

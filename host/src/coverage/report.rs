@@ -25,8 +25,10 @@ pub fn text(coverage: &Coverage) -> String {
 }
 
 fn rows(condition: &Condition) -> String {
+    let effect = condition.effect.as_ref();
+    let effect = effect.map_or_else(String::new, |name| format!(", with {name}"));
     let mut out = format!(
-        "\n{}, {} s, {} counts a revolution\n  {:26}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
+        "\n{}, {} s, {} counts a revolution{effect}\n  {:28}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
         condition.excitation,
         condition.seconds,
         condition.counts_per_rev,
@@ -53,7 +55,7 @@ fn row(covered: &Covered) -> String {
         format!("({}-{})", percent(rate.low), percent(rate.high))
     });
     format!(
-        "  {:26}{:>6}{:>6}   {interval:11}{:>7}{:>7}{:>8}\n",
+        "  {:28}{:>6}{:>6}   {interval:11}{:>7}{:>7}{:>8}\n",
         covered.name,
         part(one.map(|rate| rate.part)),
         part(two.map(|rate| rate.part)),

@@ -20,6 +20,7 @@ pub fn tally(
             excitation: condition.excitation.to_owned(),
             seconds: condition.seconds,
             counts_per_rev: condition.counts_per_rev,
+            effect: condition.effect.map(|kind| kind.name().to_owned()),
             parameters: (0..parameters).map(|k| covered(&errors, k)).collect(),
         }
     };
@@ -47,8 +48,7 @@ fn covered(errors: &[&[Standardised]], k: usize) -> Covered {
     Covered {
         name: errors
             .first()
-            .map_or("", |errors| errors[k].name)
-            .to_owned(),
+            .map_or_else(String::new, |errors| errors[k].name.clone()),
         within_1: Count::of(&z, |z| z.abs() <= 1.0).share("within_1"),
         within_2: Count::of(&z, |z| z.abs() <= 1.96).share("within_2"),
         not_stated: (stated.len() - z.len()) as u64,
@@ -72,11 +72,14 @@ mod tests {
         for (scale, expected) in [(1.0, 0.95), (2.0, 0.673)] {
             let found: Vec<(usize, Option<Vec<Standardised>>)> = (0..4000)
                 .map(|_| {
-                    let error = |z: Option<f64>| Standardised { name: "gain", z };
+                    let error = |z: Option<f64>| Standardised {
+                        name: "gain".to_owned(),
+                        z,
+                    };
                     (0, Some(vec![error(Some(scale * normal())), error(None)]))
                 })
                 .collect();
-            let document = tally(seed, &Condition::all(), &found, false);
+            let document = tally(seed, &Condition::linear(), &found, false);
             let [gain, nothing] = &document.conditions[0].parameters[..] else {
                 panic!("{document:?}");
             };

@@ -41,7 +41,7 @@ pub use case::{Case, Drawn};
 pub use content::{Content, merge, read};
 pub(crate) use draws::Draws;
 pub use header::Header;
-pub use hide::surprise;
+pub use hide::{draw as draw_hidden, surprise};
 pub(crate) use interval::Count;
 pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;

@@ -141,41 +141,46 @@ fn wrong_use_is_refused_before_the_work() {
 const COVERAGE: f64 = 0.92;
 const SPREAD: f64 = 1.6;
 
-/// Every parameter of every drive and encoder: what is stated as 95 % may be that.
+/// Every parameter of every drive and encoder, and of effects: what is stated as 95 % may be that.
 #[test]
 fn stated_intervals_hold_the_truth_as_often_as_they_say() {
     let desk = Desk::new();
-    let line = "prove --coverage --cases 30 --seed 20261125 --json c.json";
-    let outcome = desk.done(line);
-    println!("{outcome}");
-    for line in outcome.stdout.lines() {
-        assert!(line.chars().count() <= 80, "{line}");
-    }
-    let json = desk.read_json("c.json");
-    assert_eq!(json["schema"], "servoid.coverage/1");
-    has(
-        &json,
-        "version: text, seed: number, recordings: number, failures: number, conditions: list, interrupted: flag",
-    );
-    assert_eq!(json["failures"], 0);
-    let conditions = list(&json, "conditions");
-    assert_eq!(json["recordings"], 30 * conditions.len());
-    for condition in conditions {
-        for covered in list(condition, "parameters") {
-            let z = list(covered, "z").len();
-            let what = format!(
-                "{}, {}: {covered}",
-                condition["excitation"], condition["counts_per_rev"]
-            );
-            // What a triangle or a coarse encoder hardly shows need not be stated.
-            assert!(z >= 20, "{what}");
-            let most = covered["within_2"]["rate"]["high"]
-                .as_f64()
-                .expect("a number");
-            assert!(most >= COVERAGE, "{what}");
-            let spread = covered["z_sd"].as_f64().expect("a number");
-            assert!(spread <= SPREAD, "{what}");
+    for what in ["", "--effect coulomb windage delay offset_voltage"] {
+        let line = format!("prove --coverage --cases 30 --seed 20261125 --json c.json {what}");
+        let outcome = desk.done(&line);
+        println!("{outcome}");
+        for line in outcome.stdout.lines() {
+            assert!(line.chars().count() <= 80, "{line}");
         }
+        let json = desk.read_json("c.json");
+        assert_eq!(json["schema"], "servoid.coverage/1");
+        has(
+            &json,
+            "version: text, seed: number, recordings: number, failures: number, conditions: list, interrupted: flag",
+        );
+        assert_eq!(json["failures"], 0);
+        assert_eq!(json["recordings"], 30 * list(&json, "conditions").len());
+        for condition in list(&json, "conditions") {
+            holds(condition);
+        }
+    }
+}
+
+fn holds(condition: &serde_json::Value) {
+    for covered in list(condition, "parameters") {
+        let z = list(covered, "z").len();
+        let what = format!(
+            "{}, {}, {}: {covered}",
+            condition["excitation"], condition["counts_per_rev"], condition["effect"]
+        );
+        // What a triangle or a coarse encoder hardly shows need not be stated.
+        assert!(z >= 20, "{what}");
+        let most = covered["within_2"]["rate"]["high"]
+            .as_f64()
+            .expect("a number");
+        assert!(most >= COVERAGE, "{what}");
+        let spread = covered["z_sd"].as_f64().expect("a number");
+        assert!(spread <= SPREAD, "{what}");
     }
 }
 

@@ -32,6 +32,9 @@ pub struct Condition {
     pub seconds: f64,
     /// Encoder counts per revolution.
     pub counts_per_rev: u32,
+    /// The effect that is hidden and fitted; null for the linear motor.
+    #[serde(default)]
+    pub effect: Option<String>,
     /// How the errors of each parameter lie.
     pub parameters: Vec<Covered>,
 }
