@@ -4,6 +4,7 @@ use crate::certificate::{self, certify};
 use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
+use crate::fit::integration::Refined;
 use crate::fit::own_parameters::{self, fit_own};
 use crate::fit::recordings::{add_spread, recording_errors};
 use crate::fit::report::Solved;
@@ -68,6 +69,60 @@ pub fn identify_data(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Fit, Error> {
+    let searched = search_model(data, options, progress)?;
+    let (problem, found) = (&searched.problem, &searched.found);
+    let note = fit::integration::note(options.method, &searched);
+    // Everything after the search runs the model with the steps that it ended with.
+    let options = &Options {
+        method: problem.method,
+        ..options.clone()
+    };
+    let mut fit = if options.own.is_empty() {
+        let solved = Solved::of(problem, found)?;
+        let solved = match &searched.left {
+            Some(error) => solved.with_error(error),
+            None => solved,
+        };
+        let mut fit = conclude(problem, found, options, validation, solved)?;
+        if options.error_ladder && !options.effects.is_empty() {
+            fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
+        }
+        fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
+        add_spread(&mut fit, data, options, progress.stop());
+        fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
+        fit
+    } else {
+        let own = fit_own(problem, found, options, progress.stop())?;
+        let mut fit = conclude(problem, &own.found, options, validation, own.solved)?;
+        fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
+        own.recordings.write_into(&mut fit);
+        fit
+    };
+    fit.notes.extend(note);
+    if options.certificate {
+        fit.certificate = Some(certify(problem, found)?);
+    }
+    Ok(fit)
+}
+
+fn conclude(
+    problem: &FitProblem<'_>,
+    found: &Found,
+    options: &Options,
+    validation: Option<&Data>,
+    solved: Solved,
+) -> Result<Fit, Error> {
+    let (algorithm, cost) = (&options.algorithm, options.cost_name());
+    Fit::of_solved(problem, algorithm, cost, found, options, validation, solved)
+}
+
+/// The search: from regression, from a second start, in wider ranges, with other forms, with shorter steps, each where the one
+/// before leaves something to gain.
+fn search_model<'a>(
+    data: &'a Data,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Refined<'a>, Error> {
     let solver = solve::by_name(&options.algorithm)
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;
@@ -115,76 +170,17 @@ pub fn identify_data(
             found = freed;
         }
     }
-    let mut integration_error = None;
-    if options.algorithm == LEAST_SQUARES {
+    if options.algorithm != LEAST_SQUARES {
+        return Ok(Refined::as_it_is(problem, found));
+    }
+    let most = fit::integration::evaluations(&problem);
+    Ok(fit::integration::refined(problem, found, |finer, spent| {
         let few = Options {
-            budget: options.budget.min(fit::integration::evaluations(&problem)),
+            budget: options.budget.saturating_sub(spent).min(most),
             ..options.clone()
         };
-        let refined = fit::integration::refined(problem, found, |finer, spent| {
-            search(finer, solver.as_ref(), &few, spent, progress)
-        });
-        (problem, found, integration_error) = (refined.problem, refined.found, refined.left);
-    }
-    let asked = options.method;
-    let options = &Options {
-        method: problem.method,
-        ..options.clone()
-    };
-    if !options.own.is_empty() {
-        return with_own_parameters(&problem, &found, validation, options, progress);
-    }
-    let mut solved = Solved::of(&problem, &found)?;
-    if let Some(error) = &integration_error {
-        solved = solved.with_error(error);
-    }
-    let mut fit = Fit::of_solved(
-        &problem,
-        &options.algorithm,
-        options.cost_name(),
-        &found,
-        options,
-        validation,
-        solved,
-    )?;
-    fit.notes.extend(fit::integration::note(
-        asked,
-        problem.method,
-        integration_error.is_some(),
-    ));
-    if options.error_ladder && !options.effects.is_empty() {
-        fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
-    }
-    fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
-    add_spread(&mut fit, data, options, progress.stop());
-    if options.certificate {
-        fit.certificate = Some(certify(&problem, &found)?);
-    }
-    fit.likelihood = likelihood::section(data, &fit, &options.effects, progress.stop());
-    Ok(fit)
-}
-
-/// The fit in which recordings have parameters of their own, from where the search for common ones ended.
-fn with_own_parameters(
-    problem: &FitProblem<'_>,
-    found: &Found,
-    validation: Option<&Data>,
-    options: &Options,
-    progress: &dyn Progress,
-) -> Result<Fit, Error> {
-    let own = fit_own(problem, found, options, progress.stop())?;
-    let mut fit = Fit::of_solved(
-        problem,
-        &options.algorithm,
-        options.cost_name(),
-        &own.found,
-        options,
-        validation,
-        own.solved,
-    )?;
-    fit.recordings = recording_errors(problem.data, validation, &fit.candidate, options.method)?;
-    own.recordings.write_into(&mut fit);
-    Ok(fit)
+        search(finer, solver.as_ref(), &few, spent, progress)
+    }))
 }
 
 /// The problem that `options` state, with the bounds that they set; a start outside moves to the nearest bound.

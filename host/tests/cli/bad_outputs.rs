@@ -96,7 +96,10 @@ fn an_old_result_survives_a_failed_run_and_a_link_stays_a_link() {
 fn the_bench_replaces_its_own_recordings_and_nobody_elses() {
     let desk = Desk::new();
     desk.write("measured.csv", "t_s,voltage_v,angle_counts\n0,1,0\n");
-    for verb in ["simulate --seconds 1", "simulate --plan --between coulomb,delay --seconds 5"] {
+    for verb in [
+        "simulate --seconds 1",
+        "simulate --plan --between coulomb,delay --seconds 5",
+    ] {
         desk.refused(
             &format!("{verb} --out measured.csv"),
             2,

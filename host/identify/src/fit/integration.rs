@@ -31,6 +31,17 @@ pub struct Refined<'a> {
     pub left: Option<Vec<f64>>,
 }
 
+impl<'a> Refined<'a> {
+    /// A fit whose steps are taken as they are.
+    pub fn as_it_is(problem: FitProblem<'a>, found: Found) -> Self {
+        Refined {
+            problem,
+            found,
+            left: None,
+        }
+    }
+}
+
 /// Halves the steps of a fit by least squares until no unknown moves by [`MOVED`] of its standard error. A linear motor is
 /// discretised exactly, and the paper's Euler step is asked for as it is.
 pub fn refined<'a>(
@@ -38,11 +49,7 @@ pub fn refined<'a>(
     found: Found,
     mut search: impl FnMut(&FitProblem<'a>, usize) -> Found,
 ) -> Refined<'a> {
-    let mut refined = Refined {
-        problem,
-        found,
-        left: None,
-    };
+    let mut refined = Refined::as_it_is(problem, found);
     let exact = refined.problem.structure.effects.is_empty()
         || refined.problem.method.discretisation != Discretisation::Exact;
     if exact || refined.problem.cost != Cost::Squared {
@@ -76,30 +83,35 @@ pub fn refined<'a>(
             refined.left = None;
             return refined;
         }
+        let evaluations = found.evaluations + again.evaluations;
         refined = Refined {
             problem: finer,
-            found: again,
+            found: Found {
+                evaluations,
+                ..again
+            },
             left: Some(moved),
         };
     }
 }
 
-/// What a user should know of the steps, where they are shorter than was asked for. Where `moving`, the finest are not short
-/// enough.
-pub fn note(asked: Method, taken: Method, moving: bool) -> Option<String> {
-    let steps = taken.substeps;
-    if moving {
+/// What a user should know of the steps, where they are shorter than was `asked` for, or not short enough.
+pub fn note(asked: Method, fit: &Refined<'_>) -> Option<String> {
+    let steps = fit.problem.method.substeps;
+    if fit.left.is_some() {
         return Some(format!(
             "the parameters still move by more than {MOVED} of their standard errors between {} and {steps} steps to a sample; \
              the standard errors are widened by that much. Record at shorter intervals",
             steps / 2
         ));
     }
-    (steps != asked.substeps).then(|| format!(
-        "the model takes {steps} steps to a sample instead of {}: with fewer the parameters move by more than {MOVED} of their \
-         standard errors",
-        asked.substeps
-    ))
+    (steps != asked.substeps).then(|| {
+        format!(
+            "the model takes {steps} steps to a sample instead of {}: with fewer the parameters move by more than {MOVED} of \
+             their standard errors",
+            asked.substeps
+        )
+    })
 }
 
 /// Whether an unknown that the data determine moved by more than a part of its standard error.
