@@ -78,12 +78,14 @@ pub fn identify_data(
         ..options.clone()
     };
     let mut fit = if options.own.is_empty() {
-        let solved = Solved::of(problem, found)?;
+        let solved = Solved::of(problem, &options.algorithm, found)?;
+        let certificate = options.certificate.then(|| certify(problem, &solved));
         let solved = match &searched.left {
             Some(error) => solved.with_error(error),
             None => solved,
         };
         let mut fit = conclude(problem, found, options, validation, solved)?;
+        fit.certificate = certificate.transpose()?;
         if options.error_ladder && !options.effects.is_empty() {
             fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
         }
@@ -99,9 +101,6 @@ pub fn identify_data(
         fit
     };
     fit.notes.extend(note);
-    if options.certificate {
-        fit.certificate = Some(certify(problem, found)?);
-    }
     Ok(fit)
 }
 
@@ -228,4 +227,32 @@ fn second_start(
         let budget = Budget::usual(progress.stop());
         built_up(problem.data, &options.effects, options, &budget)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use servoid_io::showcase;
+    use servoid_plant::Hidden;
+    use std::sync::atomic::AtomicBool;
+
+    struct StoppedAtOnce(AtomicBool);
+
+    impl Progress for StoppedAtOnce {
+        fn stop(&self) -> &AtomicBool {
+            &self.0
+        }
+    }
+
+    #[test]
+    fn a_search_that_was_stopped_before_its_first_model_is_an_error() {
+        let friction = Hidden::typical("coulomb", &showcase::machine()).unwrap();
+        let recording = showcase::record(&friction, 1, "bench").unwrap();
+        let stopped = StoppedAtOnce(AtomicBool::new(true));
+        let error = identify(&recording, &Options::default(), &stopped).unwrap_err();
+        assert!(
+            error.to_string().contains("no model with a finite cost"),
+            "{error}"
+        );
+    }
 }

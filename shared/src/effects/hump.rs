@@ -29,7 +29,7 @@ lanes!(Hump {
 });
 
 /// Slowest `ωs`, as a part of the base speed: below it the hump is a static friction.
-const SLOWEST: f64 = 1e-4;
+pub(super) const SLOWEST: f64 = 1e-4;
 
 /// It is over where it has fallen to `e` to the minus this, 8e-7.
 const DEPTH: f64 = 14.0;

@@ -1,5 +1,6 @@
 //! Friction that falls with the speed as a quotient.
 
+use super::hump::SLOWEST;
 use crate::scalar::{Mask, Real, Scalar, lanes};
 
 /// `H/(1 + (ω/ωs)²)` (Hess, Soom, *J. Tribology* 112, 1990, 147): near standstill like a Gaussian, far from it a tail that falls
@@ -17,9 +18,6 @@ lanes!(Quotient {
     speed,
     per_speed
 });
-
-/// Slowest `ωs`, as a part of the base speed: below it number formats cannot hold the quotient.
-const SLOWEST: f64 = 1e-4;
 
 impl<S: Scalar> Quotient<S> {
     /// Of a height that is halved at `speed`, both per unit.

@@ -28,11 +28,7 @@ pub fn bounds(
     centre: &Centre,
     integration: f64,
 ) -> Result<(Vec<ParameterBounds>, f64), Error> {
-    let program = &Program {
-        readings: &centre.readings,
-        scale,
-        range: centre.range.clone(),
-    };
+    let program = &centre.program(scale);
     let unknowns = &problem.structure.unknowns;
     let sides = (0..2 * unknowns.len()).into_par_iter();
     let exact = EXACT + INTEGRATION * integration;

@@ -25,6 +25,15 @@ pub struct Centre {
 }
 
 impl Centre {
+    /// The linear programs about it.
+    pub fn program<'a>(&'a self, scale: &'a Scale) -> Program<'a> {
+        Program {
+            readings: &self.readings,
+            scale,
+            range: self.range.clone(),
+        }
+    }
+
     /// How many readings it reproduces.
     pub fn reproduced(&self) -> usize {
         let inside = |above: &&f64| (0.0..1.0).contains(&(**above + self.shift));

@@ -3,7 +3,7 @@
 
 use super::centre::Centre;
 use super::linearised::Scale;
-use super::program::{Edge, Goal, Inequality, Program};
+use super::program::{Edge, Goal, Inequality};
 use super::{Contradicting, TOLERANCE};
 use servoid_engine::problem::FitProblem;
 
@@ -12,11 +12,7 @@ const HOLDING: f64 = 1e-6;
 
 /// The fewest readings that contradict each other about the best model.
 pub fn fewest(problem: &FitProblem<'_>, scale: &Scale, centre: &Centre) -> Vec<Contradicting> {
-    let program = Program {
-        readings: &centre.readings,
-        scale,
-        range: centre.range.clone(),
-    };
+    let program = centre.program(scale);
     let Some(solution) = program.solve(Goal::Room) else {
         return Vec::new();
     };

@@ -21,11 +21,10 @@ mod linearised;
 mod program;
 
 use crate::error::Error;
-use crate::fit::uncertainty::uncertainty;
+use crate::fit::report::Solved;
 use centre::{Centre, centre};
 use linearised::{Scale, above};
 use servoid_engine::problem::{FitProblem, Horizon};
-use servoid_engine::solve::Found;
 use shared::discretise::Discretisation;
 
 /// Readings are met to this, counts: the arithmetic of model and linear program is no better.
@@ -113,11 +112,11 @@ const FINEST: u16 = 32;
 ///
 /// # Errors
 /// Where the model cannot run.
-pub fn certify(problem: &FitProblem<'_>, found: &Found) -> Result<Certificate, Error> {
-    let values = problem.structure.values(&found.x);
-    let spread = uncertainty(problem, &values)?;
-    let mut problem = problem.with_structure(problem.structure.clone(), found.x.clone());
-    let scale = Scale::new(&problem, &values, spread.as_ref());
+pub(crate) fn certify(problem: &FitProblem<'_>, solved: &Solved) -> Result<Certificate, Error> {
+    let values = solved.values.clone();
+    let x = problem.structure.coordinates(&values);
+    let mut problem = problem.with_structure(problem.structure.clone(), x);
+    let scale = Scale::new(&problem, &values, solved.uncertainty.as_ref());
     let exact = problem.structure.effects.is_empty()
         || problem.method.discretisation != Discretisation::Exact;
     let mut centre = centre(&problem, &scale, values)?;

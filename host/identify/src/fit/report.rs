@@ -106,8 +106,14 @@ impl Solved {
     /// The end of a search as it stands.
     ///
     /// # Errors
-    /// Where the model cannot run.
-    pub fn of(problem: &FitProblem<'_>, found: &Found) -> Result<Self, Error> {
+    /// [`Error::Failed`] where the search found no model, and where the model cannot run.
+    pub fn of(problem: &FitProblem<'_>, algorithm: &str, found: &Found) -> Result<Self, Error> {
+        if !found.cost.is_finite() {
+            return Err(Error::Failed(format!(
+                "{algorithm} found no model with a finite cost in {} evaluations",
+                found.evaluations
+            )));
+        }
         let values = problem.structure.values(&found.x);
         let candidate = problem.structure.candidate(&values);
         let errors = scores::whole(problem.data, &candidate, problem.method)?;
@@ -139,13 +145,7 @@ impl Fit {
         options: &Options,
         validation: Option<&Data>,
     ) -> Result<Self, Error> {
-        if !found.cost.is_finite() {
-            return Err(Error::Failed(format!(
-                "{algorithm} found no model with a finite cost in {} evaluations",
-                found.evaluations
-            )));
-        }
-        let solved = Solved::of(problem, found)?;
+        let solved = Solved::of(problem, algorithm, found)?;
         Self::of_solved(
             problem, algorithm, cost_kind, found, options, validation, solved,
         )

@@ -66,12 +66,21 @@ pub fn uncertainty(
     problem: &FitProblem<'_>,
     values: &[f64],
 ) -> Result<Option<Uncertainty>, ModelError> {
+    let residuals = residuals(problem, values)?;
+    Ok(covariance(problem, values, &residuals))
+}
+
+/// Errors of the model with these values from the centres of the cells, counts.
+///
+/// # Errors
+/// Where the model cannot run.
+pub(super) fn residuals(problem: &FitProblem<'_>, values: &[f64]) -> Result<Vec<f64>, ModelError> {
     let mut residuals = problem.errors(&problem.structure.candidate(values))?;
     let centre = problem.data.centre(0) - problem.data.counts[0];
     for residual in &mut residuals {
         *residual -= centre;
     }
-    Ok(covariance(problem, values, &residuals))
+    Ok(residuals)
 }
 
 /// The same where the errors from the centres of the cells are `residuals`, counts.
