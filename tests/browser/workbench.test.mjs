@@ -167,6 +167,7 @@ test("runs of one motor are fitted together, on the command line, by dropping, a
     await dropped.click("#load");
   };
   await add("rec.csv", "fitted");
+  await dropped.click("#put-away-yes");
   await settled(dropped, 1);
   for (const [name, role] of [["third.csv", "held_out"], ["other.csv", "beside"]]) {
     await add(name, role);
@@ -207,6 +208,38 @@ test("a second tab does not break the first, and a session is opened again as it
   assert.equal(await error(page), shown);
   await page.context().close();
   await again.end();
+});
+
+test("another recording asks first, undo brings the bench back, and two programs do not share a session", async () => {
+  const bench = await desk.bench("rec.csv --session undone.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  const before = await error(page);
+  const name = () => page.textContent("#about");
+  const motor = readFileSync(desk.path("motor.toml"), "utf8");
+  const other = [["other.csv", readFileSync(desk.path("other.csv"), "utf8")], ["motor.toml", motor]];
+  await drop(page, other);
+  await page.click("#put-away-no");
+  assert.match(await name(), /rec\.csv/);
+  await drop(page, other);
+  await page.click("#put-away-yes");
+  await page.waitForFunction(() => document.getElementById("about").textContent.includes("other.csv"));
+  await settled(page, 1);
+  // The fit, then the recording.
+  await page.click("#undo");
+  await settled(page, 0);
+  await page.keyboard.press("Control+z");
+  await page.waitForFunction(() => document.getElementById("about").textContent.includes("rec.csv"));
+  await settled(page, 1);
+  assert.equal(await error(page), before);
+  await page.click("#redo");
+  await page.waitForFunction(() => document.getElementById("about").textContent.includes("other.csv"));
+  await page.click("#undo");
+  await settled(page, 1);
+  await assert.rejects(desk.bench("--session undone.json"), /ended with 2/);
+  await page.context().close();
+  await bench.end();
+  assert.match(readFileSync(desk.path("undone.json"), "utf8"), /rec\.csv/);
 });
 
 test("killing the browser stops the work", async () => {

@@ -8,6 +8,7 @@ use crate::fit::integration::Refined;
 use crate::fit::own_parameters::{self, fit_own};
 use crate::fit::recordings::{add_spread, recording_errors};
 use crate::fit::report::Solved;
+use crate::fit::systematic::add_systematic;
 use crate::fit::{self, Fit, Options};
 use crate::likelihood;
 use crate::progress::Progress;
@@ -84,7 +85,8 @@ pub fn identify_data(
             Some(error) => solved.with_error(error),
             None => solved,
         };
-        let mut fit = conclude(problem, found, options, validation, solved)?;
+        let mut fit = conclude(problem, found, options, validation, &solved)?;
+        add_systematic(&mut fit.parameters, problem, &solved, options);
         fit.certificate = certificate.transpose()?;
         if options.error_ladder && !options.effects.is_empty() {
             fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
@@ -95,7 +97,7 @@ pub fn identify_data(
         fit
     } else {
         let own = fit_own(problem, found, options, progress.stop())?;
-        let mut fit = conclude(problem, &own.found, options, validation, own.solved)?;
+        let mut fit = conclude(problem, &own.found, options, validation, &own.solved)?;
         fit.recordings = recording_errors(data, validation, &fit.candidate, options.method)?;
         own.recordings.write_into(&mut fit);
         fit
@@ -109,7 +111,7 @@ fn conclude(
     found: &Found,
     options: &Options,
     validation: Option<&Data>,
-    solved: Solved,
+    solved: &Solved,
 ) -> Result<Fit, Error> {
     let (algorithm, cost) = (&options.algorithm, options.cost_name());
     Fit::of_solved(problem, algorithm, cost, found, options, validation, solved)

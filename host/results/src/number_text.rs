@@ -32,6 +32,28 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
     }
 }
 
+/// A value whose last digit is the second one of an error that is larger than its standard error.
+pub fn to_error(value: f64, error: f64) -> String {
+    let text = with_error(value, Some(error));
+    match (text.find('('), text.find(')')) {
+        (Some(from), Some(to)) => text[..from].to_owned() + &text[to + 1..],
+        _ => text,
+    }
+}
+
+/// Two significant digits.
+pub fn rough(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return short(x);
+    }
+    let exponent = x.abs().log10().floor() as i32;
+    if (-3..6).contains(&exponent) {
+        format!("{x:.*}", (1 - exponent).max(0) as usize)
+    } else {
+        format!("{x:.1e}")
+    }
+}
+
 /// Four significant digits or more in at most ten columns.
 pub fn short(x: f64) -> String {
     if !x.is_finite() {

@@ -16,6 +16,8 @@
 //! | `words` | what was written for a terminal, in the words of a page |
 //! | `routes`, `guard` | what the page may ask, and who may ask |
 //! | `opened`, `begun`, `answer` | what it puts on the bench, the work that it begins, and how it is answered |
+//! | `history` | undo and redo |
+//! | `lock` | one program on a session at a time |
 //! | `server` | listening and stopping |
 
 mod answer;
@@ -23,8 +25,10 @@ mod begun;
 mod blind;
 mod download;
 mod guard;
+mod history;
 mod job;
 mod loaded;
+mod lock;
 mod model;
 mod opened;
 mod preview;

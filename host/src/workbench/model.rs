@@ -40,6 +40,16 @@ pub(super) struct Recordings {
 }
 
 impl Recordings {
+    /// Whether they are the same ones.
+    pub(super) fn are(&self, other: &Recordings) -> bool {
+        let held_out = match (&self.held_out, &other.held_out) {
+            (None, None) => true,
+            (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+            _ => false,
+        };
+        held_out && Arc::ptr_eq(&self.fitted, &other.fitted)
+    }
+
     /// What is fitted and what is held out: the other recordings, or a part of the fitted ones where they are long enough.
     pub(super) fn parts(&self) -> (&Data, &Data) {
         if let Some(other) = &self.held_out {

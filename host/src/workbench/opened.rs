@@ -10,7 +10,7 @@ use super::session_file::SessionFile;
 use super::state::Bench;
 use crate::error::Error;
 use axum::Json;
-use axum::extract::State;
+use axum::extract::{Query, State};
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -100,8 +100,8 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
     })
 }
 
-/// Recordings are not changed under work that is going on.
-fn free(bench: &Bench) -> Result<(), Error> {
+/// What lies on the bench is not exchanged under work that is going on.
+pub(super) fn free(bench: &Bench) -> Result<(), Error> {
     match bench.job.running() {
         None => Ok(()),
         Some(what) => Err(Error::Usage(format!(
@@ -110,9 +110,23 @@ fn free(bench: &Bench) -> Result<(), Error> {
     }
 }
 
-pub(super) async fn session(State(bench): Shared, body: String) -> Answer {
+#[derive(Deserialize)]
+pub(super) struct Tried {
+    /// Whether it is only tried.
+    #[serde(default)]
+    check: bool,
+}
+
+pub(super) async fn session(
+    State(bench): Shared,
+    Query(tried): Query<Tried>,
+    body: String,
+) -> Answer {
     aside(move || {
         let file = SessionFile::parse(&body, "the session")?;
+        if tried.check {
+            return Ok(());
+        }
         free(&bench)?;
         bench.change(|state| file.lay(state))
     })

@@ -3,9 +3,9 @@
 use super::answer::{Answer, Refusal, aside, done};
 use super::begun::begin;
 use super::job::Watch;
-use super::opened::{demo, recording, session};
+use super::opened::{demo, free, recording, session};
 use super::preview::preview;
-use super::state::{Bench, Telling};
+use super::state::{Bench, Telling, Way};
 use super::{download, guard, shown};
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Query, State};
@@ -56,6 +56,8 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/reveal", post(reveal))
         .route("/work", post(begin))
         .route("/stop", post(stop))
+        .route("/undo", post(undo))
+        .route("/redo", post(redo))
         .route("/choose", post(choose))
         .route("/remove", post(remove))
         .route("/trial", post(trial))
@@ -117,6 +119,20 @@ async fn reveal(State(bench): Shared) -> Answer {
 
 async fn stop(State(bench): Shared) -> Answer {
     bench.job.stop();
+    done()
+}
+
+async fn undo(State(bench): Shared) -> Answer {
+    go(&bench, Way::Undo)
+}
+
+async fn redo(State(bench): Shared) -> Answer {
+    go(&bench, Way::Redo)
+}
+
+fn go(bench: &Bench, way: Way) -> Answer {
+    free(bench)?;
+    bench.go(way)?;
     done()
 }
 

@@ -3,6 +3,7 @@
 use super::guard;
 use super::job::{self, ALONE};
 use super::loaded::Loaded;
+use super::lock::Lock;
 use super::model::Recordings;
 use super::routes::routes;
 use super::session_file::SessionFile;
@@ -37,6 +38,8 @@ pub struct Server {
     bench: Arc<Bench>,
     secret: String,
     address: SocketAddr,
+    /// Of the session's file.
+    _lock: Option<Lock>,
 }
 
 impl Server {
@@ -49,6 +52,7 @@ impl Server {
         let failed = |what: &str, error: &dyn std::fmt::Display| {
             Error::Failed(format!("the workbench cannot {what}: {error}"))
         };
+        let lock = file.as_deref().map(Lock::take).transpose()?;
         let bench = Bench::new(file);
         let mut first_fit = false;
         match opening {
@@ -84,6 +88,7 @@ impl Server {
             bench,
             secret,
             address,
+            _lock: lock,
         })
     }
 

@@ -23,8 +23,11 @@ const SLIDES: f64 = 3.0;
 /// The bench in words and numbers.
 pub(super) fn view(bench: &Bench) -> Value {
     let state = bench.state();
+    let (undo, redo) = bench.history().has();
     json!({
         "revision": state.revision,
+        "undo": undo,
+        "redo": redo,
         "floor_counts": FLOOR_RMS_COUNTS,
         "recording": state.recordings.as_ref().map(recording),
         "models": state.models.iter().map(|model| entry(&state, model)).collect::<Vec<_>>(),

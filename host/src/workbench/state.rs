@@ -1,5 +1,6 @@
 //! The bench's state, and its change notifications to the page.
 
+use super::history::History;
 use super::job::Job;
 use super::model::{Model, Recordings};
 use crate::error::Error;
@@ -22,6 +23,16 @@ pub(super) struct Bench {
     pub(super) job: Job,
     /// Where the bench is kept after every change.
     file: Option<PathBuf>,
+    history: Mutex<History>,
+}
+
+/// Which way through the history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// Back.
+    Undo,
+    /// Forward.
+    Redo,
 }
 
 /// What pages are told without asking.
@@ -34,7 +45,7 @@ pub(super) enum Telling {
 }
 
 /// What lies on the bench.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct State {
     /// Counts changes.
     pub(super) revision: u64,
@@ -81,6 +92,13 @@ impl State {
     pub(super) fn begin(&mut self, recordings: Recordings) {
         self.clear();
         self.recordings = Some(recordings);
+    }
+
+    /// Takes over what counts on whatever lies on the bench.
+    pub(super) fn carry_on(&mut self, before: &State) {
+        self.revision = before.revision;
+        self.next = self.next.max(before.next);
+        self.fault = None;
     }
 
     /// A number for the next model.
@@ -140,6 +158,7 @@ impl Bench {
             tellings: broadcast::channel(TELLINGS).0,
             job: Job::default(),
             file,
+            history: Mutex::default(),
         })
     }
 
@@ -148,8 +167,36 @@ impl Bench {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes what lies on the bench, keeps it, and tells every page.
+    /// Changes what lies on the bench, keeps it, and tells every page. It can be undone.
     pub(super) fn change<T>(&self, change: impl FnOnce(&mut State) -> T) -> T {
+        self.kept(|state| {
+            let before = state.clone();
+            let result = change(state);
+            if !state.has_same_work(&before) {
+                self.history().changed(before);
+            }
+            result
+        })
+    }
+
+    /// Undoes the last change, or does again what was undone last.
+    ///
+    /// # Errors
+    /// Where there is nothing to undo or to do again.
+    pub(super) fn go(&self, way: Way) -> Result<(), Error> {
+        self.kept(|state| match way {
+            Way::Undo => self.history().undo(state),
+            Way::Redo => self.history().redo(state),
+        })
+    }
+
+    /// What was done and undone; always after the state, so that nobody waits for the other.
+    pub(super) fn history(&self) -> MutexGuard<'_, History> {
+        self.history.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Changes the state, writes the file, and tells every page.
+    fn kept<T>(&self, change: impl FnOnce(&mut State) -> T) -> T {
         let mut state = self.state();
         let result = change(&mut state);
         state.revision += 1;

@@ -286,6 +286,11 @@ impl Structure {
     /// Point of the unit cube that describes a candidate with the same effects; outside of it where that leaves the
     /// ranges.
     pub fn point(&self, candidate: &Candidate) -> Vec<f64> {
+        self.coordinates(&self.values_in(candidate))
+    }
+
+    /// Values of the unknowns in a model.
+    pub fn values_in(&self, candidate: &Candidate) -> Vec<f64> {
         let effects: Vec<f64> = (candidate.effects.iter())
             .flat_map(|(_, values)| values.to_vec())
             .collect();
@@ -295,7 +300,7 @@ impl Structure {
         {
             *offset = candidate.start_offset;
         }
-        self.coordinates(&values)
+        values
     }
 
     /// Values of the unknowns that describe `machine`; effects and nuisances as given.

@@ -14,6 +14,7 @@
 //! | `uncertainty` | the covariance of the unknowns |
 //! | `armature_current` | what a measured current says of inertia and viscous friction |
 //! | `physical` | the six physical parameters from data and known facts |
+//! | `systematic` | what parameters change by if the recording is not what it says |
 //! | `plausibility` | whether the machine can be one |
 //! | `margins` | stability margins of the position loop |
 //! | `scores` | errors over windows and of the equation, where the open loop drifts |
@@ -47,6 +48,7 @@ pub mod scores;
 mod search;
 mod sensitivity;
 mod start;
+pub(crate) mod systematic;
 pub mod uncertainty;
 mod validate;
 
@@ -61,5 +63,6 @@ pub use recordings::RecordingError;
 pub use remarks::EXPLAINED_COUNTS;
 pub use report::{Fit, LadderEntry};
 pub use search::search;
+pub use systematic::{Cause, Systematic};
 pub use start::{SPEED_HALF_WIDTH, base_for, is_reversed, problem};
 pub use validate::{START_OFFSETS, departure, validate, validate_roughly, validation_errors};

@@ -1,6 +1,7 @@
 //! The parameters of a fit with their standard errors, in the units that a user can use.
 
 use super::physical::{Estimate, NAMES, Reconciled};
+use super::systematic::Systematic;
 use super::uncertainty::Uncertainty;
 use servoid_engine::problem::{Data, FitProblem, Unknown};
 use servoid_io::recording::Drive;
@@ -27,6 +28,8 @@ pub struct Parameter {
     pub at_bound: bool,
     /// The value in the unit in which such a quantity is usually stated, where that is another one.
     pub usual: Option<Usual>,
+    /// What it would change by if the recording is not what it says; only of the front door.
+    pub systematic: Vec<Systematic>,
 }
 
 /// A value in the unit in which such a quantity is usually stated.
@@ -54,6 +57,7 @@ impl Parameter {
             spread: None,
             at_bound: false,
             usual: None,
+            systematic: Vec::new(),
         }
     }
 }

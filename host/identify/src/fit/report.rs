@@ -147,7 +147,7 @@ impl Fit {
     ) -> Result<Self, Error> {
         let solved = Solved::of(problem, algorithm, found)?;
         Self::of_solved(
-            problem, algorithm, cost_kind, found, options, validation, solved,
+            problem, algorithm, cost_kind, found, options, validation, &solved,
         )
     }
 
@@ -159,24 +159,22 @@ impl Fit {
         found: &Found,
         options: &Options,
         validation: Option<&Data>,
-        solved: Solved,
+        solved: &Solved,
     ) -> Result<Self, Error> {
         let Solved {
             values,
             uncertainty: spread,
             rms_counts,
         } = solved;
+        let (spread, rms_counts) = (spread.as_ref(), *rms_counts);
         let data = problem.data;
-        let candidate = problem.structure.candidate(&values);
+        let candidate = problem.structure.candidate(values);
         let mut notes = Vec::new();
-        let reconciled = spread
-            .as_ref()
-            .filter(|spread| data.drive == Drive::Voltage && spread.converged)
-            .map(|spread| reconcile(&evidence(problem, &candidate, spread), &options.known));
+        let reconciled = reconciled(problem, &candidate, spread, options);
         let mut parameters = parameters(
             problem,
-            &values,
-            spread.as_ref(),
+            values,
+            spread,
             reconciled.as_ref(),
             &mut notes,
         );
@@ -197,7 +195,7 @@ impl Fit {
             problem,
             found,
             options,
-            spread.as_ref(),
+            spread,
             rms_counts,
             &range_notes,
             &mut notes,
@@ -227,7 +225,7 @@ impl Fit {
             parameters,
             response,
             margins: Loop::from(&candidate.machine).margins(),
-            converged: spread.as_ref().is_some_and(|s| s.converged),
+            converged: spread.is_some_and(|s| s.converged),
             effective_samples: spread.map_or(data.len() as f64, |s| s.effective_samples),
             notes,
             range_notes,
@@ -239,6 +237,18 @@ impl Fit {
             certificate: None,
         })
     }
+}
+
+/// The physical parameters that data and known facts give together. `None` where the command is no voltage, and without errors.
+pub(super) fn reconciled(
+    problem: &FitProblem<'_>,
+    candidate: &Candidate,
+    spread: Option<&Uncertainty>,
+    options: &Options,
+) -> Option<Reconciled> {
+    spread
+        .filter(|spread| problem.data.drive == Drive::Voltage && spread.converged)
+        .map(|spread| reconcile(&evidence(problem, candidate, spread), &options.known))
 }
 
 /// What the data say about the machine, by the delta method from the unknowns.

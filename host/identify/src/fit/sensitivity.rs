@@ -37,13 +37,25 @@ pub(super) fn sensitivity(
     values: &[f64],
     residuals: &[f64],
 ) -> Option<Sensitivity> {
+    let places = if problem.data.quantised { PLACES } else { 0 };
+    sensitivities(problem, values, &[residuals], places)?.pop()
+}
+
+/// As [`sensitivity`], for each of several series of residuals, with the counter's rounding errors in so many places of the cell.
+pub(super) fn sensitivities(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    series: &[&[f64]],
+    places: usize,
+) -> Option<Vec<Sensitivity>> {
     let pairs = pairs(problem, values)?;
     let models: Vec<Candidate> = pairs
         .iter()
         .flat_map(|pair| [pair.ahead, pair.behind])
         .collect();
-    let places = if problem.data.quantised { PLACES } else { 0 };
-    let mut sums = Sums::new(pairs.len(), residuals, places);
+    let mut sums: Vec<Sums<'_>> = (series.iter())
+        .map(|residuals| Sums::new(pairs.len(), residuals, places))
+        .collect();
     let mut columns = vec![Vec::new(); pairs.len()];
     let here = problem.structure.candidate(values);
     let centring = problem.stream_changes(&here, &models, |changes| {
@@ -55,12 +67,16 @@ pub(super) fn sensitivity(
             column.clear();
             column.extend(change[0].iter().zip(change[1]).map(quotient));
         }
-        sums.add(&columns);
+        for sums in &mut sums {
+            sums.add(&columns);
+        }
     })?;
-    let sensitivity = sums.centred(centring);
-    let finite = |x: &f64| x.is_finite();
-    let gradients = || sensitivity.gradients.iter().flat_map(DVector::iter);
-    (sensitivity.squares.iter().all(finite) && gradients().all(finite)).then_some(sensitivity)
+    let finite = |found: &Sensitivity| {
+        let gradients = found.gradients.iter().flat_map(DVector::iter);
+        found.squares.iter().chain(gradients).all(|x| x.is_finite())
+    };
+    let found: Vec<Sensitivity> = sums.into_iter().map(|sums| sums.centred(centring)).collect();
+    found.iter().all(finite).then_some(found)
 }
 
 /// The models to both sides of each unknown, so far away that the residuals change by about [`PROBE_COUNTS`].

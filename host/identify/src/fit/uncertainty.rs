@@ -101,40 +101,16 @@ pub(super) fn solve(
     effective_samples: f64,
 ) -> Uncertainty {
     let columns = x.len();
-    // Of columns of length one.
-    let scales = found
-        .squares
-        .diagonal()
-        .map(|square| square.max(0.0).sqrt());
-    let per_scale = scales.map(|scale| if scale > 0.0 { 1.0 / scale } else { 0.0 });
+    let Inverse {
+        scales,
+        per_scale,
+        inverse,
+        flat,
+    } = inverse(&found.squares);
     let scaled = |gradient: &DVector<f64>| gradient.component_mul(&per_scale);
-    let hessian = DMatrix::from_fn(columns, columns, |i, k| {
-        found.squares[(i, k)] * per_scale[i] * per_scale[k]
-    });
-    let eigen = hessian.symmetric_eigen();
-    let mut inverse = DMatrix::zeros(columns, columns);
-    let mut flat: Vec<bool> = scales.iter().map(|&s| s == 0.0).collect();
-    for (value, vector) in eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter())
-    {
-        if *value > FLAT * FLAT * columns as f64 {
-            inverse += vector * vector.transpose() / *value;
-        } else {
-            for (k, share) in vector.iter().enumerate() {
-                flat[k] |= share * share > 1e-3;
-            }
-        }
-    }
     // Distance to the minimum, by one Gauss-Newton step. It counts as error too; where the step would remove
     // much of the squared error, no standard error is stated. Unknowns on a wall stay there.
-    let mut gradient = scaled(&found.gradients.iter().sum());
-    for (k, x) in x.iter().enumerate() {
-        if !(WALL..=1.0 - WALL).contains(x) {
-            gradient[k] = 0.0;
-        }
-    }
+    let gradient = scaled(&free_gradient(found, x));
     let away = -(&inverse * &gradient);
     let removable = gradient.dot(&(&inverse * &gradient)) / squares.max(f64::MIN_POSITIVE);
 
@@ -169,6 +145,67 @@ pub(super) fn solve(
         flat,
         converged: removable < UNCONVERGED,
         effective_samples,
+    }
+}
+
+/// How far each unknown moves when the residuals change by the series of which `found` has the sums: one Gauss-Newton step from
+/// the point `x` of the unit cube. Unknowns on a wall stay there, and flat directions are not followed.
+pub(super) fn step(found: &Sensitivity, x: &[f64]) -> DVector<f64> {
+    let Inverse {
+        per_scale, inverse, ..
+    } = inverse(&found.squares);
+    let gradient = free_gradient(found, x).component_mul(&per_scale);
+    -(inverse * gradient).component_mul(&per_scale)
+}
+
+/// Gradient of half the sum of squares in the directions that are not held by a wall.
+fn free_gradient(found: &Sensitivity, x: &[f64]) -> DVector<f64> {
+    let mut gradient: DVector<f64> = found.gradients.iter().sum();
+    for (k, x) in x.iter().enumerate() {
+        if !(WALL..=1.0 - WALL).contains(x) {
+            gradient[k] = 0.0;
+        }
+    }
+    gradient
+}
+
+/// The inverse of Jᵀ·J where J determines it.
+struct Inverse {
+    /// Lengths of the columns.
+    scales: DVector<f64>,
+    /// Their inverses; zero for a column of zeros.
+    per_scale: DVector<f64>,
+    /// Of the matrix with columns of length one.
+    inverse: DMatrix<f64>,
+    /// Unknowns with a part in a flat direction.
+    flat: Vec<bool>,
+}
+
+fn inverse(squares: &DMatrix<f64>) -> Inverse {
+    let columns = squares.ncols();
+    let scales = squares.diagonal().map(|square| square.max(0.0).sqrt());
+    let per_scale = scales.map(|scale| if scale > 0.0 { 1.0 / scale } else { 0.0 });
+    let hessian = DMatrix::from_fn(columns, columns, |i, k| {
+        squares[(i, k)] * per_scale[i] * per_scale[k]
+    });
+    let eigen = hessian.symmetric_eigen();
+    let mut inverse = DMatrix::zeros(columns, columns);
+    let mut flat: Vec<bool> = scales.iter().map(|&s| s == 0.0).collect();
+    let vectors = eigen.eigenvectors.column_iter();
+    for (value, vector) in eigen.eigenvalues.iter().zip(vectors) {
+        if *value > FLAT * FLAT * columns as f64 {
+            inverse += vector * vector.transpose() / *value;
+        } else {
+            for (k, share) in vector.iter().enumerate() {
+                flat[k] |= share * share > 1e-3;
+            }
+        }
+    }
+    Inverse {
+        scales,
+        per_scale,
+        inverse,
+        flat,
     }
 }
 

@@ -71,6 +71,7 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> Identifie
             spread: None,
             at_bound: false,
             usual: None,
+            systematic: Vec::new(),
         });
     };
     if known == Known::Current {

@@ -11,4 +11,5 @@ pub mod paper;
 pub mod plan;
 mod position_loop;
 pub mod style;
+mod systematic;
 pub mod text;

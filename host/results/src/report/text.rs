@@ -3,8 +3,9 @@
 use super::diagnosis::bars;
 use super::fold::folded;
 use super::position_loop;
+use super::systematic;
 use super::style::{GOOD, HEADING, painted};
-use crate::number_text::{short, with_error};
+use crate::number_text::{rough, short, to_error, with_error};
 use crate::schema::contest::least_cost;
 use servoid_engine::compare::{Row, quantile};
 use servoid_engine::problem::Data;
@@ -29,13 +30,11 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
             p.unit
         ),
         (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
-        (Some(_), true) => format!(
-            "{} {}{}{}",
-            with_error(p.value, p.std),
-            p.unit,
-            usual(p),
-            spread(p.spread)
-        ),
+        (Some(std), true) => {
+            let (number, error) = number(p, std);
+            let (usual, spread) = (usual(p), spread(p.spread));
+            format!("{number} {}{error}{usual}{spread}", p.unit)
+        }
         (Some(std), false) => {
             format!(
                 "below {} {} (twice its standard error)",
@@ -45,6 +44,19 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
         }
     };
     format!("  {:26} {value}\n", p.name)
+}
+
+/// A value with as many digits as it deserves, and what is to be said of its error behind the unit. Where an error of the recording
+/// may well be a power of ten larger than the standard error, that one says where the digits end.
+fn number(p: &Parameter, std: f64) -> (String, String) {
+    let largest = (p.systematic.iter())
+        .map(|s| s.change.abs())
+        .fold(0.0, f64::max);
+    if std > 0.0 && largest.log10().floor() > std.log10().floor() {
+        let error = format!(", standard error {}", rough(std));
+        return (to_error(p.value, largest), error);
+    }
+    (with_error(p.value, Some(std)), String::new())
 }
 
 /// The value in its usual unit, where the line has room for it.
@@ -156,6 +168,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
     for p in &fit.parameters {
         out.push_str(&parameter(p, fit.converged));
     }
+    out.push_str(&systematic::table(&fit.parameters));
     if let Some(own) = &fit.likelihood {
         super::likelihood::write(out, own)?;
     }

@@ -3,8 +3,7 @@
 use super::finite;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use servoid_identify::fit::Parameter;
-use servoid_identify::fit::margins;
+use servoid_identify::fit::{self, Parameter, margins};
 use shared::motor::Response;
 
 /// One number of a result with its error.
@@ -29,6 +28,22 @@ pub struct Estimate {
     /// The value in the unit in which such a quantity is usually stated, where that is another one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub usual: Option<Usual>,
+    /// What the value would change by if the recording is not what it says; absent where not determined, and of results without it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub systematic: Vec<Systematic>,
+}
+
+/// What a value would change by if something is wrong with the recording.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Systematic {
+    /// What is wrong: `latency`, `encoder_edges` or `command_scale`.
+    pub cause: String,
+    /// By how much: s, counts RMS, or a part of the command.
+    pub size: f64,
+    /// Unit of the size: `s`, `count` or `1`.
+    pub size_unit: String,
+    /// Change of the value, in its unit; without a sign where the cause has several parts that go with their squares.
+    pub change: f64,
 }
 
 /// A value in the unit in which such a quantity is usually stated.
@@ -54,6 +69,19 @@ impl From<&Parameter> for Estimate {
                 value: usual.value,
                 unit: usual.unit.to_owned(),
             }),
+            systematic: p.systematic.iter().map(Systematic::from).collect(),
+        }
+    }
+}
+
+impl From<&fit::Systematic> for Systematic {
+    fn from(systematic: &fit::Systematic) -> Self {
+        let fit::Systematic { cause, change } = *systematic;
+        Systematic {
+            cause: cause.name().to_owned(),
+            size: cause.size(),
+            size_unit: cause.unit().to_owned(),
+            change,
         }
     }
 }

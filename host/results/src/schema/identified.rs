@@ -190,6 +190,7 @@ impl Identified {
                 spread: None,
                 at_bound: false,
                 usual: None,
+                systematic: Vec::new(),
             });
         }
         Ok(Identified {

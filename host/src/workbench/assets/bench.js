@@ -47,6 +47,20 @@
   const act = (path, body) => ask(path, body).then(() => say(null), say);
   const work = (what) => act("work", what);
 
+  // Whether something else may take the place of what is on the bench. It is asked where models would go.
+  function putAway() {
+    if (!bench || !bench.models.length) return Promise.resolve(true);
+    const count = bench.models.length === 1 ? "One model" : `${bench.models.length} models`;
+    at("put-away-what").textContent =
+      `${count} of ${bench.recording.name} will make room. Undo brings everything back while this workbench runs; ` +
+      "to keep it for longer, take it away as a session first.";
+    at("put-away").returnValue = "";
+    at("put-away").showModal();
+    return new Promise((answer) => {
+      at("put-away").addEventListener("close", () => answer(at("put-away").returnValue === "yes"), { once: true });
+    });
+  }
+
   // ---- making elements
 
   function element(tag, attributes = {}, ...children) {
@@ -80,6 +94,8 @@
     at("start").hidden = recording !== null;
     at("bench").hidden = recording === null;
     at("another").hidden = recording === null;
+    at("undo").disabled = Boolean(job) || !bench.undo;
+    at("redo").disabled = Boolean(job) || !bench.redo;
     if (wrong.startsWith(SILENT)) wrong = "";
     showFault();
     if (!recording) {
@@ -361,7 +377,14 @@
     const texts = await Promise.all(Array.from(files).map(async (file) => ({ name: file.name, text: await file.text() })));
     const session = texts.find((file) => /^[\s\uFEFF]*\{/.test(file.text) || file.name.toLowerCase().endsWith(".json"));
     if (session) {
-      await act("session", session.text.replace(/^\uFEFF/, ""));
+      const text = session.text.replace(/^\uFEFF/, "");
+      try {
+        await ask("session?check=true", text);
+      } catch (error) {
+        say(error);
+        return;
+      }
+      if (await putAway()) await act("session", text);
       return;
     }
     const motor = texts.find((file) => file.name.endsWith(".toml"));
@@ -374,6 +397,7 @@
     if (motor) {
       try {
         await send({ motor: dropped.motor, check: true });
+        if (!await putAway()) return;
         // As on the command line: of several the last judges, and the others are fitted together.
         for (const [place, file] of csv.entries()) {
           dropped = { name: file.name, csv: file.text, motor: motor.text };
@@ -457,7 +481,8 @@
   at("columns").addEventListener("change", checkColumns);
   at("load").addEventListener("click", () => {
     const role = bench.recording ? at("role").value : "fitted";
-    Promise.resolve().then(() => load({ mapping: mapping(), role })).catch((error) => {
+    const room = role === "fitted" ? putAway() : Promise.resolve(true);
+    room.then((free) => free && load({ mapping: mapping(), role })).catch((error) => {
       at("column-fault").hidden = false;
       at("column-fault").textContent = error.message;
     });
@@ -482,6 +507,7 @@
   // ---- buttons
 
   at("demo").addEventListener("click", async () => {
+    if (!await putAway()) return;
     at("demo").disabled = true;
     try {
       await ask("demo", {});
@@ -490,6 +516,17 @@
       say(error);
     }
     at("demo").disabled = false;
+  });
+  at("put-away-yes").addEventListener("click", () => at("put-away").close("yes"));
+  at("put-away-no").addEventListener("click", () => at("put-away").close(""));
+  at("undo").addEventListener("click", () => act("undo", {}));
+  at("redo").addEventListener("click", () => act("redo", {}));
+  document.addEventListener("keydown", (event) => {
+    const typing = event.target.matches("input:not([type=range]):not([type=checkbox]):not([type=radio]), textarea, select");
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || typing) return;
+    event.preventDefault();
+    const button = at(event.shiftKey ? "redo" : "undo");
+    if (!button.disabled) button.click();
   });
   at("reveal").addEventListener("click", () => act("reveal", {}));
   at("diagnose").addEventListener("click", () => work({ what: "diagnose" }));

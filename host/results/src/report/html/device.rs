@@ -122,6 +122,7 @@ fn estimates(outcome: &Outcome) -> Vec<Estimate> {
             spread: None,
             at_bound: false,
             usual: None,
+            systematic: Vec::new(),
         })
         .collect()
 }

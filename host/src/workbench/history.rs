@@ -1,0 +1,129 @@
+//! Undo and redo: what lay on the bench before each change, and what an undo took away.
+
+use super::state::State;
+use crate::error::Error;
+use std::sync::Arc;
+
+/// Most changes that are remembered.
+const MOST: usize = 100;
+
+/// The states before and after the one on the bench.
+#[derive(Default)]
+pub(super) struct History {
+    past: Vec<State>,
+    future: Vec<State>,
+}
+
+impl History {
+    /// Remembers what lay on the bench before a change; what was undone before it is gone.
+    pub(super) fn changed(&mut self, before: State) {
+        self.future.clear();
+        self.past.push(before);
+        if self.past.len() > MOST {
+            self.past.remove(0);
+        }
+    }
+
+    /// Goes back by one change.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub(super) fn undo(&mut self, now: &mut State) -> Result<(), Error> {
+        let nothing = || Error::Usage("there is nothing to undo".to_owned());
+        let before = self.past.pop().ok_or_else(nothing)?;
+        self.future.push(laid(before, now));
+        Ok(())
+    }
+
+    /// Does again what was undone last.
+    ///
+    /// # Errors
+    /// Where nothing was.
+    pub(super) fn redo(&mut self, now: &mut State) -> Result<(), Error> {
+        let nothing = || Error::Usage("there is nothing to do again".to_owned());
+        let after = self.future.pop().ok_or_else(nothing)?;
+        self.past.push(laid(after, now));
+        Ok(())
+    }
+
+    /// Whether there is something to undo, and something to do again.
+    pub(super) fn has(&self) -> (bool, bool) {
+        (!self.past.is_empty(), !self.future.is_empty())
+    }
+}
+
+/// Lays another state on the bench and gives the one that lay there.
+fn laid(mut other: State, now: &mut State) -> State {
+    // A number that was given is not given again.
+    other.carry_on(now);
+    std::mem::replace(now, other)
+}
+
+impl State {
+    /// Whether the same work lies on both; what is looked at is no work.
+    pub(super) fn has_same_work(&self, other: &State) -> bool {
+        let recordings = match (&self.recordings, &other.recordings) {
+            (None, None) => true,
+            (Some(one), Some(other)) => one.are(other),
+            _ => false,
+        };
+        let models = self.models.len() == other.models.len()
+            && (self.models.iter().zip(&other.models))
+                .all(|(one, other)| one.id == other.id && Arc::ptr_eq(&one.fit, &other.fit));
+        let told = |state: &State| state.secret.as_ref().map(|s| (s.seed, s.revealed));
+        recordings
+            && models
+            && self.race == other.race
+            && self.diagnosis == other.diagnosis
+            && told(self) == told(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::state::{Bench, Way};
+    use serde_json::json;
+
+    /// Random walks against a list of what lay on the bench and a place in it.
+    #[test]
+    fn undo_and_redo_go_along_everything_that_lay_on_the_bench() {
+        for seed in 0..30u64 {
+            let bench = Bench::new(None);
+            let mut lay = vec![None];
+            let mut here = 0;
+            let mut random = seed;
+            for action in 0..90u64 {
+                random = random
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                match random >> 62 {
+                    0 | 1 => {
+                        let race = Some(json!(action));
+                        bench.change(|state| state.race = race.clone());
+                        lay.truncate(here + 1);
+                        lay.push(race);
+                        here += 1;
+                    }
+                    2 => {
+                        assert_eq!(bench.go(Way::Undo).is_ok(), here > 0, "seed {seed}");
+                        here = here.saturating_sub(1);
+                    }
+                    _ => {
+                        let more = here + 1 < lay.len();
+                        assert_eq!(bench.go(Way::Redo).is_ok(), more, "seed {seed}");
+                        here += usize::from(more);
+                    }
+                }
+                assert_eq!(
+                    bench.state().race,
+                    lay[here],
+                    "seed {seed}, action {action}"
+                );
+                let has = bench.history().has();
+                assert_eq!(has, (here > 0, here + 1 < lay.len()), "seed {seed}");
+                // Looking at something is no work.
+                bench.change(|state| state.fault = Some("looked".to_owned()));
+            }
+        }
+    }
+}
