@@ -5,6 +5,7 @@ use crate::check;
 use crate::diagnose::{Budget, built_up, is_lost};
 use crate::error::Error;
 use crate::fit::integration::Refined;
+use crate::fit::interval::{self, most_likely};
 use crate::fit::own_parameters::{self, fit_own};
 use crate::fit::recordings::{add_spread, recording_errors};
 use crate::fit::report::Solved;
@@ -71,7 +72,12 @@ pub fn identify_data(
     progress: &dyn Progress,
 ) -> Result<Fit, Error> {
     let searched = search_model(data, options, progress)?;
-    let (problem, found) = (&searched.problem, &searched.found);
+    let Refined {
+        problem,
+        found,
+        solved,
+        left,
+    } = &searched;
     let note = fit::integration::note(options.method, &searched);
     // Everything after the search runs the model with the steps that it ended with.
     let options = &Options {
@@ -79,11 +85,10 @@ pub fn identify_data(
         ..options.clone()
     };
     let mut fit = if options.own.is_empty() {
-        let solved = Solved::of(problem, &options.algorithm, found)?;
-        let certificate = options.certificate.then(|| certify(problem, &solved));
-        let solved = match &searched.left {
-            Some(error) => solved.with_error(error),
-            None => solved,
+        let certificate = options.certificate.then(|| certify(problem, solved));
+        let solved = match left {
+            Some(error) => solved.clone().with_error(error),
+            None => solved.clone(),
         };
         let mut fit = conclude(problem, found, options, validation, &solved)?;
         add_systematic(&mut fit.parameters, problem, &solved, options);
@@ -128,6 +133,11 @@ fn search_model<'a>(
         .ok_or_else(|| Error::Usage(format!("--algorithm {}: unknown", options.algorithm)))?;
     let mut problem = bounded_problem(data, options)?;
     own_parameters::check(&problem, options)?;
+    let by_cells = interval::applies(&problem, options);
+    if by_cells {
+        // Least squares end near enough for its steps.
+        problem.cost = Cost::Squared;
+    }
     if options.certificate {
         certificate::check(&problem)?;
     }
@@ -171,16 +181,30 @@ fn search_model<'a>(
             found = freed;
         }
     }
-    if options.algorithm != LEAST_SQUARES {
-        return Ok(Refined::as_it_is(problem, found));
-    }
+    let ended = |problem: &FitProblem<'_>, found: Found| {
+        if by_cells && !found.interrupted {
+            return most_likely(problem, &found, progress.stop());
+        }
+        let solved = Solved::of(problem, &options.algorithm, &found)?;
+        Ok((found, solved))
+    };
+    let (found, solved) = ended(&problem, found)?;
     let most = fit::integration::evaluations(&problem);
-    Ok(fit::integration::refined(problem, found, |finer, spent| {
+    let searched = Refined {
+        problem,
+        found,
+        solved,
+        left: None,
+    };
+    if options.algorithm != LEAST_SQUARES {
+        return Ok(searched);
+    }
+    Ok(fit::integration::refined(searched, |finer, spent| {
         let few = Options {
             budget: options.budget.saturating_sub(spent).min(most),
             ..options.clone()
         };
-        search(finer, solver.as_ref(), &few, spent, progress)
+        ended(finer, search(finer, solver.as_ref(), &few, spent, progress))
     }))
 }
 

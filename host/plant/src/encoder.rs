@@ -22,13 +22,13 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// The counter's reading at a shaft angle, rad.
-    pub(super) fn read(&self, angle: f64) -> i64 {
+    /// The counter's reading at a shaft angle, rad, with an error of so many counts before it is floored.
+    pub(super) fn read(&self, angle: f64, error_counts: f64) -> i64 {
         let sensed = self
             .effects
             .iter()
             .fold(angle, |angle, effect| effect.sensed_angle(angle));
-        (sensed * self.counts_per_rad).floor() as i64 - self.lost
+        (sensed * self.counts_per_rad + error_counts).floor() as i64 - self.lost
     }
 
     /// Lets the counter run for `dt` s at about `speed` rad/s, in which it may lose counts.

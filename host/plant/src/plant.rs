@@ -87,6 +87,8 @@ pub(super) struct Plant<'a> {
     pub(super) flank: Flank,
     pub(super) pieces: i64,
     pub(super) state: State,
+    /// A torque on the shaft from outside, N·m.
+    pub(super) disturbance_n_m: f64,
 }
 
 impl<'a> Plant<'a> {
@@ -131,6 +133,7 @@ impl<'a> Plant<'a> {
             flank: Flank::None,
             pieces: 0,
             state,
+            disturbance_n_m: 0.0,
         };
         let stall = machine.stall_torque_n_m();
         if [1.0, -1.0]
@@ -186,7 +189,7 @@ impl<'a> Plant<'a> {
 
     pub(super) fn torques(&self, state: &State, winding: &Winding) -> Torques {
         let motor = winding.kt_n_m_a * state.current;
-        let mut external = 0.0;
+        let mut external = self.disturbance_n_m;
         for (index, effect) in self.effects.iter().enumerate() {
             external += effect.torque(&self.at(index, state));
         }

@@ -46,6 +46,10 @@ pub struct Bench {
     pub current_noise_a: f64,
     /// What the current sensor reads at no current, A.
     pub current_zero_a: f64,
+    /// Standard deviation of the angle sensor's noise before it is floored, counts, independent from sample to sample.
+    pub angle_noise_counts: f64,
+    /// Standard deviation of a load torque that is another one in each sample interval, N·m.
+    pub torque_noise_n_m: f64,
 }
 
 /// A run on the bench: one entry of each column per drive sample.
@@ -97,6 +101,8 @@ impl Bench {
             start_angle_rad: None,
             current_noise_a: 0.0,
             current_zero_a: 0.0,
+            angle_noise_counts: 0.0,
+            torque_noise_n_m: 0.0,
         }
     }
 
@@ -141,6 +147,8 @@ impl Bench {
             Amplifier::Voltage | Amplifier::Current => None,
         };
         let mut noise = Chance::new(self.seed, "current noise");
+        let mut angle_noise = Chance::new(self.seed, "angle noise");
+        let mut torque_noise = Chance::new(self.seed, "torque noise");
         let mut times = self.sample_times();
         let mut now = times(0);
         for row in 1.. {
@@ -150,7 +158,8 @@ impl Bench {
             }
             let reading = Reading {
                 time_s: now,
-                counts: encoder.read(state.angle),
+                counts: encoder
+                    .read(state.angle, self.angle_noise_counts * angle_noise.normal()),
                 current_a: state.current
                     + self.current_zero_a
                     + self.current_noise_a * noise.normal(),
@@ -161,6 +170,7 @@ impl Bench {
                 return Ok(());
             };
             let then = times(row);
+            plant.disturbance_n_m = self.torque_noise_n_m * torque_noise.normal();
             if controller.is_none() {
                 timeline.send(now, sample);
             }
@@ -174,7 +184,7 @@ impl Bench {
                 })?;
                 timeline.send(
                     instant,
-                    controller.act(sample, encoder.read(plant.state.angle)),
+                    controller.act(sample, encoder.read(plant.state.angle, 0.0)),
                 );
                 begin = instant;
             }
@@ -278,6 +288,18 @@ impl Bench {
                 "current_noise_a",
                 self.current_noise_a,
                 at_least_zero(self.current_noise_a),
+                "zero or above",
+            ),
+            (
+                "angle_noise_counts",
+                self.angle_noise_counts,
+                at_least_zero(self.angle_noise_counts),
+                "zero or above",
+            ),
+            (
+                "torque_noise_n_m",
+                self.torque_noise_n_m,
+                at_least_zero(self.torque_noise_n_m),
                 "zero or above",
             ),
             (

@@ -186,6 +186,22 @@ pub struct SimulateArgs {
     /// Noise of the current sensor, A
     #[arg(long, default_value_t = 0.0, value_name = "A", conflicts_with = "plan")]
     pub current_noise: f64,
+    /// Noise of the angle sensor before it is floored, standard deviation, counts
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "COUNTS",
+        conflicts_with = "plan"
+    )]
+    pub angle_noise: f64,
+    /// Load torque that is another one in each sample interval, standard deviation, as a part of the stall torque
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "PART",
+        conflicts_with = "plan"
+    )]
+    pub torque_noise: f64,
     /// Substeps of the plant a second
     #[arg(long, value_name = "HZ", conflicts_with = "plan")]
     pub substep_hz: Option<f64>,
@@ -437,6 +453,10 @@ pub struct ProveArgs {
     /// drives and encoders, or with each --effect
     #[arg(long, conflicts_with_all = ["hidden", "excite", "law", "only", "out", "resume", "merge"])]
     pub coverage: bool,
+    /// What the fits of --coverage minimise: squares, or the likelihood of the cells that were read (interval), with noise before
+    /// the counter
+    #[arg(long, value_enum, default_value_t = CostName::Squared, requires = "coverage")]
+    pub cost: CostName,
     /// How many effects a case hides
     #[arg(long, value_enum, default_value_t = HowMany::Mix)]
     pub hidden: HowMany,

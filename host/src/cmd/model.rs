@@ -15,7 +15,7 @@ const NOISE_COUNTS: f64 = 0.1;
 
 impl CostName {
     /// The cost itself.
-    pub(super) fn cost(self) -> Cost {
+    pub(crate) fn cost(self) -> Cost {
         match self {
             CostName::Squared => Cost::Squared,
             CostName::Iae => Cost::Absolute {

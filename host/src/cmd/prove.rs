@@ -1,6 +1,6 @@
 //! `servoid prove`: random cases from the virtual bench, diagnosed blind.
 
-use crate::cli::ProveArgs;
+use crate::cli::{CostName, ProveArgs};
 use crate::coverage::{self, Condition};
 use crate::error::Error;
 use crate::prove::report::text;
@@ -51,9 +51,16 @@ pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
 fn coverage(session: &Session, args: &ProveArgs) -> Result<(), Error> {
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     let effects = args.effect.iter().filter_map(|name| Kind::by_name(name));
-    let conditions = match args.effect.is_empty() {
-        true => Condition::linear(),
-        false => effects.map(Condition::with_effect).collect(),
+    let conditions = match (args.effect.is_empty(), args.cost) {
+        (true, CostName::Squared) => Condition::linear(),
+        (true, cost) => Condition::noisy(cost.cost()),
+        (false, cost) => {
+            let with = |kind| Condition {
+                cost: cost.cost(),
+                ..Condition::with_effect(kind)
+            };
+            effects.map(with).collect()
+        }
     };
     let plan = coverage::Plan {
         seed: session.seed,

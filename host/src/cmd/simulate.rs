@@ -198,6 +198,8 @@ pub(super) fn wrong_flag(error: BenchError) -> Error {
                 "substep_hz" => "--substep-hz",
                 "rate_hz" => "--loop rate_hz",
                 "current_noise_a" => "--current-noise",
+                "angle_noise_counts" => "--angle-noise",
+                "torque_noise_n_m" => "--torque-noise",
                 _ => return error.into(),
             };
             Error::Usage(format!("{flag} {value}: needs {need}"))
@@ -249,6 +251,8 @@ fn bench(args: &SimulateArgs, seed: u64) -> Result<Bench, Error> {
     bench.sample_s = args.sample;
     bench.jitter_s = args.jitter;
     bench.current_noise_a = args.current_noise;
+    bench.angle_noise_counts = args.angle_noise;
+    bench.torque_noise_n_m = args.torque_noise * bench.machine.stall_torque_n_m();
     if let Some(hz) = args.substep_hz {
         bench.substep_hz = hz;
     }

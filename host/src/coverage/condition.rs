@@ -8,10 +8,12 @@ use servoid_identify::{Silent, identify_data, truth};
 use servoid_io::excitation;
 use servoid_io::input::Known;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, Hidden, Machine};
+use servoid_plant::{Amplifier, Bench, Hidden, Machine, PositionControl};
+use shared::cost::Cost;
 use shared::effects::{Kind, Pair};
 use shared::motor::Response;
 use shared::units::Quantity;
+use std::f64::consts::TAU;
 
 /// Sample interval, s.
 const INTERVAL_S: f64 = 1e-3;
@@ -30,7 +32,19 @@ const DRIVES: [(&str, f64); 4] = [
     ("triangle", 10.0),
 ];
 
-/// A drive and an encoder.
+/// Noise of the angle sensor where the likelihood of the cells is maximised, standard deviation, counts.
+const ANGLE_NOISES: [f64; 4] = [0.01, 0.03, 0.1, 0.3];
+/// Lengths of these recordings, s.
+const NOISY_SECONDS: [f64; 2] = [20.0, 3.0];
+/// Load torque that is another one in each sample interval, standard deviation, as a part of the stall torque.
+const TORQUE_NOISE: f64 = 0.01;
+/// Part of the supply that a revolution of position error asks for.
+const LOOP_GAIN: f64 = 2.0;
+/// Largest target of the position loop, revolutions.
+const REACH: f64 = 2.0;
+
+/// A drive and an encoder, and what disturbs them.
+#[derive(Clone, Debug)]
 pub struct Condition {
     /// `commissioning`, or the name of a shape.
     pub excitation: &'static str,
@@ -40,6 +54,14 @@ pub struct Condition {
     pub counts_per_rev: u32,
     /// The effect that is hidden, and fitted.
     pub effect: Option<Kind>,
+    /// What is minimised.
+    pub cost: Cost,
+    /// Noise of the angle sensor, standard deviation, counts.
+    pub angle_noise_counts: f64,
+    /// Load torque of each sample interval, standard deviation, as a part of the stall torque.
+    pub torque_noise: f64,
+    /// Whether the drive sets the target of a position loop.
+    pub closed_loop: bool,
 }
 
 /// The error of one parameter in its standard errors.
@@ -51,28 +73,51 @@ pub struct Standardised {
 }
 
 impl Condition {
-    /// Every drive with every encoder, of a linear motor.
+    fn plain((excitation, seconds): (&'static str, f64), counts_per_rev: u32) -> Condition {
+        Condition {
+            excitation,
+            seconds,
+            counts_per_rev,
+            effect: None,
+            cost: Cost::Squared,
+            angle_noise_counts: 0.0,
+            torque_noise: 0.0,
+            closed_loop: false,
+        }
+    }
+
+    /// Every drive with every encoder, of a linear motor; then one with a torque that fluctuates, under voltage and behind a
+    /// position loop.
     pub fn linear() -> Vec<Condition> {
-        let with = |counts_per_rev| {
-            DRIVES.map(|(excitation, seconds)| Condition {
-                excitation,
-                seconds,
-                counts_per_rev,
-                effect: None,
-            })
-        };
-        ENCODERS.into_iter().flat_map(with).collect()
+        let with = |counts| DRIVES.map(|drive| Condition::plain(drive, counts));
+        let disturbed = [false, true].map(|closed_loop| Condition {
+            torque_noise: TORQUE_NOISE,
+            closed_loop,
+            ..Condition::plain(DRIVES[0], ENCODERS[0])
+        });
+        let drives = ENCODERS.into_iter().flat_map(with);
+        drives.chain(disturbed).collect()
     }
 
     /// The first drive and encoder, with an effect of random size that is fitted as well.
     pub fn with_effect(kind: Kind) -> Condition {
-        let (excitation, seconds) = DRIVES[0];
         Condition {
-            excitation,
-            seconds,
-            counts_per_rev: ENCODERS[0],
             effect: Some(kind),
+            ..Condition::plain(DRIVES[0], ENCODERS[0])
         }
+    }
+
+    /// Angle sensors of several noises, fitted by the likelihood of the cells that were read.
+    pub fn noisy(cost: Cost) -> Vec<Condition> {
+        let (excitation, _) = DRIVES[0];
+        let with = |seconds| {
+            ANGLE_NOISES.map(|angle_noise_counts| Condition {
+                cost,
+                angle_noise_counts,
+                ..Condition::plain((excitation, seconds), ENCODERS[0])
+            })
+        };
+        NOISY_SECONDS.into_iter().flat_map(with).collect()
     }
 
     /// Records motor `number` of the seed and fits it. `None` where it cannot be recorded or fitted.
@@ -95,6 +140,7 @@ impl Condition {
         };
         let options = Options {
             effects: self.effect.into_iter().collect(),
+            cost: self.cost,
             known,
             ..Options::default()
         };
@@ -115,14 +161,19 @@ impl Condition {
             _ => value,
         };
         // Far from the encoder's floor another valley was found, which no standard error is about.
-        let explained = fit.rms_counts < EXPLAINED_COUNTS;
+        let beyond = EXPLAINED_COUNTS.hypot(self.angle_noise_counts);
+        let explained = self.torque_noise > 0.0 || fit.rms_counts < beyond;
         let error = |(name, truth): (String, f64)| {
             let parameter = fit.parameters.iter().find(|p| p.name == name);
             let z = parameter.and_then(|p| Some((p.value - in_unit(truth, p.unit)) / p.std?));
             let z = z.filter(|z| explained && z.is_finite());
             Standardised { name, z }
         };
-        Ok(Some(truth.into_iter().map(error).collect()))
+        let noise = fit.reading_noise.map(|noise| Standardised {
+            name: "noise before the counter".to_owned(),
+            z: (noise.std).map(|std| (noise.counts - self.angle_noise_counts) / std),
+        });
+        Ok(Some(truth.into_iter().map(error).chain(noise).collect()))
     }
 
     fn record(&self, machine: Machine, hidden: Option<Hidden>, seed: u64) -> Option<Data> {
@@ -132,9 +183,18 @@ impl Condition {
         bench.sample_s = INTERVAL_S;
         bench.seed = seed;
         bench.current_noise_a = CURRENT_NOISE * machine.stall_current_a();
+        bench.angle_noise_counts = self.angle_noise_counts;
+        bench.torque_noise_n_m = self.torque_noise * machine.stall_torque_n_m();
+        let mut largest = machine.supply_v;
+        if self.closed_loop {
+            let gain = LOOP_GAIN * machine.supply_v / TAU;
+            let control = PositionControl::proportional(gain, machine.supply_v);
+            bench.amplifier = Amplifier::Position(control);
+            largest = REACH * TAU;
+        }
         let usual = excitation::named(self.excitation)?;
         let plan = excitation::stretched(&usual, self.seconds, AMPLITUDE);
-        let drive = excitation::drive(&plan, INTERVAL_S, seed, machine.supply_v);
+        let drive = excitation::drive(&plan, INTERVAL_S, seed, largest);
         let recording = bench.record(&drive, self.excitation, true).ok()?;
         Data::new(&recording).ok()
     }

@@ -27,8 +27,9 @@ pub fn text(coverage: &Coverage) -> String {
 fn rows(condition: &Condition) -> String {
     let effect = condition.effect.as_ref();
     let effect = effect.map_or_else(String::new, |name| format!(", with {name}"));
+    let disturbed = disturbed(condition);
     let mut out = format!(
-        "\n{}, {} s, {} counts a revolution{effect}\n  {:28}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
+        "\n{}, {} s, {} counts a revolution{effect}{disturbed}\n  {:28}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
         condition.excitation,
         condition.seconds,
         condition.counts_per_rev,
@@ -42,6 +43,21 @@ fn rows(condition: &Condition) -> String {
     );
     for covered in &condition.parameters {
         out += &row(covered);
+    }
+    out
+}
+
+/// What stands beside drive and encoder.
+fn disturbed(condition: &Condition) -> String {
+    let mut out = String::new();
+    if let Some(noise) = condition.angle_noise_counts {
+        out += &format!(", noise {noise} counts");
+    }
+    if let Some(part) = condition.torque_noise {
+        out += &format!(",\n  torque noise of {} % of stall", 100.0 * part);
+    }
+    if condition.closed_loop {
+        out += " in a position loop";
     }
     out
 }

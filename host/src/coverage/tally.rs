@@ -2,7 +2,9 @@
 
 use super::condition::{Condition, Standardised};
 use crate::prove::Count;
+use servoid_identify::fit::cost_name;
 use servoid_results::schema::coverage::{Condition as Row, Coverage, Covered};
+use shared::cost::Cost;
 
 /// The errors of all recordings, by the place of their condition, as a document.
 pub fn tally(
@@ -21,6 +23,12 @@ pub fn tally(
             seconds: condition.seconds,
             counts_per_rev: condition.counts_per_rev,
             effect: condition.effect.map(|kind| kind.name().to_owned()),
+            cost: Some(condition.cost)
+                .filter(|cost| *cost != Cost::Squared)
+                .map(|cost| cost_name(cost).to_owned()),
+            angle_noise_counts: Some(condition.angle_noise_counts).filter(|x| *x > 0.0),
+            torque_noise: Some(condition.torque_noise).filter(|x| *x > 0.0),
+            closed_loop: condition.closed_loop,
             parameters: (0..parameters).map(|k| covered(&errors, k)).collect(),
         }
     };

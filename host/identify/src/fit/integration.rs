@@ -1,7 +1,9 @@
 //! The integration error of a fit: the model is stepped, and where its steps are too long the parameters bend themselves to make
 //! up for it, far beyond what the readings' own errors allow. So a fit is repeated with half the step.
 
-use super::uncertainty::{Uncertainty, uncertainty};
+use super::report::Solved;
+use super::uncertainty::Uncertainty;
+use crate::error::Error;
 use servoid_engine::problem::FitProblem;
 use servoid_engine::simulation::Method;
 use servoid_engine::solve::Found;
@@ -27,47 +29,37 @@ pub struct Refined<'a> {
     pub problem: FitProblem<'a>,
     /// Where its search ended.
     pub found: Found,
+    /// What that says.
+    pub solved: Solved,
     /// By how much each unknown still moved when the step was last halved; `None` where that no longer matters.
     pub left: Option<Vec<f64>>,
 }
 
-impl<'a> Refined<'a> {
-    /// A fit whose steps are taken as they are.
-    pub fn as_it_is(problem: FitProblem<'a>, found: Found) -> Self {
-        Refined {
-            problem,
-            found,
-            left: None,
-        }
-    }
-}
-
 /// Halves the steps of a fit by least squares until no unknown moves by [`MOVED`] of its standard error. A linear motor is
 /// discretised exactly, and the paper's Euler step is asked for as it is.
+/// `search` is given the problem with shorter steps and the evaluations so far.
 pub fn refined<'a>(
-    problem: FitProblem<'a>,
-    found: Found,
-    mut search: impl FnMut(&FitProblem<'a>, usize) -> Found,
+    mut refined: Refined<'a>,
+    mut search: impl FnMut(&FitProblem<'a>, usize) -> Result<(Found, Solved), Error>,
 ) -> Refined<'a> {
-    let mut refined = Refined::as_it_is(problem, found);
     let exact = refined.problem.structure.effects.is_empty()
         || refined.problem.method.discretisation != Discretisation::Exact;
     if exact || refined.problem.cost != Cost::Squared {
         return refined;
     }
     loop {
-        let Refined { problem, found, .. } = &refined;
+        let Refined {
+            problem,
+            found,
+            solved,
+            ..
+        } = &refined;
         let substeps = 2 * problem.method.substeps.max(1);
         if found.interrupted || substeps > FINEST {
             return refined;
         }
-        let values = problem.structure.values(&found.x);
         // Without standard errors there is nothing that a step could be too long for.
-        let Some(spread) = uncertainty(problem, &values)
-            .ok()
-            .flatten()
-            .filter(|s| s.converged)
-        else {
+        let Some(spread) = solved.uncertainty.as_ref().filter(|s| s.converged) else {
             return refined;
         };
         let mut finer = problem.with_structure(problem.structure.clone(), found.x.clone());
@@ -75,11 +67,15 @@ pub fn refined<'a>(
             substeps,
             ..problem.method
         };
-        let again = search(&finer, found.evaluations);
-        let moved: Vec<f64> = (finer.structure.values(&again.x).iter().zip(&values))
+        // A model that no longer runs is none to go on with.
+        let Ok((again, resolved)) = search(&finer, found.evaluations) else {
+            refined.left = None;
+            return refined;
+        };
+        let moved: Vec<f64> = (resolved.values.iter().zip(&solved.values))
             .map(|(finer, coarser)| finer - coarser)
             .collect();
-        if !again.cost.is_finite() || !matters(&spread, &moved) {
+        if !matters(spread, &moved) {
             refined.left = None;
             return refined;
         }
@@ -90,6 +86,7 @@ pub fn refined<'a>(
                 evaluations,
                 ..again
             },
+            solved: resolved,
             left: Some(moved),
         };
     }

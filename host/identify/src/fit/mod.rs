@@ -8,6 +8,7 @@
 //! | `start` | the problem that recording and options state, started at the best guess |
 //! | `search` | its search by one method |
 //! | `integration` | whether the model's steps are short enough for the standard errors |
+//! | `interval` | the likelihood of the cells that were read, with the noise before the counter |
 //! | `forms` | other forms than the textbook's, where those leave something to explain |
 //! | `correlation_time` | for how long an error is correlated with itself |
 //! | `sensitivity` | sums over the Jacobian of the residuals |
@@ -33,6 +34,7 @@ mod error_ladder;
 pub(crate) mod filter;
 pub(crate) mod forms;
 pub(crate) mod integration;
+pub(crate) mod interval;
 pub mod margins;
 mod options;
 pub(crate) mod own_parameters;
@@ -53,9 +55,10 @@ pub mod uncertainty;
 mod validate;
 
 pub use bound::Bound;
+pub use interval::{LEAST_NOISE, ReadingNoise};
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
-pub use options::Options;
+pub use options::{Options, cost_name};
 pub use own_parameters::OwnParameter;
 pub use parameter::{Parameter, Usual};
 pub use plausibility::{Contradiction, contradictions};

@@ -44,16 +44,21 @@ pub struct Options {
 impl Options {
     /// Name of the cost in results.
     pub fn cost_name(&self) -> &'static str {
-        match self.cost {
-            Cost::Squared => "squared",
-            Cost::Absolute {
-                model_floored: false,
-            } => "iae",
-            Cost::Absolute {
-                model_floored: true,
-            } => "iae_floored",
-            Cost::Interval { .. } => "interval",
-        }
+        cost_name(self.cost)
+    }
+}
+
+/// Name of a cost in results.
+pub fn cost_name(cost: Cost) -> &'static str {
+    match cost {
+        Cost::Squared => "squared",
+        Cost::Absolute {
+            model_floored: false,
+        } => "iae",
+        Cost::Absolute {
+            model_floored: true,
+        } => "iae_floored",
+        Cost::Interval { .. } => "interval",
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
 use super::armature_current::current_evidence;
+use super::interval::ReadingNoise;
 use super::margins::{Loop, Margins};
 use super::options::Options;
 use super::parameter::{Parameter, parameters};
@@ -90,9 +91,12 @@ pub struct Fit {
     pub likelihood: Option<Likelihood>,
     /// What is certain of the readings and this model, where it was asked for; only of the front door.
     pub certificate: Option<Certificate>,
+    /// Noise before the counter, where the likelihood of the cells was maximised.
+    pub reading_noise: Option<ReadingNoise>,
 }
 
 /// Where a search ended.
+#[derive(Clone)]
 pub(crate) struct Solved {
     /// Values of the unknowns.
     pub values: Vec<f64>,
@@ -100,6 +104,8 @@ pub(crate) struct Solved {
     pub uncertainty: Option<Uncertainty>,
     /// RMS of model minus reading over the whole recording, counts.
     pub rms_counts: f64,
+    /// Noise before the counter, where the likelihood of the cells was maximised.
+    pub reading_noise: Option<ReadingNoise>,
 }
 
 impl Solved {
@@ -120,6 +126,7 @@ impl Solved {
         Ok(Solved {
             rms_counts: rms_counts(problem.data, &errors),
             uncertainty: uncertainty(problem, &values)?,
+            reading_noise: None,
             values,
         })
     }
@@ -165,6 +172,7 @@ impl Fit {
             values,
             uncertainty: spread,
             rms_counts,
+            reading_noise,
         } = solved;
         let (spread, rms_counts) = (spread.as_ref(), *rms_counts);
         let data = problem.data;
@@ -235,6 +243,7 @@ impl Fit {
             recordings: Vec::new(),
             likelihood: None,
             certificate: None,
+            reading_noise: *reading_noise,
         })
     }
 }

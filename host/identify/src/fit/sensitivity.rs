@@ -48,27 +48,12 @@ pub(super) fn sensitivities(
     series: &[&[f64]],
     places: usize,
 ) -> Option<Vec<Sensitivity>> {
-    let pairs = pairs(problem, values)?;
-    let models: Vec<Candidate> = pairs
-        .iter()
-        .flat_map(|pair| [pair.ahead, pair.behind])
-        .collect();
     let mut sums: Vec<Sums<'_>> = (series.iter())
-        .map(|residuals| Sums::new(pairs.len(), residuals, places))
+        .map(|residuals| Sums::new(values.len(), residuals, places))
         .collect();
-    let mut columns = vec![Vec::new(); pairs.len()];
-    let here = problem.structure.candidate(values);
-    let centring = problem.stream_changes(&here, &models, |changes| {
-        for ((column, pair), change) in columns.iter_mut().zip(&pairs).zip(changes.chunks(2)) {
-            let quotient = |(up, down): (&f64, &f64)| match pair.width {
-                0.0 => 0.0,
-                width => (up - down) / width,
-            };
-            column.clear();
-            column.extend(change[0].iter().zip(change[1]).map(quotient));
-        }
+    let centring = columns(problem, values, |columns| {
         for sums in &mut sums {
-            sums.add(&columns);
+            sums.add(columns);
         }
     })?;
     let finite = |found: &Sensitivity| {
@@ -77,6 +62,33 @@ pub(super) fn sensitivities(
     };
     let found: Vec<Sensitivity> = sums.into_iter().map(|sums| sums.centred(centring)).collect();
     found.iter().all(finite).then_some(found)
+}
+
+/// Calls `each` with the columns of the Jacobian, counts per unit of each unknown, a range of samples at a time in their order.
+/// `None` where a model cannot run.
+pub(super) fn columns(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    mut each: impl FnMut(&[Vec<f64>]),
+) -> Option<Centring> {
+    let pairs = pairs(problem, values)?;
+    let models: Vec<Candidate> = pairs
+        .iter()
+        .flat_map(|pair| [pair.ahead, pair.behind])
+        .collect();
+    let mut columns = vec![Vec::new(); pairs.len()];
+    let here = problem.structure.candidate(values);
+    problem.stream_changes(&here, &models, |changes| {
+        for ((column, pair), change) in columns.iter_mut().zip(&pairs).zip(changes.chunks(2)) {
+            let quotient = |(up, down): (&f64, &f64)| match pair.width {
+                0.0 => 0.0,
+                width => (up - down) / width,
+            };
+            column.clear();
+            column.extend(change[0].iter().zip(change[1]).map(quotient));
+        }
+        each(&columns);
+    })
 }
 
 /// The models to both sides of each unknown, so far away that the residuals change by about [`PROBE_COUNTS`].

@@ -148,6 +148,33 @@ pub(super) fn solve(
     }
 }
 
+/// Covariance from a likelihood's curvature and its gradient over time segments: the curvature's, and in no direction below the
+/// sandwich of the segments, which holds what a misfit repeats within one.
+pub(super) fn likely(found: &Sensitivity, effective_samples: f64) -> Uncertainty {
+    let inside = vec![0.5; found.squares.ncols()];
+    // One step may lower minus the logarithm by so much before the search counts as ended too early.
+    let mut all = solve(found, &inside, 1.0, effective_samples);
+    let Inverse {
+        per_scale, inverse, ..
+    } = inverse(&found.squares);
+    let scale = |k: usize| if per_scale[k] > 0.0 { 1.0 / per_scale[k] } else { 0.0 };
+    let own = |matrix: &DMatrix<f64>| {
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
+            let (i_scale, k_scale) = (scale(i), scale(k));
+            if i_scale * k_scale > 0.0 { matrix[(i, k)] * i_scale * k_scale } else { 0.0 }
+        })
+    };
+    let joint = not_below(&inverse, &own(&all.covariance));
+    for i in 0..joint.nrows() {
+        for k in 0..joint.ncols() {
+            if per_scale[i] * per_scale[k] > 0.0 {
+                all.covariance[(i, k)] = joint[(i, k)] * per_scale[i] * per_scale[k];
+            }
+        }
+    }
+    all
+}
+
 /// How far each unknown moves when the residuals change by the series of which `found` has the sums: one Gauss-Newton step from
 /// the point `x` of the unit cube. Unknowns on a wall stay there, and flat directions are not followed.
 pub(super) fn step(found: &Sensitivity, x: &[f64]) -> DVector<f64> {

@@ -9,7 +9,9 @@ use crate::number_text::{rough, short, to_error, with_error};
 use crate::schema::contest::least_cost;
 use servoid_engine::compare::{Row, quantile};
 use servoid_engine::problem::Data;
-use servoid_identify::fit::{Fit, LadderEntry, Parameter, RecordingError};
+use servoid_identify::fit::{
+    Fit, LEAST_NOISE, LadderEntry, Parameter, ReadingNoise, RecordingError,
+};
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
@@ -57,6 +59,14 @@ fn number(p: &Parameter, std: f64) -> (String, String) {
         return (to_error(p.value, largest), error);
     }
     (with_error(p.value, Some(std)), String::new())
+}
+
+/// The noise that model and encoder leave.
+pub(super) fn reading_noise(noise: &ReadingNoise) -> String {
+    match noise.std {
+        Some(std) => format!("{} counts", with_error(noise.counts, Some(std))),
+        None => format!("at most {LEAST_NOISE} counts, the least that is followed"),
+    }
 }
 
 /// The value in its usual unit, where the line has room for it.
@@ -142,6 +152,9 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         )?;
     }
     writeln!(out, "cost ({})    {:.6}", fit.cost_kind, fit.cost)?;
+    if let Some(noise) = &fit.reading_noise {
+        writeln!(out, "noise before the counter    {}", reading_noise(noise))?;
+    }
     writeln!(out)?;
     if data.drive == Drive::Voltage {
         let r = &fit.response;

@@ -35,6 +35,19 @@ pub struct Condition {
     /// The effect that is hidden and fitted; null for the linear motor.
     #[serde(default)]
     pub effect: Option<String>,
+    /// What is minimised, as in `fit`; absent for squares.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<String>,
+    /// Noise of the angle sensor before it is floored, standard deviation, counts; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle_noise_counts: Option<f64>,
+    /// A load torque that is another one in each sample interval, standard deviation, as a part of the stall torque; absent where
+    /// there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque_noise: Option<f64>,
+    /// Whether a position loop drives the motor.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub closed_loop: bool,
     /// How the errors of each parameter lie.
     pub parameters: Vec<Covered>,
 }

@@ -91,6 +91,13 @@ pub struct Fit {
     /// What is certain of the readings and this model (`fit --certificate`); absent where nobody asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
+    /// Noise before the counter, standard deviation, counts (`--cost interval`): what model and encoder leave unexplained. Absent
+    /// with other costs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_counts: Option<f64>,
+    /// Its standard error, counts; absent where it stands at the least that is followed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_std_counts: Option<f64>,
     /// Version of the program.
     #[serde(default)]
     pub version: String,
@@ -210,6 +217,8 @@ impl Fit {
             interrupted: fit.interrupted,
             likelihood: fit.likelihood.as_ref().map(Likelihood::from),
             certificate: fit.certificate.as_ref().map(Certificate::from),
+            sigma_counts: fit.reading_noise.map(|noise| noise.counts),
+            sigma_std_counts: fit.reading_noise.and_then(|noise| noise.std),
             version: VERSION.to_owned(),
         }
     }

@@ -129,6 +129,7 @@ impl<'a> Together<'a> {
             values: (&means * DVector::from_column_slice(&all)).data.into(),
             uncertainty,
             rms_counts: (all_squares / samples as f64).sqrt(),
+            reading_noise: None,
         };
         let recordings = OwnParameters {
             own,
