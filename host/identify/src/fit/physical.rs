@@ -44,11 +44,21 @@ pub struct Estimate {
 
 /// What a measured current says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurrentEvidence {
-    /// Inertia over the torque constant, `J/Kt`, A·s²/rad.
-    pub inertia: Estimate,
-    /// Viscous friction over the torque constant, `f/Kt`, A·s/rad.
-    pub friction: Estimate,
+pub enum CurrentEvidence {
+    /// As the shaft's torque.
+    Torque {
+        /// Inertia over the torque constant, `J/Kt`, A·s²/rad.
+        inertia: Estimate,
+        /// Viscous friction over the torque constant, `f/Kt`, A·s/rad.
+        friction: Estimate,
+    },
+    /// As the winding's.
+    Winding {
+        /// Resistance, Ω.
+        resistance: Estimate,
+        /// Back-EMF constant, V·s/rad.
+        kb: Estimate,
+    },
 }
 
 /// What the data determine: a machine, its covariance, and what the current says if it was measured.
@@ -153,20 +163,32 @@ fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec
             });
         }
     }
-    if let Some(CurrentEvidence { inertia, friction }) = current {
-        let exact = CONSTANT * inertia.value;
-        // m/R and b/R, with the coordinates that they are made of.
-        statements.push(Statement {
-            model: Box::new(|u| u[3] / u[0].exp()),
-            value: inertia.value,
-            std: inertia.std.max(exact),
-        });
-        let per_time = start[2].abs() / start[3].abs().max(f64::MIN_POSITIVE);
-        statements.push(Statement {
-            model: Box::new(|u| u[5] * u[2] / u[0].exp()),
-            value: friction.value,
-            std: friction.std.max(exact * per_time),
-        });
+    match current {
+        Some(CurrentEvidence::Torque { inertia, friction }) => {
+            let exact = CONSTANT * inertia.value;
+            // m/R and b/R, with the coordinates that they are made of.
+            statements.push(Statement {
+                model: Box::new(|u| u[3] / u[0].exp()),
+                value: inertia.value,
+                std: inertia.std.max(exact),
+            });
+            let per_time = start[2].abs() / start[3].abs().max(f64::MIN_POSITIVE);
+            statements.push(Statement {
+                model: Box::new(|u| u[5] * u[2] / u[0].exp()),
+                value: friction.value,
+                std: friction.std.max(exact * per_time),
+            });
+        }
+        Some(CurrentEvidence::Winding { resistance, kb }) => {
+            for (k, estimate) in [(0, resistance), (3, kb)] {
+                statements.push(Statement {
+                    model: Box::new(move |u| physical(u)[k]),
+                    value: estimate.value,
+                    std: estimate.std.max(CONSTANT * estimate.value),
+                });
+            }
+        }
+        None => {}
     }
     if known.kt_equals_kb {
         statements.push(Statement {
@@ -193,7 +215,10 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     let resistance = known
         .resistance_ohm
         .map(|f| f.value)
-        .or(evidence.current.map(|c| machine.inertia / c.inertia.value));
+        .or(evidence.current.map(|current| match current {
+            CurrentEvidence::Torque { inertia, .. } => machine.inertia / inertia.value,
+            CurrentEvidence::Winding { resistance, .. } => resistance.value,
+        }));
     let kt = known.kt_n_m_a.map_or(total, |f| f.value);
     let start = Vector::from([
         resistance.unwrap_or(1.0).max(1e-12).ln(),

@@ -13,13 +13,19 @@
 //! is in no direction below the one that they make (a parametric bootstrap, Efron and Tibshirani, 1993, of the quantiser).
 
 use super::correlation_time::correlation_sum;
-use super::sensitivity::{Sensitivity, sensitivity};
+use super::sensitivity::{SEGMENTS, Sensitivity, sensitivity};
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::{Data, FitProblem};
 use shared::error::ModelError;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Singular values of the column-scaled Jacobian below this belong to directions that the data do not determine.
 const FLAT: f64 = 1e-6;
+
+/// Independent samples to a segment, at least.
+const INDEPENDENT: f64 = 4.0;
+/// Half of the 95 % interval of a normal distribution, standard deviations.
+const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// Variances below this part of the largest are rounding errors of the arithmetic.
 const ROUNDED: f64 = 1e-14;
@@ -114,12 +120,13 @@ pub(super) fn solve(
     let away = -(&inverse * &gradient);
     let removable = gradient.dot(&(&inverse * &gradient)) / squares.max(f64::MIN_POSITIVE);
 
+    let joined = joined(&found.gradients, segments(effective_samples));
     let mut middle = DMatrix::zeros(columns, columns);
-    for gradient in found.gradients.iter().map(scaled) {
+    for gradient in joined.iter().map(scaled) {
         middle += &gradient * gradient.transpose();
     }
-    let segments = found.gradients.len() as f64;
-    let correction = segments / (segments - (columns as f64).min(segments - 1.0));
+    let fine = found.gradients.len() as f64;
+    let correction = fine / (fine - (columns as f64).min(fine - 1.0)) * few(joined.len());
     let sandwich = &inverse * middle * &inverse * correction + &away * away.transpose();
     let scaled_covariance = match &found.roundings[..] {
         [] => sandwich,
@@ -236,6 +243,28 @@ fn inverse(squares: &DMatrix<f64>) -> Inverse {
     }
 }
 
+/// Into how many segments a recording that is worth so many independent samples is cut: each must be long beside the time for which
+/// an error is correlated with itself.
+pub(super) fn segments(effective_samples: f64) -> usize {
+    let most = effective_samples / INDEPENDENT;
+    let divisors = [SEGMENTS, SEGMENTS / 2, SEGMENTS / 3];
+    divisors.into_iter().find(|&count| count as f64 <= most).unwrap_or(SEGMENTS / 4)
+}
+
+/// Sums of neighbours, so that about `count` are left.
+fn joined(gradients: &[DVector<f64>], count: usize) -> Vec<DVector<f64>> {
+    let length = gradients.len().div_ceil(count.max(1)).max(1);
+    gradients.chunks(length).map(|some| some.iter().sum()).collect()
+}
+
+/// Factor on a variance that is estimated from so few segments: of the estimate itself, and of Student's distribution whose 95 %
+/// interval is wider than the normal one.
+pub(super) fn few(segments: usize) -> f64 {
+    let freedom = (segments as f64 - 1.0).max(1.0);
+    let wider = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_95);
+    segments as f64 / freedom * wider * wider
+}
+
 /// A covariance that is in no direction below `a` or `b`: `a`, and what `b` has beyond it in the metric of their sum.
 fn not_below(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let sum = (a + b).symmetric_eigen();
@@ -259,12 +288,20 @@ fn not_below(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// Samples divided by the sum of the residuals' autocorrelation ([`correlation_sum`]), and never more than the changes of the reading.
 pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
-    let n = residuals.len();
-    let mean = residuals.iter().sum::<f64>() / n.max(1) as f64;
+    let independent = independent(residuals);
+    if data.quantised {
+        independent.min(data.transitions().max(1) as f64)
+    } else {
+        independent
+    }
+}
+
+/// How many independent errors these are worth.
+pub(super) fn independent(errors: &[f64]) -> f64 {
+    let n = errors.len();
+    let mean = errors.iter().sum::<f64>() / n.max(1) as f64;
     let product = |lag: usize| -> f64 {
-        residuals[..n - lag]
-            .iter()
-            .zip(&residuals[lag..])
+        (errors[..n - lag].iter().zip(&errors[lag..]))
             .map(|(a, b)| (a - mean) * (b - mean))
             .sum()
     };
@@ -273,10 +310,5 @@ pub fn effective_samples(data: &Data, residuals: &[f64]) -> f64 {
         return n as f64;
     }
     let sum = correlation_sum(n / 2, |lag| product(lag) / variance);
-    let independent = n as f64 / (1.0 + 2.0 * sum);
-    if data.quantised {
-        independent.min(data.transitions().max(1) as f64)
-    } else {
-        independent
-    }
+    n as f64 / (1.0 + 2.0 * sum)
 }

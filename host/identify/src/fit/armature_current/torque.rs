@@ -1,9 +1,9 @@
-//! What a measured armature current says: inertia and viscous friction over the torque constant.
+//! What the current says as a torque: inertia and viscous friction over the torque constant.
 
-use super::physical::{CurrentEvidence, Estimate};
-use super::sensitivity::SEGMENTS;
-use super::uncertainty::Uncertainty;
-use nalgebra::{DVector, Matrix3, Vector3};
+use super::plane::Plane;
+use crate::fit::physical::Estimate;
+use crate::fit::uncertainty::Uncertainty;
+use nalgebra::DVector;
 use servoid_engine::problem::{Candidate, Data, FitProblem};
 use servoid_engine::simulation::{Method, Simulation};
 use servoid_io::recording::Drive;
@@ -14,19 +14,25 @@ const BEYOND: f64 = 0.05;
 const ROUNDS: usize = 20;
 /// A slope whose standard error is so large a part of it says nothing.
 const UNKNOWN: f64 = 0.3;
-/// Least part of the squared determinant that three columns of length one must span.
-const SPANS: f64 = 1e-12;
+
+/// Inertia and viscous friction over the torque constant.
+pub struct Torque {
+    /// `J/Kt`, A·s²/rad.
+    pub inertia: Estimate,
+    /// `f/Kt`, A·s/rad.
+    pub friction: Estimate,
+}
 
 /// Inertia and viscous friction over the torque constant. `None` without a current, or where it says little of the inertia.
 ///
 /// The torques on the shaft are `Kt·i = J·dω/dt + f·ω + T`. The model's `R·i` holds all of these but for the viscous friction that
 /// it has taken for back-EMF, which goes with the speed. So the measured current is regressed on the model's `R·i`, the speed, and a
 /// constant, which is the sensor's zero.
-pub fn current_evidence(
+pub fn torque_evidence(
     problem: &FitProblem<'_>,
     candidate: &Candidate,
     spread: &Uncertainty,
-) -> Option<CurrentEvidence> {
+) -> Option<Torque> {
     let mut found = at(problem.data, candidate, problem.method)?;
     // It is read from the fitted model's current, and changes with that.
     let values = problem
@@ -63,7 +69,7 @@ pub fn current_evidence(
 }
 
 /// The same at a model, as if that were the true one.
-fn at(data: &Data, candidate: &Candidate, method: Method) -> Option<CurrentEvidence> {
+fn at(data: &Data, candidate: &Candidate, method: Method) -> Option<Torque> {
     let measured = data
         .current_a
         .as_ref()
@@ -73,7 +79,7 @@ fn at(data: &Data, candidate: &Candidate, method: Method) -> Option<CurrentEvide
     let [slope, friction] = regressed(&model, measured)?;
     let machine = &candidate.machine;
     let known = slope.std < UNKNOWN * slope.value && machine.inertia > 0.0;
-    known.then(|| CurrentEvidence {
+    known.then(|| Torque {
         inertia: Estimate {
             value: slope.value * machine.inertia,
             std: slope.std * machine.inertia,
@@ -112,71 +118,6 @@ fn regressed(model: &[(f64, f64)], measured: &[f64]) -> Option<[Estimate; 2]> {
         }
     }
     None
-}
-
-/// Current over `R·i` and speed.
-struct Plane {
-    /// Of `R·i`, V, and of the speed, rad/s, so that columns are of one size.
-    scales: [f64; 2],
-    inverse: Matrix3<f64>,
-    slopes: Vector3<f64>,
-}
-
-impl Plane {
-    fn through(model: &[(f64, f64)], measured: &[f64], used: &[bool]) -> Option<Self> {
-        let size = |of: &dyn Fn(&(f64, f64)) -> f64| {
-            let largest = model.iter().map(|at| of(at).abs()).fold(0.0, f64::max);
-            if largest > 0.0 { largest } else { 1.0 }
-        };
-        let scales = [size(&|at| at.0), size(&|at| at.1)];
-        let mut squares = Matrix3::zeros();
-        let mut products = Vector3::zeros();
-        let rows = model.iter().zip(measured).zip(used);
-        for ((&at, &i), _) in rows.filter(|&(_, &used)| used) {
-            let row = row(at, scales);
-            squares += row * row.transpose();
-            products += row * i;
-        }
-        let diagonal: f64 = squares.diagonal().iter().product();
-        let spans = squares.determinant() > SPANS * diagonal;
-        let inverse = squares.try_inverse().filter(|_| spans)?;
-        let slopes = inverse * products;
-        (slopes[0] > 0.0 && slopes.iter().all(|slope| slope.is_finite())).then_some(Plane {
-            scales,
-            inverse,
-            slopes,
-        })
-    }
-
-    fn at(&self, at: (f64, f64)) -> f64 {
-        self.slopes.dot(&row(at, self.scales))
-    }
-
-    /// The slopes, with the larger of two standard errors: errors that are correlated over time count once a segment, as for the other
-    /// parameters; and where one segment holds all that is known of the slope, each error counts alone.
-    fn slopes(&self, model: &[(f64, f64)], measured: &[f64], used: &[bool]) -> [Estimate; 2] {
-        let mut squares = 0.0;
-        let length = measured.len().div_ceil(SEGMENTS).max(1);
-        let mut gradients = vec![Vector3::zeros(); measured.len().div_ceil(length)];
-        for k in (0..measured.len()).filter(|&k| used[k]) {
-            let error = measured[k] - self.at(model[k]);
-            gradients[k / length] += row(model[k], self.scales) * error;
-            squares += error * error;
-        }
-        let middle: Matrix3<f64> = gradients.iter().map(|g| g * g.transpose()).sum();
-        let sandwich = self.inverse * middle * self.inverse;
-        let count = used.iter().filter(|&&used| used).count() as f64;
-        let alone = self.inverse * (squares / (count - 3.0).max(1.0));
-        [0, 1].map(|k| Estimate {
-            value: self.slopes[k] / self.scales[k],
-            std: sandwich[(k, k)].max(alone[(k, k)]).sqrt() / self.scales[k],
-        })
-    }
-}
-
-/// A row of the regression.
-fn row((volts, speed): (f64, f64), scales: [f64; 2]) -> Vector3<f64> {
-    Vector3::new(volts / scales[0], speed / scales[1], 1.0)
 }
 
 #[cfg(test)]
