@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::fit::integration::Refined;
 use crate::fit::interval::{self, most_likely};
 use crate::fit::own_parameters::{self, fit_own};
+use crate::fit::profile::{self, Profile};
 use crate::fit::recordings::{add_spread, recording_errors};
 use crate::fit::report::Solved;
 use crate::fit::systematic::add_systematic;
@@ -75,7 +76,7 @@ pub fn identify_data(
     let Refined {
         problem,
         found,
-        solved,
+        solved: solved_at,
         left,
     } = &searched;
     let note = fit::integration::note(options.method, &searched);
@@ -85,14 +86,17 @@ pub fn identify_data(
         ..options.clone()
     };
     let mut fit = if options.own.is_empty() {
-        let certificate = options.certificate.then(|| certify(problem, solved));
+        let certificate = options.certificate.then(|| certify(problem, solved_at));
         let solved = match left {
-            Some(error) => solved.clone().with_error(error),
-            None => solved.clone(),
+            Some(error) => solved_at.clone().with_error(error),
+            None => solved_at.clone(),
         };
         let mut fit = conclude(problem, found, options, validation, &solved)?;
         add_systematic(&mut fit.parameters, problem, &solved, options);
         fit.certificate = certificate.transpose()?;
+        if options.profile {
+            fit.profiles = profiles_of(problem, found, solved_at, options, progress);
+        }
         if options.error_ladder && !options.effects.is_empty() {
             fit.error_ladder = fit::error_ladder(data, validation, &fit, options, progress.stop());
         }
@@ -109,6 +113,44 @@ pub fn identify_data(
     };
     fit.notes.extend(note);
     Ok(fit)
+}
+
+/// The profile of each parameter, by the search that has found the best model.
+fn profiles_of(
+    problem: &FitProblem<'_>,
+    found: &Found,
+    solved: &Solved,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Vec<Profile> {
+    let by_cells = solved.reading_noise.is_some();
+    let few = Options {
+        budget: fit::integration::evaluations(problem),
+        ..options.clone()
+    };
+    let again = |problem: &FitProblem<'_>| {
+        let solver = solve::by_name(LEAST_SQUARES)?;
+        let found = fit::search(problem, solver.as_ref(), &few, progress.stop(), &mut |_, _| {});
+        if by_cells {
+            return most_likely(problem, &found, progress.stop()).ok().map(|(found, _)| found);
+        }
+        Some(found)
+    };
+    profile::profiles(problem, found, solved, &again, progress.stop())
+}
+
+/// Refuses profiles of what is no likelihood.
+fn check_profile(problem: &FitProblem<'_>, options: &Options) -> Result<(), Error> {
+    let why = if !options.own.is_empty() {
+        "it is of one model; leave out --own"
+    } else if options.algorithm != LEAST_SQUARES {
+        "every point of it is a fit by least squares; leave out --algorithm"
+    } else if problem.cost != Cost::Squared {
+        "this cost is no likelihood; take --cost squared or interval"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Usage(format!("--profile: {why}")))
 }
 
 fn conclude(
@@ -137,6 +179,9 @@ fn search_model<'a>(
     if by_cells {
         // Least squares end near enough for its steps.
         problem.cost = Cost::Squared;
+    }
+    if options.profile {
+        check_profile(&problem, options)?;
     }
     if options.certificate {
         certificate::check(&problem)?;

@@ -9,14 +9,7 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
             format!("{value:e}")
         };
     };
-    let size = value.abs().max(std).max(f64::MIN_POSITIVE);
-    let exponent = size.log10().floor() as i32;
-    // Plain notation for what reads well plainly, else a power of ten.
-    let shift = if (-3..6).contains(&exponent) {
-        0
-    } else {
-        exponent
-    };
+    let shift = shift(value.abs().max(std));
     let (value, std) = (value / 10f64.powi(shift), std / 10f64.powi(shift));
     let digits = (1 - std.log10().floor() as i32).clamp(0, 12) as usize;
     let uncertain = (std * 10f64.powi(digits as i32)).round();
@@ -39,6 +32,41 @@ pub fn to_error(value: f64, error: f64) -> String {
         (Some(from), Some(to)) => text[..from].to_owned() + &text[to + 1..],
         _ => text,
     }
+}
+
+/// The power of ten that numbers of this size are written with: none for what reads well plainly.
+fn shift(size: f64) -> i32 {
+    let exponent = size.max(f64::MIN_POSITIVE).log10().floor() as i32;
+    if (-3..6).contains(&exponent) {
+        0
+    } else {
+        exponent
+    }
+}
+
+/// An interval, both ends with as many digits as tell them apart, or its only end. `None` where it has none.
+pub fn interval(ends: [Option<f64>; 2], unit: &str) -> Option<String> {
+    let (low, high) = match ends {
+        [Some(low), Some(high)] => (low, high),
+        [Some(low), None] => return Some(format!("above {} {unit}", short(low))),
+        [None, Some(high)] => return Some(format!("below {} {unit}", short(high))),
+        [None, None] => return None,
+    };
+    let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+    let shift = shift(size);
+    let power = 10f64.powi(shift);
+    let width = (high - low).max(1e-15 * size) / power;
+    let digits = (2.0 - width.log10().floor()).clamp(0.0, 15.0) as usize;
+    let tail = if shift == 0 {
+        String::new()
+    } else {
+        format!("e{shift}")
+    };
+    Some(format!(
+        "{:.digits$}{tail} to {:.digits$}{tail} {unit}",
+        low / power,
+        high / power
+    ))
 }
 
 /// Two significant digits.

@@ -336,6 +336,9 @@ pub struct FitArgs {
     /// Say whether one model reproduces every reading, and how far each parameter may then go
     #[arg(long)]
     pub certificate: bool,
+    /// Hold each parameter at other values, fit the rest, and say how much worse that is: intervals that need be no parabola
+    #[arg(long)]
+    pub profile: bool,
     /// Fit a recording that `servoid check` refuses
     #[arg(long)]
     pub force: bool,

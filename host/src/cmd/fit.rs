@@ -41,6 +41,7 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         force: args.force,
         own: args.own.clone(),
         certificate: args.certificate,
+        profile: args.profile,
         ..model::options(&args.model, read.motor.known, session.seed, args.budget)?
     };
     let watched = Watched::search(session, options.budget);

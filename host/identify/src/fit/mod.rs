@@ -15,6 +15,7 @@
 //! | `uncertainty` | the covariance of the unknowns |
 //! | `armature_current` | what a measured current says of inertia and viscous friction |
 //! | `physical` | the six physical parameters from data and known facts |
+//! | `profile` | how much worse a fit becomes as one parameter is held elsewhere |
 //! | `systematic` | what parameters change by if the recording is not what it says |
 //! | `plausibility` | whether the machine can be one |
 //! | `margins` | stability margins of the position loop |
@@ -41,6 +42,7 @@ pub(crate) mod own_parameters;
 mod parameter;
 pub mod physical;
 mod plausibility;
+pub(crate) mod profile;
 pub(crate) mod recordings;
 pub mod regression;
 mod remarks;
@@ -61,6 +63,7 @@ pub use error_ladder::error_ladder;
 pub use options::{Options, cost_name};
 pub use own_parameters::OwnParameter;
 pub use parameter::{Parameter, Usual};
+pub use profile::{Profile, RISE_95};
 pub use plausibility::{Contradiction, contradictions};
 pub use recordings::RecordingError;
 pub use remarks::EXPLAINED_COUNTS;

@@ -33,6 +33,8 @@ pub struct Options {
     pub own: Vec<String>,
     /// Whether the result has its [certificate](crate::certificate).
     pub certificate: bool,
+    /// Whether the result has the [profile](crate::fit::Profile) of each parameter.
+    pub profile: bool,
     /// A model near the solution, if the caller knows one: where least squares starts once more if it ends elsewhere.
     pub start: Option<Candidate>,
     /// Whether the result has the errors of the models that lead to it, effect by effect.
@@ -79,6 +81,7 @@ impl Default for Options {
             bounds: Vec::new(),
             own: Vec::new(),
             certificate: false,
+            profile: false,
             start: None,
             error_ladder: false,
             force: false,

@@ -7,6 +7,7 @@ use super::options::Options;
 use super::parameter::{Parameter, parameters};
 use super::physical::{CONTRADICTION, Evidence, NAMES, Reconciled, determined_by_data, reconcile};
 use super::plausibility::contradictions;
+use super::profile::Profile;
 use super::recordings::RecordingError;
 use super::remarks;
 use super::scores::{self, Windowed};
@@ -93,6 +94,8 @@ pub struct Fit {
     pub certificate: Option<Certificate>,
     /// Noise before the counter, where the likelihood of the cells was maximised.
     pub reading_noise: Option<ReadingNoise>,
+    /// How much worse the fit becomes as one parameter is held elsewhere; empty where nobody asked.
+    pub profiles: Vec<Profile>,
 }
 
 /// Where a search ended.
@@ -244,6 +247,7 @@ impl Fit {
             likelihood: None,
             certificate: None,
             reading_noise: *reading_noise,
+            profiles: Vec::new(),
         })
     }
 }

@@ -247,8 +247,10 @@ fn inverse(squares: &DMatrix<f64>) -> Inverse {
 /// an error is correlated with itself.
 pub(super) fn segments(effective_samples: f64) -> usize {
     let most = effective_samples / INDEPENDENT;
-    let divisors = [SEGMENTS, SEGMENTS / 2, SEGMENTS / 3];
-    divisors.into_iter().find(|&count| count as f64 <= most).unwrap_or(SEGMENTS / 4)
+    let parts = [1, 2, 3, 4, 6].map(|part| SEGMENTS / part);
+    (parts.into_iter())
+        .find(|&count| count as f64 <= most)
+        .unwrap_or(SEGMENTS / 6)
 }
 
 /// Sums of neighbours, so that about `count` are left.

@@ -13,6 +13,7 @@
 //! | `bode` | position loops with the lines at which margins are read |
 //! | `curves` | best cost against model evaluations |
 //! | `steady` | steady speeds against voltage, and what a straight line misses |
+//! | `profiles` | how much worse a fit becomes as one parameter is held elsewhere |
 //! | `refuted` | the readings that no model meets together |
 //! | `histogram` | counting values into bins |
 
@@ -25,6 +26,7 @@ mod intervals;
 mod ladder;
 mod maps;
 mod orders;
+mod profiles;
 mod refuted;
 mod steady;
 mod timeline;
@@ -37,6 +39,7 @@ pub use intervals::intervals;
 pub use ladder::{LadderBar, ladder};
 pub use maps::maps;
 pub use orders::orders;
+pub use profiles::profiles;
 pub use refuted::refuted;
 pub use steady::{SteadyLine, steady_curve, steady_residual};
 pub use timeline::{FROM_THE_BENCH, IN_A_FILE, Run, Timeline, timeline};

@@ -2,7 +2,8 @@
 
 use super::style::{HEADING, painted};
 use super::text::wrapped;
-use servoid_identify::certificate::{Certificate, Contradicting, ParameterBounds};
+use crate::number_text::interval;
+use servoid_identify::certificate::{Certificate, Contradicting};
 use std::fmt::Write;
 
 pub(super) fn write(out: &mut String, certificate: &Certificate) -> std::fmt::Result {
@@ -23,7 +24,9 @@ pub(super) fn write(out: &mut String, certificate: &Certificate) -> std::fmt::Re
             "  beyond these bounds a model near the fit contradicts at least one reading:"
         )?;
         for bounds in &certificate.bounds {
-            writeln!(out, "  {:26} {}", bounds.name, interval(bounds))?;
+            let text = interval([bounds.low, bounds.high], bounds.unit)
+                .unwrap_or_else(|| "not bounded by these readings".to_owned());
+            writeln!(out, "  {:26} {text}", bounds.name)?;
         }
         return Ok(());
     }
@@ -49,38 +52,5 @@ fn stated(reading: &Contradicting) -> String {
     format!(
         "{:>10.4} s, {} counts: models that meet the others lie {side} it",
         reading.time_s, reading.counts
-    )
-}
-
-/// Both ends with as many digits as tell them apart.
-fn interval(bounds: &ParameterBounds) -> String {
-    let (Some(low), Some(high)) = (bounds.low, bounds.high) else {
-        let one = |end: Option<f64>, word: &str| {
-            end.map(|end| format!("{word} {} {}", crate::number_text::short(end), bounds.unit))
-        };
-        return one(bounds.low, "above")
-            .or(one(bounds.high, "below"))
-            .unwrap_or_else(|| "not bounded by these readings".to_owned());
-    };
-    let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
-    let exponent = size.log10().floor();
-    let shift = if (-3.0..6.0).contains(&exponent) {
-        0.0
-    } else {
-        exponent
-    };
-    let unit = 10f64.powf(shift);
-    let digits =
-        (2.0 - ((high - low).max(1e-15 * size) / unit).log10().floor()).clamp(0.0, 15.0) as usize;
-    let tail = if shift == 0.0 {
-        String::new()
-    } else {
-        format!("e{shift}")
-    };
-    format!(
-        "{:.digits$}{tail} to {:.digits$}{tail} {}",
-        low / unit,
-        high / unit,
-        bounds.unit
     )
 }

@@ -10,6 +10,7 @@ mod likelihood;
 pub mod paper;
 pub mod plan;
 mod position_loop;
+mod profile;
 pub mod style;
 mod systematic;
 pub mod text;

@@ -182,6 +182,7 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         out.push_str(&parameter(p, fit.converged));
     }
     out.push_str(&systematic::table(&fit.parameters));
+    out.push_str(&super::profile::lines(&fit.profiles));
     if let Some(own) = &fit.likelihood {
         super::likelihood::write(out, own)?;
     }

@@ -1,6 +1,7 @@
 //! `servoid.fit/1`, of `fit`, and of `demo` with its truth and its diagnosis.
 
 use super::certificate::Certificate;
+use super::profile::Profile;
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::Likelihood;
@@ -91,6 +92,9 @@ pub struct Fit {
     /// What is certain of the readings and this model (`fit --certificate`); absent where nobody asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
+    /// The profile likelihood of each parameter (`fit --profile`); absent where nobody asked.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub profiles: Vec<Profile>,
     /// Noise before the counter, standard deviation, counts (`--cost interval`): what model and encoder leave unexplained. Absent
     /// with other costs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -217,6 +221,7 @@ impl Fit {
             interrupted: fit.interrupted,
             likelihood: fit.likelihood.as_ref().map(Likelihood::from),
             certificate: fit.certificate.as_ref().map(Certificate::from),
+            profiles: fit.profiles.iter().map(Profile::from).collect(),
             sigma_counts: fit.reading_noise.map(|noise| noise.counts),
             sigma_std_counts: fit.reading_noise.and_then(|noise| noise.std),
             version: VERSION.to_owned(),

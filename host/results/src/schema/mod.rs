@@ -41,6 +41,7 @@ mod model;
 mod model_fault;
 mod partial;
 pub mod plan;
+pub mod profile;
 pub mod position_loop;
 pub mod proof;
 mod recording_error;

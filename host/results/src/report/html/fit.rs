@@ -48,6 +48,12 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
         &fit.notes,
         &loops,
     ));
+    let drawn = picture::profiles("profiles", &fit.profiles);
+    sections.extend(drawn.map(|drawn| {
+        let mut section = Section::new("profile", "How far each parameter may go");
+        section.blocks.push(Block::Picture(drawn));
+        section
+    }));
     let mut facts = recording_facts(recordings, &fit.recording);
     facts.extend([
         ("method".to_owned(), fit.algorithm.clone()),

@@ -26,9 +26,11 @@ pub use failing::{Model, failing};
 
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Estimates, Run};
+use crate::number_text::rough;
+use crate::picture::{self, Drawing, Estimates, Picture, Run, Table};
 use crate::schema::{Document, Estimate};
 use servoid_engine::problem::Data;
+use servoid_identify::fit::Cause;
 use servoid_identify::fit::margins::Loop;
 
 /// The recordings that a result was made from, as far as they are at hand.
@@ -120,12 +122,43 @@ fn parameters(
     let mut section = Section::new("parameters", "Parameters");
     let forest = picture::forest("forest", &sources);
     section.blocks.extend(forest.map(Block::Picture));
+    section.blocks.extend(systematic(parameters).map(Block::Picture));
     if !notes.is_empty() {
         section.blocks.push(Block::List(notes.to_vec()));
     }
     let bode = picture::bode("bode", loops);
     section.blocks.push(Block::Picture(bode));
     section
+}
+
+/// What the parameters change by if the recording is not what it says.
+fn systematic(parameters: &[Estimate]) -> Option<Picture> {
+    let known = parameters.iter().filter(|p| !p.systematic.is_empty());
+    let mut head = vec!["parameter".to_owned()];
+    head.extend(Cause::ALL.map(super::systematic::words));
+    head.push("unit".to_owned());
+    let mut table = Table {
+        head,
+        rows: Vec::new(),
+    };
+    for p in known {
+        let change = |cause: Cause| {
+            let own = p.systematic.iter().find(|s| s.cause == cause.name());
+            own.map_or("-".to_owned(), |s| rough(s.change.abs()))
+        };
+        let changes = Cause::ALL.map(change);
+        let cells = std::iter::once(p.name.clone()).chain(changes);
+        table.row(cells.chain([p.unit.clone()]));
+    }
+    (!table.rows.is_empty()).then(|| Picture {
+        id: "systematic".to_owned(),
+        title: "Systematic errors".to_owned(),
+        caption: "Standard errors are of readings that scatter. These are what a parameter would be off by if the command acted later \
+                  than the log says, if the encoder's edges were displaced, or if the command were larger."
+            .to_owned(),
+        drawing: Drawing::Nothing,
+        table: Some(table),
+    })
 }
 
 /// A remark in the place of the drawings of a recording that is not at hand.
