@@ -20,6 +20,7 @@ mod glitches;
 mod help_examples;
 mod interrupt;
 mod known_facts;
+mod likelihoods;
 mod main_job;
 mod paper;
 mod pipes;

@@ -9,6 +9,7 @@ mod drawn_diagnoses;
 mod effects_match_bench;
 mod integration;
 mod lanes;
+mod likelihoods;
 mod no_text;
 mod one_recording;
 mod paper_contest;

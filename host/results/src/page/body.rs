@@ -115,7 +115,13 @@ fn picture(picture: &Picture) -> String {
     };
     let numbers = picture.table.as_ref().map_or(String::new(), |content| {
         format!(
-            "<details><summary>The numbers</summary>{}</details>",
+            "<details{}><summary>The numbers</summary>{}</details>",
+            // Where there is nothing else they are what is to be seen.
+            if matches!(picture.drawing, Drawing::Nothing) {
+                " open"
+            } else {
+                ""
+            },
             table("", content)
         )
     });
