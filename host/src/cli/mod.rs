@@ -454,7 +454,7 @@ pub struct ProveArgs {
     pub cases: u64,
     /// In place of diagnoses: how often the standard errors of fits hold the truth, over --cases recordings of each of several
     /// drives and encoders, or with each --effect
-    #[arg(long, conflicts_with_all = ["hidden", "excite", "law", "only", "out", "resume", "merge"])]
+    #[arg(long, conflicts_with_all = ["hidden", "excite", "law", "only", "out", "resume"])]
     pub coverage: bool,
     /// What the fits of --coverage minimise: squares, or the likelihood of the cells that were read (interval), with noise before
     /// the counter
@@ -484,7 +484,10 @@ pub struct ProveArgs {
     /// Continue this file of --out: what is in it is not done again
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
-    /// Do nothing new: the joint table of these files of --out
+    /// Plot of what was stated against how often it was right (SVG)
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Do nothing new: the joint table of these files of --out, or with --coverage of --json
     #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["cases", "hidden", "excite", "effect", "law", "shard", "only", "out", "resume"])]
     pub merge: Vec<PathBuf>,
 }

@@ -6,19 +6,26 @@ use crate::error::Error;
 use crate::prove::report::text;
 use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError};
 use crate::session::Session;
+use servoid_results::plot::reliability;
+use servoid_results::schema::coverage::Coverage;
 use shared::effects::Kind;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 
 pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
-    if !args.merge.is_empty() {
-        return merge(session, args);
-    }
     if args.coverage {
         return coverage(session, args);
     }
-    let outputs: Vec<(&str, &Path)> = [("--out", &args.out), ("--resume", &args.resume)]
+    if !args.merge.is_empty() {
+        return merge(session, args);
+    }
+    let files = [
+        ("--out", &args.out),
+        ("--resume", &args.resume),
+        ("--plot", &args.plot),
+    ];
+    let outputs: Vec<(&str, &Path)> = files
         .into_iter()
         .filter_map(|(flag, path)| Some((flag, path.as_deref()?)))
         .collect();
@@ -44,11 +51,25 @@ pub(super) fn run(session: &Session, args: &ProveArgs) -> Result<(), Error> {
     })?;
     bar.finish_and_clear();
     outcomes.sort_by_key(|outcome| outcome.case);
-    deliver(session, &header, &outcomes)
+    deliver(session, args, &header, &outcomes)
 }
 
 /// How often standard errors hold the truth.
 fn coverage(session: &Session, args: &ProveArgs) -> Result<(), Error> {
+    check_plot(session, args)?;
+    let found = if args.merge.is_empty() {
+        covered(session, args)?
+    } else {
+        coverage::join(&args.merge)?
+    };
+    if let Some(path) = &args.plot {
+        let lines = coverage::report::lines(&found);
+        session.write_plot(path, &reliability(&lines, coverage::report::AXES)?)?;
+    }
+    session.deliver(&coverage::report::text(&found), &found)
+}
+
+fn covered(session: &Session, args: &ProveArgs) -> Result<Coverage, Error> {
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     let effects = args.effect.iter().filter_map(|name| Kind::by_name(name));
     let conditions = match (args.effect.is_empty(), args.cost) {
@@ -71,20 +92,15 @@ fn coverage(session: &Session, args: &ProveArgs) -> Result<(), Error> {
     let bar = session.progress(plan.recordings(), "coverage");
     let found = plan.run(session.stop(), &|| bar.inc(1))?;
     bar.finish_and_clear();
-    session.deliver(&coverage::report::text(&found), &found)
+    Ok(found)
 }
 
 /// The joint table of several files.
 fn merge(session: &Session, args: &ProveArgs) -> Result<(), Error> {
-    let inputs: Vec<(&str, &Path)> = args
-        .merge
-        .iter()
-        .map(|path| ("a file of --merge", path.as_path()))
-        .collect();
-    session.check_outputs(&[], &inputs)?;
+    check_plot(session, args)?;
     let merged = prove::merge(&args.merge);
     match merged.map_err(|error| wrong_flag("--merge", error))? {
-        Some(Content { header, outcomes }) => deliver(session, &header, &outcomes),
+        Some(Content { header, outcomes }) => deliver(session, args, &header, &outcomes),
         None => Err(Error::Usage("--merge: name the files".to_owned())),
     }
 }
@@ -147,8 +163,25 @@ fn missing(args: &ProveArgs, done: &[Outcome]) -> Vec<u64> {
         .collect()
 }
 
-fn deliver(session: &Session, header: &Header, outcomes: &[Outcome]) -> Result<(), Error> {
+/// Nothing that is written may be a file of --merge.
+fn check_plot(session: &Session, args: &ProveArgs) -> Result<(), Error> {
+    let merged = args.merge.iter();
+    let inputs: Vec<_> = merged.map(|path| ("a file of --merge", &**path)).collect();
+    let plot: Vec<_> = args.plot.iter().map(|path| ("--plot", &**path)).collect();
+    session.check_outputs(&plot, &inputs)
+}
+
+fn deliver(
+    session: &Session,
+    args: &ProveArgs,
+    header: &Header,
+    outcomes: &[Outcome],
+) -> Result<(), Error> {
     let interrupted = session.stop().load(Ordering::Relaxed);
     let proof = prove::tally(header, outcomes, interrupted);
+    if let Some(path) = &args.plot {
+        let lines = prove::report::lines(&proof);
+        session.write_plot(path, &reliability(&lines, prove::report::AXES)?)?;
+    }
     session.deliver(&text(&proof), &proof)
 }

@@ -5,9 +5,11 @@
 //! |---|---|
 //! | `condition` | drives and encoders, and the recordings of random motors under them |
 //! | `tally` | how the errors lie |
+//! | `join` | the joint table of several machines' shards |
 //! | `report` | the table as text |
 
 mod condition;
+mod join;
 pub mod report;
 mod tally;
 
@@ -15,6 +17,7 @@ use crate::error::Error;
 use crate::prove::Shard;
 pub use condition::Condition;
 use condition::Standardised;
+pub use join::join;
 use rayon::prelude::*;
 use servoid_results::schema::coverage::Coverage;
 use std::sync::atomic::{AtomicBool, Ordering};

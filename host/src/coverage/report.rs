@@ -1,7 +1,43 @@
 //! The table of coverage as text.
 
 use crate::prove::report::folded;
+use servoid_results::plot::ReliabilityLine;
 use servoid_results::schema::coverage::{Condition, Coverage, Covered};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// What a drawing of the intervals shows.
+pub const AXES: [&str; 2] = [
+    "level of the stated interval",
+    "part of the intervals that hold the truth",
+];
+
+/// Levels that are drawn.
+const LEVELS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95];
+
+/// The intervals of all parameters of each condition as a drawing has them.
+pub fn lines(coverage: &Coverage) -> Vec<ReliabilityLine> {
+    let normal = Normal::standard();
+    let line = |condition: &Condition| {
+        let z: Vec<f64> = (condition.parameters.iter())
+            .flat_map(|covered| covered.z.iter().copied())
+            .collect();
+        let held = |level: f64| {
+            let width = normal.inverse_cdf(0.5 + 0.5 * level);
+            let inside = z.iter().filter(|z| z.abs() <= width).count();
+            inside as f64 / z.len() as f64
+        };
+        let points = LEVELS.map(|level| (level, held(level), None));
+        ReliabilityLine {
+            name: title(condition).replace('\n', ""),
+            points: if z.is_empty() {
+                Vec::new()
+            } else {
+                points.to_vec()
+            },
+        }
+    };
+    coverage.conditions.iter().map(line).collect()
+}
 
 /// The table.
 pub fn text(coverage: &Coverage) -> String {
@@ -25,14 +61,9 @@ pub fn text(coverage: &Coverage) -> String {
 }
 
 fn rows(condition: &Condition) -> String {
-    let effect = condition.effect.as_ref();
-    let effect = effect.map_or_else(String::new, |name| format!(", with {name}"));
-    let disturbed = disturbed(condition);
     let mut out = format!(
-        "\n{}, {} s, {} counts a revolution{effect}{disturbed}\n  {:28}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
-        condition.excitation,
-        condition.seconds,
-        condition.counts_per_rev,
+        "\n{}\n  {:28}{:>6}{:>6}   {:11}{:>7}{:>7}{:>8}\n",
+        title(condition),
         "",
         "68 %",
         "95 %",
@@ -45,6 +76,19 @@ fn rows(condition: &Condition) -> String {
         out += &row(covered);
     }
     out
+}
+
+/// Drive and encoder, and what stands beside them.
+fn title(condition: &Condition) -> String {
+    let effect = condition.effect.as_ref();
+    let effect = effect.map_or_else(String::new, |name| format!(", with {name}"));
+    format!(
+        "{}, {} s, {} counts a revolution{effect}{}",
+        condition.excitation,
+        condition.seconds,
+        condition.counts_per_rev,
+        disturbed(condition)
+    )
 }
 
 /// What stands beside drive and encoder.

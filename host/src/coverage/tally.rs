@@ -49,17 +49,22 @@ fn covered(errors: &[&[Standardised]], k: usize) -> Covered {
     let of_parameter = errors.iter().filter_map(|errors| errors.get(k));
     let stated: Vec<Option<f64>> = of_parameter.map(|error| error.z).collect();
     let z: Vec<f64> = stated.iter().copied().flatten().collect();
+    let name = (errors.first()).map_or_else(String::new, |errors| errors[k].name.clone());
+    let not_stated = (stated.len() - z.len()) as u64;
+    spread(name, z, not_stated)
+}
+
+/// How these errors lie, in standard errors.
+pub fn spread(name: String, z: Vec<f64>, not_stated: u64) -> Covered {
     let count = z.len() as f64;
     let mean = z.iter().sum::<f64>() / count;
     let squares: f64 = z.iter().map(|z| (z - mean).powi(2)).sum();
     let some = |least: usize, x: f64| Some(x).filter(|_| z.len() >= least);
     Covered {
-        name: errors
-            .first()
-            .map_or_else(String::new, |errors| errors[k].name.clone()),
+        name,
         within_1: Count::of(&z, |z| z.abs() <= 1.0).share("within_1"),
         within_2: Count::of(&z, |z| z.abs() <= 1.96).share("within_2"),
-        not_stated: (stated.len() - z.len()) as u64,
+        not_stated,
         z_mean: some(1, mean),
         z_sd: some(2, (squares / (count - 1.0)).sqrt()),
         z,

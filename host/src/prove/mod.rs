@@ -14,6 +14,7 @@
 //! | `store`, `header`, `content` | finished cases in a file: written, what they are, read and joined |
 //! | `shard` | a part of the cases, for one machine of several |
 //! | `tally`, `interval`, `confusion` | how often which |
+//! | `reliability` | whether probabilities are as often right as they say |
 //!
 //! Case `k` of a seed is the same whatever the shard, the number of threads and the order.
 
@@ -29,6 +30,7 @@ mod motor;
 #[cfg(test)]
 mod orders_law;
 mod outcome;
+mod reliability;
 pub mod report;
 mod shard;
 mod store;

@@ -2,9 +2,10 @@
 
 use super::DETECTABLE_COUNTS;
 use super::tally::words;
+use servoid_results::plot::ReliabilityLine;
 use servoid_results::report::fold::folded_to;
 use servoid_results::schema::Proof;
-use servoid_results::schema::proof::{Confusion, Failure, Group, Rate, Share, Spread};
+use servoid_results::schema::proof::{Confusion, Failure, Group, Rate, Reliability, Share, Spread};
 
 /// Width of the text, columns.
 const WIDTH: usize = 80;
@@ -57,8 +58,51 @@ pub fn text(proof: &Proof) -> String {
             number(spread.p90)
         );
     }
+    out += &proof
+        .reliability
+        .as_ref()
+        .map_or(String::new(), reliability);
     if !proof.confusions.is_empty() {
         out += &confusions_text(&proof.confusions);
+    }
+    out
+}
+
+/// What a drawing of the probabilities shows.
+pub const AXES: [&str; 2] = [
+    "stated probability of a set of effects",
+    "part of them that is right",
+];
+
+/// The probabilities as a drawing has them.
+pub fn lines(proof: &Proof) -> Vec<ReliabilityLine> {
+    let line = |found: &Reliability| ReliabilityLine {
+        name: format!("{} diagnoses", found.diagnoses),
+        points: (found.bins.iter())
+            .filter_map(|bin| {
+                let Rate { part, low, high } = bin.right.rate?;
+                Some((bin.probability, part, Some((low, high))))
+            })
+            .collect(),
+    };
+    proof.reliability.iter().map(line).collect()
+}
+
+/// How often sets are right that have so much probability.
+fn reliability(found: &Reliability) -> String {
+    let mut out = format!(
+        "\nprobabilities of sets: Brier score {:.3} of {}\n",
+        found.brier,
+        cases(found.diagnoses)
+    );
+    for bin in &found.bins {
+        let says = format!(
+            "sets of {:.0} to {:.0} %, {:.0} % in the mean: right",
+            100.0 * bin.low,
+            100.0 * bin.high,
+            100.0 * bin.probability
+        );
+        out += &share(&says, &bin.right);
     }
     out
 }

@@ -2,6 +2,7 @@
 
 use super::confusion::confusions;
 use super::interval::Count;
+use super::reliability::reliability;
 use super::{Header, Laws, Outcome};
 use servoid_engine::compare::quantile;
 use servoid_identify::truth::ParameterError;
@@ -120,6 +121,7 @@ pub fn tally(header: &Header, outcomes: &[Outcome], interrupted: bool) -> Proof 
         size_errors_percent: errors(true),
         shape_errors_percent: errors(false),
         confusions: confusions(outcomes),
+        reliability: reliability(outcomes.iter().filter(|o| o.detectable)),
         interrupted,
     }
 }

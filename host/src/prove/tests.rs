@@ -5,6 +5,7 @@ use super::hide::{self, acts_otherwise};
 use super::*;
 use servoid_plant::Hidden;
 use servoid_plant::effects::CATALOGUE;
+use servoid_results::schema::diagnosis::Hypothesis;
 use shared::effects::Kind;
 use std::path::PathBuf;
 
@@ -338,4 +339,36 @@ fn the_table_counts_each_case_once() {
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
     );
+}
+
+/// A diagnosis that gives a set 80 % is right in four of five cases: on the diagonal, with the score of its uncertainty.
+#[test]
+fn probabilities_are_counted_against_the_truth() {
+    let one = set_up(HowMany::One, Excite::Commissioning);
+    let outcomes: Vec<Outcome> = (0..50)
+        .map(|case| {
+            let mut outcome = outcome(&one, case, &[]);
+            let truth = outcome.drawn.names()[0].to_owned();
+            let said = if case % 5 == 0 {
+                "none such".to_owned()
+            } else {
+                truth
+            };
+            let set = |effects: Vec<String>, probability| Hypothesis {
+                effects,
+                probability,
+            };
+            outcome.hypotheses = vec![set(vec![said], 0.8), set(Vec::new(), 0.1)];
+            outcome
+        })
+        .collect();
+    let proof = tally(&Header::new(&one), &outcomes, false);
+    let found = proof.reliability.expect("probabilities");
+    assert!((found.brier - 0.16).abs() < 1e-12, "{found:?}");
+    let [unlikely, likely] = &found.bins[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!((unlikely.right.count, unlikely.right.of), (0, 50));
+    assert_eq!((likely.right.count, likely.right.of), (40, 50));
+    assert!((likely.probability - 0.8).abs() < 1e-12);
 }

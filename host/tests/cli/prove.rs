@@ -199,9 +199,35 @@ fn parts_of_a_coverage_are_those_of_the_whole() {
         errors
     };
     let whole = sorted(errors(&all("")));
-    let (one, other) = (all("--shard 1/2"), all("--shard 2/2"));
+    let part = |shard: &str, file: &str| {
+        desk.done(&format!(
+            "prove --coverage --cases 4 --seed 3 --shard {shard} --json {file}"
+        ));
+        desk.read_json(file)
+    };
+    let (one, other) = (part("1/2", "one.json"), part("2/2", "other.json"));
     let parts = [errors(&one), errors(&other)].concat();
     assert_eq!(sorted(parts), whole);
+    // Joined they are the whole, with its table and its drawing.
+    let merge = "prove --coverage --merge one.json other.json";
+    desk.done(&format!("{merge} --json joint.json --plot joint.svg"));
+    let joint = desk.read_json("joint.json");
+    assert_eq!(sorted(errors(&joint)), whole);
+    assert_eq!(joint["recordings"], all("")["recordings"]);
+    assert!(desk.read("joint.svg").contains("on the diagonal"));
+    desk.done("prove --coverage --cases 1 --seed 4 --json strange.json");
+    desk.refused(
+        "prove --coverage --merge one.json strange.json",
+        2,
+        &["strange.json", "another seed"],
+    );
+    desk.write("broken.json", "{\"schema\": ");
+    desk.refused("prove --coverage --merge broken.json", 1, &["broken.json"]);
+    desk.refused(
+        &format!("{merge} --plot one.json"),
+        2,
+        &["a file of --merge"],
+    );
     for flags in ["--hidden one", "--out x.jsonl", "--only 1", "--law other"] {
         desk.refused(&format!("prove --coverage {flags}"), 2, &["--coverage"]);
     }

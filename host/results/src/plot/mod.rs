@@ -1,12 +1,14 @@
-//! Drawings as SVG text: measured against model, cost curves, Bode plots.
+//! Drawings as SVG text: measured against model, cost curves, Bode plots, reliability.
 
 mod bode;
 mod curves;
 mod overlay;
+mod reliability;
 
 pub use bode::bode;
 pub use curves::cost_curves;
 pub use overlay::overlay;
+pub use reliability::{ReliabilityLine, reliability};
 
 use crate::error::Error;
 use crate::palette;

@@ -26,6 +26,10 @@ pub struct Proof {
     pub shape_errors_percent: Spread,
     /// What each hidden effect was called, worst first.
     pub confusions: Vec<Confusion>,
+    /// Whether probabilities of sets of effects are as often right as they say, over the detectable cases; absent where no diagnosis
+    /// has any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reliability: Option<Reliability>,
     /// Whether the user stopped the work.
     pub interrupted: bool,
 }
@@ -128,4 +132,28 @@ pub struct Confusion {
     pub paired_named: u64,
     /// Numbers of the cases in which it is not named.
     pub missed_cases: Vec<u64>,
+}
+
+/// Whether stated probabilities are as often right as they say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Reliability {
+    /// Mean square of probability less truth (0 or 1), of the most probable set of each diagnosis: 0 is perfect, 0.25 says nothing.
+    pub brier: f64,
+    /// How many diagnoses.
+    pub diagnoses: u64,
+    /// All sets by their probability, where there are any.
+    pub bins: Vec<Bin>,
+}
+
+/// Sets whose probability is within a range.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Bin {
+    /// Least probability.
+    pub low: f64,
+    /// Greatest probability.
+    pub high: f64,
+    /// Mean probability.
+    pub probability: f64,
+    /// How many of them are what is hidden.
+    pub right: Share,
 }

@@ -70,6 +70,9 @@ pub struct Map {
     pub against: Against,
     /// Share of the variance beyond the encoder's own that the bins explain, less what they would by chance.
     pub share: f64,
+    /// The part of that variance that is left by the maps which explain more, and explained by this one: over all maps these sum
+    /// to what they explain together. Zero where the map is not beyond chance.
+    pub own_share: f64,
     /// Whether they explain more than bins do by chance once in a thousand.
     pub beyond_chance: bool,
     /// Samples that count as independent.
@@ -140,6 +143,7 @@ impl Map {
         Some(Map {
             against,
             share: ((explained - by_chance) / beyond).clamp(0.0, 1.0),
+            own_share: 0.0,
             beyond_chance: chance < CHANCE && explained > NOTICED * noise,
             effective_samples: effective,
             bins: sums
@@ -157,7 +161,58 @@ impl Map {
     }
 }
 
+/// Tells `maps`, of which each explains less than the ones before, what each explains of what those leave, one after the other
+/// (forward selection), as parts of the variance beyond the encoder's `noise`, V².
+pub fn decompose(
+    maps: &mut [Map],
+    data: &Data,
+    machine: &Machine<f64>,
+    residuals: &[EquationResidual],
+    noise: f64,
+) {
+    let whole = mean_square(residuals);
+    let beyond = (whole - noise).max(f64::MIN_POSITIVE);
+    let mut rest = residuals.to_vec();
+    let mut left = 1.0f64;
+    for map in maps.iter_mut().filter(|map| map.beyond_chance) {
+        let Some(again) = Map::new(map.against, data, machine, &rest, noise) else {
+            continue;
+        };
+        let before = mean_square(&rest);
+        again.take_out(data, machine, &mut rest);
+        // The encoder's part is explained by chance alone, and no share of what is missing.
+        map.own_share = ((before - mean_square(&rest)) / beyond).clamp(0.0, left);
+        left -= map.own_share;
+    }
+}
+
+fn mean_square(residuals: &[EquationResidual]) -> f64 {
+    let squares: f64 = residuals.iter().map(|r| r.volts * r.volts).sum();
+    squares / residuals.len().max(1) as f64
+}
+
+impl Map {
+    /// Subtracts the mean of its bin from each residual.
+    fn take_out(&self, data: &Data, machine: &Machine<f64>, residuals: &mut [EquationResidual]) {
+        for point in points(self.against, data, machine, residuals) {
+            let bin = self.bins.partition_point(|bin| bin.high < point.x);
+            let Some(bin) = self.bins.get(bin) else {
+                continue;
+            };
+            let residual = &mut residuals[point.index];
+            let sign = if self.against.turned() {
+                residual.speed.signum()
+            } else {
+                1.0
+            };
+            residual.volts -= bin.mean_v * sign;
+        }
+    }
+}
+
 struct Point {
+    /// Place among the residuals.
+    index: usize,
     x: f64,
     volts: f64,
 }
@@ -171,7 +226,7 @@ fn points(
     let slow = REST * data.units.speed;
     let (mut forward, mut since) = (0.0, 0.0);
     let mut points = Vec::with_capacity(residuals.len());
-    for r in residuals {
+    for (index, r) in residuals.iter().enumerate() {
         let now = data.time_s[r.sample];
         if r.speed.abs() > slow && r.speed.signum() != forward {
             // The first motion is no reversal.
@@ -193,7 +248,7 @@ fn points(
         } else {
             r.volts
         };
-        points.push(Point { x, volts });
+        points.push(Point { index, x, volts });
     }
     points
 }

@@ -73,6 +73,7 @@ pub fn analyse_residual(
         .collect();
     // Shares that are nearly equal stay in the order of the list.
     maps.sort_by_key(|map| -(map.share * ALIKE).round() as i64);
+    bins::decompose(&mut maps, data, &candidate.machine, &residuals, noise);
     Ok(ResidualAnalysis {
         volts_rms: rms(&residuals),
         perfect_volts_rms,

@@ -63,8 +63,8 @@ mod tests {
 
     #[test]
     fn it_is_the_one_that_made_the_currents() {
-        let (resistance, kb, interval) = (2.0, 0.05, 1e-3);
-        for (seed, constant) in [(1, 2e-4), (2, 1e-3), (3, 8e-3)] {
+        let (resistance, kb, interval) = (2.0, 0.05, 1e-3_f64);
+        for (seed, constant) in [(1, 2e-4_f64), (2, 1e-3), (3, 8e-3)] {
             let mut generator = rng::seeded(seed);
             let mut draw = || 2.0 * rng::uniform::<f64>(&mut generator) - 1.0;
             let decay = (-interval / constant).exp();

@@ -12,15 +12,6 @@ const HALF: usize = 12;
 
 /// The shares of all quantities, and the table of the `wanted` one, or of that which explains most.
 pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String {
-    let shares: Vec<String> = found
-        .maps
-        .iter()
-        .filter(|map| map.beyond_chance)
-        .map(|map| {
-            let name = map.against.name().0.replace('_', " ");
-            format!("{name} {:.0} %", 100.0 * map.share)
-        })
-        .collect();
     let mut out = format!(
         "   missing along the measured motion: {} V RMS\n   (a perfect model would show {} V here)\n",
         plain(found.volts_rms),
@@ -29,13 +20,7 @@ pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String
     let Some(most) = found.most() else {
         return out + "   it goes with none of speed, voltage, current and time\n";
     };
-    let overlap = if shares.len() > 1 {
-        "; they overlap"
-    } else {
-        ""
-    };
-    let text = format!("   explained by each alone: {}{overlap}", shares.join(", "));
-    out += &(folded(&text, "     ") + "\n");
+    out += &(folded(&format!("   {}", explained(found)), "     ") + "\n");
     let own = wanted.and_then(|against| found.map(against));
     let most = own.filter(|map| map.beyond_chance).unwrap_or(most);
     let (name, unit) = most.against.name();
@@ -64,6 +49,30 @@ pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String
     }
     out
 }
+
+/// What goes with which quantity, each of what the ones before leave, so that the parts sum.
+fn explained(found: &ResidualAnalysis) -> String {
+    let parts: Vec<(&str, f64)> = (found.maps.iter())
+        .filter(|map| map.beyond_chance && map.own_share >= LEAST)
+        .map(|map| (map.against.name().0, 100.0 * map.own_share))
+        .collect();
+    let each: Vec<String> = (parts.iter())
+        .map(|(name, percent)| format!("{} {percent:.0} %", name.replace('_', " ")))
+        .collect();
+    // The sum of what is printed.
+    let sum: f64 = parts.iter().map(|(_, percent)| percent.round()).sum();
+    match each.len() {
+        0 => "none of these explains a noticeable part of it".to_owned(),
+        1 => format!("explained: {}", each.concat()),
+        _ => format!(
+            "explained, each of what the ones before leave: {}; together {sum:.0} %",
+            each.join(", ")
+        ),
+    }
+}
+
+/// Smaller parts are not told.
+const LEAST: f64 = 0.005;
 
 /// Three digits, with the sign of a negative number.
 fn short(x: f64) -> String {
