@@ -25,12 +25,19 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
     }
 }
 
-/// A value whose last digit is the second one of an error that is larger than its standard error.
-pub fn to_error(value: f64, error: f64) -> String {
-    let text = with_error(value, Some(error));
+/// A value with as many digits as it deserves, and what is to be said of its error behind the unit: with its standard error in
+/// brackets, or, where an error of the recording may well be a power of ten larger (`systematic`, the largest of them), with the digits that
+/// that one leaves.
+pub fn stated(value: f64, std: f64, systematic: f64) -> (String, String) {
+    let text = with_error(value, Some(std));
+    if !(std > 0.0 && systematic.log10().floor() > std.log10().floor()) {
+        return (text, String::new());
+    }
+    let error = format!(", std {}", rough(std));
+    let text = with_error(value, Some(systematic));
     match (text.find('('), text.find(')')) {
-        (Some(from), Some(to)) => text[..from].to_owned() + &text[to + 1..],
-        _ => text,
+        (Some(from), Some(to)) => (text[..from].to_owned() + &text[to + 1..], error),
+        _ => (text, error),
     }
 }
 

@@ -115,9 +115,6 @@ fn errors_of_the_recording_stand_beside_standard_errors() {
         .lines()
         .find(|line| line.starts_with("  gain  "))
         .unwrap();
-    assert!(
-        line.contains("58.36 ") && line.contains("standard error"),
-        "{line}"
-    );
+    assert!(line.contains("58.36 ") && line.contains(", std "), "{line}");
     assert!(text.contains("10 us latency"), "{text}");
 }

@@ -247,3 +247,50 @@ fn a_page_calls_look_alikes_what_the_terminal_calls_them() {
         assert!(flat.contains(&said) && page.contains(&said), "{said}");
     }
 }
+
+/// The numbers of the terminal stand on the page as they are, and its verdict.
+#[test]
+fn terminal_and_page_say_the_same() {
+    let desk = Desk::new();
+    desk.done("simulate --hide coulomb --out rubs.csv");
+    desk.done("simulate --hide coulomb --seed 2 --out other.csv");
+    for line in [
+        "fit rubs.csv --with coulomb --kt-equals-kb",
+        "fit rubs.csv --with coulomb --cost interval",
+        "fit rubs.csv other.csv --with coulomb",
+        "fit rubs.csv",
+    ] {
+        let text = desk.done(&format!("{line} --report page.html")).stdout;
+        let page = desk.read("page.html");
+        let parameters = text.split("in brackets:").nth(1).expect("parameters");
+        let lines = parameters
+            .lines()
+            .skip(1)
+            .take_while(|line| line.starts_with("  "));
+        let mut compared = 0;
+        for line in lines {
+            let mut words = line.split_whitespace();
+            let (name, value) = (
+                words.next().expect("a name"),
+                words.next().expect("a value"),
+            );
+            assert!(page.contains(&format!("<td>{name}</td>")), "{line}");
+            if value.starts_with(|first: char| first.is_ascii_digit() || first == '-') {
+                compared += 1;
+                assert!(page.contains(&format!("<td>{value}</td>")), "{line}");
+            }
+        }
+        assert!(compared >= 1, "{text}");
+    }
+    let text = desk
+        .done("diagnose rubs.csv --validate other.csv --report page.html --json d.json")
+        .stdout;
+    let summary = desk.read_json("d.json")["summary"]
+        .as_str()
+        .expect("a verdict")
+        .to_owned();
+    let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let first = summary.split(". ").next().expect("a sentence");
+    assert!(flat(&text).contains(&flat(first)), "{first}: {text}");
+    assert!(desk.read("page.html").contains(first), "{first}");
+}

@@ -47,6 +47,12 @@ impl Parameter {
         Self::new(name, value, unit, None)
     }
 
+    /// Largest change by an error of the recording, without its sign; zero where none is known.
+    pub fn largest_systematic(&self) -> f64 {
+        let changes = self.systematic.iter().map(|one| one.change.abs());
+        changes.fold(0.0, f64::max)
+    }
+
     fn new(name: String, value: f64, unit: &'static str, std: Option<f64>) -> Self {
         Parameter {
             identifiable: std.is_some_and(|std| std < 0.5 * value.abs()),

@@ -6,6 +6,8 @@ use servoid_engine::problem::{Candidate, Centring, FitProblem, Moments};
 
 /// Places of the fitted path in its cell, over which its rounding errors are counted.
 const PLACES: usize = 64;
+/// Times by which the residuals are shifted.
+const SHIFTS: usize = 32;
 /// Time segments that count as independent.
 pub(super) const SEGMENTS: usize = 24;
 /// Wanted RMS change of the residual for a difference quotient, counts: far above rounding, far below any bend.
@@ -19,9 +21,19 @@ pub(super) struct Sensitivity {
     pub squares: DMatrix<f64>,
     /// Jᵀ·r of each time segment, a vector of unknowns each.
     pub gradients: Vec<DVector<f64>>,
-    /// Jᵀ·e for the rounding errors e that the counter makes of the fitted path, in each place that the path may have in its
-    /// cell; none where the reading is no count.
-    pub roundings: Vec<DVector<f64>>,
+    /// Jᵀ·e of errors e that the fitted path may as well have had, a list for each way to draw them: the rounding errors that the
+    /// counter makes in each place that the path may have in its cell, where the reading is a count, and the residuals
+    /// themselves at other times.
+    pub redrawn: Vec<Vec<DVector<f64>>>,
+}
+
+/// Which errors are drawn again.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Redraw {
+    /// Places of the fitted path in its cell.
+    places: usize,
+    /// Shifts of the residuals in time, around the end.
+    shifts: usize,
 }
 
 /// The models to both sides of an unknown's value, and the distance between them in the unknown's unit.
@@ -37,19 +49,22 @@ pub(super) fn sensitivity(
     values: &[f64],
     residuals: &[f64],
 ) -> Option<Sensitivity> {
-    let places = if problem.data.quantised { PLACES } else { 0 };
-    sensitivities(problem, values, &[residuals], places)?.pop()
+    let redraw = Redraw {
+        places: if problem.data.quantised { PLACES } else { 0 },
+        shifts: SHIFTS,
+    };
+    sensitivities(problem, values, &[residuals], redraw)?.pop()
 }
 
-/// As [`sensitivity`], for each of several series of residuals, with the counter's rounding errors in so many places of the cell.
+/// As [`sensitivity`], for each of several series of residuals.
 pub(super) fn sensitivities(
     problem: &FitProblem<'_>,
     values: &[f64],
     series: &[&[f64]],
-    places: usize,
+    redraw: Redraw,
 ) -> Option<Vec<Sensitivity>> {
     let mut sums: Vec<Sums<'_>> = (series.iter())
-        .map(|residuals| Sums::new(values.len(), residuals, places))
+        .map(|residuals| Sums::new(values.len(), residuals, redraw))
         .collect();
     let centring = columns(problem, values, |columns| {
         for sums in &mut sums {
@@ -155,6 +170,8 @@ struct Sums<'r> {
     segments: Vec<(DVector<f64>, f64)>,
     /// Jᵀ·e and Σ e of each place in the cell.
     places: Vec<(DVector<f64>, f64)>,
+    /// The same of the residuals at each shift in time.
+    shifts: Vec<(DVector<f64>, f64)>,
 }
 
 /// Error of a counter that rounds down to the centre of its cell, counts, of a path that is `from_centre` beside the centre of the
@@ -164,9 +181,11 @@ fn rounding(from_centre: f64, place: f64) -> f64 {
 }
 
 impl<'r> Sums<'r> {
-    fn new(columns: usize, residuals: &'r [f64], places: usize) -> Self {
+    fn new(columns: usize, residuals: &'r [f64], redraw: Redraw) -> Self {
+        let none = (DVector::zeros(columns), 0.0);
         Sums {
-            places: vec![(DVector::zeros(columns), 0.0); places],
+            places: vec![none.clone(); redraw.places],
+            shifts: vec![none; redraw.shifts],
             residuals,
             samples: 0,
             sum: DVector::zeros(columns),
@@ -215,6 +234,18 @@ impl<'r> Sums<'r> {
                     *gradient += dot(&column[from..to], &errors);
                 }
             }
+            let parts = self.shifts.len() + 1;
+            for (number, (gradient, sum)) in self.shifts.iter_mut().enumerate() {
+                let all = self.residuals;
+                let ahead = at + (number + 1) * all.len() / parts;
+                for (error, k) in errors.iter_mut().zip(ahead..) {
+                    *error = all[k % all.len()];
+                }
+                *sum += errors.iter().sum::<f64>();
+                for (gradient, column) in gradient.iter_mut().zip(columns) {
+                    *gradient += dot(&column[from..to], &errors);
+                }
+            }
             self.samples += to - from;
             from = to;
         }
@@ -234,14 +265,19 @@ impl<'r> Sums<'r> {
                     self.squares.column_mut(k).fill(0.0);
                 }
             }
-            for (gradient, sum) in self.segments.iter_mut().chain(&mut self.places) {
+            let redrawn = self.places.iter_mut().chain(&mut self.shifts);
+            for (gradient, sum) in self.segments.iter_mut().chain(redrawn) {
                 *gradient -= &mean * *sum;
             }
         }
         Sensitivity {
             squares: self.squares,
             gradients: self.segments.into_iter().map(|(g, _)| g).collect(),
-            roundings: self.places.into_iter().map(|(g, _)| g).collect(),
+            redrawn: [self.places, self.shifts]
+                .into_iter()
+                .filter(|drawn| !drawn.is_empty())
+                .map(|drawn| drawn.into_iter().map(|(g, _)| g).collect())
+                .collect(),
         }
     }
 }
@@ -268,7 +304,7 @@ mod tests {
                 .map(|_| 1 + (draw().abs() * 40.0) as usize)
                 .collect();
             for centring in [Centring::Done, Centring::Pending] {
-                let mut sums = Sums::new(columns, &residuals, 0);
+                let mut sums = Sums::new(columns, &residuals, Redraw::default());
                 let mut from = 0;
                 for part in &parts {
                     let to = (from + part).min(rows);
@@ -313,7 +349,7 @@ mod tests {
     #[test]
     fn a_change_that_is_the_same_everywhere_is_none() {
         let residuals = [0.3; 1000];
-        let mut sums = Sums::new(2, &residuals, 0);
+        let mut sums = Sums::new(2, &residuals, Redraw::default());
         sums.add(&[vec![0.1; 1000], (0..1000).map(f64::from).collect()]);
         let found = sums.centred(Centring::Pending);
         assert_eq!(found.squares[(0, 0)], 0.0);

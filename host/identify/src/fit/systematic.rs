@@ -7,7 +7,7 @@
 use super::options::Options;
 use super::parameter::{Parameter, parameters};
 use super::report::{Solved, reconciled};
-use super::sensitivity::{Sensitivity, sensitivities};
+use super::sensitivity::{Redraw, Sensitivity, sensitivities};
 use super::uncertainty::{Uncertainty, step};
 use servoid_engine::problem::{Candidate, Data, FitProblem};
 use shared::effects::{EffectSet, Kind};
@@ -222,7 +222,7 @@ fn followed(
     let x = problem.structure.coordinates(values);
     let held = problem.with_structure(structure, x.clone());
     let series: Vec<&[f64]> = changes.iter().map(Vec::as_slice).collect();
-    let sums = sensitivities(&held, values, &series, 0).unwrap_or_default();
+    let sums = sensitivities(&held, values, &series, Redraw::default()).unwrap_or_default();
     let moved = |sums: &Sensitivity| {
         let step = step(sums, &x);
         let unknowns = values.iter().zip(&held.structure.unknowns);

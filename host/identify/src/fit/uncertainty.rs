@@ -8,9 +8,10 @@
 //! within a segment, it is counted once.
 //!
 //! That fails in two ways. Where a few segments hold all the information, the fit has made their gradients vanish; and
-//! where the excitation repeats itself, so do the rounding errors, coherent across segments. So the rounding errors that the
-//! counter makes of the fitted path are counted as well, over all places of the path in its cell, and the covariance
-//! is in no direction below the one that they make (a parametric bootstrap, Efron and Tibshirani, 1993, of the quantiser).
+//! where the excitation repeats itself, so do the rounding errors, coherent across segments. So errors are drawn again that the fitted
+//! path may as well have had (a bootstrap, Efron and Tibshirani, 1993): the rounding errors that the counter makes of the fitted path,
+//! over all places of the path in its cell, and the residuals at other times, shifted around the end (the circular
+//! bootstrap of a series that is correlated for long: Politis and Romano, 1992). The covariance is in no direction below the one that either makes.
 
 use super::correlation_time::correlation_sum;
 use super::sensitivity::{SEGMENTS, Sensitivity, sensitivity};
@@ -128,16 +129,15 @@ pub(super) fn solve(
     let fine = found.gradients.len() as f64;
     let correction = fine / (fine - (columns as f64).min(fine - 1.0)) * few(joined.len());
     let sandwich = &inverse * middle * &inverse * correction + &away * away.transpose();
-    let scaled_covariance = match &found.roundings[..] {
-        [] => sandwich,
-        roundings => {
-            let mut rounding = DMatrix::zeros(columns, columns);
-            for gradient in roundings.iter().map(scaled) {
-                rounding += &gradient * gradient.transpose() / roundings.len() as f64;
-            }
-            not_below(&sandwich, &(&inverse * rounding * &inverse))
+    let drawn = |gradients: &Vec<DVector<f64>>| {
+        let mut middle = DMatrix::zeros(columns, columns);
+        for gradient in gradients.iter().map(scaled) {
+            middle += &gradient * gradient.transpose() / gradients.len() as f64;
         }
+        &inverse * middle * &inverse
     };
+    let scaled_covariance = (found.redrawn.iter().map(drawn))
+        .fold(sandwich, |covariance, drawn| not_below(&covariance, &drawn));
     let covariance = DMatrix::from_fn(columns, columns, |i, k| {
         let scale = scales[i] * scales[k];
         match (scale > 0.0, i == k) {

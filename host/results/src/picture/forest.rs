@@ -2,7 +2,7 @@
 //! sizes differ.
 
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use crate::number_text::with_error;
+use crate::number_text::stated;
 use crate::schema::Estimate;
 use plotly::common::{ErrorData, ErrorType, Marker, Mode};
 use plotly::{Plot, Scatter};
@@ -79,10 +79,11 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
 
 fn cells(source: &str, parameter: &Estimate) -> [String; 5] {
     let (value, interval) = match (parameter.std, parameter.identifiable) {
-        (Some(std), true) => (
-            with_error(parameter.value, parameter.std),
-            format!("± {}", crate::number_text::short(WIDE * std)),
-        ),
+        (Some(std), true) => {
+            let changes = parameter.systematic.iter().map(|one| one.change.abs());
+            let (value, _) = stated(parameter.value, std, changes.fold(0.0, f64::max));
+            (value, format!("± {}", crate::number_text::short(WIDE * std)))
+        }
         (Some(std), false) => (
             format!(
                 "below {}",

@@ -5,7 +5,7 @@ use super::fold::folded;
 use super::position_loop;
 use super::systematic;
 use super::style::{GOOD, HEADING, painted};
-use crate::number_text::{rough, short, to_error, with_error};
+use crate::number_text::{short, stated, with_error};
 use crate::schema::contest::least_cost;
 use servoid_engine::compare::{Row, quantile};
 use servoid_engine::problem::Data;
@@ -33,9 +33,9 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
         ),
         (None, _) => return format!("  {:26} not determined by this recording\n", p.name),
         (Some(std), true) => {
-            let (number, error) = number(p, std);
+            let (number, error) = stated(p.value, std, p.largest_systematic());
             let (usual, spread) = (usual(p), spread(p.spread));
-            format!("{number} {}{error}{usual}{spread}", p.unit)
+            format!("{number} {}{usual}{error}{spread}", p.unit)
         }
         (Some(std), false) => {
             format!(
@@ -46,19 +46,6 @@ pub(super) fn parameter(p: &Parameter, converged: bool) -> String {
         }
     };
     format!("  {:26} {value}\n", p.name)
-}
-
-/// A value with as many digits as it deserves, and what is to be said of its error behind the unit. Where an error of the recording
-/// may well be a power of ten larger than the standard error, that one says where the digits end.
-fn number(p: &Parameter, std: f64) -> (String, String) {
-    let largest = (p.systematic.iter())
-        .map(|s| s.change.abs())
-        .fold(0.0, f64::max);
-    if std > 0.0 && largest.log10().floor() > std.log10().floor() {
-        let error = format!(", standard error {}", rough(std));
-        return (to_error(p.value, largest), error);
-    }
-    (with_error(p.value, Some(std)), String::new())
 }
 
 /// The noise that model and encoder leave.

@@ -59,8 +59,8 @@ pub struct Map {
     /// Part of the variance beyond `perfect_volts_rms` that the bins explain.
     pub share: Option<f64>,
     /// The part that is left by the quantities which explain more, and explained by this one: these sum to what all explain together.
-    #[serde(default)]
-    pub own_share: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub own_share: Option<f64>,
     /// Whether that is more than chance.
     pub beyond_chance: bool,
     /// Samples that are worth as much as independent ones.
@@ -177,7 +177,7 @@ impl From<&found::Map> for Map {
             against: against.to_owned(),
             unit: unit.to_owned(),
             share: finite(map.share),
-            own_share: map.own_share,
+            own_share: finite(map.own_share),
             beyond_chance: map.beyond_chance,
             effective_samples: finite(map.effective_samples),
             bins: map.bins.iter().map(bin).collect(),

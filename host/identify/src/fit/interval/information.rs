@@ -165,7 +165,7 @@ impl Information {
         let sums = Sensitivity {
             squares: curvature,
             gradients: self.gradients.iter().map(held).collect(),
-            roundings: Vec::new(),
+            redrawn: Vec::new(),
         };
         likely(&sums, effective_samples)
     }

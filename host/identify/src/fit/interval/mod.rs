@@ -10,9 +10,8 @@
 //! The noise is a meter of misfit as well: a right model of a clean encoder leaves nothing, and whatever else is wrong, down to
 //! hundredths of a count, is noise here.
 //!
-//! Sources: A. S. Willsky's and others' interval-censored regression, J. Tobin, *Econometrica* 26, 24, 1958; F. Gustafsson and R.
-//! Karlsson, *Automatica* 45(12), 2794, 2009 (identification from quantised readings); J. W. Pratt, *J. Am. Stat. Assoc.* 76, 103,
-//! 1981 (the likelihood is concave).
+//! Sources: F. Gustafsson and R. Karlsson, *Automatica* 45(12), 2794, 2009 (identification from quantised readings); J. W. Pratt,
+//! *J. Am. Stat. Assoc.* 76, 103, 1981 (the likelihood of grouped data is concave).
 //!
 //! When it fails: with a misfit that is not white over time, as every likelihood of independent readings; the noise is then
 //! large, and a fit with process noise ([`crate::likelihood`]) the better one.
@@ -82,19 +81,16 @@ pub fn most_likely(
         .begin(problem.structure.values(&found.x))
         .ok_or_else(|| Error::Failed(format!("{}: the model cannot run", problem.data.source)))?;
     let (end, information) = search.descend(start);
-    let squares: Vec<f64> = end.errors.clone();
     let evaluations = found.evaluations + search.evaluations;
-    let mut curve = vec![(evaluations, end.surprise)];
-    curve.dedup();
     let found = Found {
         x: problem.structure.coordinates(&end.values),
         cost: end.surprise,
         evaluations,
-        curve,
+        curve: vec![(evaluations, end.surprise)],
         interrupted: found.interrupted || stop.load(Ordering::Relaxed),
     };
     let solved = Solved {
-        rms_counts: rms_counts(problem.data, &squares),
+        rms_counts: rms_counts(problem.data, &end.errors),
         uncertainty: information
             .as_ref()
             .map(|information| end.uncertainty(problem, information)),
@@ -222,7 +218,6 @@ impl Search<'_, '_> {
             information.add(problem, from, columns, &cells);
             from = to;
         })?;
-        // A model without unknowns has cells all the same.
         information.hold(&problem.structure, &here.values, here.noise <= LEAST_NOISE);
         information.is_finite().then_some(information)
     }

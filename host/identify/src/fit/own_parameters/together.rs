@@ -158,7 +158,7 @@ impl<'a> Together<'a> {
         let mut joint = Sensitivity {
             squares: DMatrix::zeros(dim, dim),
             gradients: Vec::new(),
-            roundings: Vec::new(),
+            redrawn: Vec::new(),
         };
         let many = (self.parts.len() as f64).sqrt();
         for (index, part) in self.parts.iter().enumerate() {
@@ -181,9 +181,11 @@ impl<'a> Together<'a> {
                 .gradients
                 .extend(found.gradients.iter().map(|g| placed(g, 1.0)));
             // Their products are averaged over the list, and of independent recordings they add.
-            joint
-                .roundings
-                .extend(found.roundings.iter().map(|g| placed(g, many)));
+            let most = joint.redrawn.len().max(found.redrawn.len());
+            joint.redrawn.resize_with(most, Vec::new);
+            for (joint, found) in joint.redrawn.iter_mut().zip(&found.redrawn) {
+                joint.extend(found.iter().map(|g| placed(g, many)));
+            }
         }
         let squares = runs.iter().map(|run| squares(run)).sum();
         let effective = (self.parts.iter().zip(runs))
