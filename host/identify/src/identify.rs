@@ -79,7 +79,10 @@ pub fn identify_data(
         solved: solved_at,
         left,
     } = &searched;
-    let note = fit::integration::note(options.method, &searched);
+    let notes = [
+        fit::integration::note(options.method, &searched),
+        interval::note(problem, options),
+    ];
     // Everything after the search runs the model with the steps that it ended with.
     let options = &Options {
         method: problem.method,
@@ -111,7 +114,7 @@ pub fn identify_data(
         own.recordings.write_into(&mut fit);
         fit
     };
-    fit.notes.extend(note);
+    fit.notes.extend(notes.into_iter().flatten());
     Ok(fit)
 }
 

@@ -1,7 +1,7 @@
 //! The table of coverage as text.
 
 use crate::prove::report::folded;
-use servoid_results::plot::ReliabilityLine;
+use servoid_results::plot::{ReliabilityLine, Statement};
 use servoid_results::schema::coverage::{Condition, Coverage, Covered};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -26,7 +26,11 @@ pub fn lines(coverage: &Coverage) -> Vec<ReliabilityLine> {
             let inside = z.iter().filter(|z| z.abs() <= width).count();
             inside as f64 / z.len() as f64
         };
-        let points = LEVELS.map(|level| (level, held(level), None));
+        let points = LEVELS.map(|level| Statement {
+            stated: level,
+            found: held(level),
+            interval: None,
+        });
         ReliabilityLine {
             name: title(condition).replace('\n', ""),
             points: if z.is_empty() {

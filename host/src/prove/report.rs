@@ -2,7 +2,7 @@
 
 use super::DETECTABLE_COUNTS;
 use super::tally::words;
-use servoid_results::plot::ReliabilityLine;
+use servoid_results::plot::{ReliabilityLine, Statement};
 use servoid_results::report::fold::folded_to;
 use servoid_results::schema::Proof;
 use servoid_results::schema::proof::{Confusion, Failure, Group, Rate, Reliability, Share, Spread};
@@ -81,7 +81,11 @@ pub fn lines(proof: &Proof) -> Vec<ReliabilityLine> {
         points: (found.bins.iter())
             .filter_map(|bin| {
                 let Rate { part, low, high } = bin.right.rate?;
-                Some((bin.probability, part, Some((low, high))))
+                Some(Statement {
+                    stated: bin.probability,
+                    found: part,
+                    interval: Some((low, high)),
+                })
             })
             .collect(),
     };

@@ -8,7 +8,7 @@ mod reliability;
 pub use bode::bode;
 pub use curves::cost_curves;
 pub use overlay::overlay;
-pub use reliability::{ReliabilityLine, reliability};
+pub use reliability::{ReliabilityLine, Statement, reliability};
 
 use crate::error::Error;
 use crate::palette;

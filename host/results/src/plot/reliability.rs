@@ -17,8 +17,19 @@ const LINE: i32 = 40;
 pub struct ReliabilityLine {
     /// Its name.
     pub name: String,
-    /// Stated and found, parts of one, with the 95 % interval of what was found where it is known.
-    pub points: Vec<(f64, f64, Option<(f64, f64)>)>,
+    /// In the order of what was stated.
+    pub points: Vec<Statement>,
+}
+
+/// One point, in parts of one.
+#[derive(Clone, Copy, Debug)]
+pub struct Statement {
+    /// What was stated.
+    pub stated: f64,
+    /// How often it was right.
+    pub found: f64,
+    /// The 95 % interval of that, where it is known.
+    pub interval: Option<(f64, f64)>,
 }
 
 /// Draws the lines beside the diagonal, on which statements are as often right as they say; `axes` name the two.
@@ -50,12 +61,13 @@ pub fn reliability(lines: &[ReliabilityLine], axes: [&str; 2]) -> Result<String,
             .map_err(failed)?;
         for (k, line) in lines.iter().enumerate() {
             let colour = rgb(palette::of(k));
-            let bars = line.points.iter().filter_map(|&(x, _, ends)| {
-                let (low, high) = ends?;
-                Some(PathElement::new([(x, low), (x, high)], colour.mix(0.6)))
+            let bars = line.points.iter().filter_map(|point| {
+                let (low, high) = point.interval?;
+                let ends = [(point.stated, low), (point.stated, high)];
+                Some(PathElement::new(ends, colour.mix(0.6)))
             });
             chart.draw_series(bars).map_err(failed)?;
-            let points = line.points.iter().map(|&(x, y, _)| (x, y));
+            let points = line.points.iter().map(|point| (point.stated, point.found));
             chart
                 .draw_series(LineSeries::new(points, colour.stroke_width(2)).point_size(3))
                 .map_err(failed)?;

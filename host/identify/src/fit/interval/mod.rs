@@ -63,6 +63,25 @@ pub fn applies(problem: &FitProblem<'_>, options: &Options) -> bool {
         && problem.horizon == Horizon::Whole
 }
 
+/// What a user should know where the options ask for this likelihood and its noise cannot be found.
+pub fn note(problem: &FitProblem<'_>, options: &Options) -> Option<String> {
+    let Cost::Interval { noise_counts } = options.cost else {
+        return None;
+    };
+    let why = if options.algorithm != LEAST_SQUARES {
+        "which only --algorithm lm estimates"
+    } else if !problem.data.quantised {
+        "since the angle is no whole count"
+    } else if problem.horizon != Horizon::Whole {
+        "which is not estimated with --window"
+    } else {
+        return None;
+    };
+    Some(format!(
+        "the noise before the counter is taken as {noise_counts} counts, {why}"
+    ))
+}
+
 /// The most likely model from where least squares ended, and the search that has found it.
 ///
 /// # Errors
