@@ -133,27 +133,21 @@ fn profiles_of(
     };
     let again = |problem: &FitProblem<'_>| {
         let solver = solve::by_name(LEAST_SQUARES)?;
-        let found = fit::search(problem, solver.as_ref(), &few, progress.stop(), &mut |_, _| {});
+        let found = fit::search(
+            problem,
+            solver.as_ref(),
+            &few,
+            progress.stop(),
+            &mut |_, _| {},
+        );
         if by_cells {
-            return most_likely(problem, &found, progress.stop()).ok().map(|(found, _)| found);
+            return most_likely(problem, &found, progress.stop())
+                .ok()
+                .map(|(found, _)| found);
         }
         Some(found)
     };
     profile::profiles(problem, found, solved, &again, progress.stop())
-}
-
-/// Refuses profiles of what is no likelihood.
-fn check_profile(problem: &FitProblem<'_>, options: &Options) -> Result<(), Error> {
-    let why = if !options.own.is_empty() {
-        "it is of one model; leave out --own"
-    } else if options.algorithm != LEAST_SQUARES {
-        "every point of it is a fit by least squares; leave out --algorithm"
-    } else if problem.cost != Cost::Squared {
-        "this cost is no likelihood; take --cost squared or interval"
-    } else {
-        return Ok(());
-    };
-    Err(Error::Usage(format!("--profile: {why}")))
 }
 
 fn conclude(
@@ -184,7 +178,7 @@ fn search_model<'a>(
         problem.cost = Cost::Squared;
     }
     if options.profile {
-        check_profile(&problem, options)?;
+        profile::check(&problem, options)?;
     }
     if options.certificate {
         certificate::check(&problem)?;

@@ -158,8 +158,7 @@ impl Bench {
             }
             let reading = Reading {
                 time_s: now,
-                counts: encoder
-                    .read(state.angle, self.angle_noise_counts * angle_noise.normal()),
+                counts: encoder.read(state.angle, self.angle_noise_counts * angle_noise.normal()),
                 current_a: state.current
                     + self.current_zero_a
                     + self.current_noise_a * noise.normal(),

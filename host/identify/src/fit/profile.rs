@@ -6,10 +6,14 @@
 //! cells it is twice the logarithm of the likelihood. The interval is where it rises by the 95 % point of χ² with one degree of
 //! freedom (D. M. Bates and D. G. Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
 
+use super::options::Options;
 use super::report::Solved;
+use crate::error::Error;
+use crate::identify::LEAST_SQUARES;
 use rayon::prelude::*;
 use servoid_engine::problem::{FitProblem, Unknown};
 use servoid_engine::solve::Found;
+use shared::cost::Cost;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The 95 % point of χ² with one degree of freedom.
@@ -41,6 +45,23 @@ pub struct Profile {
     pub interval: [Option<f64>; 2],
 }
 
+/// Refuses what has no likelihood.
+///
+/// # Errors
+/// [`Error::Usage`] for parameters of each recording, another search than least squares, and another cost.
+pub(crate) fn check(problem: &FitProblem<'_>, options: &Options) -> Result<(), Error> {
+    let why = if !options.own.is_empty() {
+        "it is of one model; leave out --own"
+    } else if options.algorithm != LEAST_SQUARES {
+        "every point of it is a fit by least squares; leave out --algorithm"
+    } else if problem.cost != Cost::Squared {
+        "this cost is no likelihood; take --cost squared or interval"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Usage(format!("--profile: {why}")))
+}
+
 /// The profile of each unknown that is no whole number and is not held. `fit` ends the search of a problem from its start.
 pub(crate) fn profiles(
     problem: &FitProblem<'_>,
@@ -49,9 +70,8 @@ pub(crate) fn profiles(
     fit: &(dyn Fn(&FitProblem<'_>) -> Option<Found> + Sync),
     stop: &AtomicBool,
 ) -> Vec<Profile> {
-    let free = |(_, unknown): &(usize, &Unknown)| {
-        !unknown.whole && unknown.range.0 < unknown.range.1
-    };
+    let free =
+        |(_, unknown): &(usize, &Unknown)| !unknown.whole && unknown.range.0 < unknown.range.1;
     let unknowns: Vec<usize> = (problem.structure.unknowns.iter().enumerate())
         .filter(free)
         .map(|(k, _)| k)
@@ -117,7 +137,10 @@ impl Search<'_, '_> {
         for side in &mut sides {
             let mut farther = DISTANCES[DISTANCES.len() - 1];
             for number in 1..MOST {
-                let high = side.points.last().is_some_and(|(_, rise)| scale * rise > DRAWN);
+                let high = side
+                    .points
+                    .last()
+                    .is_some_and(|(_, rise)| scale * rise > DRAWN);
                 if side.ended || high {
                     break;
                 }
@@ -165,7 +188,8 @@ impl Search<'_, '_> {
         structure.unknowns[self.k].confine((value, value));
         match (self.fit)(&self.problem.with_structure(structure, side.x.clone())) {
             Some(found) if found.cost.is_finite() => {
-                side.points.push((value, (found.cost - self.best.cost).max(0.0)));
+                side.points
+                    .push((value, (found.cost - self.best.cost).max(0.0)));
                 side.x = found.x;
             }
             _ => side.ended = true,

@@ -182,13 +182,7 @@ impl Fit {
         let candidate = problem.structure.candidate(values);
         let mut notes = Vec::new();
         let reconciled = reconciled(problem, &candidate, spread, options);
-        let mut parameters = parameters(
-            problem,
-            values,
-            spread,
-            reconciled.as_ref(),
-            &mut notes,
-        );
+        let mut parameters = parameters(problem, values, spread, reconciled.as_ref(), &mut notes);
         for contradiction in contradictions(data, &candidate) {
             for parameter in &mut parameters {
                 if contradiction.parameters.contains(&parameter.name) {

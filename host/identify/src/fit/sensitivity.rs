@@ -75,7 +75,10 @@ pub(super) fn sensitivities(
         let gradients = found.gradients.iter().flat_map(DVector::iter);
         found.squares.iter().chain(gradients).all(|x| x.is_finite())
     };
-    let found: Vec<Sensitivity> = sums.into_iter().map(|sums| sums.centred(centring)).collect();
+    let found: Vec<Sensitivity> = sums
+        .into_iter()
+        .map(|sums| sums.centred(centring))
+        .collect();
     found.iter().all(finite).then_some(found)
 }
 

@@ -89,7 +89,12 @@ pub(crate) fn add_systematic(
     for cause in Cause::ALL {
         let changed = match cause {
             Cause::CommandScale => rescaled(problem, solved).into_iter().collect(),
-            _ => followed(problem, solved, spread, &residual_changes(cause, problem, solved)),
+            _ => followed(
+                problem,
+                solved,
+                spread,
+                &residual_changes(cause, problem, solved),
+            ),
         };
         if changed.is_empty() {
             continue;
@@ -158,7 +163,8 @@ fn rescaled(problem: &FitProblem<'_>, solved: &Solved) -> Option<Vec<f64>> {
     }
     let units = larger_units(data).ok()?;
     let mut model = structure.candidate(&solved.values);
-    let scale = |value: f64, quantity: Quantity| value / data.units.base(quantity) * units.base(quantity);
+    let scale =
+        |value: f64, quantity: Quantity| value / data.units.base(quantity) * units.base(quantity);
     let Machine {
         kb,
         damping,
@@ -227,9 +233,7 @@ fn followed(
         let step = step(sums, &x);
         let unknowns = values.iter().zip(&held.structure.unknowns);
         (unknowns.zip(step.iter()))
-            .map(|((value, unknown), step)| {
-                (value + step).clamp(unknown.range.0, unknown.range.1)
-            })
+            .map(|((value, unknown), step)| (value + step).clamp(unknown.range.0, unknown.range.1))
             .collect()
     };
     sums.iter().map(moved).collect()
@@ -250,7 +254,12 @@ fn late(problem: &FitProblem<'_>, values: &[f64]) -> Option<Vec<f64>> {
     let here = problem.structure.candidate(values);
     let late = problem.errors(&behind_latency(&here)?).ok()?;
     let here = problem.errors(&here).ok()?;
-    Some(late.iter().zip(&here).map(|(late, here)| late - here).collect())
+    Some(
+        late.iter()
+            .zip(&here)
+            .map(|(late, here)| late - here)
+            .collect(),
+    )
 }
 
 /// `None` where the model has a delay of its own, which is then fitted.

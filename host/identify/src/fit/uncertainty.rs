@@ -164,11 +164,21 @@ pub(super) fn likely(found: &Sensitivity, effective_samples: f64) -> Uncertainty
     let Inverse {
         per_scale, inverse, ..
     } = inverse(&found.squares);
-    let scale = |k: usize| if per_scale[k] > 0.0 { 1.0 / per_scale[k] } else { 0.0 };
+    let scale = |k: usize| {
+        if per_scale[k] > 0.0 {
+            1.0 / per_scale[k]
+        } else {
+            0.0
+        }
+    };
     let own = |matrix: &DMatrix<f64>| {
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
             let (i_scale, k_scale) = (scale(i), scale(k));
-            if i_scale * k_scale > 0.0 { matrix[(i, k)] * i_scale * k_scale } else { 0.0 }
+            if i_scale * k_scale > 0.0 {
+                matrix[(i, k)] * i_scale * k_scale
+            } else {
+                0.0
+            }
         })
     };
     let joint = not_below(&inverse, &own(&all.covariance));
@@ -256,7 +266,10 @@ pub(super) fn segments(effective_samples: f64) -> usize {
 /// Sums of neighbours, so that about `count` are left.
 fn joined(gradients: &[DVector<f64>], count: usize) -> Vec<DVector<f64>> {
     let length = gradients.len().div_ceil(count.max(1)).max(1);
-    gradients.chunks(length).map(|some| some.iter().sum()).collect()
+    gradients
+        .chunks(length)
+        .map(|some| some.iter().sum())
+        .collect()
 }
 
 /// Factor on a variance that is estimated from so few segments: of the estimate itself, and of Student's distribution whose 95 %

@@ -82,7 +82,10 @@ fn cells(source: &str, parameter: &Estimate) -> [String; 5] {
         (Some(std), true) => {
             let changes = parameter.systematic.iter().map(|one| one.change.abs());
             let (value, _) = stated(parameter.value, std, changes.fold(0.0, f64::max));
-            (value, format!("± {}", crate::number_text::short(WIDE * std)))
+            (
+                value,
+                format!("± {}", crate::number_text::short(WIDE * std)),
+            )
         }
         (Some(std), false) => (
             format!(

@@ -27,7 +27,11 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
         } else {
             "95 %"
         };
-        let dash = if k == 0 { DashType::Solid } else { DashType::Dash };
+        let dash = if k == 0 {
+            DashType::Solid
+        } else {
+            DashType::Dash
+        };
         plot.add_trace(
             Scatter::new(x, y)
                 .name(name)
@@ -36,7 +40,9 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
                 .line(Line::new().color(colour::QUIET).width(1.0).dash(dash)),
         );
     }
-    let drawn = profiles.iter().filter_map(|profile| Some((profile, profile.std?)));
+    let drawn = profiles
+        .iter()
+        .filter_map(|profile| Some((profile, profile.std?)));
     for (k, (profile, std)) in drawn.enumerate() {
         let (x, y): (Vec<f64>, Vec<f64>) = (profile.points.iter())
             .map(|point| {

@@ -43,7 +43,10 @@ pub fn reliability(lines: &[ReliabilityLine], axes: [&str; 2]) -> Result<String,
         root.fill(&WHITE).map_err(failed)?;
         let (square, names) = root.split_horizontally(SQUARE);
         let mut chart = ChartBuilder::on(&square)
-            .caption("on the diagonal statements are as often right as they say", (FONT, 18))
+            .caption(
+                "on the diagonal statements are as often right as they say",
+                (FONT, 18),
+            )
             .margin(12)
             .x_label_area_size(42)
             .y_label_area_size(64)
@@ -76,9 +79,18 @@ pub fn reliability(lines: &[ReliabilityLine], axes: [&str; 2]) -> Result<String,
             names.draw(&mark).map_err(failed)?;
             // In two lines where it is long.
             let at = line.name.len().min(NAME);
-            let end = line.name[..at].rfind(", ").map_or(line.name.len(), |end| end + 1);
-            let end = if line.name.len() > NAME { end } else { line.name.len() };
-            for (row, text) in [&line.name[..end], line.name[end..].trim()].into_iter().enumerate() {
+            let end = line.name[..at]
+                .rfind(", ")
+                .map_or(line.name.len(), |end| end + 1);
+            let end = if line.name.len() > NAME {
+                end
+            } else {
+                line.name.len()
+            };
+            for (row, text) in [&line.name[..end], line.name[end..].trim()]
+                .into_iter()
+                .enumerate()
+            {
                 let place = (32, y - 8 + 16 * row as i32);
                 names
                     .draw(&Text::new(text.to_owned(), place, (FONT, 14)))

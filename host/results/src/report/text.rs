@@ -3,8 +3,8 @@
 use super::diagnosis::bars;
 use super::fold::folded;
 use super::position_loop;
-use super::systematic;
 use super::style::{GOOD, HEADING, painted};
+use super::systematic;
 use crate::number_text::{short, stated, with_error};
 use crate::schema::contest::least_cost;
 use servoid_engine::compare::{Row, quantile};

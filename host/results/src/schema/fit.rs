@@ -1,10 +1,10 @@
 //! `servoid.fit/1`, of `fit`, and of `demo` with its truth and its diagnosis.
 
 use super::certificate::Certificate;
-use super::profile::Profile;
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::Likelihood;
+use super::profile::Profile;
 use super::{Model, PositionLoop, RecordingError, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

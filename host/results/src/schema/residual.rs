@@ -58,7 +58,8 @@ pub struct Map {
     pub unit: String,
     /// Part of the variance beyond `perfect_volts_rms` that the bins explain.
     pub share: Option<f64>,
-    /// The part that is left by the quantities which explain more, and explained by this one: these sum to what all explain together.
+    /// The part that is left by the quantities before it (time and the time since a reversal come last), and explained by this one: these
+    /// sum to what all explain together.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub own_share: Option<f64>,
     /// Whether that is more than chance.

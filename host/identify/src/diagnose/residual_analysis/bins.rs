@@ -42,7 +42,7 @@ impl Against {
     }
 
     /// Whether the volts are counted against the motion, instead of against forward motion.
-    fn turned(self) -> bool {
+    pub fn turned(self) -> bool {
         matches!(self, Against::Time | Against::Reversal)
     }
 }
@@ -70,8 +70,8 @@ pub struct Map {
     pub against: Against,
     /// Share of the variance beyond the encoder's own that the bins explain, less what they would by chance.
     pub share: f64,
-    /// The part of that variance that is left by the maps which explain more, and explained by this one: over all maps these sum
-    /// to what they explain together. Zero where the map is not beyond chance.
+    /// The part of that variance that is left by the maps before it, and explained by this one: over all maps these sum to what
+    /// they explain together. Zero where the map is not beyond chance. Time and the time since a reversal come last.
     pub own_share: f64,
     /// Whether they explain more than bins do by chance once in a thousand.
     pub beyond_chance: bool,
@@ -161,8 +161,8 @@ impl Map {
     }
 }
 
-/// Tells `maps`, of which each explains less than the ones before, what each explains of what those leave, one after the other
-/// (forward selection), as parts of the variance beyond the encoder's `noise`, V².
+/// Tells each of `maps` what it explains of what the ones before leave, as parts of the variance beyond the encoder's `noise`, V². Speed,
+/// voltage and current come first, as they stand in the list; time and the time since a reversal tell what those do not.
 pub fn decompose(
     maps: &mut [Map],
     data: &Data,
@@ -174,7 +174,7 @@ pub fn decompose(
     let beyond = (whole - noise).max(f64::MIN_POSITIVE);
     let mut rest = residuals.to_vec();
     let mut left = 1.0f64;
-    for map in maps.iter_mut().filter(|map| map.beyond_chance) {
+    for map in in_turn(maps) {
         let Some(again) = Map::new(map.against, data, machine, &rest, noise) else {
             continue;
         };
@@ -184,6 +184,13 @@ pub fn decompose(
         map.own_share = ((before - mean_square(&rest)) / beyond).clamp(0.0, left);
         left -= map.own_share;
     }
+}
+
+/// The maps that are beyond chance, in the order in which they explain.
+fn in_turn(maps: &mut [Map]) -> Vec<&mut Map> {
+    let mut some: Vec<&mut Map> = maps.iter_mut().filter(|map| map.beyond_chance).collect();
+    some.sort_by_key(|map| map.against.turned());
+    some
 }
 
 fn mean_square(residuals: &[EquationResidual]) -> f64 {

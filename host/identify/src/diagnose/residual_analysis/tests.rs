@@ -56,12 +56,20 @@ fn what_is_missing_goes_with_what_the_effect_acts_on_and_is_gone_with_it() {
 
 #[test]
 fn what_each_quantity_explains_sums_to_no_more_than_all() {
-    for kind in [Kind::Coulomb, Kind::Windage, Kind::VoltageSat, Kind::Heating] {
+    for kind in [
+        Kind::Coulomb,
+        Kind::Windage,
+        Kind::VoltageSat,
+        Kind::Heating,
+    ] {
         let (without, _) = missing(kind);
         let sum: f64 = without.maps.iter().map(|map| map.own_share).sum();
         assert!((0.0..=1.0 + 1e-12).contains(&sum), "{kind:?}: {sum}");
         let first = &without.maps[0];
-        assert!((first.own_share - first.share).abs() < 0.1, "{kind:?}: {first:?}");
+        assert!(
+            (first.own_share - first.share).abs() < 0.1,
+            "{kind:?}: {first:?}"
+        );
         assert!(sum >= first.own_share, "{kind:?}: {without:?}");
         let unbelieved = without.maps.iter().filter(|map| !map.beyond_chance);
         assert!(unbelieved.into_iter().all(|map| map.own_share == 0.0));

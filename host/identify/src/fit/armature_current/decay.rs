@@ -78,7 +78,10 @@ mod tests {
                     let before = current;
                     current = decay * before + (1.0 - decay) / resistance * (volts - kb * speed);
                     let noise = 1e-3;
-                    Some((current + noise * draw(), [before + noise * draw(), volts, speed]))
+                    Some((
+                        current + noise * draw(),
+                        [before + noise * draw(), volts, speed],
+                    ))
                 })
                 .collect();
             let found = electrical(&rows, interval).unwrap();

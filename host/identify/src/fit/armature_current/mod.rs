@@ -45,7 +45,9 @@ pub fn current_evidence(
         // It is then anything between nothing and all of the damping.
         let machine = &candidate.machine;
         let resistance = machine.inertia / inertia.value;
-        friction.std = friction.std.hypot((machine.kb + machine.damping) / resistance);
+        friction.std = friction
+            .std
+            .hypot((machine.kb + machine.damping) / resistance);
     }
     Some(CurrentEvidence::Torque { inertia, friction })
 }

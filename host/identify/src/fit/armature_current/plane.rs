@@ -90,4 +90,3 @@ impl Plane {
 fn row((volts, speed): (f64, f64), scales: [f64; 2]) -> Vector3<f64> {
     Vector3::new(volts / scales[0], speed / scales[1], 1.0)
 }
-

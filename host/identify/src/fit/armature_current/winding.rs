@@ -41,10 +41,7 @@ pub struct Winding {
 
 /// Resistance and back-EMF constant. `None` where something stands between the command and the winding, and where the current says
 /// little.
-pub fn winding_evidence(
-    data: &Data,
-    model: &Candidate,
-) -> Option<Winding> {
+pub fn winding_evidence(data: &Data, model: &Candidate) -> Option<Winding> {
     let measured = data
         .current_a
         .as_ref()
@@ -65,8 +62,8 @@ pub fn winding_evidence(
         .find(|&count| rounding(data, count) < ROUNDED * variance(&averaged(&all, count)))?;
     let [mut resistance, mut kb] = regressed(&averaged(&all, count), rounding(data, count))?;
     // The electrical time constant is not known for certain: the motion may tell another one.
-    let off = electrical.value
-        + (electrical.std).hypot(electrical.value - model.machine.electrical);
+    let off =
+        electrical.value + (electrical.std).hypot(electrical.value - model.machine.electrical);
     let there = averaged(&intervals(data, measured, &speeds, off), count);
     let there = regressed(&there, rounding(data, count))?;
     for (estimate, there) in [&mut resistance, &mut kb].into_iter().zip(there) {
@@ -160,7 +157,11 @@ fn averaged(intervals: &[Option<Interval>], count: usize) -> Vec<Interval> {
 
 /// Variance of the rounding errors of a speed over `count` intervals, (rad/s)².
 fn rounding(data: &Data, count: usize) -> f64 {
-    let counts = if data.quantised { FLOOR_RMS_COUNTS } else { 0.0 };
+    let counts = if data.quantised {
+        FLOOR_RMS_COUNTS
+    } else {
+        0.0
+    };
     let seconds = data.units.interval * count as f64;
     2.0 * (counts * TAU / data.units.counts_per_rev / seconds).powi(2)
 }

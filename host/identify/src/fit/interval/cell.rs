@@ -84,7 +84,9 @@ impl Cell {
 
 /// Mills' ratio, the normal tail over its density, by Laplace's continued fraction (Abramowitz and Stegun, 26.2.14).
 fn mills(z: f64) -> f64 {
-    let below = (1..=TERMS).rev().fold(z, |below, term| z + f64::from(term) / below);
+    let below = (1..=TERMS)
+        .rev()
+        .fold(z, |below, term| z + f64::from(term) / below);
     1.0 / below
 }
 
@@ -95,7 +97,9 @@ mod tests {
     fn grid() -> impl Iterator<Item = (f64, f64)> {
         let noises = [1e-3, 0.01, 0.1, 0.5, 3.0, 40.0];
         noises.into_iter().flat_map(|noise| {
-            let places = [-30.0, -2.0, -0.1, -0.003, 0.0, 0.2, 0.499, 0.6, 0.998, 1.0, 1.2, 9.0];
+            let places = [
+                -30.0, -2.0, -0.1, -0.003, 0.0, 0.2, 0.499, 0.6, 0.998, 1.0, 1.2, 9.0,
+            ];
             places.into_iter().map(move |above| (above, noise))
         })
     }
@@ -110,10 +114,22 @@ mod tests {
             let (louder, quieter) = (at(0.0, step), at(0.0, -step));
             let quotient = |a: f64, b: f64| (a - b) / (2.0 * step);
             for (what, derivative, quotient) in [
-                ("e", here.slope * noise, quotient(up.surprise, down.surprise)),
+                (
+                    "e",
+                    here.slope * noise,
+                    quotient(up.surprise, down.surprise),
+                ),
                 ("ee", here.curvature * noise, quotient(up.slope, down.slope)),
-                ("t", here.noise_slope, quotient(louder.surprise, quieter.surprise)),
-                ("tt", here.noise_curvature, quotient(louder.noise_slope, quieter.noise_slope)),
+                (
+                    "t",
+                    here.noise_slope,
+                    quotient(louder.surprise, quieter.surprise),
+                ),
+                (
+                    "tt",
+                    here.noise_curvature,
+                    quotient(louder.noise_slope, quieter.noise_slope),
+                ),
                 ("et", here.mixed, quotient(louder.slope, quieter.slope)),
             ] {
                 // The larger the numbers that cancel, the fewer digits are left.

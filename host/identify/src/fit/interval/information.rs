@@ -117,7 +117,10 @@ impl Information {
 
     pub fn is_finite(&self) -> bool {
         let gradients = self.gradients.iter().flat_map(DVector::iter);
-        self.curvature.iter().chain(gradients).all(|x| x.is_finite())
+        self.curvature
+            .iter()
+            .chain(gradients)
+            .all(|x| x.is_finite())
     }
 
     fn gradient(&self) -> DVector<f64> {
@@ -139,7 +142,9 @@ impl Information {
     /// A damped step, and by how much it promises to raise the logarithm of the likelihood. `None` where the damping is too small.
     pub fn step(&self, damping: f64) -> Option<(DVector<f64>, f64)> {
         let (gradient, curvature) = self.free();
-        let scales = curvature.diagonal().map(|x| if x > 0.0 { x.sqrt() } else { 1.0 });
+        let scales = curvature
+            .diagonal()
+            .map(|x| if x > 0.0 { x.sqrt() } else { 1.0 });
         let mut scaled = DMatrix::from_fn(scales.len(), scales.len(), |i, k| {
             curvature[(i, k)] / (scales[i] * scales[k])
         });
@@ -149,7 +154,9 @@ impl Information {
         let step = -scaled.cholesky()?.solve(&gradient.component_div(&scales));
         let step = step.component_div(&scales);
         let promised = -0.5 * gradient.dot(&step);
-        step.iter().all(|x| x.is_finite()).then_some((step, promised))
+        step.iter()
+            .all(|x| x.is_finite())
+            .then_some((step, promised))
     }
 
     /// The covariance of everything that is estimated.

@@ -143,7 +143,8 @@ impl Search<'_, '_> {
     fn begin(&mut self, values: Vec<f64>) -> Option<Point> {
         let count = self.problem.data.recordings.count();
         let mut start = self.at(values, vec![0.0; count], 1.0)?;
-        let beyond = rms_counts(self.problem.data, &start.errors).powi(2) - FLOOR_RMS_COUNTS.powi(2);
+        let beyond =
+            rms_counts(self.problem.data, &start.errors).powi(2) - FLOOR_RMS_COUNTS.powi(2);
         start.noise = beyond.max(0.0).sqrt().max(FLOOR_RMS_COUNTS);
         start.surprise = surprise(&start.errors, start.noise);
         Some(start)
@@ -208,9 +209,7 @@ impl Search<'_, '_> {
     fn moved(&mut self, here: &Point, step: &DVector<f64>, free: &Shifts) -> Option<Point> {
         let unknowns = &self.problem.structure.unknowns;
         let values = (here.values.iter().zip(unknowns).zip(step.iter()))
-            .map(|((value, unknown), step)| {
-                (value + step).clamp(unknown.range.0, unknown.range.1)
-            })
+            .map(|((value, unknown), step)| (value + step).clamp(unknown.range.0, unknown.range.1))
             .collect();
         let mut shifts = here.shifts.clone();
         for (recording, shift) in shifts.iter_mut().enumerate() {
@@ -243,7 +242,10 @@ impl Search<'_, '_> {
 }
 
 fn surprise(errors: &[f64], noise: f64) -> f64 {
-    errors.iter().map(|error| Cell::at(*error, noise).surprise).sum()
+    errors
+        .iter()
+        .map(|error| Cell::at(*error, noise).surprise)
+        .sum()
 }
 
 impl Point {
@@ -255,7 +257,10 @@ impl Point {
         let all = information.uncertainty(effective);
         let unknowns = self.values.len();
         Uncertainty {
-            covariance: all.covariance.view((0, 0), (unknowns, unknowns)).into_owned(),
+            covariance: all
+                .covariance
+                .view((0, 0), (unknowns, unknowns))
+                .into_owned(),
             flat: all.flat[..unknowns].to_vec(),
             ..all
         }

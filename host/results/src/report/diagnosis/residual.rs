@@ -5,7 +5,7 @@ use servoid_identify::diagnose::evidence::plain;
 use servoid_identify::diagnose::residual_analysis::whiteness::{
     AUTOCORRELATION_LIMIT, INPUT_LIMIT,
 };
-use servoid_identify::diagnose::residual_analysis::{Against, ResidualAnalysis, Whiteness};
+use servoid_identify::diagnose::residual_analysis::{Against, Map, ResidualAnalysis, Whiteness};
 
 /// Half the width of a bar, characters.
 const HALF: usize = 12;
@@ -52,8 +52,11 @@ pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String
 
 /// What goes with which quantity, each of what the ones before leave, so that the parts sum.
 fn explained(found: &ResidualAnalysis) -> String {
-    let parts: Vec<(&str, f64)> = (found.maps.iter())
+    let mut maps: Vec<&Map> = (found.maps.iter())
         .filter(|map| map.beyond_chance && map.own_share >= LEAST)
+        .collect();
+    maps.sort_by_key(|map| map.against.turned());
+    let parts: Vec<(&str, f64)> = (maps.iter())
         .map(|map| (map.against.name().0, 100.0 * map.own_share))
         .collect();
     let each: Vec<String> = (parts.iter())

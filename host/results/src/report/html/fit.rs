@@ -66,7 +66,10 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
     ]);
     facts.extend(fit.sigma_counts.map(|sigma| {
         let name = "noise before the counter, counts".to_owned();
-        (name, crate::number_text::with_error(sigma, fit.sigma_std_counts))
+        (
+            name,
+            crate::number_text::with_error(sigma, fit.sigma_std_counts),
+        )
     }));
     Ok(Page {
         title: format!("Fit of {}", fit.recording),

@@ -25,8 +25,8 @@ pub use belongs::doubts;
 pub use failing::{Model, failing};
 
 use crate::error::Error;
-use crate::page::{Block, Page, Section};
 use crate::number_text::rough;
+use crate::page::{Block, Page, Section};
 use crate::picture::{self, Drawing, Estimates, Picture, Run, Table};
 use crate::schema::{Document, Estimate};
 use servoid_engine::problem::Data;
@@ -122,7 +122,9 @@ fn parameters(
     let mut section = Section::new("parameters", "Parameters");
     let forest = picture::forest("forest", &sources);
     section.blocks.extend(forest.map(Block::Picture));
-    section.blocks.extend(systematic(parameters).map(Block::Picture));
+    section
+        .blocks
+        .extend(systematic(parameters).map(Block::Picture));
     if !notes.is_empty() {
         section.blocks.push(Block::List(notes.to_vec()));
     }
