@@ -193,11 +193,16 @@ pub(super) fn likely(found: &Sensitivity, effective_samples: f64) -> Uncertainty
 }
 
 /// How far each unknown moves when the residuals change by the series of which `found` has the sums: one Gauss-Newton step from
-/// the point `x` of the unit cube. Unknowns on a wall stay there, and flat directions are not followed.
-pub(super) fn step(found: &Sensitivity, x: &[f64]) -> DVector<f64> {
+/// the point `x` of the unit cube, in which those that are `held` and those on a wall stay. Flat directions are not followed.
+pub(super) fn step(found: &Sensitivity, x: &[f64], held: &[bool]) -> DVector<f64> {
+    let mut squares = found.squares.clone();
+    for k in (0..held.len()).filter(|&k| held[k]) {
+        squares.row_mut(k).fill(0.0);
+        squares.column_mut(k).fill(0.0);
+    }
     let Inverse {
         per_scale, inverse, ..
-    } = inverse(&found.squares);
+    } = inverse(&squares);
     let gradient = free_gradient(found, x).component_mul(&per_scale);
     -(inverse * gradient).component_mul(&per_scale)
 }
