@@ -13,11 +13,7 @@ pub fn with_error(value: f64, std: Option<f64>) -> String {
     let (value, std) = (value / 10f64.powi(shift), std / 10f64.powi(shift));
     let digits = (1 - std.log10().floor() as i32).clamp(0, 12) as usize;
     let uncertain = (std * 10f64.powi(digits as i32)).round();
-    let tail = if shift == 0 {
-        String::new()
-    } else {
-        format!("e{shift}")
-    };
+    let tail = tail(shift);
     if digits == 0 {
         format!("{value:.0}({std:.0}){tail}")
     } else {
@@ -51,6 +47,15 @@ fn shift(size: f64) -> i32 {
     }
 }
 
+/// The power of ten behind such a number.
+fn tail(shift: i32) -> String {
+    if shift == 0 {
+        String::new()
+    } else {
+        format!("e{shift}")
+    }
+}
+
 /// An interval, both ends with as many digits as tell them apart, or its only end. `None` where it has none.
 pub fn interval(ends: [Option<f64>; 2], unit: &str) -> Option<String> {
     let (low, high) = match ends {
@@ -64,11 +69,7 @@ pub fn interval(ends: [Option<f64>; 2], unit: &str) -> Option<String> {
     let power = 10f64.powi(shift);
     let width = (high - low).max(1e-15 * size) / power;
     let digits = (2.0 - width.log10().floor()).clamp(0.0, 15.0) as usize;
-    let tail = if shift == 0 {
-        String::new()
-    } else {
-        format!("e{shift}")
-    };
+    let tail = tail(shift);
     Some(format!(
         "{:.digits$}{tail} to {:.digits$}{tail} {unit}",
         low / power,

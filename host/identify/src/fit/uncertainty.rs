@@ -107,6 +107,17 @@ pub(super) fn solve(
     squares: f64,
     effective_samples: f64,
 ) -> Uncertainty {
+    solve_above(found, x, squares, effective_samples, false)
+}
+
+/// The same; where `likelihood` says that the squares are the curvature of one, in no direction below its inverse.
+fn solve_above(
+    found: &Sensitivity,
+    x: &[f64],
+    squares: f64,
+    effective_samples: f64,
+    likelihood: bool,
+) -> Uncertainty {
     let columns = x.len();
     let Inverse {
         scales,
@@ -136,7 +147,8 @@ pub(super) fn solve(
         }
         &inverse * middle * &inverse
     };
-    let scaled_covariance = (found.redrawn.iter().map(drawn))
+    let own = likelihood.then(|| inverse.clone());
+    let scaled_covariance = (found.redrawn.iter().map(drawn).chain(own))
         .fold(sandwich, |covariance, drawn| not_below(&covariance, &drawn));
     let covariance = DMatrix::from_fn(columns, columns, |i, k| {
         let scale = scales[i] * scales[k];
@@ -155,41 +167,12 @@ pub(super) fn solve(
     }
 }
 
-/// Covariance from a likelihood's curvature and its gradient over time segments: the curvature's, and in no direction below the
-/// sandwich of the segments, which holds what a misfit repeats within one.
+/// Covariance from a likelihood's curvature and its gradient over time segments: the sandwich of the segments, which holds what a
+/// misfit repeats within one, and in no direction below the curvature's.
 pub(super) fn likely(found: &Sensitivity, effective_samples: f64) -> Uncertainty {
     let inside = vec![0.5; found.squares.ncols()];
     // One step may lower minus the logarithm by so much before the search counts as ended too early.
-    let mut all = solve(found, &inside, 1.0, effective_samples);
-    let Inverse {
-        per_scale, inverse, ..
-    } = inverse(&found.squares);
-    let scale = |k: usize| {
-        if per_scale[k] > 0.0 {
-            1.0 / per_scale[k]
-        } else {
-            0.0
-        }
-    };
-    let own = |matrix: &DMatrix<f64>| {
-        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
-            let (i_scale, k_scale) = (scale(i), scale(k));
-            if i_scale * k_scale > 0.0 {
-                matrix[(i, k)] * i_scale * k_scale
-            } else {
-                0.0
-            }
-        })
-    };
-    let joint = not_below(&inverse, &own(&all.covariance));
-    for i in 0..joint.nrows() {
-        for k in 0..joint.ncols() {
-            if per_scale[i] * per_scale[k] > 0.0 {
-                all.covariance[(i, k)] = joint[(i, k)] * per_scale[i] * per_scale[k];
-            }
-        }
-    }
-    all
+    solve_above(found, &inside, 1.0, effective_samples, true)
 }
 
 /// How far each unknown moves when the residuals change by the series of which `found` has the sums: one Gauss-Newton step from

@@ -193,7 +193,8 @@ fn in_turn(maps: &mut [Map]) -> Vec<&mut Map> {
     some
 }
 
-fn mean_square(residuals: &[EquationResidual]) -> f64 {
+/// Mean of the squares of the missing volts, V².
+pub fn mean_square(residuals: &[EquationResidual]) -> f64 {
     let squares: f64 = residuals.iter().map(|r| r.volts * r.volts).sum();
     squares / residuals.len().max(1) as f64
 }

@@ -107,8 +107,7 @@ impl ResidualAnalysis {
 const NOTICEABLE: f64 = 1.25;
 
 fn rms(residuals: &[EquationResidual]) -> f64 {
-    let sum: f64 = residuals.iter().map(|r| r.volts * r.volts).sum();
-    (sum / residuals.len().max(1) as f64).sqrt()
+    bins::mean_square(residuals).sqrt()
 }
 
 /// What a model leaves of its own readings once they are floored to counts, V RMS.

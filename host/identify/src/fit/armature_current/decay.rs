@@ -3,9 +3,9 @@
 //! With the voltage held over an interval, `i(h) = E·i(0) + (1 − E)/R·(u − Kb·ω)` with `E = exp(−h·R/L)`: a regression of each current
 //! on the one before, the voltage and the speed (an ARX model: Ljung, *System Identification*, 2nd ed., 1999, §4.2).
 
+use super::least_squares::LeastSquares;
 use crate::fit::physical::Estimate;
-use crate::fit::uncertainty::{few, independent, segments};
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::Vector4;
 
 /// One interval: the current at its end, A; the current at its begin, A, the voltage, V, and the speed, rad/s.
 pub type Row = (f64, [f64; 3]);
@@ -16,32 +16,16 @@ pub fn electrical(rows: &[Option<Row>], interval: f64) -> Option<Estimate> {
     let used: Vec<Row> = rows.iter().flatten().copied().collect();
     let largest = |k: usize| used.iter().map(|(_, row)| row[k].abs()).fold(0.0, f64::max);
     let scales = [0, 1, 2].map(largest);
-    let column = |row: &[f64; 3]| {
+    let column = |(_, row): &Row| {
         let [a, b, c] = [0, 1, 2].map(|k| row[k] / scales[k].max(f64::MIN_POSITIVE));
         Vector4::new(a, b, c, 1.0)
     };
-    let mut squares = Matrix4::zeros();
-    let mut products = Vector4::zeros();
-    for (current, row) in &used {
-        let column = column(row);
-        squares += column * column.transpose();
-        products += column * *current;
-    }
-    let inverse = squares.try_inverse()?;
-    let slopes = inverse * products;
-    let errors: Vec<f64> = (used.iter())
-        .map(|(current, row)| current - slopes.dot(&column(row)))
-        .collect();
-    let length = used.len().div_ceil(segments(independent(&errors))).max(1);
-    let gradients: Vec<Vector4<f64>> = (used.chunks(length).zip(errors.chunks(length)))
-        .map(|(rows, errors)| {
-            let each = rows.iter().zip(errors);
-            each.map(|((_, row), error)| column(row) * *error).sum()
-        })
-        .collect();
-    let middle: Matrix4<f64> = gradients.iter().map(|g| g * g.transpose()).sum();
-    let variance = (inverse * middle * inverse)[(0, 0)] * few(gradients.len());
-    let (decay, std) = (slopes[0] / scales[0], variance.sqrt() / scales[0]);
+    let columns: Vec<Vector4<f64>> = used.iter().map(column).collect();
+    let currents: Vec<f64> = used.iter().map(|(current, _)| *current).collect();
+    let fitted = LeastSquares::through(&columns, &currents, |_| true)?;
+    let errors = fitted.errors(&columns, &currents);
+    let variance = fitted.sandwich(&columns, &errors)[(0, 0)];
+    let (decay, std) = (fitted.slopes[0] / scales[0], variance.sqrt() / scales[0]);
     let seconds = |decay: f64| {
         if decay > 0.0 {
             -interval / decay.ln()

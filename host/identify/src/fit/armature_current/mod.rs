@@ -6,8 +6,10 @@
 //! | `winding` | the current as the winding's: resistance and back-EMF, whatever moves the shaft |
 //! | `decay` | the electrical time constant, from one current to the next |
 //! | `plane` | the regression of a current on a voltage and a speed |
+//! | `least_squares` | slopes over a few columns, with errors that are correlated over time |
 
 mod decay;
+mod least_squares;
 mod plane;
 mod torque;
 mod winding;
@@ -29,6 +31,8 @@ pub fn current_evidence(
     candidate: &Candidate,
     spread: &Uncertainty,
 ) -> Option<CurrentEvidence> {
+    // Without one there is nothing to run the model for.
+    problem.data.current_a.as_ref()?;
     let is_reckoned = problem.data.recordings.loops().iter().any(Option::is_some);
     let explained = explained(problem, candidate);
     if !explained

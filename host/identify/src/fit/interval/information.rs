@@ -127,21 +127,29 @@ impl Information {
         self.gradients.iter().sum()
     }
 
-    /// The gradient and the curvature of what is not held; a one in the diagonal for what is, so that it stays.
-    fn free(&self) -> (DVector<f64>, DMatrix<f64>) {
-        let (mut gradient, mut curvature) = (self.gradient(), self.curvature.clone());
+    /// A gradient without what is held.
+    fn without_held(&self, mut gradient: DVector<f64>) -> DVector<f64> {
         for k in (0..self.held.len()).filter(|&k| self.held[k]) {
             gradient[k] = 0.0;
+        }
+        gradient
+    }
+
+    /// The curvature of what is not held; a one in the diagonal for what is, so that it stays.
+    fn free_curvature(&self) -> DMatrix<f64> {
+        let mut curvature = self.curvature.clone();
+        for k in (0..self.held.len()).filter(|&k| self.held[k]) {
             curvature.row_mut(k).fill(0.0);
             curvature.column_mut(k).fill(0.0);
             curvature[(k, k)] = 1.0;
         }
-        (gradient, curvature)
+        curvature
     }
 
     /// A damped step, and by how much it promises to raise the logarithm of the likelihood. `None` where the damping is too small.
     pub fn step(&self, damping: f64) -> Option<(DVector<f64>, f64)> {
-        let (gradient, curvature) = self.free();
+        let gradient = self.without_held(self.gradient());
+        let curvature = self.free_curvature();
         let scales = curvature
             .diagonal()
             .map(|x| if x > 0.0 { x.sqrt() } else { 1.0 });
@@ -161,17 +169,10 @@ impl Information {
 
     /// The covariance of everything that is estimated.
     pub fn uncertainty(&self, effective_samples: f64) -> Uncertainty {
-        let (_, curvature) = self.free();
-        let held = |gradient: &DVector<f64>| {
-            let mut gradient = gradient.clone();
-            for k in (0..self.held.len()).filter(|&k| self.held[k]) {
-                gradient[k] = 0.0;
-            }
-            gradient
-        };
+        let gradients = self.gradients.iter().cloned();
         let sums = Sensitivity {
-            squares: curvature,
-            gradients: self.gradients.iter().map(held).collect(),
+            squares: self.free_curvature(),
+            gradients: gradients.map(|g| self.without_held(g)).collect(),
             redrawn: Vec::new(),
         };
         likely(&sums, effective_samples)
