@@ -15,12 +15,16 @@ after(async () => {
   desk?.clear();
 });
 
-// Scrolls through the page until every picture is drawn.
+// Scrolls through the page until every picture is drawn. A picture that is drawn above can push the awaited one out of view, so
+// that every look at it scrolls again.
 async function drawn(page) {
   const places = await page.locator(".plot").count();
   for (let k = 0; k < places; k += 1) {
-    await page.locator(".plot").nth(k).scrollIntoViewIfNeeded();
-    await page.waitForFunction((k) => document.querySelectorAll(".plot")[k].querySelector(".main-svg"), k);
+    await page.waitForFunction((k) => {
+      const plot = document.querySelectorAll(".plot")[k];
+      plot.scrollIntoView({ block: "nearest" });
+      return plot.querySelector(".main-svg");
+    }, k, { polling: 100 });
   }
   return places;
 }
