@@ -5,7 +5,7 @@
 
 use core::fmt::{self, Write};
 
-use crate::app::{Plan, Script, Which};
+use crate::app::{Script, Which};
 use crate::plant::{Motor, SMALL};
 use shared::fit::{Arithmetic, Evaluation, Fit, Method, Settings};
 use shared::model::{Rigid, RigidPlan};
@@ -96,13 +96,12 @@ fn search<S: Arithmetic>(
 fn recording(coulomb: bool) -> ([i16; PERIODS], [i16; PERIODS]) {
     let (mut duties, mut steps) = ([0; PERIODS], [0; PERIODS]);
     let mut script = Script::excitation(Which::Record, PERIODS as u32, 30_000, 3);
-    let plan = Plan::new();
     let mut motor = Motor { ..SMALL };
     if !coulomb {
         motor.coulomb = 0.0;
     }
     for (slot, step) in duties.iter_mut().zip(&mut steps) {
-        let duty = script.next(&plan).unwrap_or(0);
+        let duty = script.next(&[]).unwrap_or(0);
         let before = motor.state.count;
         motor.advance(Some(duty), 1e-3);
         (*slot, *step) = (duty, motor.state.count.wrapping_sub(before) as i16);

@@ -11,6 +11,10 @@ const SUBSTEPS: u32 = 20;
 pub struct Motor {
     /// V.
     pub supply: f32,
+    /// Ω, of the supply and its leads.
+    pub supply_resistance: f32,
+    /// Part of the supply that the bridge's dead time takes, against the current.
+    pub dead_time: f32,
     /// Ω.
     pub resistance: f32,
     /// H.
@@ -38,6 +42,8 @@ pub struct Motor {
 pub struct Shaft {
     /// A.
     pub current: f32,
+    /// Voltage of the supply at the bridge, V; zero before it has driven.
+    pub bus: f32,
     /// rad/s.
     pub speed: f32,
     /// Whole counts.
@@ -51,6 +57,8 @@ pub struct Shaft {
 /// A motor of 24 V and some ten watts, on a 2000-count encoder.
 pub const SMALL: Motor = Motor {
     supply: 24.0,
+    supply_resistance: 0.0,
+    dead_time: 0.0,
     resistance: 2.3,
     inductance: 1.1e-3,
     constant: 0.052,
@@ -62,6 +70,7 @@ pub const SMALL: Motor = Motor {
     counts_per_rev: 2000.0,
     state: Shaft {
         current: 0.0,
+        bus: 0.0,
         speed: 0.0,
         count: 0,
         fraction: 0.4,
@@ -80,9 +89,28 @@ impl Motor {
         }
     }
 
+    /// The same while something holds the shaft.
+    pub fn hold(&mut self, duty: Option<i16>, seconds: f32) {
+        let decay = libm::expf(-seconds / SUBSTEPS as f32 * self.resistance / self.inductance);
+        self.state.speed = 0.0;
+        for _ in 0..SUBSTEPS {
+            self.electrical(duty, decay);
+        }
+    }
+
     /// mA.
     pub fn current_ma(&self) -> i32 {
         (self.state.current * 1000.0) as i32
+    }
+
+    /// Voltage of the supply at the bridge, mV.
+    pub fn supply_mv(&self) -> u16 {
+        let bus = if self.state.bus > 0.0 {
+            self.state.bus
+        } else {
+            self.supply
+        };
+        (bus * 1000.0) as u16
     }
 
     /// The current follows its first-order equation exactly while the speed is held.
@@ -91,9 +119,20 @@ impl Motor {
         state.current = match duty {
             None => 0.0,
             Some(duty) => {
-                let volts = self.supply * f32::from(duty) / 32_768.0;
-                let end = (volts - self.constant * state.speed) / self.resistance;
-                end + (state.current - end) * decay
+                let part = f32::from(duty) / 32_768.0;
+                state.bus = self.supply - self.supply_resistance * part * state.current;
+                let free = state.bus * part - self.constant * state.speed;
+                let lost = self.dead_time * state.bus;
+                // The dead time opposes the current; with none it lets none flow until there is more drive than it takes.
+                let lost = if state.current != 0.0 {
+                    lost.copysign(state.current)
+                } else {
+                    lost.min(free.abs()).copysign(free)
+                };
+                let end = (free - lost) / self.resistance;
+                let next = end + (state.current - end) * decay;
+                let turned = self.dead_time > 0.0 && next * state.current < 0.0;
+                if turned { 0.0 } else { next }
             }
         };
     }

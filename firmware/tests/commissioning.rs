@@ -114,6 +114,14 @@ impl<S: Arithmetic> Host<S> {
     }
 }
 
+fn start(nonce: u32) -> ToDevice {
+    ToDevice::Start {
+        nonce,
+        job: job(),
+        plan: PlanDigest::of(&[]),
+    }
+}
+
 fn job() -> Job {
     Job {
         kind: Kind::Commission,
@@ -131,6 +139,8 @@ fn job() -> Job {
             time: 60_000,
             ..Limits::NONE
         },
+        counts_per_rev: SMALL.counts_per_rev as u32,
+        supply_mv: 24_000,
     }
 }
 
@@ -254,25 +264,22 @@ fn whatever_goes_wrong_in_whichever_phase_the_bridge_opens_and_the_cause_is_repo
 #[test]
 fn nothing_moves_without_the_nonce_of_a_fresh_arming() {
     let mut host = Host::<f32>::new(SMALL);
-    host.send(&ToDevice::Start {
-        nonce: 0,
-        job: job(),
-    });
+    host.send(&start(0));
     host.period();
     assert!(matches!(
         host.received.last(),
-        Some(ToHost::Refused(Refusal::NotArmed))
+        Some(ToHost::NotStarted {
+            why: Refusal::NotArmed,
+            ..
+        })
     ));
     host.send(&ToDevice::Arm);
     host.period();
     let Some(ToHost::Armed { nonce, periods }) = host.received.last().cloned() else {
         panic!("{:?}", host.received.last());
     };
-    host.send(&ToDevice::Start {
-        nonce: nonce ^ 1,
-        job: job(),
-    });
-    host.send(&ToDevice::Start { nonce, job: job() });
+    host.send(&start(nonce ^ 1));
+    host.send(&start(nonce));
     host.period();
     assert_eq!(
         host.app.phase(),
@@ -287,7 +294,7 @@ fn nothing_moves_without_the_nonce_of_a_fresh_arming() {
     for _ in 0..=periods {
         host.period();
     }
-    host.send(&ToDevice::Start { nonce, job: job() });
+    host.send(&start(nonce));
     host.period();
     assert_eq!(host.app.phase(), Phase::Idle, "an old nonce");
 }

@@ -80,6 +80,14 @@ impl Known {
     }
 }
 
+fn start(nonce: u32) -> ToDevice {
+    ToDevice::Start {
+        nonce,
+        job: job(),
+        plan: PlanDigest::of(&[]),
+    }
+}
+
 fn job() -> Job {
     Job {
         kind: shared::wire::Kind::Commission,
@@ -99,6 +107,8 @@ fn job() -> Job {
             time: 60_000,
             ..Limits::NONE
         },
+        counts_per_rev: SMALL.counts_per_rev as u32,
+        supply_mv: 24_000,
     }
 }
 
@@ -231,7 +241,7 @@ fn run(seed: u64) -> bool {
     table.send(&ToDevice::Arm);
     table.period(None);
     let nonce = table.known.armed.expect("armed over a whole link");
-    table.send(&ToDevice::Start { nonce, job: job() });
+    table.send(&start(nonce));
     table.period(None);
     assert_eq!(table.host.app.phase(), Phase::Probe);
 

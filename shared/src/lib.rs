@@ -9,6 +9,7 @@
 //! 3. [`excite`] makes the commands; [`recording`] is what was commanded and read, [`trace`] the same as a device
 //!    keeps it, in four bytes a period;
 //! 4. [`motor`]: the linear armature-controlled machine; [`discretise`]: its exact step, and Euler's;
+//!    [`bridge`]: the voltage that a duty puts across the winding;
 //! 5. [`effects`]: one physical effect a file, and the list of them;
 //! 6. [`encoder`]: floor, wrap, differences;
 //! 7. [`model`]: motor + effects + encoder, one step; [`error`]: why a model cannot be built. Its folder `fast` holds
@@ -37,6 +38,9 @@ pub mod trace;
 // The linear machine.
 pub mod discretise;
 pub mod motor;
+
+// What drives it.
+pub mod bridge;
 
 // What else happens in a motor.
 pub mod effects;

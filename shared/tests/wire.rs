@@ -33,6 +33,8 @@ fn job() -> Job {
             stall_ma: 10_000,
             time: 60_000,
         },
+        counts_per_rev: 4_096,
+        supply_mv: 24_000,
     }
 }
 
@@ -42,9 +44,11 @@ fn report() -> Report {
         std: 0.25,
     };
     Report {
+        run: 0xdead_beef,
         breakaway: 800,
         amplitude: 30_000,
         periods: 26_100,
+        limited: 12,
         outcome: Some(Outcome {
             estimates: [estimate; 4].into_iter().collect(),
             mean_square: 0.0833,
@@ -55,6 +59,13 @@ fn report() -> Report {
             mean_square: 0.09,
             periods: 4_000,
         }),
+    }
+}
+
+fn digest() -> PlanDigest {
+    PlanDigest {
+        segments: 40,
+        check: 0x1234_5678,
     }
 }
 
@@ -70,12 +81,14 @@ fn to_device() -> Vec<ToDevice> {
         ToDevice::Start {
             nonce: 0xdead_beef,
             job: job(),
+            plan: digest(),
         },
         ToDevice::Stop,
-        ToDevice::Plan {
+        ToDevice::Plan(PlanPart {
+            of: digest(),
             first: 16,
             segments: [segment; 2].into_iter().collect(),
-        },
+        }),
         ToDevice::Resend { first: 48 },
     ]
 }
@@ -85,6 +98,7 @@ fn to_host() -> Vec<ToHost> {
         duty: -32_767,
         step: -800,
         current_ma: -30_000,
+        supply_mv: 65_000,
     };
     vec![
         ToHost::About(About {
@@ -108,8 +122,10 @@ fn to_host() -> Vec<ToHost> {
             stage: Stage::Record,
             at: 21_000,
             length: 2_000,
+            run: 0xdead_beef,
         },
         ToHost::Rows(Rows {
+            run: 0xdead_beef,
             stage: Stage::Excite,
             first: 4_800,
             count: -1_000_000,
@@ -122,6 +138,7 @@ fn to_host() -> Vec<ToHost> {
         },
         ToHost::Report(report()),
         ToHost::Failed(Failure {
+            run: 0xdead_beef,
             fault: Fault::Overcurrent,
             stage: Stage::Verify,
             at: 23_456,
@@ -129,6 +146,15 @@ fn to_host() -> Vec<ToHost> {
             limit: 5_000,
             report: Some(report()),
         }),
+        ToHost::Planned {
+            of: digest(),
+            held: 18,
+        },
+        ToHost::Started { run: 0xdead_beef },
+        ToHost::NotStarted {
+            run: 0xdead_beef,
+            why: Refusal::BadPlan,
+        },
     ]
 }
 
@@ -234,6 +260,35 @@ proptest! {
         for byte in bytes {
             let _ = device.push::<ToDevice>(byte);
             let _ = host.push::<ToHost>(byte);
+        }
+    }
+}
+
+proptest! {
+    /// Parts of two plans that are lost, come twice and in any order leave what is asked for whole, or nothing of it.
+    #[test]
+    fn a_plan_is_put_together_whole_or_not_at_all(
+        plans in prop::array::uniform2(prop::collection::vec((any::<i16>(), any::<u16>()), 1..100)),
+        order in prop::collection::vec((0..2_usize, 0..7_usize), 0..60),
+    ) {
+        let plans = plans.map(|plan| plan.into_iter().map(|(duty, periods)| Segment { duty, periods }).collect::<Vec<_>>());
+        let mut store = PlanStore::<100>::new();
+        for (which, part) in order {
+            let plan = &plans[which];
+            let first = part * MOST_SEGMENTS;
+            let Some(rest) = plan.get(first..) else { continue };
+            let part = PlanPart {
+                of: PlanDigest::of(plan),
+                first: first as u16,
+                segments: rest.iter().copied().take(MOST_SEGMENTS).collect(),
+            };
+            let held = usize::from(store.take(&part).unwrap());
+            prop_assert_eq!(store.segments(), &plan[..held]);
+            for plan in &plans {
+                let whole = store.whole(PlanDigest::of(plan));
+                prop_assert!(whole.is_none() || whole == Some(plan.as_slice()));
+                prop_assert_eq!(whole.is_some(), store.segments() == plan.as_slice());
+            }
         }
     }
 }

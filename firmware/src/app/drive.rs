@@ -4,7 +4,7 @@ use super::recording::Batch;
 use super::script::{Script, Which};
 use super::{App, Work};
 use crate::board::Board;
-use crate::guard::Tripped;
+use crate::guard::{Guard, LONGEST_WINDOW_MS, Measured, Tripped};
 use crate::phase::{Fault, Phase};
 use core::mem::replace;
 use shared::fit::Arithmetic;
@@ -17,16 +17,16 @@ const REST_US: u32 = 50_000;
 /// A shaft that brakes for longer than this will not rest.
 const LONGEST_BRAKING_US: u32 = 5_000_000;
 /// Length of a step of the probe.
-const PROBE_STEP_US: u32 = 40_000;
-/// Counts that are motion, more than an encoder on an edge toggles.
-const MOTION: i32 = 8;
+const PROBE_STEP_US: u32 = 25_000;
+/// The shaft that the probe has moved comes to rest in this time, or nearly.
+const PROBE_BRAKE_US: u32 = 100_000;
 
 impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Length of a driving phase in periods, where it is known in advance.
     pub(super) fn length(phase: Phase, job: &Job) -> u32 {
         match (phase, job.kind) {
             (Phase::Probe, Kind::Play) => 0,
-            (Phase::Probe, _) => 41 * Self::periods(PROBE_STEP_US),
+            (Phase::Probe, _) => Script::GROWING_STEPS * Self::periods(PROBE_STEP_US),
             (Phase::Excite, Kind::Play) => u32::MAX,
             (Phase::Excite, _) => job.excite,
             (Phase::Record, Kind::Commission) => job.record.into(),
@@ -39,10 +39,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         let amplitude = self.report.amplitude;
         let which = match (self.phase, job.kind) {
             (Phase::Probe, _) => {
-                return Some(Script::growing(
-                    job.limits.duty,
-                    Self::periods(PROBE_STEP_US),
-                ));
+                let guard = self.guard.as_ref()?;
+                let to = guard.probe_to(self.board.full(), B::SENSES_CURRENT);
+                return Some(Script::growing(to, Self::periods(PROBE_STEP_US)));
             }
             (Phase::Excite, Kind::Play) => return Some(Script::plan()),
             (Phase::Excite, _) => Which::Excite { coast: job.coast },
@@ -69,17 +68,21 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         {
             self.apply(duty);
         }
+        // The legs of a bridge whose shunts are below them conduct when the carrier has turned.
+        let step = self.travelled();
         let current = self.board.current_ma();
         let held_from = replace(&mut self.current, current);
-        let step = self.travelled();
+        let measured = Measured {
+            current_ma: B::SENSES_CURRENT.then_some(current),
+            supply_mv: self.board.supply_mv(),
+        };
         // A bridge opens at once: so where a duty would act, and no sooner.
         if self.duty == OPEN {
             self.open();
         }
         let driven = (held != OPEN).then_some(held);
-        let sensed = B::SENSES_CURRENT.then_some(current);
         let looked = match &mut self.guard {
-            Some(guard) => guard.look(driven, self.count, sensed),
+            Some(guard) => guard.look(driven, self.count, measured),
             None => Ok(()),
         };
         if let Err(tripped) = looked {
@@ -109,20 +112,21 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                 batch: batch @ None,
                 ..
             } => {
-                *batch = Some(Batch::new(self.phase.stage(), self.count));
+                *batch = Some(Batch::new(self.report.run, self.phase.stage(), self.count));
                 self.begun_at = self.count;
                 self.ready(&job);
             }
             Work::Play { next, .. } => {
                 let ends = next.is_none();
-                self.keep(held, step, held_from);
-                if self.phase == Phase::Probe && self.probed(&job) {
+                self.keep(held, step, held_from, measured);
+                if self.phase == Phase::Probe && self.probed(&job, held, measured.current_ma) {
                     return;
                 }
                 if !ends {
                     self.ready(&job);
                 } else if self.phase == Phase::Probe {
-                    self.fail(Fault::Stall);
+                    let unmoved = |guard: &Guard| guard.unmoved(measured.current_ma);
+                    self.fail(self.guard.as_ref().map_or(Fault::Stall, unmoved));
                 } else if self.phase == Phase::Verify {
                     self.verified(&job);
                 } else {
@@ -140,10 +144,18 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             return;
         };
         let limit = job.limits.duty;
-        *next = script.next(&self.memory.plan).map(|duty| match duty {
-            OPEN => OPEN,
-            duty => duty.clamp(-limit, limit),
-        });
+        *next = script
+            .next(self.memory.plan.segments())
+            .map(|duty| match (duty, &self.guard) {
+                (OPEN, _) => OPEN,
+                (duty, None) => duty.clamp(-limit, limit),
+                (duty, Some(guard)) => {
+                    let ordered = duty.clamp(-limit, limit);
+                    let bounded = guard.bounded(ordered);
+                    self.report.limited += u32::from(bounded != ordered);
+                    bounded
+                }
+            });
     }
 
     #[inline(never)]
@@ -155,11 +167,15 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
     }
 
-    /// Records the row of the period that has ended.
+    /// Records the row of the period that has ended, which began with `from_ma`.
     #[inline(never)]
-    pub(super) fn keep(&mut self, duty: i16, step: i32, current_ma: i32) {
+    pub(super) fn keep(&mut self, duty: i16, step: i32, from_ma: i32, measured: Measured) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
-        let current_ma = current_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
+        let current_ma = from_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
+        let mean_ma = measured.current_ma.map_or(0, |to_ma| {
+            (i32::from(current_ma) + to_ma.clamp(i16::MIN.into(), i16::MAX.into())) / 2
+        });
+        let duty = self.bridge.at_winding(duty, measured.supply_mv, mean_ma);
         if self.phase == Phase::Record {
             self.recording.push(duty, step);
         }
@@ -179,6 +195,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                 duty,
                 step,
                 current_ma,
+                supply_mv: measured.supply_mv.unwrap_or(0),
             };
             if let Some(rows) = batch.push(row) {
                 self.memory.outbox.post(&ToHost::Rows(rows));
@@ -197,28 +214,41 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
     }
 
-    /// True once the shaft has moved, with the drive or against it: this ends the probe.
-    pub(super) fn probed(&mut self, job: &Job) -> bool {
-        let moved = self.count.wrapping_sub(self.begun_at);
-        if moved <= -MOTION {
-            self.trip(Tripped {
-                fault: Fault::Runaway,
-                seen: moved,
-                limit: -MOTION,
-            });
-            return true;
-        }
-        if moved < MOTION {
+    /// Looks at a period of the probe; true if it has ended or been given up.
+    pub(super) fn probed(&mut self, job: &Job, duty: i16, current_ma: Option<i32>) -> bool {
+        let first_step = self.report.periods <= Self::periods(PROBE_STEP_US);
+        let (Some(guard), Work::Play { script, .. }) = (&mut self.guard, &mut self.work) else {
+            return false;
+        };
+        if let Script::Step { .. } = script {
+            if duty == 0 {
+                // It brakes: the step begins where that ends.
+                self.begun_at = self.count;
+            } else if guard.probe_step(duty, self.count.wrapping_sub(self.begun_at)) {
+                self.done();
+                return true;
+            }
             return false;
         }
-        self.report.breakaway = self.duty;
-        self.report.amplitude = job.amplitude.min(job.limits.duty);
-        if let Some(guard) = &mut self.guard {
-            let strong = self.duty.saturating_mul(2).max(job.limits.duty / 4);
-            guard.expect_motion(strong.min(job.limits.duty));
+        let moved = self.count.wrapping_sub(self.begun_at);
+        match guard.probe(duty, moved, first_step, current_ma) {
+            Ok(false) => {}
+            Ok(true) => {
+                self.report.breakaway = self.duty;
+                self.report.amplitude = job.amplitude.min(job.limits.duty);
+                let strong = self.duty.saturating_mul(2).max(job.limits.duty / 4);
+                *script = Script::Step {
+                    brake: Self::periods(PROBE_BRAKE_US),
+                    duty: guard.bounded(strong.min(job.limits.duty)),
+                    left: Self::periods(LONGEST_WINDOW_MS * 1000),
+                };
+            }
+            Err(tripped) => {
+                self.trip(tripped);
+                return true;
+            }
         }
-        self.done();
-        true
+        false
     }
 
     pub(super) fn verified(&mut self, job: &Job) {

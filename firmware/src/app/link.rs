@@ -3,13 +3,16 @@
 use super::recording::Batch;
 use super::{App, NO_REPORT};
 use crate::board::Board;
-use crate::guard::Guard;
+use crate::guard::{Guard, Rating};
 use crate::log;
 use crate::phase::{Event, Fault, Phase};
+use shared::bridge::Bridge;
 use shared::fit::Arithmetic;
 use shared::rng::Rng;
 use shared::trace::OPEN;
-use shared::wire::{About, Job, Kind, Refusal, Row, ToDevice, ToHost, VERSION};
+use shared::wire::{
+    About, Job, Kind, PlanDigest, PlanPart, Refusal, Report, Row, ToDevice, ToHost, VERSION,
+};
 
 /// A nonce starts a run for this long.
 const ARMED_US: u32 = 5_000_000;
@@ -49,25 +52,22 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                 self.acknowledged();
                 self.arm();
             }
-            ToDevice::Start { nonce, job } => match self.start(nonce, job) {
-                Ok(()) => {}
-                Err(refusal) => self.refuse(refusal),
-            },
+            ToDevice::Start { nonce, job, plan } => {
+                let answer = match self.start(nonce, job, plan) {
+                    Ok(()) => ToHost::Started { run: nonce },
+                    Err(why) => {
+                        log::refused(why);
+                        ToHost::NotStarted { run: nonce, why }
+                    }
+                };
+                self.memory.outbox.post(&answer);
+            }
             ToDevice::Stop => {
                 if !matches!(self.phase, Phase::Idle | Phase::Report(_)) {
                     self.fail(Fault::Stopped);
                 }
             }
-            ToDevice::Plan { first, segments } => {
-                if first == 0 && self.phase == Phase::Idle {
-                    self.memory.plan.clear();
-                }
-                let follows =
-                    usize::from(first) == self.memory.plan.len() && self.phase == Phase::Idle;
-                if !follows || self.memory.plan.extend_from_slice(&segments).is_err() {
-                    self.refuse(Refusal::BadPlan);
-                }
-            }
+            ToDevice::Plan(part) => self.plan(&part),
             ToDevice::Resend { first } => self.resend(first),
         }
     }
@@ -77,6 +77,19 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if matches!(self.phase, Phase::Report(_)) {
             self.enter(Phase::Idle);
         }
+    }
+
+    /// Takes a part of a plan and says how much is held. Not while a run may be playing it.
+    #[inline(never)]
+    pub(super) fn plan(&mut self, part: &PlanPart) {
+        if self.phase != Phase::Idle {
+            return self.refuse(Refusal::Busy);
+        }
+        let Some(held) = self.memory.plan.take(part) else {
+            return self.refuse(Refusal::BadPlan);
+        };
+        let of = part.of;
+        self.memory.outbox.post(&ToHost::Planned { of, held });
     }
 
     #[inline(never)]
@@ -109,19 +122,20 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
         let nonce = self.nonces.next_u32();
         let periods = Self::periods(ARMED_US);
-        self.armed = Some((nonce, self.at.wrapping_add(periods)));
+        self.armed = Some((nonce, periods));
         self.memory.outbox.post(&ToHost::Armed { nonce, periods });
     }
 
     #[inline(never)]
     pub(super) fn resend(&mut self, first: u32) {
         let trace = self.recording.trace();
-        let mut batch = Batch::resumed(first);
+        let mut batch = Batch::resumed(self.report.run, first);
         for (duty, step) in trace.iter().skip(first as usize) {
             let row = Row {
                 duty: duty.unwrap_or(OPEN),
                 step,
                 current_ma: 0,
+                supply_mv: 0,
             };
             if let Some(rows) = batch.push(row) {
                 self.memory.outbox.post(&ToHost::Rows(rows));
@@ -134,14 +148,22 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     }
 
     #[inline(never)]
-    pub(super) fn start(&mut self, nonce: u32, job: Job) -> Result<(), Refusal> {
+    pub(super) fn start(&mut self, nonce: u32, job: Job, plan: PlanDigest) -> Result<(), Refusal> {
+        // Asked for again, because the answer was lost. A run that has ended since is told again, not made again: what acknowledged
+        // its report was meant for an earlier one, or came late.
+        if self.run == Some(nonce) {
+            if self.phase == Phase::Idle {
+                let ended = self.failure.map_or(Ok(()), |tripped| Err(tripped.fault));
+                self.enter(Phase::Report(ended));
+            }
+            return Ok(());
+        }
         if self.phase != Phase::Idle {
             return Err(Refusal::Busy);
         }
         // One try for each arming, right or wrong.
-        match self.armed.take() {
-            Some((armed, until)) if armed == nonce && self.at <= until => {}
-            _ => return Err(Refusal::NotArmed),
+        if self.armed.take().map(|(armed, _)| armed) != Some(nonce) {
+            return Err(Refusal::NotArmed);
         }
         let commission = job.kind == Kind::Commission;
         let fits = usize::from(job.record) <= N && (job.record >= 50 || !commission);
@@ -149,20 +171,27 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if !fits || !sane {
             return Err(Refusal::BadJob);
         }
-        if job.kind == Kind::Play && self.memory.plan.is_empty() {
+        if job.kind == Kind::Play && self.memory.plan.whole(plan).is_none() {
             return Err(Refusal::BadPlan);
         }
+        self.run = Some(nonce);
         self.at = 0;
         self.begun_at = self.count;
         self.recording.clear();
-        self.report = NO_REPORT;
+        self.report = Report {
+            run: nonce,
+            ..NO_REPORT
+        };
         self.failure = None;
-        self.guard = Some(Guard::new(
-            job.limits,
-            B::PERIOD_US,
-            self.board.full(),
-            self.count,
-        ));
+        let rating = Rating {
+            period_us: B::PERIOD_US,
+            full: self.board.full(),
+            current_ma: B::CURRENT_LIMIT_MA,
+            resolution_ma: B::CURRENT_RESOLUTION_MA,
+        };
+        self.guard = Some(Guard::new(&job, rating, self.count));
+        let ripple_ma = B::CURRENT_RESOLUTION_MA.saturating_mul(4).max(20);
+        self.bridge = Bridge::new(job.supply_mv, self.board.dead_time(), ripple_ma);
         log::started(&job);
         self.job = Some(job);
         if let Ok(phase) = self.phase.after(Event::Start) {

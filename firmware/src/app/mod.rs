@@ -100,9 +100,14 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
     work: Work,
     nonces: rng::Generator,
     boot: u32,
+    /// The nonce that starts a run, and the periods for which it still does.
     armed: Option<(u32, u32)>,
+    /// The nonce that started the last run.
+    run: Option<u32>,
     job: Option<Job>,
     guard: Option<Guard>,
+    /// What the winding sees of a duty.
+    bridge: shared::bridge::Bridge,
     /// Duty held during the period that ends next, and the current at its start, mA.
     duty: i16,
     current: i32,
@@ -119,9 +124,11 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
 }
 
 const NO_REPORT: Report = Report {
+    run: 0,
     breakaway: 0,
     amplitude: 0,
     periods: 0,
+    limited: 0,
     outcome: None,
     verified: None,
 };
@@ -142,8 +149,10 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             nonces,
             boot,
             armed: None,
+            run: None,
             job: None,
             guard: None,
+            bridge: shared::bridge::Bridge::new(0, 0, 0),
             duty: OPEN,
             current: 0,
             count: 0,
@@ -177,6 +186,9 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         self.silence = self.silence.saturating_add(1);
         self.repeat = self.repeat.saturating_add(1);
         self.at = self.at.saturating_add(1);
+        self.armed = self
+            .armed
+            .and_then(|(nonce, left)| Some((nonce, left.checked_sub(1)?)));
         if self.phase.bridge() == Bridge::Driven {
             match ticked.and_then(|()| self.check_link()) {
                 Ok(()) => self.drive(),
@@ -268,6 +280,9 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 return phase.after(Event::Done).ok();
             }
             (Bridge::Driven, _, Some(_)) => {
+                if let Some(guard) = &mut self.guard {
+                    guard.resume(self.count);
+                }
                 self.apply(0);
                 Work::Brake { still: 0, all: 0 }
             }
@@ -285,6 +300,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 stage: phase.stage(),
                 at: self.at,
                 length: Self::length(phase, &job),
+                run: self.report.run,
             };
             self.memory.outbox.post(&stage);
         }

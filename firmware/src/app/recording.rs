@@ -12,6 +12,7 @@ const _: () = assert!(ROWS <= MOST_ROWS);
 /// Rows under way to the host.
 #[derive(Debug)]
 pub struct Batch {
+    run: u32,
     stage: Stage,
     first: u32,
     count: i32,
@@ -19,9 +20,10 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// At the start of a stage, with the shaft at `count`.
-    pub fn new(stage: Stage, count: i32) -> Self {
+    /// At the start of a stage of a run, with the shaft at `count`.
+    pub fn new(run: u32, stage: Stage, count: i32) -> Self {
         Batch {
+            run,
             stage,
             first: 0,
             count,
@@ -30,10 +32,10 @@ impl Batch {
     }
 
     /// Rows of the recording once more, from `first` on; where the shaft stood is known from the first time.
-    pub fn resumed(first: u32) -> Self {
+    pub fn resumed(run: u32, first: u32) -> Self {
         Batch {
             first,
-            ..Batch::new(Stage::Record, 0)
+            ..Batch::new(run, Stage::Record, 0)
         }
     }
 
@@ -54,6 +56,7 @@ impl Batch {
         }
         let rows = core::mem::take(&mut self.rows);
         let message = Rows {
+            run: self.run,
             stage: self.stage,
             first: self.first,
             count: self.count,

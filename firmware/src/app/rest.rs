@@ -18,9 +18,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         match (&self.work, self.phase) {
             (Work::Fit, Phase::Fit) => self.fit(),
             (Work::Fitted, Phase::Fit) if punctual => {
-                // The host may have been silent while nothing moved.
-                self.silence = 0;
-                self.done();
+                // The next phase drives: only for a host that has spoken since.
+                match self.check_link() {
+                    Ok(()) if self.silence <= 1 => self.done(),
+                    Ok(()) => {}
+                    Err(fault) => self.fail(fault),
+                }
             }
             (_, Phase::Report(outcome)) if self.repeat >= Self::periods(REPEAT_US) => {
                 self.repeat = 0;
@@ -72,6 +75,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         let (phase, at) = self.failed_in;
         let tripped = self.failure.unwrap_or(Tripped::by(fault));
         Failure {
+            run: self.report.run,
             fault,
             stage: phase.stage(),
             at,

@@ -1,17 +1,16 @@
 //! Generates the next duty of each driving phase.
 
-use heapless::Vec;
 use shared::excite::{
     self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape, narrowed,
 };
 use shared::trace::OPEN;
-use shared::wire::Segment;
+use shared::wire::{PlanStore, Segment};
 
 /// Most segments of a plan that the device holds.
 pub const PLAN: usize = 256;
 
 /// A plan to play.
-pub type Plan = Vec<Segment, PLAN>;
+pub type Plan = PlanStore<PLAN>;
 
 /// The short excitation that is fitted: levels of both signs for the time constants, a slow triangle for friction. Two
 /// seconds; longer or shorter recordings stretch it.
@@ -59,14 +58,21 @@ pub enum Script {
     Growing {
         /// Duty of the present step.
         duty: i16,
-        /// By which it grows.
-        by: i16,
         /// Where it ends.
         to: i16,
         /// Periods left in the present step.
         left: u32,
         /// Periods of a step.
         hold: u32,
+    },
+    /// The probe's last step: a brake, then a duty.
+    Step {
+        /// Periods of braking left.
+        brake: u32,
+        /// The duty.
+        duty: i16,
+        /// Periods of it left.
+        left: u32,
     },
     /// An excitation.
     Excitation {
@@ -101,12 +107,14 @@ pub enum Which {
 }
 
 impl Script {
-    /// Small growing steps up to `to`, `hold` periods each.
+    /// Most steps of [`growing`](Self::growing).
+    pub const GROWING_STEPS: u32 = 70;
+
+    /// Growing steps up to `to`, `hold` periods each: by an eighth of themselves from a 320th of `to` on, so that the current of a
+    /// motor that nothing is known of grows as slowly, and by no more than a 40th of `to`.
     pub fn growing(to: i16, hold: u32) -> Self {
-        let by = (to / 40).max(1);
         Script::Growing {
             duty: 0,
-            by,
             to,
             left: 0,
             hold,
@@ -141,11 +149,10 @@ impl Script {
     }
 
     /// The duty of the next period, [`OPEN`] for an open bridge; `None` at the end.
-    pub fn next(&mut self, plan: &Plan) -> Option<i16> {
+    pub fn next(&mut self, plan: &[Segment]) -> Option<i16> {
         match self {
             Script::Growing {
                 duty,
-                by,
                 to,
                 left,
                 hold,
@@ -154,10 +161,19 @@ impl Script {
                     if *duty >= *to {
                         return None;
                     }
-                    *duty = duty.saturating_add(*by).min(*to);
+                    let by = (*duty / 8).clamp((*to / 320).max(1), (*to / 40).max(1));
+                    *duty = duty.saturating_add(by).min(*to);
                     *left = *hold;
                 }
                 *left -= 1;
+                Some(*duty)
+            }
+            Script::Step { brake, duty, left } => {
+                if *brake > 0 {
+                    *brake -= 1;
+                    return Some(0);
+                }
+                *left = left.checked_sub(1)?;
                 Some(*duty)
             }
             Script::Excitation {

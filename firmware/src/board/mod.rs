@@ -63,6 +63,11 @@ pub trait Board {
     const SLICE: u32;
     /// True if [`current_ma`](Self::current_ma) measures.
     const SENSES_CURRENT: bool = false;
+    /// Current that the bridge bears, mA: the limit of every run on a board that measures it. Zero for a bridge that protects
+    /// itself.
+    const CURRENT_LIMIT_MA: u32 = 0;
+    /// Step of the current's measurement, mA.
+    const CURRENT_RESOLUTION_MA: u16 = 1;
 
     /// Duty that puts the whole supply across the winding. A bridge that does things in steps chooses it so that each step
     /// is a whole number: a recording then holds exactly what the winding saw. (With steps rounded to Q15, an encoder of
@@ -100,8 +105,19 @@ pub trait Board {
         0
     }
 
-    /// Waits for the end of the control period. The next duty is given, and current and count are read, right after it, in that
-    /// order.
+    /// Supply voltage of the bridge, mV, if the board measures it.
+    fn supply_mv(&mut self) -> Option<u16> {
+        None
+    }
+
+    /// Part of the supply that the bridge's dead time takes from a duty, against the current, as a duty: twice the dead time by the
+    /// carrier's period, of [`full`](Self::full). Zero where the current is not measured: its sign is needed.
+    fn dead_time(&self) -> u16 {
+        0
+    }
+
+    /// Waits for the end of the control period. The next duty is given, and count, current and supply are read, right after it, in
+    /// that order.
     ///
     /// # Errors
     ///

@@ -29,6 +29,12 @@ pub struct Bench {
     pub locked: bool,
     /// Reading of the current sensor in place of the true current.
     pub current_ma: Option<i32>,
+    /// Reading of the supply in place of the true one, mV.
+    pub supply_mv: Option<u16>,
+    /// True if one of the encoder's lines is dead.
+    pub line_dead: bool,
+    /// True if a lead of the motor is cut.
+    pub lead_cut: bool,
     /// Fault to report at the end of a period.
     pub fails: Option<Fault>,
     /// Time from the end of a period to the carrier's turn, s: the next duty acts then, and the count is the count then.
@@ -51,6 +57,9 @@ impl Bench {
             encoder: 1,
             locked: false,
             current_ma: None,
+            supply_mv: None,
+            line_dead: false,
+            lead_cut: false,
             fails: None,
             turn_s: 0.0,
             waits: None,
@@ -63,11 +72,31 @@ impl Bench {
     /// Lets the motor run on.
     fn advance(&mut self, seconds: f32) {
         let before = self.motor.state.count;
-        if !self.locked && seconds > 0.0 {
-            self.motor.advance(self.driven, seconds);
+        if seconds > 0.0 {
+            let driven = self.driven.filter(|_| !self.lead_cut);
+            if self.locked {
+                self.motor.hold(driven, seconds);
+            } else {
+                self.motor.advance(driven, seconds);
+            }
         }
-        let travelled = self.motor.state.count.wrapping_sub(before);
+        let after = self.motor.state.count;
+        let travelled = match self.line_dead {
+            false => after.wrapping_sub(before),
+            // The other line's edges count up and down.
+            true => level(after) - level(before),
+        };
         self.count = self.count.wrapping_add(self.encoder * travelled);
+    }
+
+    /// A disturbance makes the counter count.
+    pub fn jump(&mut self, counts: i32) {
+        self.count = self.count.wrapping_add(counts);
+    }
+
+    /// The motor.
+    pub fn motor(&self) -> &Motor {
+        &self.motor
     }
 
     /// The carrier turns, if it has not in this period.
@@ -78,6 +107,11 @@ impl Bench {
             self.driven = self.waits.take().or(self.driven);
         }
     }
+}
+
+/// Level of the encoder's first line at a position.
+fn level(count: i32) -> i32 {
+    i32::from(count.rem_euclid(4) >= 2)
 }
 
 /// The bench as a board.
@@ -113,6 +147,15 @@ impl Board for OnBench<'_> {
     fn current_ma(&mut self) -> i32 {
         let bench = self.0.borrow();
         bench.current_ma.unwrap_or(bench.motor.current_ma())
+    }
+
+    fn supply_mv(&mut self) -> Option<u16> {
+        let bench = self.0.borrow();
+        Some(bench.supply_mv.unwrap_or(bench.motor.supply_mv()))
+    }
+
+    fn dead_time(&self) -> u16 {
+        (self.0.borrow().motor.dead_time * 32_768.0) as u16
     }
 
     fn tick(&mut self) -> Result<(), Fault> {

@@ -3,7 +3,7 @@
 use core::cell::RefCell;
 
 use shared::fit::Arithmetic;
-use shared::wire::{Deframer, Job, LONGEST_FRAME, ToDevice, ToHost, encode};
+use shared::wire::{Deframer, Job, LONGEST_FRAME, PlanDigest, ToDevice, ToHost, encode};
 
 use super::bench::{Bench, OnBench};
 use crate::app::{App, Memory, Recording};
@@ -79,7 +79,8 @@ impl<'b, S: Arithmetic, const N: usize> Host<'b, S, N> {
             }
         });
         if let Some(nonce) = armed {
-            self.send(&ToDevice::Start { nonce, job });
+            let plan = PlanDigest::of(&[]);
+            self.send(&ToDevice::Start { nonce, job, plan });
             self.period(|_| {});
         }
         armed.is_some()

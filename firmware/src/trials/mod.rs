@@ -12,7 +12,7 @@ use shared::wire::{Job, Kind, Limits, ToDevice, ToHost};
 
 use crate::app::{Memory, Recording};
 use crate::board::Board;
-use crate::guard::REACTION_US;
+use crate::guard::SHORTEST_WINDOW_MS;
 use crate::phase::{Fault, Phase};
 use crate::plant::{Motor, SMALL};
 use bench::{Bench, OnBench};
@@ -24,8 +24,9 @@ pub const RECORD: usize = 600;
 const INTO: u32 = 60;
 /// A duty that moves the motor well.
 const STRONG: u16 = 8_000;
-/// Periods within which a shaft that does not follow must be noticed, one for the period that the duty begins in.
-const REACTION: u32 = REACTION_US / OnBench::PERIOD_US + 1;
+/// Periods of strong drive one way within which a shaft that does not follow must be noticed: one and a half of the guard's windows,
+/// which this motor's encoder lets be the shortest.
+const REACTION: u32 = SHORTEST_WINDOW_MS * 1000 / OnBench::PERIOD_US * 3 / 2 + 1;
 /// Periods after which a trial that has no outcome has failed.
 const LONGEST: u32 = 60_000;
 
@@ -38,8 +39,20 @@ pub enum Mischief {
     EncoderReversed,
     /// The encoder stands still.
     EncoderStuck,
+    /// One of the encoder's lines is dead.
+    EncoderLine,
+    /// A disturbance makes the encoder's counter jump.
+    EncoderJump,
     /// Something holds the shaft.
     ShaftLocked,
+    /// A lead of the motor is cut.
+    LeadCut,
+    /// The current sensor shows nothing.
+    SensorStuck,
+    /// The supply breaks down.
+    SupplySag,
+    /// The motor brakes into a supply that takes no current back.
+    SupplyRise,
     /// The current sensor shows a short circuit.
     ShortCircuit,
     /// The bridge's driver reports a fault.
@@ -72,9 +85,15 @@ pub struct Trial {
 const PHASES: [Phase; 4] = [Phase::Probe, Phase::Excite, Phase::Record, Phase::Verify];
 
 /// Injected faults of each phase, the report that each must cause, and its deadline.
-const MISCHIEFS: [(Mischief, Option<Fault>, Option<u32>); 9] = [
+const MISCHIEFS: [(Mischief, Option<Fault>, Option<u32>); 15] = [
     (Mischief::EncoderReversed, Some(Fault::Runaway), None),
     (Mischief::EncoderStuck, Some(Fault::Stall), None),
+    (Mischief::EncoderLine, Some(Fault::EncoderLine), None),
+    (Mischief::EncoderJump, Some(Fault::EncoderJump), Some(1)),
+    (Mischief::LeadCut, Some(Fault::MotorLead), None),
+    (Mischief::SensorStuck, Some(Fault::CurrentSensor), None),
+    (Mischief::SupplySag, Some(Fault::Undervoltage), Some(1)),
+    (Mischief::SupplyRise, Some(Fault::Overvoltage), Some(1)),
     (Mischief::ShaftLocked, Some(Fault::Stall), None),
     (Mischief::ShortCircuit, Some(Fault::Overcurrent), Some(1)),
     (Mischief::BridgeFault, Some(Fault::Bridge), Some(1)),
@@ -84,10 +103,10 @@ const MISCHIEFS: [(Mischief, Option<Fault>, Option<u32>); 9] = [
     (Mischief::BrownOut, None, Some(1)),
 ];
 
-const LIMITS: [Fault; 5] = [
+// A limit of the current is no fault: it bounds the drive.
+const LIMITS: [Fault; 4] = [
     Fault::Overtravel,
     Fault::Overspeed,
-    Fault::Overcurrent,
     Fault::Overheated,
     Fault::TimeUp,
 ];
@@ -108,13 +127,23 @@ pub fn all() -> impl Iterator<Item = Trial> {
             within,
         })
     });
+    // The next phase would drive, for nobody.
+    let alone = Trial {
+        mischief: Mischief::Silence,
+        phase: Phase::Fit,
+        fault: Some(Fault::LinkLost),
+        within: Some(1),
+    };
     let limited = LIMITS.into_iter().map(|fault| Trial {
         mischief: Mischief::Limit(fault),
         phase: Phase::Excite,
         fault: Some(fault),
         within: None,
     });
-    [undisturbed].into_iter().chain(disturbed).chain(limited)
+    [undisturbed, alone]
+        .into_iter()
+        .chain(disturbed)
+        .chain(limited)
 }
 
 /// Result of a trial.
@@ -132,6 +161,8 @@ pub struct Outcome {
     pub stayed_open: bool,
     /// A phase in which the bridge drove though it must not.
     pub drove_in: Option<Phase>,
+    /// True if it drove after the host had died while nothing moved.
+    pub drove_alone: bool,
 }
 
 impl Trial {
@@ -148,7 +179,7 @@ impl Trial {
         // longer, but only as strongly as it must.
         let follows = !matches!(self.fault, Some(Fault::Stall | Fault::Runaway));
         let noticed = follows || self.phase == Phase::Probe || outcome.strongly <= REACTION;
-        let stayed_open = outcome.stayed_open && outcome.drove_in.is_none();
+        let stayed_open = outcome.stayed_open && outcome.drove_in.is_none() && !outcome.drove_alone;
         reported && succeeded && soon && noticed && stayed_open
     }
 
@@ -163,7 +194,6 @@ impl Trial {
             match fault {
                 Fault::Overtravel => limits.travel = 900,
                 Fault::Overspeed => limits.speed = 60,
-                Fault::Overcurrent => limits.current_ma = 3_000,
                 Fault::Overheated => (limits.continuous_ma, limits.thermal) = (900, 300),
                 _ => limits.time = 700,
             }
@@ -182,6 +212,8 @@ impl Trial {
                 ..Settings::USUAL
             },
             limits,
+            counts_per_rev: SMALL.counts_per_rev as u32,
+            supply_mv: (SMALL.supply * 1000.0) as u32,
         }
     }
 
@@ -248,9 +280,11 @@ impl Trial {
             if since.is_some() && outcome.open_after.is_none() {
                 outcome.strongly = outcome.strongly.max(strongly);
             }
-            if host.bench.borrow().driven.is_none() && outcome.open_after.is_none() {
+            let open = host.bench.borrow().driven.is_none();
+            if open && outcome.open_after.is_none() {
                 outcome.open_after = since;
             }
+            outcome.drove_alone |= !open && self.phase == Phase::Fit && since.is_some();
             if ended {
                 break;
             }
@@ -264,9 +298,12 @@ impl Trial {
         outcome
     }
 
-    /// The probe moves the shaft within its first steps: what goes wrong in it goes wrong from the start.
+    /// The probe moves the shaft within its first steps, and the fit is short: what goes wrong in them goes wrong from the start.
     fn into(&self) -> u32 {
-        if self.phase == Phase::Probe { 1 } else { INTO }
+        match self.phase {
+            Phase::Probe | Phase::Fit => 1,
+            _ => INTO,
+        }
     }
 
     fn disturb<S: Arithmetic>(&self, host: &mut Host<'_, S, RECORD>) {
@@ -279,6 +316,12 @@ impl Trial {
         match self.mischief {
             Mischief::EncoderReversed => bench.encoder = -1,
             Mischief::EncoderStuck => bench.encoder = 0,
+            Mischief::EncoderLine => bench.line_dead = true,
+            Mischief::EncoderJump => bench.jump(60_000),
+            Mischief::LeadCut => bench.lead_cut = true,
+            Mischief::SensorStuck => bench.current_ma = Some(0),
+            Mischief::SupplySag => bench.supply_mv = Some(12_000),
+            Mischief::SupplyRise => bench.supply_mv = Some(36_000),
             Mischief::ShaftLocked => bench.locked = true,
             Mischief::ShortCircuit => bench.current_ma = Some(-30_000),
             Mischief::BridgeFault => bench.fails = Some(Fault::Bridge),

@@ -2,7 +2,8 @@
 
 use super::{DeviceError, Link, Port};
 use shared::wire::{
-    About, Deframer, Job, LONGEST_FRAME, MOST_SEGMENTS, Segment, ToDevice, ToHost, VERSION, encode,
+    About, Deframer, Job, LONGEST_FRAME, MOST_SEGMENTS, PlanDigest, PlanPart, Refusal, Segment,
+    ToDevice, ToHost, VERSION, encode,
 };
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Write};
@@ -10,16 +11,23 @@ use std::time::{Duration, Instant};
 
 /// Time that an answer may take.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// A question is asked again after this long: the first may have been lost to noise.
-const AGAIN: Duration = Duration::from_millis(400);
+/// A question is asked again after this long: the first may have been lost to noise. Well within the silence that a device that has
+/// started bears.
+const AGAIN: Duration = Duration::from_millis(100);
+
+/// What time it is.
+pub type Clock = Box<dyn Fn() -> Instant + Send>;
 
 /// An open link to a device.
 pub struct Conversation {
     port: String,
+    clock: Clock,
     link: Box<dyn Link>,
     inbox: Deframer,
     waiting: VecDeque<ToHost>,
     bytes: u64,
+    /// The run that was started last: what belongs to an earlier one is late and is not heard.
+    run: Option<u32>,
 }
 
 impl Conversation {
@@ -35,11 +43,24 @@ impl Conversation {
     pub fn over(link: Box<dyn Link>, port: String) -> Self {
         Conversation {
             port,
+            clock: Box::new(Instant::now),
             link,
             inbox: Deframer::default(),
             waiting: VecDeque::new(),
             bytes: 0,
+            run: None,
         }
+    }
+
+    /// By another clock, such as a simulation's.
+    #[must_use]
+    pub fn with_clock(self, clock: Clock) -> Self {
+        Conversation { clock, ..self }
+    }
+
+    /// Time since an instant of its clock.
+    fn since(&self, then: Instant) -> Duration {
+        (self.clock)().saturating_duration_since(then)
     }
 
     /// Sends a message.
@@ -59,8 +80,8 @@ impl Conversation {
     /// # Errors
     /// A broken link.
     pub fn hear(&mut self) -> Result<Option<ToHost>, DeviceError> {
-        if let Some(message) = self.waiting.pop_front() {
-            return Ok(Some(message));
+        if !self.waiting.is_empty() {
+            return Ok(self.next());
         }
         let mut buffer = [0; 1024];
         match self.link.read(&mut buffer) {
@@ -78,7 +99,17 @@ impl Conversation {
                 ) => {}
             Err(error) => return Err(error.into()),
         }
-        Ok(self.waiting.pop_front())
+        Ok(self.next())
+    }
+
+    /// The next message that waits.
+    fn next(&mut self) -> Option<ToHost> {
+        while let Some(message) = self.waiting.pop_front() {
+            if message.run().is_none_or(|run| Some(run) == self.run) {
+                return Some(message);
+            }
+        }
+        None
     }
 
     /// Number of damaged frames.
@@ -92,17 +123,21 @@ impl Conversation {
         question: &ToDevice,
         mut wanted: impl FnMut(ToHost) -> Option<T>,
     ) -> Result<T, DeviceError> {
-        let begun = Instant::now();
+        let begun = (self.clock)();
         let mut asked: Option<Instant> = None;
-        while begun.elapsed() < PATIENCE {
-            if asked.is_none_or(|at| at.elapsed() > AGAIN) {
+        while self.since(begun) < PATIENCE {
+            if asked.is_none_or(|at| self.since(at) > AGAIN) {
                 // A zero first ends whatever the line picked up before.
                 self.link.write_all(&[0])?;
                 self.say(question)?;
-                asked = Some(Instant::now());
+                asked = Some((self.clock)());
             }
             match self.hear()? {
-                Some(ToHost::Refused(refusal)) => return Err(DeviceError::Refused(refusal)),
+                // A start has refusals of its own: this one is of an earlier question.
+                Some(ToHost::Refused(_)) if matches!(question, ToDevice::Start { .. }) => {}
+                Some(ToHost::Refused(refusal) | ToHost::NotStarted { why: refusal, .. }) => {
+                    return Err(DeviceError::Refused(refusal));
+                }
                 Some(message) => {
                     if let Some(answer) = wanted(message) {
                         return Ok(answer);
@@ -111,14 +146,18 @@ impl Conversation {
                 None => {}
             }
         }
-        Err(DeviceError::Silent {
+        Err(self.silent())
+    }
+
+    fn silent(&self) -> DeviceError {
+        DeviceError::Silent {
             port: self.port.clone(),
             seconds: PATIENCE.as_secs_f64(),
             noise: match self.bytes {
                 0 => String::new(),
                 bytes => format!(" ({bytes} bytes came that make no sense)"),
             },
-        })
+        }
     }
 
     /// Identification of the device.
@@ -139,21 +178,73 @@ impl Conversation {
         Ok(about)
     }
 
-    /// Arms the device and starts a run, after a plan has been sent for one that plays it.
+    /// Starts a run: sends the plan of one that plays it, arms the device, and starts until the device says that it has.
+    ///
+    /// Over a link that loses, doubles or reorders frames the device runs this job with this plan, or nothing.
     ///
     /// # Errors
     /// Time-out; a refusal.
     pub fn start(&mut self, job: Job, plan: &[Segment]) -> Result<(), DeviceError> {
-        for (k, part) in plan.chunks(MOST_SEGMENTS).enumerate() {
-            let segments = part.iter().copied().collect();
-            let first = (k * MOST_SEGMENTS) as u16;
-            self.say(&ToDevice::Plan { first, segments })?;
+        let of = self.send_plan(plan)?;
+        let begun = (self.clock)();
+        loop {
+            let nonce = self.ask(&ToDevice::Arm, |message| match message {
+                ToHost::Armed { nonce, .. } => Some(nonce),
+                _ => None,
+            })?;
+            self.run = Some(nonce);
+            let start = ToDevice::Start {
+                nonce,
+                job,
+                plan: of,
+            };
+            let mut early = VecDeque::new();
+            let started = self.ask(&start, |message| match message {
+                ToHost::Started { .. } => Some(()),
+                // What the run brings while its first answer is lost.
+                other => {
+                    early.extend(other.run().is_some().then_some(other));
+                    None
+                }
+            });
+            match started {
+                // Another arming, of a frame that came twice or late, has replaced this one.
+                Err(DeviceError::Refused(Refusal::NotArmed)) if self.since(begun) < PATIENCE => {}
+                Err(error) => return Err(error),
+                Ok(()) => {
+                    early.append(&mut self.waiting);
+                    self.waiting = early;
+                    return Ok(());
+                }
+            }
         }
-        let nonce = self.ask(&ToDevice::Arm, |message| match message {
-            ToHost::Armed { nonce, .. } => Some(nonce),
-            _ => None,
-        })?;
-        // Only once: a second start would find the arming used up and be refused. Its stage message is the answer.
-        self.say(&ToDevice::Start { nonce, job })
+    }
+
+    /// Sends a plan in parts, each until the device holds it.
+    fn send_plan(&mut self, plan: &[Segment]) -> Result<PlanDigest, DeviceError> {
+        let of = PlanDigest::of(plan);
+        let mut held = 0;
+        let mut progress = (self.clock)();
+        while let Some(rest) = plan.get(held..)
+            && !rest.is_empty()
+        {
+            let segments = rest.iter().copied().take(MOST_SEGMENTS).collect();
+            let part = PlanPart {
+                of,
+                first: u16::try_from(held).unwrap_or(u16::MAX),
+                segments,
+            };
+            let holds = self.ask(&ToDevice::Plan(part), |message| match message {
+                ToHost::Planned { of: theirs, held } if theirs == of => Some(usize::from(held)),
+                _ => None,
+            })?;
+            if holds > held {
+                progress = (self.clock)();
+            } else if self.since(progress) > PATIENCE {
+                return Err(self.silent());
+            }
+            held = holds;
+        }
+        Ok(of)
     }
 }

@@ -74,7 +74,7 @@ fn reason(refusal: &Refusal) -> &'static str {
             "a length or a limit is zero or beyond what it can do; see `servoid device info`"
         }
         Refusal::BadPlan => {
-            "the plan has too many segments for it, or arrived with a gap; try again, or use a shorter plan"
+            "the plan has too many segments for it, or is not the one that it holds; try again, or use a shorter plan"
         }
     }
 }

@@ -26,7 +26,7 @@ mod replay;
 mod report;
 mod run;
 
-pub use conversation::Conversation;
+pub use conversation::{Clock, Conversation};
 pub use emulation::{Emulation, Image};
 pub use error::DeviceError;
 pub use lockstep::plant;

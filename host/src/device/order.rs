@@ -150,6 +150,8 @@ impl Order {
                 )?,
                 time: excite + record + verify + played + aside,
             },
+            supply_mv: (self.supply_v * 1e3).round().clamp(1.0, 4e9) as u32,
+            counts_per_rev: self.counts_per_rev.round().clamp(0.0, 4e9) as u32,
         })
     }
 }

@@ -91,7 +91,11 @@ pub fn follow(
             ToHost::Fitting { done, of, .. } => progress(Progress::Models(done, of)),
             ToHost::Report(report) => break Ok(report),
             ToHost::Failed(failure) => break Err(failure),
-            ToHost::About(_) | ToHost::Armed { .. } => {}
+            ToHost::About(_)
+            | ToHost::Armed { .. }
+            | ToHost::Planned { .. }
+            | ToHost::Started { .. }
+            | ToHost::NotStarted { .. } => {}
         }
     };
     resend(conversation, recorded)?;

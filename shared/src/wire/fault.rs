@@ -33,11 +33,23 @@ pub enum Fault {
     TimeUp,
     /// The recording holds nothing to fit.
     NothingToFit,
+    /// The count goes to and fro while the motor turns: one of the encoder's lines is dead.
+    EncoderLine,
+    /// The count changed by more than any motor can turn.
+    EncoderJump,
+    /// No current flows and nothing moves although the bridge drives.
+    MotorLead,
+    /// The motor gains speed without a current: the sensor shows none.
+    CurrentSensor,
+    /// The supply is above what it may be: the motor brakes into it.
+    Overvoltage,
+    /// The supply is below what it may be.
+    Undervoltage,
 }
 
 impl Fault {
     /// All of them, in the order of the wire.
-    pub const ALL: [Fault; 13] = [
+    pub const ALL: [Fault; 19] = [
         Fault::Stopped,
         Fault::LinkLost,
         Fault::Overrun,
@@ -51,17 +63,28 @@ impl Fault {
         Fault::Overspeed,
         Fault::TimeUp,
         Fault::NothingToFit,
+        Fault::EncoderLine,
+        Fault::EncoderJump,
+        Fault::MotorLead,
+        Fault::CurrentSensor,
+        Fault::Overvoltage,
+        Fault::Undervoltage,
     ];
 
     /// The unit of the number that broke the limit, and of the limit; nothing where there is none.
     pub const fn unit(self) -> &'static str {
         match self {
-            Fault::Stall | Fault::Overtravel | Fault::Runaway => "counts",
+            Fault::Overtravel | Fault::Runaway | Fault::EncoderJump => "counts",
             Fault::NotVerified => "hundredths of a count RMS",
             Fault::Overcurrent | Fault::Overheated => "mA",
             Fault::Overspeed => "counts a period",
             Fault::TimeUp => "periods",
+            Fault::Overvoltage | Fault::Undervoltage => "mV",
             Fault::Stopped
+            | Fault::Stall
+            | Fault::EncoderLine
+            | Fault::MotorLead
+            | Fault::CurrentSensor
             | Fault::LinkLost
             | Fault::Overrun
             | Fault::Bridge
@@ -80,12 +103,18 @@ impl fmt::Display for Fault {
             Fault::Stall => "the shaft did not move at strong drive: free it, check the motor's and the encoder's leads",
             Fault::Overtravel => "the shaft left its allowed travel: allow more, or ask for a smaller amplitude",
             Fault::NotVerified => "the model did not predict a fresh recording: diagnose the recording on the host",
-            Fault::Runaway => "the shaft ran against the drive: swap the encoder's channels, or the motor's leads",
+            Fault::Runaway => "the encoder is reversed, the shaft ran against the drive: swap the encoder's channels, or the motor's leads",
             Fault::Overcurrent => "the current exceeded its limit: raise the limit if the motor bears it, or ask for a smaller amplitude",
             Fault::Overheated => "the winding would get too hot: let it cool, ask for a smaller amplitude or a shorter run",
             Fault::Overspeed => "the shaft was faster than allowed: ask for a smaller amplitude",
             Fault::TimeUp => "the run took longer than allowed: allow more time, or ask for less",
             Fault::NothingToFit => "the recording holds no motion to fit: ask for a larger amplitude",
+            Fault::EncoderLine => "one encoder line is dead, the count goes to and fro while the motor turns: check both lines, their supply and pull-ups",
+            Fault::EncoderJump => "the count jumped by more than a motor can turn: shield the encoder's lines, check its connector and supply",
+            Fault::MotorLead => "no current flows although the bridge drives: check the motor's leads and the bridge's supply",
+            Fault::CurrentSensor => "the motor runs but the current sensor shows no current: check the sensor; without it the current cannot be limited",
+            Fault::Overvoltage => "the supply rose too far, the motor brakes into it: add a brake resistor or capacitance, or ask for a smaller amplitude",
+            Fault::Undervoltage => "the supply broke down: it bears too little current for this drive; ask for a smaller amplitude, or take a stronger supply",
         })
     }
 }

@@ -1,14 +1,14 @@
-//! The messages. Append only: new ones at the end of an enum, new fields nowhere but in new messages.
+//! The messages. Append only: new ones at the end of an enum, new fields nowhere but in new messages, unless
+//! [`VERSION`](super::VERSION) is raised. [`ToDevice::Hello`] and [`About`] never change: they tell two peers that they do not
+//! understand each other.
 
-use super::Fault;
+use super::{Fault, PlanDigest, PlanPart};
 use crate::fit::{Outcome, Settings};
 use heapless::{String, Vec};
 use serde::{Deserialize, Serialize};
 
 /// Most rows in one message.
-pub const MOST_ROWS: usize = 24;
-/// Most segments of a plan in one message.
-pub const MOST_SEGMENTS: usize = 16;
+pub const MOST_ROWS: usize = 20;
 
 /// From the host.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,22 +19,19 @@ pub enum ToDevice {
     Alive,
     /// Get ready. Answered by [`ToHost::Armed`] with a nonce that starts one run, soon.
     Arm,
-    /// Starts a run.
+    /// Starts a run. Answered by [`ToHost::Started`], however often it comes while that run is under way.
     Start {
         /// From [`ToHost::Armed`].
         nonce: u32,
         /// What to do.
         job: Job,
+        /// The plan that a run of [`Kind::Play`] plays; the device refuses any but the one that it holds whole.
+        plan: PlanDigest,
     },
     /// Open the bridge now.
     Stop,
-    /// Segments of a plan for [`Kind::Play`], before the start.
-    Plan {
-        /// Index of the first one; zero clears the plan.
-        first: u16,
-        /// Segments.
-        segments: Vec<Segment, MOST_SEGMENTS>,
-    },
+    /// A part of a plan for [`Kind::Play`], before the start. Answered by [`ToHost::Planned`].
+    Plan(PlanPart),
     /// Send the rows that the device fitted once more, from this one on.
     Resend {
         /// Index of the first row, counted from the start of the recording.
@@ -54,7 +51,7 @@ pub enum ToHost {
         /// Periods for which it does.
         periods: u32,
     },
-    /// A command was refused; nothing has changed.
+    /// A command other than a start was refused; nothing has changed.
     Refused(Refusal),
     /// The device entered a stage.
     Stage {
@@ -64,6 +61,8 @@ pub enum ToHost {
         at: u32,
         /// Periods that the stage will take, if that is known.
         length: u32,
+        /// The run: the nonce that started it. What a link brings of an earlier one is none of this.
+        run: u32,
     },
     /// What was commanded and read.
     Rows(Rows),
@@ -80,6 +79,44 @@ pub enum ToHost {
     Report(Report),
     /// The run was given up.
     Failed(Failure),
+    /// Answer to a part of a plan.
+    Planned {
+        /// The plan.
+        of: PlanDigest,
+        /// Number of its segments that the device holds, from the first on.
+        held: u16,
+    },
+    /// Answer to a start.
+    Started {
+        /// The run: the nonce that started it.
+        run: u32,
+    },
+    /// A start was refused; nothing has changed.
+    NotStarted {
+        /// The nonce that was to start it.
+        run: u32,
+        /// Why.
+        why: Refusal,
+    },
+}
+
+impl ToHost {
+    /// The run that the message is of; nothing for one that is of none.
+    pub fn run(&self) -> Option<u32> {
+        match self {
+            ToHost::Stage { run, .. }
+            | ToHost::Started { run }
+            | ToHost::NotStarted { run, .. } => Some(*run),
+            ToHost::Rows(rows) => Some(rows.run),
+            ToHost::Report(report) => Some(report.run),
+            ToHost::Failed(failure) => Some(failure.run),
+            ToHost::About(_)
+            | ToHost::Armed { .. }
+            | ToHost::Refused(_)
+            | ToHost::Fitting { .. }
+            | ToHost::Planned { .. } => None,
+        }
+    }
 }
 
 /// What a device is.
@@ -147,7 +184,7 @@ pub enum Refusal {
     NotArmed,
     /// A limit or a length is zero or beyond the device.
     BadJob,
-    /// The plan has a gap or is too long for the device.
+    /// The plan is too long for the device, or not the one that it holds.
     BadPlan,
 }
 
@@ -187,6 +224,10 @@ pub struct Job {
     pub fit: Settings,
     /// What must not be exceeded.
     pub limits: Limits,
+    /// Counts of a revolution, which tell the device how much travel is a motion.
+    pub counts_per_rev: u32,
+    /// Supply voltage, mV, that duties are parts of.
+    pub supply_mv: u32,
 }
 
 /// Limits that the device watches. Zero means none, but for the duty and the time.
@@ -225,18 +266,11 @@ impl Limits {
     };
 }
 
-/// A stretch of a plan: one duty ([`OPEN`](crate::trace::OPEN) for an open bridge) for so many periods.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Segment {
-    /// The duty, see [`About::full`].
-    pub duty: i16,
-    /// Periods.
-    pub periods: u16,
-}
-
 /// Consecutive periods.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rows {
+    /// The run: the nonce that started it.
+    pub run: u32,
     /// Stage in which they were made.
     pub stage: Stage,
     /// Index of the first one, counted from the start of the stage.
@@ -250,24 +284,31 @@ pub struct Rows {
 /// One period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Row {
-    /// Duty held during it, or [`OPEN`](crate::trace::OPEN).
+    /// Duty across the winding during it in parts of the job's supply, or [`OPEN`](crate::trace::OPEN). A board that measures its
+    /// supply or knows its dead time tells what these make of the duty that it gave.
     pub duty: i16,
     /// Counts travelled during it.
     pub step: i16,
     /// Current at its start, mA, saturated; zero without a sensor.
     pub current_ma: i16,
+    /// Supply voltage at its end, mV; zero where it is not measured.
+    pub supply_mv: u16,
 }
 
 /// How a run ended well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report {
+    /// The run: the nonce that started it.
+    pub run: u32,
     /// Duty at which the shaft first moved.
     pub breakaway: i16,
     /// Largest duty of the excitation, after the probe.
     pub amplitude: i16,
     /// Periods played, over all stages.
     pub periods: u32,
+    /// Of these, periods in which the current's limit held the drive back.
+    pub limited: u32,
     /// The fit, if one was asked for.
     pub outcome: Option<Outcome>,
     /// How well it predicts, if that was asked for.
@@ -288,6 +329,8 @@ pub struct Verified {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Failure {
+    /// The run: the nonce that started it.
+    pub run: u32,
     /// Why.
     pub fault: Fault,
     /// In which stage.

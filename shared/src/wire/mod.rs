@@ -7,17 +7,22 @@
 //! Raw counts and duties travel; what they mean in SI is the host's business. [`VERSION`] counts changes that an older
 //! peer would misread. Messages and their fields are only ever appended; a frame that does not decode (noise, a message of
 //! a newer version) is dropped and counted, and the next zero byte starts afresh.
+//!
+//! A link may lose, double and reorder frames. So whatever starts or makes up a motion is acknowledged, a list comes in numbered
+//! parts and is named by its length and checksum, and what belongs to a run carries that run's nonce.
 
 mod fault;
 mod frame;
 mod message;
+mod plan;
 
 pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
 pub use message::{
-    About, Failure, Format, Job, Kind, Limits, MOST_ROWS, MOST_SEGMENTS, Refusal, Report, Row,
-    Rows, Segment, Stage, ToDevice, ToHost, Verified,
+    About, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows, Stage,
+    ToDevice, ToHost, Verified,
 };
+pub use plan::{MOST_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
 
 /// Version of the messages.
-pub const VERSION: u16 = 2;
+pub const VERSION: u16 = 3;

@@ -1,0 +1,324 @@
+//! Whether the shaft follows the drive, judged in travel and time.
+//!
+//! What a motor can do in a time depends on its inertia and on the encoder's resolution, neither of which is known beforehand. The
+//! probe shows it: once the drive is known that just moves the shaft, a step of twice that moves it some travel in some time. Half of
+//! that acceleration is what any strong drive is expected to do, also against the shaft's motion. A shaft that shows none of three
+//! times that travel stands; one that turns against a strong drive for three times that time, the *window*, and does not lose speed,
+//! has a reversed encoder.
+
+use super::Tripped;
+use crate::phase::Fault;
+
+/// Shortest window, ms.
+pub const SHORTEST_WINDOW_MS: u32 = 50;
+/// Longest window, ms.
+pub const LONGEST_WINDOW_MS: u32 = 1_500;
+
+/// Travel that a shaft at rest may show: its encoder stands on an edge, and one count is quantisation.
+const REST_COUNTS: i32 = 2;
+/// Least travel that the probe takes for motion, counts.
+const LEAST_MOTION: u32 = 8;
+/// The probe takes this part of a revolution for motion: more than most gears have backlash.
+const MOTION_PART: u32 = 64;
+/// Steps of one count to and fro, in a row, that no turning shaft shows.
+const TOGGLES: u32 = 16;
+/// As many in the first, weakest step of the probe show that the encoder does so at rest.
+const DITHER: u32 = 8;
+/// Largest change of the travel of a period, as a part of a revolution: 500 rad/s more in a millisecond, which is beyond any motor.
+const JUMP_PART: u32 = 12;
+/// And this many counts more, for coarse encoders.
+const JUMP_COUNTS: i32 = 8;
+
+/// What the encoder says against what is driven.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// Counts that are a motion, see [`motion`](Self::motion).
+    motion: i32,
+    /// Largest change of the travel of a period; zero for any.
+    jump: i32,
+    /// Travel of the last period; none after a pause.
+    last_step: Option<i32>,
+    /// Periods of the probe's last step.
+    stepped: u32,
+    shortest: u32,
+    longest: u32,
+    /// Periods of strong drive against the motion, and speed lost in them: travel of the second half less that of the first.
+    window: u32,
+    against: u32,
+    lost: i64,
+    /// A drive as strong as this moves any free motor; none is before the probe has shown which.
+    strong: i16,
+    /// A drive as strong as this turns a motor that has an encoder with one line.
+    turning: i16,
+    forward: bool,
+    stretch: Stretch,
+    rest: Rest,
+    /// Sign of the last step of one count, and how often the next one was against the one before.
+    toggle: i32,
+    toggles: u32,
+    /// The encoder toggles at rest.
+    dithers: bool,
+}
+
+/// What periods of strong drive show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shown {
+    /// The shaft stands, where any would have moved.
+    Rest,
+    /// It gains speed with the drive.
+    Gains,
+}
+
+/// Consecutive periods of strong drive one way, in steps with the drive.
+#[derive(Debug, Clone, Default)]
+struct Stretch {
+    periods: u32,
+    travel: i64,
+    /// Sum of the steps, each times its index.
+    moment: i64,
+}
+
+impl Stretch {
+    fn step(&mut self, step: i32) {
+        self.travel += i64::from(step);
+        self.moment += i64::from(step) * i64::from(self.periods);
+        self.periods += 1;
+    }
+
+    /// Travel in the second half less that in the first, of the straight line through the steps.
+    fn gain(&self) -> i64 {
+        let periods = i64::from(self.periods.max(1));
+        (6 * self.moment - 3 * (periods - 1) * self.travel) / (2 * periods)
+    }
+}
+
+/// A shaft that stands, against the least that a free one would travel.
+#[derive(Debug, Clone, Default)]
+struct Rest {
+    /// Least acceleration by a strong drive, counts a period squared, and the speed up to which it holds; 16 binary places.
+    acceleration: i64,
+    fastest: i64,
+    /// Travel after which the shaft is known to stand, and the least periods of strong drive.
+    enough: i64,
+    shortest: u32,
+    /// The free shaft: its speed, position and extremes.
+    speed: i64,
+    position: i64,
+    expected: (i64, i64),
+    /// Periods of strong drive, and the encoder's position and extremes, since it moved.
+    driven: u32,
+    seen: i32,
+    extremes: (i32, i32),
+}
+
+impl Rest {
+    /// Of a shaft that a strong drive moved `motion` counts in so many periods.
+    fn of(motion: i32, periods: u32, shortest: u32) -> Self {
+        let (motion, periods) = (i64::from(motion) << 16, i64::from(periods.max(1)));
+        Rest {
+            acceleration: motion / (periods * periods),
+            fastest: 2 * motion / periods,
+            enough: 3 * motion,
+            shortest,
+            ..Rest::default()
+        }
+    }
+
+    /// Looks at the step of a period; true if the shaft stands.
+    fn look(&mut self, strong: bool, forward: bool, step: i32) -> bool {
+        self.seen = self.seen.saturating_add(step);
+        let (lowest, highest) = self.extremes;
+        self.extremes = (lowest.min(self.seen), highest.max(self.seen));
+        if self.extremes.1.saturating_sub(self.extremes.0) > REST_COUNTS {
+            (self.seen, self.extremes, self.driven) = (0, (0, 0), 0);
+            (self.speed, self.position, self.expected) = (0, 0, (0, 0));
+            return false;
+        }
+        if !strong || self.enough == 0 {
+            self.speed = 0;
+            return false;
+        }
+        self.driven += 1;
+        let gained = if forward {
+            self.acceleration
+        } else {
+            -self.acceleration
+        };
+        self.speed = (self.speed + gained).clamp(-self.fastest, self.fastest);
+        self.position += self.speed;
+        let (lowest, highest) = self.expected;
+        self.expected = (lowest.min(self.position), highest.max(self.position));
+        self.driven >= self.shortest && self.expected.1 - self.expected.0 >= self.enough
+    }
+}
+
+impl Motion {
+    /// For a run with `counts_per_rev` counts a revolution (zero if unknown), a limit of its travel (zero for none) and a board whose
+    /// [`full`](crate::board::Board::full) duty this is.
+    pub fn new(counts_per_rev: u32, travel: u32, period_us: u32, full: u16) -> Self {
+        let periods = |ms: u32| (ms * 1000 / period_us.max(1)).max(4);
+        let mut motion = LEAST_MOTION.max(counts_per_rev / MOTION_PART);
+        if travel > 0 {
+            motion = motion.min(travel / 2).max(4);
+        }
+        let jump = match counts_per_rev {
+            0 => 0,
+            counts => clamped(counts / JUMP_PART).saturating_add(JUMP_COUNTS),
+        };
+        Motion {
+            motion: clamped(motion),
+            jump,
+            last_step: None,
+            stepped: 0,
+            shortest: periods(SHORTEST_WINDOW_MS),
+            longest: periods(LONGEST_WINDOW_MS),
+            window: periods(SHORTEST_WINDOW_MS),
+            against: 0,
+            lost: 0,
+            strong: i16::MAX,
+            turning: i16::try_from(full / 4).unwrap_or(i16::MAX),
+            forward: true,
+            stretch: Stretch::default(),
+            rest: Rest::default(),
+            toggle: 0,
+            toggles: 0,
+            dithers: false,
+        }
+    }
+
+    /// Counts that the probe takes for a motion.
+    pub fn motion(&self) -> i32 {
+        self.motion
+    }
+
+    /// A period of the probe's last step has passed.
+    pub fn stepped(&mut self) {
+        self.stepped = self.stepped.saturating_add(1);
+    }
+
+    /// In the probe's first, weakest step: what toggles now toggles at rest.
+    pub fn at_rest(&mut self) {
+        self.dithers |= self.toggles >= DITHER;
+    }
+
+    /// In the rest of the probe, where any drive may turn the motor.
+    pub fn probing(&mut self, duty: i16) {
+        self.turning = self.turning.min(duty.max(1));
+    }
+
+    /// Nobody has looked for a while.
+    pub fn pause(&mut self) {
+        self.last_step = None;
+    }
+
+    /// The probe has ended: a drive of `strong` moves the shaft well.
+    pub fn expect(&mut self, strong: i16) {
+        self.strong = strong;
+        self.turning = strong;
+        let periods = self.stepped.clamp(1, self.longest / 3);
+        self.window = (3 * periods).max(self.shortest);
+        self.rest = Rest::of(self.motion, periods, self.shortest);
+    }
+
+    /// True for a drive that moves the shaft well.
+    pub fn is_strong(&self, duty: i16) -> bool {
+        duty.unsigned_abs() >= self.strong.unsigned_abs()
+    }
+
+    /// Periods of a window.
+    pub fn window(&self) -> u32 {
+        self.window
+    }
+
+    /// Looks at the step of a period under `drive`; says what the last ones have shown, where they have.
+    ///
+    /// # Errors
+    /// A jump of the encoder, a dead line, a shaft that runs against the drive.
+    pub fn look(&mut self, drive: i16, step: i32) -> Result<Option<Shown>, Tripped> {
+        self.jumped(step)?;
+        let forward = drive >= 0;
+        let reversed = forward != self.forward;
+        self.forward = forward;
+        self.toggled(step, reversed, drive)?;
+        let strong = self.is_strong(drive);
+        if self.rest.look(strong, forward, step) {
+            if self.toggles >= TOGGLES / 2 && !self.dithers {
+                return Err(Tripped::by(Fault::EncoderLine));
+            }
+            return Ok(Some(Shown::Rest));
+        }
+        let mut shown = None;
+        if !strong || reversed || self.stretch.periods >= self.window / 2 {
+            shown = self.ended()?;
+        }
+        if strong {
+            let with = if forward { step } else { step.saturating_neg() };
+            self.stretch.step(with);
+        }
+        Ok(shown)
+    }
+
+    /// A stretch of strong drive has ended.
+    fn ended(&mut self) -> Result<Option<Shown>, Tripped> {
+        let stretch = core::mem::take(&mut self.stretch);
+        if stretch.periods < self.window / 8 {
+            return Ok(None);
+        }
+        let gain = stretch.gain();
+        if stretch.travel >= 0 {
+            let gains = stretch.travel > REST_COUNTS.into() && gain >= REST_COUNTS.into();
+            return Ok(gains.then_some(Shown::Gains));
+        }
+        self.against += stretch.periods;
+        self.lost = self.lost.saturating_add(gain);
+        if self.against < self.window {
+            return Ok(None);
+        }
+        // Braking looks different: it takes speed, more than quantisation hides.
+        let runs = self.lost < REST_COUNTS.into();
+        (self.against, self.lost) = (0, 0);
+        if runs {
+            return Err(Tripped {
+                fault: Fault::Runaway,
+                seen: stretch.travel.max(i32::MIN.into()) as i32,
+                limit: 0,
+            });
+        }
+        Ok(None)
+    }
+
+    fn jumped(&mut self, step: i32) -> Result<(), Tripped> {
+        let change = step.saturating_sub(self.last_step.unwrap_or(step));
+        self.last_step = Some(step);
+        if self.jump > 0 && change.unsigned_abs() > self.jump.unsigned_abs() {
+            return Err(Tripped {
+                fault: Fault::EncoderJump,
+                seen: change,
+                limit: self.jump,
+            });
+        }
+        Ok(())
+    }
+
+    /// With one line dead, an edge of the other counts up and the next one down. A shaft that is reversed also turns round.
+    fn toggled(&mut self, step: i32, reversed: bool, drive: i16) -> Result<(), Tripped> {
+        if reversed {
+            self.toggles = self.toggles.saturating_sub(2);
+        }
+        if step == 0 {
+            return Ok(());
+        }
+        let to_and_fro = step.abs() == 1 && step == -self.toggle;
+        self.toggles = if to_and_fro { self.toggles + 1 } else { 0 };
+        self.toggle = if step.abs() == 1 { step } else { 0 };
+        let turns = drive.unsigned_abs() >= self.turning.unsigned_abs();
+        if turns && !self.dithers && self.toggles >= TOGGLES {
+            return Err(Tripped::by(Fault::EncoderLine));
+        }
+        Ok(())
+    }
+}
+
+fn clamped(x: u32) -> i32 {
+    i32::try_from(x).unwrap_or(i32::MAX)
+}
