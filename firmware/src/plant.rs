@@ -42,6 +42,8 @@ pub struct Motor {
 pub struct Shaft {
     /// A.
     pub current: f32,
+    /// Largest of the current in the last [`Motor::advance`], A.
+    pub peak: f32,
     /// Voltage of the supply at the bridge, V; zero before it has driven.
     pub bus: f32,
     /// rad/s.
@@ -70,6 +72,7 @@ pub const SMALL: Motor = Motor {
     counts_per_rev: 2000.0,
     state: Shaft {
         current: 0.0,
+        peak: 0.0,
         bus: 0.0,
         speed: 0.0,
         count: 0,
@@ -83,6 +86,7 @@ impl Motor {
     pub fn advance(&mut self, duty: Option<i16>, seconds: f32) {
         let dt = seconds / SUBSTEPS as f32;
         let decay = libm::expf(-dt * self.resistance / self.inductance);
+        self.state.peak = 0.0;
         for _ in 0..SUBSTEPS {
             self.electrical(duty, decay);
             self.mechanical(dt);
@@ -92,10 +96,15 @@ impl Motor {
     /// The same while something holds the shaft.
     pub fn hold(&mut self, duty: Option<i16>, seconds: f32) {
         let decay = libm::expf(-seconds / SUBSTEPS as f32 * self.resistance / self.inductance);
-        self.state.speed = 0.0;
+        (self.state.speed, self.state.peak) = (0.0, 0.0);
         for _ in 0..SUBSTEPS {
             self.electrical(duty, decay);
         }
+    }
+
+    /// Largest of the current in the last step of time, mA.
+    pub fn peak_ma(&self) -> i32 {
+        (self.state.peak * 1000.0) as i32
     }
 
     /// mA.
@@ -135,6 +144,7 @@ impl Motor {
                 if turned { 0.0 } else { next }
             }
         };
+        state.peak = state.peak.max(state.current.abs());
     }
 
     /// Semi-implicit Euler; friction takes up to all of the momentum.

@@ -14,7 +14,7 @@ pub struct Bridge {
     pub nominal_mv: u32,
     /// Loss of the dead time, as a duty.
     pub dead_time: u16,
-    /// Current from which on all of it is lost, mA.
+    /// Current below which the ripple changes its sign, mA: the loss is in proportion there.
     pub ripple_ma: u16,
     /// What rounding has left over, 16 binary places: it is made good later, or it would add up to a travel.
     carry: i32,
@@ -32,15 +32,18 @@ impl Bridge {
     }
 
     /// The duty that the winding saw, in parts of the nominal voltage: `duty` as it was given, behind `supply_mv` (none if not
-    /// measured), with `current_ma` in the mean of the period.
-    pub fn at_winding(&mut self, duty: i16, supply_mv: Option<u16>, current_ma: i32) -> i16 {
+    /// measured), while the current went from the first of `current_ma` to the second.
+    ///
+    /// A current that changes its sign is taken to do so on a straight line: the loss of the one part of the period takes from that of
+    /// the other.
+    pub fn at_winding(&mut self, duty: i16, supply_mv: Option<u16>, current_ma: [i32; 2]) -> i16 {
         if duty == OPEN {
             return OPEN;
         }
         let lost = i64::from(self.dead_time) << 16;
-        let ripple = i64::from(self.ripple_ma.max(1));
-        let part = i64::from(current_ma).clamp(-ripple, ripple);
-        let given = (i64::from(duty) << 16) - lost * part / ripple;
+        let [from, to] = current_ma.map(i64::from);
+        let whole = (from.abs() + to.abs()).max(2 * i64::from(self.ripple_ma.max(1)));
+        let given = (i64::from(duty) << 16) - lost * (from + to) / whole;
         let seen = match (supply_mv, self.nominal_mv) {
             (Some(supply), nominal @ 1..) => given * i64::from(supply) / i64::from(nominal),
             _ => given,
@@ -64,8 +67,8 @@ mod tests {
     fn a_bridge_that_measures_and_loses_nothing_hands_on_every_duty() {
         let mut bridge = Bridge::new(24_000, 0, 50);
         for duty in i16::MIN..=i16::MAX {
-            assert_eq!(bridge.at_winding(duty, None, 700), duty);
-            assert_eq!(bridge.at_winding(duty, Some(24_000), -700), duty);
+            assert_eq!(bridge.at_winding(duty, None, [700; 2]), duty);
+            assert_eq!(bridge.at_winding(duty, Some(24_000), [-700, 300]), duty);
         }
     }
 
@@ -81,7 +84,7 @@ mod tests {
                 let mut bridge = Bridge::new(nominal, 273, 50);
                 let (mut seen, mut exact) = (0.0, 0.0);
                 for duty in (-20_000..20_000).step_by(37) {
-                    seen += f64::from(bridge.at_winding(duty, Some(supply), current));
+                    seen += f64::from(bridge.at_winding(duty, Some(supply), [current; 2]));
                     let part = (f64::from(current) / 50.0).clamp(-1.0, 1.0);
                     exact +=
                         (f64::from(duty) - 273.0 * part) * f64::from(supply) / f64::from(nominal);
@@ -98,8 +101,8 @@ mod tests {
                 for current in [i32::MIN, 0, i32::MAX] {
                     for nominal in [0, 1, u32::MAX] {
                         let mut bridge = Bridge::new(nominal, u16::MAX, 0);
-                        bridge.at_winding(duty, supply, current);
-                        bridge.at_winding(duty, supply, current);
+                        bridge.at_winding(duty, supply, [current, current.wrapping_neg()]);
+                        bridge.at_winding(duty, supply, [current; 2]);
                     }
                 }
             }

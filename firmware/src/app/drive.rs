@@ -172,10 +172,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn keep(&mut self, duty: i16, step: i32, from_ma: i32, measured: Measured) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let current_ma = from_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
-        let mean_ma = measured.current_ma.map_or(0, |to_ma| {
-            (i32::from(current_ma) + to_ma.clamp(i16::MIN.into(), i16::MAX.into())) / 2
-        });
-        let duty = self.bridge.at_winding(duty, measured.supply_mv, mean_ma);
+        let currents = [from_ma, measured.current_ma.unwrap_or(from_ma)];
+        let duty = self.bridge.at_winding(duty, measured.supply_mv, currents);
         if self.phase == Phase::Record {
             self.recording.push(duty, step);
         }
@@ -220,11 +218,14 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         let (Some(guard), Work::Play { script, .. }) = (&mut self.guard, &mut self.work) else {
             return false;
         };
-        if let Script::Step { .. } = script {
-            if duty == 0 {
+        if let Script::Step {
+            brake, duty: step, ..
+        } = *script
+        {
+            if brake > 0 || duty != step {
                 // It brakes: the step begins where that ends.
                 self.begun_at = self.count;
-            } else if guard.probe_step(duty, self.count.wrapping_sub(self.begun_at)) {
+            } else if guard.probe_step(duty, self.count.wrapping_sub(self.begun_at), current_ma) {
                 self.done();
                 return true;
             }

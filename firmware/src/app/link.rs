@@ -190,7 +190,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             resolution_ma: B::CURRENT_RESOLUTION_MA,
         };
         self.guard = Some(Guard::new(&job, rating, self.count));
-        let ripple_ma = B::CURRENT_RESOLUTION_MA.saturating_mul(4).max(20);
+        let ripple_ma = B::CURRENT_RESOLUTION_MA.saturating_mul(4);
         self.bridge = Bridge::new(job.supply_mv, self.board.dead_time(), ripple_ma);
         log::started(&job);
         self.job = Some(job);

@@ -9,24 +9,56 @@ use shared::wire::Limits;
 
 /// Periods over which speed is measured, for coarse encoders.
 const SPAN: usize = 16;
-/// Part of the current's limit that the drive may ask for: what is measured has noise and ripple.
-const ASKED: u32 = 9;
-const OF: u32 = 10;
+/// Periods of the shorter measure, which a motor that is soon fast needs, and the counts in them from which on it tells a speed.
+const SHORT: usize = 3;
+const TELLS: u32 = 8;
+
+/// Counts over a span, and the most of them so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Speed {
+    counts: i32,
+    fastest: u32,
+}
+
+impl Speed {
+    fn step(&mut self, newest: i16, oldest: i16) {
+        self.counts += i32::from(newest) - i32::from(oldest);
+        self.fastest = self.fastest.max(self.counts.unsigned_abs());
+    }
+
+    /// True unless the shaft turns with `duty`.
+    fn opposes(self, duty: i16) -> bool {
+        self.counts.signum() * i32::from(duty.signum()) <= 0
+    }
+
+    /// Part of the highest speed, of `strongest`.
+    fn part(self, strongest: u16) -> u16 {
+        let counts = u64::from(self.counts.unsigned_abs());
+        let part = u64::from(strongest) * counts / u64::from(self.fastest.max(1));
+        u16::try_from(part).unwrap_or(u16::MAX)
+    }
+}
+
+/// Tenths of the current's limit that the drive may ask for: what is measured has noise and ripple.
+const ASKED: u64 = 9;
 
 /// The current and what is known of the winding.
 #[derive(Debug, Clone)]
 pub struct Current {
-    /// Duty that holds the current at its limit while the shaft rests.
+    /// Largest duty, and the one that holds the current at its limit while the shaft rests.
+    duty: i16,
     most: i16,
     limit_ma: u32,
     /// Current at full duty and rest, mA; zero if unknown.
     stall_ma: u32,
     full: u16,
+    /// Steps and drives of the last span.
     steps: [i16; SPAN],
+    drives: [i16; SPAN],
     at: usize,
-    /// Counts over the span; the most of them so far, and the largest duty so far.
-    speed: i32,
-    fastest: u32,
+    long: Speed,
+    short: Speed,
+    /// Largest duty so far.
     strongest: u16,
     thermal: u32,
     /// Low-passed square of the current, mA².
@@ -43,21 +75,21 @@ impl Current {
             (limit, rated) => limit.min(rated),
         };
         let mut current = Current {
+            duty: limits.duty.max(1),
             most: limits.duty.max(1),
             limit_ma: limit_ma.min(LARGEST_MA),
             stall_ma: limits.stall_ma,
             full: full.max(1),
             steps: [0; SPAN],
+            drives: [0; SPAN],
             at: 0,
-            speed: 0,
-            fastest: 0,
+            long: Speed::default(),
+            short: Speed::default(),
             strongest: 0,
             thermal: limits.thermal.max(1),
             heat: 0,
         };
-        if limits.stall_ma > 0 {
-            current.bound(full, limits.stall_ma);
-        }
+        current.bound();
         current
     }
 
@@ -73,65 +105,101 @@ impl Current {
 
     /// The shaft rests and `duty` drives `current_ma`: this shows the resistance.
     pub fn at_rest(&mut self, duty: i16, current_ma: u32) {
-        if current_ma == 0 || duty == 0 {
-            return;
+        if let Some(stall) = self.at_full(duty, current_ma) {
+            self.stall_ma = stall;
+            self.bound();
         }
-        let stall = u64::from(current_ma) * u64::from(self.full) / u64::from(duty.unsigned_abs());
-        self.stall_ma = u32::try_from(stall).unwrap_or(u32::MAX).max(1);
-        self.bound(duty.unsigned_abs(), current_ma);
     }
 
-    fn bound(&mut self, duty: u16, current_ma: u32) {
-        if self.limit_ma == 0 {
+    /// A step to `duty` from rest has driven at most `current_ma`, more than half of what it drives at rest. It is larger than any
+    /// before the shaft moved, and so surer: where those were too large by the sensor's error.
+    pub fn at_step(&mut self, duty: i16, current_ma: u32) {
+        if let Some(stall) = self.at_full(duty, current_ma.saturating_add(current_ma / 2))
+            && stall < self.stall_ma
+        {
+            self.stall_ma = stall;
+            self.bound();
+        }
+    }
+
+    /// The current at full duty and rest.
+    fn at_full(&self, duty: i16, current_ma: u32) -> Option<u32> {
+        let duty = u64::from(duty.unsigned_abs());
+        let stall = (u64::from(current_ma) * u64::from(self.full)).checked_div(duty)?;
+        Some(u32::try_from(stall).unwrap_or(u32::MAX)).filter(|stall| *stall > 0)
+    }
+
+    fn bound(&mut self) {
+        if self.limit_ma == 0 || self.stall_ma == 0 {
             return;
         }
-        let asked = u64::from(self.limit_ma / OF * ASKED);
-        let most = asked * u64::from(duty) / u64::from(current_ma.max(1));
-        self.most = self
-            .most
-            .min(i16::try_from(most).unwrap_or(i16::MAX))
-            .max(1);
+        let asked = u64::from(self.limit_ma) * ASKED / 10;
+        let most = asked * u64::from(self.full) / u64::from(self.stall_ma);
+        self.most = i16::try_from(most).unwrap_or(i16::MAX).clamp(1, self.duty);
+    }
+
+    /// Takes the current that `drive` and the back-EMF have made of a strong drive: no larger resistance lets so much flow.
+    pub fn measured(&mut self, drive: i16, current_ma: u32) {
+        let made = drive.unsigned_abs().saturating_add(self.back_emf(drive));
+        let made = i16::try_from(made).unwrap_or(i16::MAX);
+        if let Some(stall) = self.at_full(made, current_ma)
+            && self.stall_ma > 0
+            && stall > self.stall_ma
+        {
+            self.stall_ma = stall;
+            self.bound();
+        }
     }
 
     /// Follows the shaft and the drive of a period.
     pub fn follow(&mut self, drive: i16, step: i32) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
-        if let Some(oldest) = self.steps.get_mut(self.at) {
-            self.speed += i32::from(step) - i32::from(*oldest);
-            *oldest = step;
+        let before = |span: usize| {
+            let index = (self.at + SPAN - span) % SPAN;
+            self.steps.get(index).copied().unwrap_or(0)
+        };
+        let (oldest, old) = (before(SPAN), before(SHORT));
+        self.long.step(step, oldest);
+        self.short.step(step, old);
+        if let (Some(last), Some(held)) =
+            (self.steps.get_mut(self.at), self.drives.get_mut(self.at))
+        {
+            (*last, *held) = (step, drive);
         }
         self.at = (self.at + 1) % SPAN;
-        self.fastest = self.fastest.max(self.speed.unsigned_abs());
         self.strongest = self.strongest.max(drive.unsigned_abs());
     }
 
-    /// Most that the back-EMF can be, as a duty.
-    fn back_emf(&self) -> u16 {
-        let speed = u64::from(self.speed.unsigned_abs());
-        let bound = u64::from(self.strongest) * speed / u64::from(self.fastest.max(1));
-        u16::try_from(bound).unwrap_or(u16::MAX)
-    }
-
-    /// Against the motion.
-    fn opposes(&self, duty: i16) -> bool {
-        self.speed.signum() * i32::from(duty.signum()) < 0
+    /// Most that the back-EMF can be against `duty`, as a duty; either way for none.
+    ///
+    /// The long span lags. Where the short one has too few counts, a shaft may have come to turn with any drive of the long one.
+    fn back_emf(&self, duty: i16) -> u16 {
+        let of = |speed: Speed| {
+            if speed.opposes(duty) {
+                speed.part(self.strongest)
+            } else {
+                0
+            }
+        };
+        let recent = if self.short.fastest >= TELLS {
+            of(self.short)
+        } else {
+            let against = |drive: &&i16| i32::from(**drive) * i32::from(duty.signum()) <= 0;
+            let drives = self.drives.iter().filter(against);
+            drives.map(|drive| drive.unsigned_abs()).max().unwrap_or(0)
+        };
+        of(self.long).max(recent)
     }
 
     /// The nearest duty to `duty` that keeps the current within its limit.
     pub fn bounded(&self, duty: i16) -> i16 {
-        let mut most = i32::from(self.most);
-        if self.opposes(duty) {
-            most = (most - i32::from(self.back_emf())).max(0);
-        }
+        let most = (i32::from(self.most) - i32::from(self.back_emf(duty))).max(0);
         i32::from(duty).clamp(-most, most) as i16
     }
 
     /// Most that the current of a period can have been, mA: what is assumed without a sensor. Zero if the resistance is unknown.
     pub fn assumed_ma(&self, drive: i16) -> i64 {
-        let mut duty = u64::from(drive.unsigned_abs());
-        if self.opposes(drive) || drive == 0 {
-            duty += u64::from(self.back_emf());
-        }
+        let duty = u64::from(drive.unsigned_abs()) + u64::from(self.back_emf(drive));
         let current = u64::from(self.stall_ma) * duty / u64::from(self.full);
         i64::try_from(current).unwrap_or(i64::MAX)
     }

@@ -5,10 +5,12 @@
 //! | file | holds |
 //! |---|---|
 //! | `motion` | whether the shaft follows the drive: stall, runaway, dead line, jump |
+//! | `response` | how a free shaft answers a strong drive |
 //! | `current` | the armature current, measured or bounded; the winding's heat |
 
 mod current;
 mod motion;
+mod response;
 
 use crate::phase::Fault;
 use current::{Current, LARGEST_MA};
@@ -73,6 +75,8 @@ pub struct Guard {
     periods: u32,
     motion: Motion,
     current: Current,
+    /// Largest current in the probe's last step, mA.
+    step_ma: u32,
     /// Periods of strong drive without a current, and whether the shaft gained speed in them.
     quiet: u32,
     gained: bool,
@@ -96,6 +100,7 @@ impl Guard {
                 rating.full,
             ),
             current: Current::new(&limits, rating.full, rating.current_ma),
+            step_ma: 0,
             quiet: 0,
             gained: false,
         }
@@ -144,11 +149,16 @@ impl Guard {
 
     /// Looks at a period of the probe's last step, in which `duty` has moved the shaft by `moved`; true once that is a motion, which
     /// shows what such a drive does.
-    pub fn probe_step(&mut self, duty: i16, moved: i32) -> bool {
+    pub fn probe_step(&mut self, duty: i16, moved: i32, current_ma: Option<i32>) -> bool {
         self.motion.stepped();
+        let current = current_ma.map_or(0, i32::unsigned_abs);
+        self.step_ma = self.step_ma.max(current);
         let done = moved >= self.motion.motion();
         if done {
             self.motion.expect(duty);
+            if self.step_ma >= CLEAR * u32::from(self.resolution_ma) {
+                self.current.at_step(duty, self.step_ma);
+            }
         }
         done
     }
@@ -196,7 +206,13 @@ impl Guard {
             limits.speed.into(),
         )?;
         if measured.current_ma.is_some() {
-            check(Fault::Overcurrent, current, self.current.limit_ma())?;
+            if self.motion.is_strong(drive) {
+                let current = u32::try_from(current).unwrap_or(u32::MAX);
+                self.current.measured(drive, current);
+            }
+            // An eighth more than the limit: the drive is held below it, and a reading has noise.
+            let limit = self.current.limit_ma();
+            check(Fault::Overcurrent, current, limit.saturating_add(limit / 8))?;
         }
         self.supply(measured.supply_mv)?;
         let heat = self.current.warm(current);

@@ -2,11 +2,12 @@
 //!
 //! What a motor can do in a time depends on its inertia and on the encoder's resolution, neither of which is known beforehand. The
 //! probe shows it: once the drive is known that just moves the shaft, a step of twice that moves it some travel in some time. Half of
-//! that acceleration is what any strong drive is expected to do, also against the shaft's motion. A shaft that shows none of three
-//! times that travel stands; one that turns against a strong drive for three times that time, the *window*, and does not lose speed,
-//! has a reversed encoder.
+//! that acceleration is the least that any strong drive does, also against the shaft's motion. A shaft that stays where it is though
+//! it would have had to turn round stands; one that turns against strong drives for three times that time, the *window*, and does not
+//! lose speed by a quarter of it, has a reversed encoder.
 
 use super::Tripped;
+use super::response::{Acceleration, REST_COUNTS, Rest, Stretch};
 use crate::phase::Fault;
 
 /// Shortest window, ms.
@@ -14,8 +15,8 @@ pub const SHORTEST_WINDOW_MS: u32 = 50;
 /// Longest window, ms.
 pub const LONGEST_WINDOW_MS: u32 = 1_500;
 
-/// Travel that a shaft at rest may show: its encoder stands on an edge, and one count is quantisation.
-const REST_COUNTS: i32 = 2;
+/// Loss of speed that a free shaft must have had for a reversed encoder to be told from it, counts.
+const AGAINST_COUNTS: i64 = 8;
 /// Least travel that the probe takes for motion, counts.
 const LEAST_MOTION: u32 = 8;
 /// The probe takes this part of a revolution for motion: more than most gears have backlash.
@@ -42,10 +43,13 @@ pub struct Motion {
     stepped: u32,
     shortest: u32,
     longest: u32,
-    /// Periods of strong drive against the motion, and speed lost in them: travel of the second half less that of the first.
+    /// Periods in which the shaft must have followed.
     window: u32,
+    /// Periods of strong drive against the motion; speed lost in them, and the least that a free shaft would have lost: travel of the
+    /// second half less that of the first.
     against: u32,
     lost: i64,
+    least: i64,
     /// A drive as strong as this moves any free motor; none is before the probe has shown which.
     strong: i16,
     /// A drive as strong as this turns a motor that has an encoder with one line.
@@ -53,6 +57,7 @@ pub struct Motion {
     forward: bool,
     stretch: Stretch,
     rest: Rest,
+    acceleration: Acceleration,
     /// Sign of the last step of one count, and how often the next one was against the one before.
     toggle: i32,
     toggles: u32,
@@ -67,89 +72,6 @@ pub enum Shown {
     Rest,
     /// It gains speed with the drive.
     Gains,
-}
-
-/// Consecutive periods of strong drive one way, in steps with the drive.
-#[derive(Debug, Clone, Default)]
-struct Stretch {
-    periods: u32,
-    travel: i64,
-    /// Sum of the steps, each times its index.
-    moment: i64,
-}
-
-impl Stretch {
-    fn step(&mut self, step: i32) {
-        self.travel += i64::from(step);
-        self.moment += i64::from(step) * i64::from(self.periods);
-        self.periods += 1;
-    }
-
-    /// Travel in the second half less that in the first, of the straight line through the steps.
-    fn gain(&self) -> i64 {
-        let periods = i64::from(self.periods.max(1));
-        (6 * self.moment - 3 * (periods - 1) * self.travel) / (2 * periods)
-    }
-}
-
-/// A shaft that stands, against the least that a free one would travel.
-#[derive(Debug, Clone, Default)]
-struct Rest {
-    /// Least acceleration by a strong drive, counts a period squared, and the speed up to which it holds; 16 binary places.
-    acceleration: i64,
-    fastest: i64,
-    /// Travel after which the shaft is known to stand, and the least periods of strong drive.
-    enough: i64,
-    shortest: u32,
-    /// The free shaft: its speed, position and extremes.
-    speed: i64,
-    position: i64,
-    expected: (i64, i64),
-    /// Periods of strong drive, and the encoder's position and extremes, since it moved.
-    driven: u32,
-    seen: i32,
-    extremes: (i32, i32),
-}
-
-impl Rest {
-    /// Of a shaft that a strong drive moved `motion` counts in so many periods.
-    fn of(motion: i32, periods: u32, shortest: u32) -> Self {
-        let (motion, periods) = (i64::from(motion) << 16, i64::from(periods.max(1)));
-        Rest {
-            acceleration: motion / (periods * periods),
-            fastest: 2 * motion / periods,
-            enough: 3 * motion,
-            shortest,
-            ..Rest::default()
-        }
-    }
-
-    /// Looks at the step of a period; true if the shaft stands.
-    fn look(&mut self, strong: bool, forward: bool, step: i32) -> bool {
-        self.seen = self.seen.saturating_add(step);
-        let (lowest, highest) = self.extremes;
-        self.extremes = (lowest.min(self.seen), highest.max(self.seen));
-        if self.extremes.1.saturating_sub(self.extremes.0) > REST_COUNTS {
-            (self.seen, self.extremes, self.driven) = (0, (0, 0), 0);
-            (self.speed, self.position, self.expected) = (0, 0, (0, 0));
-            return false;
-        }
-        if !strong || self.enough == 0 {
-            self.speed = 0;
-            return false;
-        }
-        self.driven += 1;
-        let gained = if forward {
-            self.acceleration
-        } else {
-            -self.acceleration
-        };
-        self.speed = (self.speed + gained).clamp(-self.fastest, self.fastest);
-        self.position += self.speed;
-        let (lowest, highest) = self.expected;
-        self.expected = (lowest.min(self.position), highest.max(self.position));
-        self.driven >= self.shortest && self.expected.1 - self.expected.0 >= self.enough
-    }
 }
 
 impl Motion {
@@ -175,11 +97,13 @@ impl Motion {
             window: periods(SHORTEST_WINDOW_MS),
             against: 0,
             lost: 0,
+            least: 0,
             strong: i16::MAX,
             turning: i16::try_from(full / 4).unwrap_or(i16::MAX),
             forward: true,
             stretch: Stretch::default(),
             rest: Rest::default(),
+            acceleration: Acceleration::default(),
             toggle: 0,
             toggles: 0,
             dithers: false,
@@ -217,7 +141,11 @@ impl Motion {
         self.turning = strong;
         let periods = self.stepped.clamp(1, self.longest / 3);
         self.window = (3 * periods).max(self.shortest);
-        self.rest = Rest::of(self.motion, periods, self.shortest);
+        self.acceleration = Acceleration {
+            motion: self.motion.into(),
+            time: periods.into(),
+        };
+        self.rest = Rest::of(self.acceleration, self.shortest);
     }
 
     /// True for a drive that moves the shaft well.
@@ -241,7 +169,7 @@ impl Motion {
         self.forward = forward;
         self.toggled(step, reversed, drive)?;
         let strong = self.is_strong(drive);
-        if self.rest.look(strong, forward, step) {
+        if self.rest.look(strong, reversed, step) {
             if self.toggles >= TOGGLES / 2 && !self.dithers {
                 return Err(Tripped::by(Fault::EncoderLine));
             }
@@ -261,7 +189,8 @@ impl Motion {
     /// A stretch of strong drive has ended.
     fn ended(&mut self) -> Result<Option<Shown>, Tripped> {
         let stretch = core::mem::take(&mut self.stretch);
-        if stretch.periods < self.window / 8 {
+        let least = self.acceleration.gain(stretch.periods);
+        if least < REST_COUNTS.into() {
             return Ok(None);
         }
         let gain = stretch.gain();
@@ -271,12 +200,13 @@ impl Motion {
         }
         self.against += stretch.periods;
         self.lost = self.lost.saturating_add(gain);
-        if self.against < self.window {
+        self.least = self.least.saturating_add(least);
+        if self.against < self.window || self.least < AGAINST_COUNTS {
             return Ok(None);
         }
         // Braking looks different: it takes speed, more than quantisation hides.
-        let runs = self.lost < REST_COUNTS.into();
-        (self.against, self.lost) = (0, 0);
+        let runs = self.lost < self.least / 4;
+        (self.against, self.lost, self.least) = (0, 0, 0);
         if runs {
             return Err(Tripped {
                 fault: Fault::Runaway,

@@ -33,9 +33,9 @@ fn guard(limits: Limits) -> Guard {
     };
     let mut guard = Guard::new(&job, rating, -7);
     for period in 1..20 {
-        assert!(!guard.probe_step(8_000, period));
+        assert!(!guard.probe_step(8_000, period, None));
     }
-    assert!(guard.probe_step(8_000, 100));
+    assert!(guard.probe_step(8_000, 100, None));
     guard
 }
 
@@ -106,7 +106,8 @@ fn every_limit_trips_just_beyond_it() {
     let current = limits(|limits| limits.current_ma = 900);
     assert_eq!(
         trip(current, steady, one, |k| Some(-(10 * k as i32))),
-        Some((92, Fault::Overcurrent))
+        // An eighth more than it may be.
+        Some((103, Fault::Overcurrent))
     );
 }
 
@@ -159,7 +160,7 @@ fn the_winding_bears_a_peak_for_a_while_and_its_continuous_current_forever() {
 fn a_shaft_that_does_not_follow_is_recognised_within_one_and_a_half_windows() {
     let reaction = 90;
     let steady = |_| Some(-20_000);
-    let hasty = |k: u32| Some(if k / 18 % 2 == 0 { 20_000 } else { -20_000 });
+    let hasty = |k: u32| Some(if k / 30 % 2 == 0 { 20_000 } else { -20_000 });
     for (drive, within) in [
         (steady as fn(u32) -> Option<i16>, reaction),
         // A drive that turns round again and again expects less.

@@ -3,6 +3,7 @@
 use core::cell::RefCell;
 
 use heapless::Deque;
+use shared::rng;
 
 use crate::board::Board;
 use crate::phase::Fault;
@@ -35,6 +36,13 @@ pub struct Bench {
     pub line_dead: bool,
     /// True if a lead of the motor is cut.
     pub lead_cut: bool,
+    /// Error of the current sensor, mA.
+    pub offset_ma: i32,
+    /// Of 65,536 readings of the encoder so many are a count off, as one that stands on an edge is.
+    pub glitches: u32,
+    /// Largest current so far, mA.
+    pub peak_ma: i32,
+    noise: rng::Generator,
     /// Fault to report at the end of a period.
     pub fails: Option<Fault>,
     /// Time from the end of a period to the carrier's turn, s: the next duty acts then, and the count is the count then.
@@ -60,6 +68,10 @@ impl Bench {
             supply_mv: None,
             line_dead: false,
             lead_cut: false,
+            offset_ma: 0,
+            glitches: 0,
+            peak_ma: 0,
+            noise: rng::seeded(1),
             fails: None,
             turn_s: 0.0,
             waits: None,
@@ -80,6 +92,7 @@ impl Bench {
                 self.motor.advance(driven, seconds);
             }
         }
+        self.peak_ma = self.peak_ma.max(self.motor.peak_ma());
         let after = self.motor.state.count;
         let travelled = match self.line_dead {
             false => after.wrapping_sub(before),
@@ -114,15 +127,15 @@ fn level(count: i32) -> i32 {
     i32::from(count.rem_euclid(4) >= 2)
 }
 
-/// The bench as a board.
+/// The bench as a board, with sensors of current and supply or without.
 #[derive(Debug, Clone, Copy)]
-pub struct OnBench<'b>(pub &'b RefCell<Bench>);
+pub struct OnBench<'b, const SENSES: bool = true>(pub &'b RefCell<Bench>);
 
-impl Board for OnBench<'_> {
+impl<const SENSES: bool> Board for OnBench<'_, SENSES> {
     const NAME: &'static str = "bench";
     const PERIOD_US: u32 = 1000;
     const SLICE: u32 = 20_000;
-    const SENSES_CURRENT: bool = true;
+    const SENSES_CURRENT: bool = SENSES;
 
     fn drive(&mut self, duty: i16) {
         let bench = &mut *self.0.borrow_mut();
@@ -141,21 +154,27 @@ impl Board for OnBench<'_> {
     fn count(&mut self) -> i32 {
         let bench = &mut *self.0.borrow_mut();
         bench.turn();
-        bench.count
+        let off = rng::below(&mut bench.noise, 65_536) < bench.glitches;
+        bench.count.wrapping_add(i32::from(off))
     }
 
     fn current_ma(&mut self) -> i32 {
         let bench = self.0.borrow();
-        bench.current_ma.unwrap_or(bench.motor.current_ma())
+        let seen = bench.motor.current_ma().saturating_add(bench.offset_ma);
+        bench.current_ma.unwrap_or(seen)
     }
 
     fn supply_mv(&mut self) -> Option<u16> {
         let bench = self.0.borrow();
-        Some(bench.supply_mv.unwrap_or(bench.motor.supply_mv()))
+        SENSES.then_some(bench.supply_mv.unwrap_or(bench.motor.supply_mv()))
     }
 
     fn dead_time(&self) -> u16 {
-        (self.0.borrow().motor.dead_time * 32_768.0) as u16
+        if SENSES {
+            (self.0.borrow().motor.dead_time * 32_768.0) as u16
+        } else {
+            0
+        }
     }
 
     fn tick(&mut self) -> Result<(), Fault> {

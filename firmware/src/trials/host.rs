@@ -14,9 +14,9 @@ const ALIVE: u32 = 100;
 
 /// A host beside a device on the bench.
 #[derive(Debug)]
-pub struct Host<'b, S: Arithmetic, const N: usize> {
+pub struct Host<'b, S: Arithmetic, const N: usize, const SENSES: bool = true> {
     /// The device.
-    pub app: App<'b, OnBench<'b>, S, N>,
+    pub app: App<'b, OnBench<'b, SENSES>, S, N>,
     /// The bench that it runs on.
     pub bench: &'b RefCell<Bench>,
     /// True while the host sends its keep-alive.
@@ -26,7 +26,7 @@ pub struct Host<'b, S: Arithmetic, const N: usize> {
     inbox: Deframer,
 }
 
-impl<'b, S: Arithmetic, const N: usize> Host<'b, S, N> {
+impl<'b, S: Arithmetic, const N: usize, const SENSES: bool> Host<'b, S, N, SENSES> {
     /// Beside a device that has just been switched on.
     pub fn new(
         bench: &'b RefCell<Bench>,

@@ -26,7 +26,7 @@ const INTO: u32 = 60;
 const STRONG: u16 = 8_000;
 /// Periods of strong drive one way within which a shaft that does not follow must be noticed: one and a half of the guard's windows,
 /// which this motor's encoder lets be the shortest.
-const REACTION: u32 = SHORTEST_WINDOW_MS * 1000 / OnBench::PERIOD_US * 3 / 2 + 1;
+const REACTION: u32 = SHORTEST_WINDOW_MS * 1000 / <OnBench>::PERIOD_US * 3 / 2 + 1;
 /// Periods after which a trial that has no outcome has failed.
 const LONGEST: u32 = 60_000;
 

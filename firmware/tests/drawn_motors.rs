@@ -1,0 +1,186 @@
+//! Drawn motors of half a watt to half a kilowatt, with 12 to 65,536 counts a revolution, bare and with a robot's mass, on benches with
+//! ordinary faults (dead time, a supply that gives way, cogging, a current sensor that is off, an encoder that glitches): the guard lets
+//! them commission, none is harmed, and none is called a success beyond its limit.
+
+use firmware::app::{Memory, Recording};
+use firmware::phase::Fault;
+use firmware::plant::{Motor, Shaft};
+use firmware::trials::{bench::Bench, host::Host};
+use shared::fit::Settings;
+use shared::rng;
+use shared::wire::*;
+use std::cell::RefCell;
+
+const COUNTS: [u32; 12] = [
+    12, 28, 44, 64, 100, 400, 1_000, 2_000, 4_096, 8_192, 16_384, 65_536,
+];
+
+/// A motor and its bench.
+#[derive(Debug)]
+struct Drawn {
+    motor: Motor,
+    offset_ma: i32,
+    glitches: u32,
+    /// Limit of the current, as a part of that at rest and full supply.
+    limit: Option<f32>,
+}
+
+fn between(rng: &mut rng::Generator, low: f32, high: f32) -> f32 {
+    low * (high / low).powf(rng::uniform(rng))
+}
+
+fn draw(seed: u64) -> Drawn {
+    let mut rng = rng::seeded(seed);
+    let rng = &mut rng;
+    let counts_per_rev = COUNTS[rng::below(rng, 12) as usize];
+    let power = between(rng, 0.5, 500.0);
+    let supply = [6.0, 12.0, 24.0, 48.0][(power.log10() + 0.9).clamp(0.0, 3.0) as usize];
+    let stall = between(rng, 4.0, 10.0) * power / supply;
+    let resistance = supply / stall;
+    let fastest = between(rng, 250.0, 1200.0) / power.max(1.0).powf(0.15);
+    let constant = supply / fastest;
+    let mass = if rng::below(rng, 2) == 0 {
+        1.0
+    } else {
+        between(rng, 3.0, 20.0)
+    };
+    let mechanical = between(rng, 4e-3, 4e-2) * mass;
+    let torque = constant * stall;
+    Drawn {
+        motor: Motor {
+            supply,
+            supply_resistance: between(rng, 0.002, 0.03) * resistance,
+            dead_time: between(rng, 0.001, 0.016),
+            resistance,
+            inductance: resistance * between(rng, 1e-4, 1e-3),
+            constant,
+            inertia: mechanical * constant * constant / resistance,
+            viscous: torque / fastest * between(rng, 0.005, 0.03),
+            coulomb: torque * between(rng, 0.01, 0.06),
+            cogging: torque * between(rng, 1e-4, 5e-3),
+            cogging_order: 14.0,
+            counts_per_rev: counts_per_rev as f32,
+            state: Shaft::default(),
+        },
+        offset_ma: ((rng::uniform::<f32>(rng) - 0.5) * 0.02 * stall * 1000.0) as i32,
+        glitches: if rng::below(rng, 2) == 0 { 0 } else { 600 },
+        limit: (rng::below(rng, 2) == 0).then(|| between(rng, 0.5, 1.0)),
+    }
+}
+
+/// Limit of the verification, counts: one, or a 4,096th of a revolution.
+fn limit_counts(motor: &Motor) -> f32 {
+    (motor.counts_per_rev / 4096.0).max(1.0)
+}
+
+/// What became of it.
+#[derive(Debug)]
+struct Became {
+    outcome: Result<Report, Failure>,
+    /// Largest current, as a part of its limit.
+    peak: f32,
+    /// RMS of the verification in counts.
+    verified: f32,
+}
+
+fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
+    let motor = &drawn.motor;
+    let mut bench = Bench::new(motor.clone());
+    (bench.offset_ma, bench.glitches) = (drawn.offset_ma, drawn.glitches);
+    let bench = RefCell::new(bench);
+    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
+    let mut host = Host::<f32, 2000, SENSES>::new(&bench, &mut memory, &mut recording);
+    let stall_ma = (motor.supply / motor.resistance * 1000.0) as u32;
+    let limit = drawn.limit.unwrap_or(1.0);
+    let current_ma = (stall_ma as f32 * limit) as u32;
+    let job = Job {
+        kind: Kind::Commission,
+        amplitude: 30_000,
+        excite: 6_000,
+        coast: true,
+        record: 2_000,
+        verify: 2_000,
+        verify_within: (limit_counts(motor) * 100.0) as u32,
+        seed,
+        fit: Settings {
+            seed,
+            evaluations: 800,
+            ..Settings::default()
+        },
+        limits: Limits {
+            duty: 32_000,
+            current_ma: if drawn.limit.is_some() { current_ma } else { 0 },
+            // Without a sensor the user has to say what the resistance is.
+            stall_ma: if SENSES || drawn.limit.is_none() {
+                0
+            } else {
+                stall_ma
+            },
+            time: 60_000,
+            ..Limits::NONE
+        },
+        counts_per_rev: motor.counts_per_rev as u32,
+        supply_mv: (motor.supply * 1000.0) as u32,
+    };
+    assert!(host.start(job));
+    let mut outcome = None;
+    while outcome.is_none() {
+        host.period(|message| match message {
+            ToHost::Report(report) => outcome = Some(Ok(report)),
+            ToHost::Failed(failure) => outcome = Some(Err(failure)),
+            _ => {}
+        });
+    }
+    let outcome = outcome.unwrap();
+    let report = match &outcome {
+        Ok(report) => Some(report),
+        Err(failure) => failure.report.as_ref(),
+    };
+    let verified = report.and_then(|report| report.verified);
+    Became {
+        peak: bench.borrow().peak_ma as f32 / current_ma.max(1) as f32,
+        verified: verified.map_or(f32::NAN, |verified| verified.mean_square.sqrt()),
+        outcome,
+    }
+}
+
+#[test]
+fn drawn_motors_commission_and_none_is_harmed() {
+    let motors = testing::length::cases(400, 60);
+    let (mut stopped, mut verified) = (0, [0, 0]);
+    for seed in 0..motors {
+        let drawn = draw(seed);
+        for senses in [true, false] {
+            let became = if senses {
+                commission::<true>(&drawn, seed)
+            } else {
+                commission::<false>(&drawn, seed)
+            };
+            if drawn.limit.is_some() {
+                assert!(became.peak <= 1.2, "seed {seed}: {became:?} {drawn:?}");
+            }
+            match &became.outcome {
+                Ok(_) => {
+                    let limit = limit_counts(&drawn.motor) + 0.01;
+                    assert!(
+                        became.verified <= limit,
+                        "seed {seed}: {became:?} {drawn:?}"
+                    );
+                    verified[usize::from(senses)] += 1;
+                }
+                Err(failure) if failure.fault == Fault::NotVerified => {}
+                Err(failure) => {
+                    println!("seed {seed}, senses {senses}: {failure:?} {drawn:?}");
+                    stopped += 1;
+                }
+            }
+        }
+    }
+    let all = 2 * motors;
+    println!(
+        "{stopped} of {all} runs were stopped; of {motors} motors each, verified within their limit: {} with sensors of current \
+         and supply, {} without; all others say that they are not",
+        verified[1], verified[0]
+    );
+    assert!(stopped * 100 <= all * 2, "{stopped} of {all}");
+}
