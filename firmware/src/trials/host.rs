@@ -71,6 +71,11 @@ impl<'b, S: Arithmetic, const N: usize, const SENSES: bool> Host<'b, S, N, SENSE
 
     /// Arms the device and starts a run; says whether it was armed.
     pub fn start(&mut self, job: Job) -> bool {
+        self.start_with(job, PlanDigest::of(&[]))
+    }
+
+    /// The same with a plan that it has been sent.
+    pub fn start_with(&mut self, job: Job, plan: PlanDigest) -> bool {
         self.send(&ToDevice::Arm);
         let mut armed = None;
         self.period(|message| {
@@ -79,7 +84,6 @@ impl<'b, S: Arithmetic, const N: usize, const SENSES: bool> Host<'b, S, N, SENSE
             }
         });
         if let Some(nonce) = armed {
-            let plan = PlanDigest::of(&[]);
             self.send(&ToDevice::Start { nonce, job, plan });
             self.period(|_| {});
         }
