@@ -157,7 +157,8 @@ pub struct CommissionArgs {
     /// Length of the verification, s
     #[arg(long, default_value_t = 4.0, value_name = "S")]
     pub verify: f64,
-    /// Give the device's answer up if the verification leaves more than this, counts RMS
+    /// Most that the verification may leave, counts RMS, for the run to be a success; 0 takes any [default: 1, or a 4,096th of a
+    /// revolution if that is more]
     #[arg(long, value_name = "COUNTS")]
     pub verify_within: Option<f64>,
     /// Search method on the device

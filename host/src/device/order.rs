@@ -22,7 +22,7 @@ pub struct Order {
     pub record_s: Option<f64>,
     /// Length of the verification, s.
     pub verify_s: f64,
-    /// Error that the verification may leave, counts RMS.
+    /// Error that the verification may leave, counts RMS; any if zero or none.
     pub verify_within: Option<f64>,
     /// Seed of the excitations.
     pub seed: u64,
@@ -50,6 +50,11 @@ pub struct Order {
 const ASIDE_S: f64 = 30.0;
 
 impl Order {
+    /// Error that a verification may leave unless the user says otherwise, counts RMS: what the encoder hides.
+    pub fn usual_limit(&self) -> f64 {
+        (self.counts_per_rev / 4096.0).max(1.0)
+    }
+
     /// Volts per duty of the device.
     pub fn scale(&self, about: &About) -> DutyScale {
         DutyScale {
@@ -132,7 +137,12 @@ impl Order {
             coast: self.coast,
             record: record as u16,
             verify,
-            verify_within: positive("--verify-within", self.verify_within, 100.0, 1e9)?,
+            verify_within: positive(
+                "--verify-within",
+                self.verify_within.filter(|counts| *counts != 0.0),
+                100.0,
+                1e9,
+            )?,
             seed: self.seed,
             fit: self.fit,
             limits: Limits {

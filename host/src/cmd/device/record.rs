@@ -253,12 +253,13 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
 pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(), Error> {
     let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
+    let common = order(session, &bench.reached, &args.limits, Kind::Commission)?;
     let order = Order {
         excite_s: args.excite,
         coast: !args.no_coast,
         record_s: args.record,
         verify_s: args.verify,
-        verify_within: args.verify_within,
+        verify_within: Some(args.verify_within.unwrap_or(common.usual_limit())),
         fit: Settings {
             method: match args.algorithm {
                 DeviceMethod::Pso => Method::Pso,
@@ -270,7 +271,7 @@ pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(),
             coulomb: args.with.iter().any(|name| name == "coulomb"),
             load: args.with.iter().any(|name| name == "load_torque"),
         },
-        ..order(session, &bench.reached, &args.limits, Kind::Commission)?
+        ..common
     };
     into_folder(session, &mut bench, &order, &[], &folder, &args.out)
 }
