@@ -134,8 +134,11 @@ fn a_hidden_effect_is_named_by_the_host_and_the_error_falls() {
     let folder = tempfile::tempdir().unwrap();
     let device = Device::with(&["cogging"]);
     let out = folder.path().join("cogging");
-    let (_, error) = commission(&device, &out, &[]);
-    assert_eq!(error, None);
+    let (saved, error) = commission(&device, &out, &[]);
+    // The device says that its model is not to be trusted, and keeps all that it has.
+    let error = error.expect("not verified");
+    assert!(error.contains("not verified"), "{error}");
+    assert_eq!(saved.unwrap()["partial"], false);
     let verdict = verify(&out);
     assert_eq!(verdict["same_bits"], true);
     assert_eq!(verdict["stands"], false);

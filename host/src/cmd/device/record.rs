@@ -12,7 +12,7 @@ use servoid_io::output::CommandSequence;
 use servoid_results::device_run::{DutyScale, Folder, Recorded};
 use servoid_results::schema::DeviceRun;
 use shared::fit::{Method, Settings};
-use shared::wire::{About, Kind, Segment, Stage};
+use shared::wire::{About, Fault, Kind, Segment, Stage};
 use std::path::Path;
 
 /// The common part of an order, without the settings of a commissioning.
@@ -166,6 +166,16 @@ fn into_folder(
     let text = summary(&saved, &run, path, &written);
     match &saved.failure {
         None => session.deliver(&text, &saved),
+        Some(failure) if failure.fault == format!("{:?}", Fault::NotVerified) => {
+            session.deliver(&text, &saved)?;
+            Err(Error::Failed(format!(
+                "the fit is not verified: {:.2} counts RMS on what it had not seen, more than {:.2} (--verify-within); \
+                 `servoid device verify {}` looks for what its model lacks",
+                f64::from(failure.seen) * 0.01,
+                f64::from(failure.limit) * 0.01,
+                path.display()
+            )))
+        }
         Some(failure) => {
             session.deliver(&text, &saved)?;
             Err(Error::Failed(format!(
