@@ -295,7 +295,7 @@ impl Guard {
     }
 }
 
-/// A supply may rise by a quarter, and fall by three tenths.
+/// A supply may rise by a quarter, and fall by a third.
 const SUPPLY_ABOVE: u32 = 4;
 const SUPPLY_BELOW: u32 = 3;
 /// Steps of the current's measurement from which on a resistance can be taken from it.
