@@ -11,6 +11,7 @@
 mod fault;
 mod frame;
 mod message;
+mod reset;
 
 pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
@@ -18,6 +19,7 @@ pub use message::{
     About, Failure, Format, Job, Kind, Limits, MOST_ROWS, MOST_SEGMENTS, Refusal, Report, Row,
     Rows, Segment, Stage, ToDevice, ToHost, Verified,
 };
+pub use reset::Reset;
 
 /// Version of the messages.
 pub const VERSION: u16 = 2;
