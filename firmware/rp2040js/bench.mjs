@@ -12,6 +12,7 @@ const { values, positionals } = parseArgs({
     "counts-per-rev": { type: "string", default: "2000" },
     "encoder-reversed": { type: "boolean", default: false },
     "bridge-fault-at": { type: "string", default: "Infinity" },
+    "wedged-at": { type: "string", default: "Infinity" },
   },
 });
 if (positionals.length !== 1) {
@@ -20,6 +21,7 @@ if (positionals.length !== 1) {
 }
 const countsPerRev = Number(values["counts-per-rev"]);
 const faultAt = Number(values["bridge-fault-at"]);
+const wedgedAt = Number(values["wedged-at"]);
 
 const LINES = [[false, false], [true, false], [true, true], [false, true]];
 // Virtual time between two looks at the clock on the wall, ns.
@@ -30,23 +32,36 @@ const motor = new Motor(TEN_WATTS);
 let shown = 0;
 let last = 0;
 
+function lines() {
+  const lines = LINES[((shown % 4) + 4) % 4];
+  return values["encoder-reversed"] ? lines.toReversed() : lines;
+}
+
 function show(count) {
   while (shown !== count) {
     shown += Math.sign(count - shown);
-    const lines = LINES[((shown % 4) + 4) % 4];
-    chip.encoder(values["encoder-reversed"] ? lines.toReversed() : lines);
+    chip.encoder(lines());
   }
 }
 
-chip.encoder(LINES[0]);
-chip.fault(false);
-chip.atTurns(() => {
+function advance() {
   const now = chip.clock.nanos * 1e-9;
   motor.advance(chip.duty(), now - last);
+  if (last <= wedgedAt && now > wedgedAt) chip.wedged = true;
   last = now;
   show(Math.floor((motor.angle / 2 / Math.PI) * countsPerRev));
   chip.fault(now > faultAt);
-});
+}
+
+chip.encoder(lines());
+chip.fault(false);
+chip.seen = advance;
+chip.restarted = () => {
+  // The emulator has forgotten what its pins show; the bench has not.
+  advance();
+  chip.encoder(lines());
+  console.log(`restarted at ${last.toFixed(4)} s`);
+};
 
 net
   .createServer((socket) => {

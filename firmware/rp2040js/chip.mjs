@@ -1,5 +1,6 @@
 // The RP2040 of rp2040js with an image in its flash, and what that emulator leaves out: the serial port's queue, the
-// end of a sleep by an interrupt that is masked, state machines in step with the core, and the true periods of timer and carrier.
+// end of a sleep by an interrupt that is masked, state machines in step with the core, the true periods of timer and carrier, and the
+// watchdog's reset.
 import { readFileSync } from "node:fs";
 import { RP2040 } from "./node_modules/rp2040js/dist/esm/index.js";
 import { SimulationClock } from "./node_modules/rp2040js/dist/esm/clock/simulation-clock.js";
@@ -17,6 +18,8 @@ const [FLAGS, DMA_CONTROL] = [0x18, 0x48];
 const [SEND_FULL, SEND_EMPTY] = [1 << 5, 1 << 7];
 const SENT = 1 << 5;
 const QUEUE = 32;
+// Where the emulator keeps the watchdog: its address without the last three digits.
+const WATCHDOG = 0x40058;
 
 // Puts what an ELF file loads into the flash.
 function load(flash, path) {
@@ -31,11 +34,27 @@ function load(flash, path) {
 
 export class Chip {
   constructor(image) {
+    this.image = image;
+    this.sent = () => {};
+    this.restarted = () => {};
+    this.seen = () => {};
+    // The core stands still until a reset, and all around it goes on: so looks a program that never comes back.
+    this.wedged = false;
+    this.boot(0, { reason: 0, scratchData: new Uint32Array(8) });
+  }
+
+  // A chip out of reset, at this time, with what its watchdog keeps. All else is as after power-up, the pins included.
+  boot(nanos, { reason, scratchData }) {
     this.clock = new SimulationClock();
+    this.clock.nanosCounter = nanos;
     this.mcu = new RP2040(this.clock);
     // Of registers that the emulator has not: the program reads noise and power there.
     this.mcu.logger = { debug() {}, warn() {}, error: console.error, info() {} };
-    load(this.mcu.flash, image);
+    load(this.mcu.flash, this.image);
+    const watchdog = this.mcu.peripherals[WATCHDOG];
+    Object.assign(watchdog, { reason, scratchData });
+    this.resets = false;
+    watchdog.onWatchdogTrigger = () => (this.resets = true);
     const start = new DataView(this.mcu.flash.buffer, this.mcu.flash.byteOffset + VECTORS);
     const core = this.mcu.core;
     core.SP = start.getUint32(0, true);
@@ -45,6 +64,7 @@ export class Chip {
     this.line();
     this.machines();
     this.carrier = this.mcu.pwm.channels[0];
+    this.turns();
   }
 
   // A period of the core's timer is a cycle longer than its reload value; the emulator's is not, and slides along the carrier.
@@ -77,7 +97,6 @@ export class Chip {
       else if (offset !== 0) write(offset, value);
       else if (queue.length < QUEUE) queue.push(value & 0xff);
     };
-    this.sent = () => {};
     this.waiting = [];
     this.free = { send: 0, receive: 0 };
     this.carry = () => {
@@ -136,12 +155,12 @@ export class Chip {
 
   // Calls `seen` whenever the carrier has come down to zero, just before it takes new duties over: every 2 (TOP + 1) cycles
   // (data sheet, 4.5.2.6). The emulator's own carrier is two cycles short, and turns at its peak as well.
-  atTurns(seen) {
+  turns() {
     const { carrier } = this;
     for (const alarm of [carrier.alarmA, carrier.alarmB, carrier.alarmBottom]) alarm.enable = false;
     const turn = this.clock.createAlarm(() => {
       next(0);
-      seen();
+      this.seen();
       carrier.wrap();
     });
     const next = (from) => turn.schedule((2 * (carrier.top + 1) - from) * CYCLE_NS);
@@ -155,12 +174,25 @@ export class Chip {
 
   // Runs for so many ns.
   run(ns) {
+    const end = this.clock.nanos + ns;
+    while (this.clock.nanos < end) {
+      this.runUntilReset(end);
+      if (this.resets) {
+        this.wedged = false;
+        this.boot(this.clock.nanos, this.mcu.peripherals[WATCHDOG]);
+        this.restarted();
+      }
+    }
+  }
+
+  runUntilReset(end) {
     const { clock, mcu } = this;
     const core = mcu.core;
-    const end = clock.nanos + ns;
-    while (clock.nanos < end) {
-      if (core.waiting) {
-        clock.tick(Math.max(CYCLE_NS, Math.min(clock.nanosToNextAlarm || ns, BYTE_NS)));
+    while (clock.nanos < end && !this.resets) {
+      if (this.wedged) {
+        clock.tick(BYTE_NS);
+      } else if (core.waiting) {
+        clock.tick(Math.max(CYCLE_NS, Math.min(clock.nanosToNextAlarm || BYTE_NS, BYTE_NS)));
         const pending = core.pendingInterrupts & core.enabledInterrupts;
         if (core.pendingSystick || pending) core.waiting = false;
       } else {

@@ -1,6 +1,7 @@
 //! The first program on a new board: the bridge stays open and the position is printed, until somebody presses a key.
 //!
-//! It needs a terminal and no host program. Every 100 ms it prints a line such as
+//! It needs a terminal and no host program. It says what made the board start (`reset: power-up`). Every 100 ms it prints a
+//! line such as
 //!
 //! ```text
 //! count -1204 current 250 mA duty 512 ok
@@ -47,6 +48,8 @@ impl<B: Board> Bringup<B> {
     /// Takes the board over and opens its bridge.
     pub fn new(mut board: B) -> Self {
         board.coast();
+        let mut line = Line::default();
+        let _ = write!(line, "reset: {}\r\n", board.reset());
         Self {
             board,
             duty: 0,
@@ -54,7 +57,7 @@ impl<B: Board> Bringup<B> {
             until_line: Self::LINE,
             fault: None,
             reported: false,
-            line: Line::default(),
+            line,
         }
     }
 

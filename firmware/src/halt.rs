@@ -1,16 +1,19 @@
 //! Handles a fatal error: opens the bridge, then resets the microcontroller, which
-//! leaves the bridge open until a host asks for a drive again.
+//! leaves the bridge open until a host asks for a drive again. The next start knows why.
 
 use core::panic::PanicInfo;
 
-use cortex_m::peripheral::SCB;
 use cortex_m_rt::{ExceptionFrame, exception};
+use shared::wire::Reset;
 
-use crate::board::open_bridge;
+use crate::board::{open_bridge, restart};
+use crate::log;
 
 #[panic_handler]
-fn panic(_: &PanicInfo) -> ! {
-    halt()
+fn panic(info: &PanicInfo) -> ! {
+    open_bridge();
+    log::panicked(info);
+    restart(Reset::Panic)
 }
 
 /// A fault of the processor: memory that is not there, an instruction that does not exist, a stack that has run over.
@@ -18,11 +21,8 @@ fn panic(_: &PanicInfo) -> ! {
 /// Unsafe, as the runtime demands, because it interrupts whatever holds a lock or a mutable reference: it takes none, and
 /// does not return to the interrupted code.
 #[exception]
-unsafe fn HardFault(_: &ExceptionFrame) -> ! {
-    halt()
-}
-
-fn halt() -> ! {
+unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
     open_bridge();
-    SCB::sys_reset()
+    log::crashed(frame.pc(), frame.lr());
+    restart(Reset::HardFault)
 }

@@ -214,12 +214,25 @@ impl Driver<Rig> for Bench {
             // Out of reset the models have forgotten what their pins show; the bench has not.
             self.restarts = session.resets().len();
             session.board_mut().drive_fault(at, self.fault_shown);
+            host.hold(false);
         }
         self.watch_stack(at, host);
-        let reset = self.settings.faults.reset_at;
-        let before = self.last as f64 * 1e-9;
+        let Faults {
+            reset_at,
+            wedged_at,
+            crystal_stops_at,
+            ..
+        } = self.settings.faults;
+        let (before, now) = (self.last as f64 * 1e-9, at.0 as f64 * 1e-9);
+        let begins = |fault| begun(fault, now) && !begun(fault, before);
         self.turn(session.board_mut(), at);
-        if begun(reset, at.0 as f64 * 1e-9) && !begun(reset, before) {
+        if begins(wedged_at) {
+            host.hold(true);
+        }
+        if begins(crystal_stops_at) {
+            session.board_mut().stop_crystal(at);
+        }
+        if begins(reset_at) {
             session.reset_by_pin(at, stop.instruction_count, host);
         }
         // A stop falls between two instructions, so it may come a little late; the next one does not.

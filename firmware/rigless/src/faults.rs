@@ -21,6 +21,12 @@ pub struct Faults {
     /// The bridge's driver reports a fault, for a millisecond.
     #[arg(long, value_name = "SECONDS")]
     pub bridge_fault_at: Option<f64>,
+    /// The core stands still until a reset, and all around it goes on: so looks a program that never comes back.
+    #[arg(long, value_name = "SECONDS")]
+    pub wedged_at: Option<f64>,
+    /// The crystal stops.
+    #[arg(long, value_name = "SECONDS")]
+    pub crystal_stops_at: Option<f64>,
     /// The microcontroller's reset pin is pulled.
     #[arg(long, value_name = "SECONDS")]
     pub reset_at: Option<f64>,

@@ -134,6 +134,13 @@ impl Rig {
         }
     }
 
+    /// Stops the crystal. The emulator tells the clock security system, if that watches, and nobody else.
+    pub fn stop_crystal(&mut self, at: VirtualNanos) {
+        self.mcu.drive_clocks(at, |clocks, registers, context| {
+            clocks.fail_hse(registers, context);
+        });
+    }
+
     /// Sets the current sensor, if there is one, to `amperes`, clipped to its range.
     pub fn sense(&mut self, amperes: f64) {
         if let Some(channel) = self.wiring.current {

@@ -4,7 +4,8 @@
 #[cfg(target_os = "none")]
 mod image {
     use firmware::app::{App, Memory, Recording};
-    use firmware::board::{CAPACITY, Fitted, Number};
+    use firmware::board::{Board, CAPACITY, Fitted, Number};
+    use firmware::log;
     use static_cell::ConstStaticCell;
 
     static MEMORY: ConstStaticCell<Memory<Number>> = ConstStaticCell::new(Memory::new());
@@ -12,7 +13,9 @@ mod image {
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
-        let mut app = App::new(Fitted::start(), MEMORY.take(), RECORDING.take());
+        let board = Fitted::start();
+        log::woke(board.reset());
+        let mut app = App::new(board, MEMORY.take(), RECORDING.take());
         loop {
             app.period();
         }

@@ -23,6 +23,7 @@ use super::entropy::Entropy;
 use super::half_bridges::HalfBridges;
 use super::link::Link;
 use crate::phase::Fault;
+use shared::wire::Reset;
 
 /// An H bridge of two half bridges with one carrier, an enable input (high: on) and a fault output (low: fault).
 #[derive(Debug)]
@@ -131,7 +132,7 @@ impl<D: DelayNs> Turn for AfterDelay<D> {
 
 /// Control periods, by a timer of the chip's.
 pub trait Tick {
-    /// See [`Board::tick`].
+    /// See [`Board::tick`]. A chip's watchdog is fed here, late or not.
     ///
     /// # Errors
     /// [`Fault::Overrun`] if the period had ended before.
@@ -180,6 +181,8 @@ pub struct Generic<P: Parts> {
     pub tick: P::Tick,
     /// Noise of the board's.
     pub entropy: Entropy,
+    /// What made it start.
+    pub reset: Reset,
 }
 
 impl<P: Parts> Board for Generic<P> {
@@ -228,6 +231,10 @@ impl<P: Parts> Board for Generic<P> {
 
     fn entropy(&mut self) -> u32 {
         self.entropy.draw(self.tick.time())
+    }
+
+    fn reset(&self) -> Reset {
+        self.reset
     }
 }
 
@@ -338,6 +345,7 @@ mod tests {
             },
             tick: Periods,
             entropy: Entropy::default(),
+            reset: Reset::Unknown,
         }
     }
 

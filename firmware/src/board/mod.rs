@@ -10,6 +10,7 @@ pub mod half_bridges;
 pub mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]
 pub mod lockstep;
+pub mod note;
 #[cfg(not(target_os = "none"))]
 pub mod pc;
 #[cfg(all(target_os = "none", feature = "cortex-m"))]
@@ -36,9 +37,9 @@ pub mod stm32g431;
 
 // The board that this build is for, the number that its application fits in, and the periods that it can.
 #[cfg(all(target_os = "none", feature = "rp2040"))]
-pub use rp2040::{CAPACITY, Number, Rp2040 as Fitted, open_bridge};
+pub use rp2040::{CAPACITY, Number, Rp2040 as Fitted, open_bridge, restart};
 #[cfg(all(target_os = "none", feature = "stm32"))]
-pub use stm32::{CAPACITY, Number, open_bridge};
+pub use stm32::{CAPACITY, Number, open_bridge, restart};
 #[cfg(all(target_os = "none", feature = "stm32f405"))]
 pub use stm32f405::Stm32f405 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]
@@ -49,6 +50,7 @@ pub use stm32f446::Stm32f446 as Fitted;
 pub use stm32g431::Stm32g431 as Fitted;
 
 use crate::phase::Fault;
+use shared::wire::Reset;
 
 /// Speed of the link, baud: the fastest of the usual ones, which every adapter and debugger offers.
 pub const BAUD: u32 = 921_600;
@@ -119,6 +121,8 @@ pub trait Board {
     /// Waits for the end of the control period. The next duty is given, and count, current and supply are read, right after it, in
     /// that order.
     ///
+    /// Nothing but this feeds the board's watchdog, if it has one: a program that does not come back here opens the bridge.
+    ///
     /// # Errors
     ///
     /// [`Fault::Overrun`] if that end had already passed, so that the last duty lasted longer than a period;
@@ -134,4 +138,9 @@ pub trait Board {
     /// A number that differs from one power-up to the next as well as the board can make it (noise of an ADC, a cycle
     /// counter, a unique identity): it seeds the nonces of the arming command.
     fn entropy(&mut self) -> u32;
+
+    /// What made the board start.
+    fn reset(&self) -> Reset {
+        Reset::Unknown
+    }
 }

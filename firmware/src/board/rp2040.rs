@@ -14,6 +14,8 @@
 //! `embassy-rp`'s parts.
 
 mod encoder;
+mod reset;
+mod supervision;
 
 use embassy_rp::bind_interrupts;
 use embassy_rp::clocks::RoscRng;
@@ -26,6 +28,8 @@ use embassy_rp::uart::{self, BufferedUart};
 use static_cell::ConstStaticCell;
 
 use self::encoder::Encoder;
+pub use self::reset::restart;
+use self::supervision::Supervised;
 use super::BAUD;
 use super::entropy::Entropy;
 use super::generic::{Generic, HBridge, Parts, Turn};
@@ -72,7 +76,7 @@ impl Parts for Pico {
     type Serial = BufferedUart;
     type Position = Encoder;
     type Turn = Carrier;
-    type Tick = Period;
+    type Tick = Supervised;
 }
 
 impl Rp2040 {
@@ -80,6 +84,7 @@ impl Rp2040 {
     pub fn start() -> Self {
         // Before anything else.
         open_bridge();
+        let reset = reset::reason();
         let p = embassy_rp::init(Default::default());
         let enable = Output::new(p.PIN_18, Level::Low);
         let mut carrier = pwm::Config::default();
@@ -116,14 +121,15 @@ impl Rp2040 {
         }
         let core = cortex_m::Peripherals::take().expect("a board is put together once");
         let bridge = HBridge::new(a, b, enable, fault, FULL);
-        let tick = Period::new(core.SYST, CORE_HZ / 1_000_000 * Pico::PERIOD_US);
+        let period = Period::new(core.SYST, CORE_HZ / 1_000_000 * Pico::PERIOD_US);
         Generic {
             bridge,
             link: Link::new(uart),
             position: encoder,
             turn: Carrier::start(),
-            tick,
+            tick: Supervised::begin(period, p.WATCHDOG),
             entropy,
+            reset,
         }
     }
 }
@@ -155,6 +161,11 @@ impl Turn for Carrier {
         // It always runs, whether the bridge is open or not.
         while PWM.intr().read().0 & TAKEN_OVER == 0 {}
     }
+}
+
+/// True while the module follows the PWM.
+fn bridge_is_closed() -> bool {
+    SIO.gpio_out(0).value().read() & 1 << ENABLE != 0
 }
 
 /// Opens the bridge when all else has failed: whatever the PWM does, the module does not follow it any more.

@@ -1,9 +1,12 @@
 //! Common code of the STM32 boards: the advanced timer TIM1 drives two half bridges, another timer decodes the
 //! encoder, a serial port is the link. A board is then a [`Wiring`].
 
+mod reset;
+mod supervision;
+
 use embassy_stm32::gpio::{AfType, Flex, OutputType, Pull, Speed};
 use embassy_stm32::pac::timer::vals::{Bkp, Ckd, FilterValue, Ossi, Ossr};
-use embassy_stm32::peripherals::TIM1;
+use embassy_stm32::peripherals::{IWDG, TIM1};
 use embassy_stm32::timer::low_level::{CountingMode, OutputCompareMode, Timer};
 use embassy_stm32::timer::qei::{self, Qei};
 use embassy_stm32::timer::{
@@ -13,6 +16,10 @@ use embassy_stm32::timer::{
 use embassy_stm32::usart::{self, BufferedUart};
 use embassy_stm32::{Peri, pac, uid};
 use shared::encoder::Extended;
+use shared::wire::Reset;
+
+pub use self::reset::restart;
+use self::supervision::Supervision;
 
 use super::BAUD;
 use super::Board;
@@ -127,6 +134,9 @@ impl Bridge {
         // Off means low, not floating. The idle levels are low after reset and nobody changes them.
         timer.set_ossi(Ossi::IDLE_LEVEL);
         timer.set_ossr(Ossr::IDLE_LEVEL);
+        // The clock security system acts through the break, pin or no pin: without one its input is low.
+        timer.set_break_polarity(Bkp::ACTIVE_HIGH);
+        timer.set_break_enable(true);
         for channel in [Channel::Ch1, Channel::Ch2] {
             timer.set_output_compare_mode(channel, OutputCompareMode::PwmMode1);
             timer.set_output_compare_preload(channel, true);
@@ -164,7 +174,6 @@ impl Bridge {
         self.timer.set_break_polarity(Bkp::ACTIVE_LOW);
         // Eight samples in a row, about 50 ns each: shorter than any short circuit that a transistor survives.
         self.timer.set_break_filter(FilterValue::FDTS_DIV2_N8);
-        self.timer.set_break_enable(true);
         self
     }
 
@@ -246,6 +255,8 @@ pub struct Stm32<W: Wiring> {
     link: Link<BufferedUart<'static>>,
     period: Period,
     entropy: Entropy,
+    supervision: Supervision,
+    reset: Reset,
     wiring: W,
 }
 
@@ -255,9 +266,11 @@ impl<W: Wiring> Stm32<W> {
         mut bridge: Bridge,
         encoder: Qei<'static, W::EncoderTimer>,
         uart: BufferedUart<'static>,
+        watchdog: Peri<'static, IWDG>,
         mut wiring: W,
     ) -> Self {
         wiring.enable(false);
+        let reset = reset::reason();
         let mut entropy = Entropy::default();
         for word in uid::uid().chunks_exact(4) {
             entropy.stir(u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
@@ -276,6 +289,8 @@ impl<W: Wiring> Stm32<W> {
             link: Link::new(uart),
             period,
             entropy,
+            supervision: Supervision::begin(watchdog),
+            reset,
             wiring,
         }
     }
@@ -319,7 +334,9 @@ impl<W: Wiring> Board for Stm32<W> {
     }
 
     fn tick(&mut self) -> Result<(), Fault> {
-        self.period.end()?;
+        let ended = self.period.end();
+        self.supervision.feed();
+        ended?;
         self.bridge.timer.clear_update_interrupt();
         if self.bridge.tripped() || (self.bridge.driven && self.wiring.reports_fault()) {
             return Err(Fault::Bridge);
@@ -337,5 +354,9 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn entropy(&mut self) -> u32 {
         self.entropy.draw(self.period.time())
+    }
+
+    fn reset(&self) -> Reset {
+        self.reset
     }
 }

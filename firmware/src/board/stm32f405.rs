@@ -77,7 +77,7 @@ impl Stm32f405 {
             adc,
             _held: held,
         };
-        Stm32::new(bridge, encoder, uart, wiring)
+        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
     }
 }
 

@@ -73,7 +73,7 @@ impl Stm32f427 {
             current,
             sensor,
         };
-        Stm32::new(bridge, encoder, uart, wiring)
+        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
     }
 }
 

@@ -65,7 +65,7 @@ impl Stm32f446 {
             thermometer: adc.enable_temperature(),
             adc,
         };
-        Stm32::new(bridge, encoder, uart, wiring)
+        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
     }
 }
 

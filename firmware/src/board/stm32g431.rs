@@ -70,7 +70,7 @@ impl Stm32g431 {
             adc,
             _held: held,
         };
-        Stm32::new(bridge, encoder, uart, wiring)
+        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
     }
 }
 

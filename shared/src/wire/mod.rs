@@ -15,6 +15,7 @@ mod fault;
 mod frame;
 mod message;
 mod plan;
+mod reset;
 
 pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
@@ -23,6 +24,7 @@ pub use message::{
     ToDevice, ToHost, Verified,
 };
 pub use plan::{MOST_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
+pub use reset::Reset;
 
 /// Version of the messages.
 pub const VERSION: u16 = 3;

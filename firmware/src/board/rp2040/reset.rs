@@ -1,0 +1,42 @@
+//! Why an RP2040 started, and how it starts again.
+
+use embassy_rp::pac::{PSM, VREG_AND_CHIP_RESET, WATCHDOG};
+use shared::wire::Reset;
+
+use crate::board::note;
+
+/// Why the chip started. A reset of the core alone, as debuggers do, leaves no mark: it is taken for the reset before it.
+pub fn reason() -> Reset {
+    let (watchdog, chip) = (
+        WATCHDOG.reason().read(),
+        VREG_AND_CHIP_RESET.chip_reset().read(),
+    );
+    // The watchdog's own marks are only there if the last reset was its.
+    if watchdog.force() {
+        note::said(WATCHDOG.scratch0().read()).unwrap_or(Reset::Software)
+    } else if watchdog.timer() {
+        Reset::Watchdog
+    } else if chip.had_run() {
+        Reset::Pin
+    } else if chip.had_por() {
+        Reset::PowerUp
+    } else {
+        Reset::Unknown
+    }
+}
+
+/// Resets the chip, which remembers `why`. By the watchdog, because a reset of the core would leave all else as it was, the
+/// watchdog's count included.
+pub fn restart(why: Reset) -> ! {
+    WATCHDOG.scratch0().write_value(note::word(why));
+    // All but the oscillators, as `embassy-rp` has it.
+    PSM.wdsel().write(|w| {
+        w.0 = 0x1_ffff;
+        w.set_rosc(false);
+        w.set_xosc(false);
+    });
+    WATCHDOG.ctrl().write(|w| w.set_trigger(true));
+    loop {
+        cortex_m::asm::nop();
+    }
+}

@@ -1,0 +1,72 @@
+//! What opens the bridge of an STM32 when its program cannot: the independent watchdog, the clock security system, and the
+//! halt of the timer by a debugger.
+
+use cortex_m_rt::exception;
+use embassy_stm32::Peri;
+use embassy_stm32::pac::{DBGMCU, RCC};
+use embassy_stm32::peripherals::IWDG;
+use embassy_stm32::wdg::IndependentWatchdog;
+use shared::wire::Reset;
+
+use super::{open_bridge, restart};
+
+/// After this long without [`Supervision::feed`] the chip is reset, µs by the nominal 32 kHz of the watchdog's own oscillator.
+/// On an F4 that is anything from 17 to 47 kHz: 5.1 to 14.1 ms. On a G4 it keeps to some 5 %.
+///
+/// The loop comes round once a millisecond. Its longest turns, in which a fit builds its model or is begun, take three.
+const TIME_OUT_US: u32 = 7_500;
+
+/// The watchdog, which nobody can stop again.
+pub struct Supervision(IndependentWatchdog<'static, IWDG>);
+
+impl Supervision {
+    /// Begins: from the first [`feed`](Self::feed) on, each must follow the one before within the time-out. Until then it is half
+    /// a second, because the counter starts full.
+    pub fn begin(watchdog: Peri<'static, IWDG>) -> Self {
+        watch_clock();
+        halt_with_core();
+        let mut watchdog = IndependentWatchdog::new(watchdog, TIME_OUT_US);
+        watchdog.unleash();
+        Self(watchdog)
+    }
+
+    /// A control period has ended.
+    pub fn feed(&mut self) {
+        self.0.pet();
+    }
+}
+
+/// Lets the clock security system watch the external clock. When that stops, hardware lets the core run on from its internal
+/// oscillator, raises the break of TIM1, which switches the outputs off, and interrupts the core by [`NonMaskableInt`].
+fn watch_clock() {
+    RCC.cr().modify(|w| w.set_csson(true));
+}
+
+/// When a debugger halts the core, the timer halts too and its outputs are off, as if by `MOE`: low, by `OSSI` (RM0090,
+/// 38.16.2; RM0440, TIM1's debug mode). They come back when the core goes on, unless the watchdog was faster: that goes on
+/// counting in a halt, whatever a debugger has asked for before the program began.
+fn halt_with_core() {
+    DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
+    #[cfg(not(feature = "stm32g431"))]
+    DBGMCU.apb1fzr().modify(|w| w.set_iwdg(false));
+    #[cfg(feature = "stm32g431")]
+    DBGMCU.apb1lfzr().modify(|w| w.set_iwdg(false));
+}
+
+/// The external clock has stopped, or the flash has an error that it cannot correct (G4).
+///
+/// Unsafe, as the runtime demands, because it interrupts whatever holds a lock or a mutable reference: it takes none, and
+/// does not return to the interrupted code.
+#[exception]
+unsafe fn NonMaskableInt() -> ! {
+    open_bridge();
+    #[cfg(not(feature = "stm32g431"))]
+    let stopped = RCC.cir().read().cssf();
+    #[cfg(feature = "stm32g431")]
+    let stopped = RCC.cifr().read().cssf();
+    restart(if stopped {
+        Reset::ClockFailure
+    } else {
+        Reset::HardFault
+    })
+}
