@@ -4,14 +4,14 @@ use std::env;
 
 fn main() {
     println!("cargo:rerun-if-changed=memory");
+    println!("cargo:rerun-if-changed=../memory.x");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
     let has = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
     let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
-    // Where the linker finds the memory.x that cortex-m-rt's script includes. It looks into its working directory first, the
-    // top of the workspace: there must be none, or all chips would get that one. An image for no board at all, as for QEMU,
-    // has the STM32s' map unless scripts/mcu --memory names another.
+    // Where the linker finds the map.x that memory.x, at the top of the workspace, includes. An image for no board at all, as for
+    // QEMU, has the STM32s' map unless scripts/mcu --memory names another.
     let chip = if has("RP2040") { "rp2040" } else { "stm32" };
     println!("cargo:rustc-link-search={here}/memory/{chip}");
     if has("DEFMT") {

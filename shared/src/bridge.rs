@@ -41,7 +41,7 @@ impl Bridge {
             return OPEN;
         }
         let lost = i64::from(self.dead_time) << 16;
-        let [from, to] = current_ma.map(i64::from);
+        let [from, to] = current_ma.map(|ma| i64::from(ma.clamp(-LARGEST_MA, LARGEST_MA)));
         let whole = (from.abs() + to.abs()).max(2 * i64::from(self.ripple_ma.max(1)));
         let given = (i64::from(duty) << 16) - lost * (from + to) / whole;
         let seen = match (supply_mv, self.nominal_mv) {
@@ -56,6 +56,8 @@ impl Bridge {
     }
 }
 
+/// Largest current that is told apart, mA.
+const LARGEST_MA: i32 = 1 << 28;
 /// Largest duty either way; the one below it is [`OPEN`].
 const LARGEST: i64 = i16::MAX as i64;
 

@@ -190,12 +190,12 @@ impl Motion {
     fn ended(&mut self) -> Result<Option<Shown>, Tripped> {
         let stretch = core::mem::take(&mut self.stretch);
         let least = self.acceleration.gain(stretch.periods);
-        if least < REST_COUNTS.into() {
+        if least < i64::from(REST_COUNTS) {
             return Ok(None);
         }
         let gain = stretch.gain();
         if stretch.travel >= 0 {
-            let gains = stretch.travel > REST_COUNTS.into() && gain >= REST_COUNTS.into();
+            let gains = stretch.travel.min(gain) >= i64::from(REST_COUNTS);
             return Ok(gains.then_some(Shown::Gains));
         }
         self.against += stretch.periods;
