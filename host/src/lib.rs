@@ -9,6 +9,7 @@ pub mod cmd;
 pub mod coverage;
 pub mod device;
 pub mod error;
+mod interrupt;
 pub mod prove;
 pub mod session;
 pub mod workbench;

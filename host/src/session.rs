@@ -1,4 +1,4 @@
-//! What every verb shares: where results go, whether to show progress, and the user's Ctrl-C.
+//! What every verb shares: where results go, whether to show progress, and the user's wish to stop.
 
 use crate::cli::Common;
 use crate::error::Error;
@@ -24,17 +24,10 @@ pub struct Session {
 }
 
 impl Session {
-    /// Reads the common options and takes over Ctrl-C: the first asks the work to stop with its best
-    /// result so far, the second ends the program.
+    /// Reads the common options and takes over the signals that ask the program to stop.
     pub fn new(common: &Common) -> Result<Self, Error> {
         let stop = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&stop);
-        // In a process that already has a handler (a test harness) the work simply cannot be interrupted.
-        let _ = ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        });
+        crate::interrupt::sets(&stop);
         Ok(Session {
             json: common.json.clone(),
             seed: common.seed,

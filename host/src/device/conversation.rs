@@ -1,5 +1,6 @@
 //! Request and response with a device.
 
+use super::expected::check_about;
 use super::{DeviceError, Link, Port};
 use shared::wire::{
     About, Deframer, Job, LONGEST_FRAME, MOST_SEGMENTS, PlanDigest, PlanPart, Refusal, Segment,
@@ -58,9 +59,14 @@ impl Conversation {
         Conversation { clock, ..self }
     }
 
+    /// The present instant of its clock.
+    pub(super) fn now(&self) -> Instant {
+        (self.clock)()
+    }
+
     /// Time since an instant of its clock.
-    fn since(&self, then: Instant) -> Duration {
-        (self.clock)().saturating_duration_since(then)
+    pub(super) fn since(&self, then: Instant) -> Duration {
+        self.now().saturating_duration_since(then)
     }
 
     /// Sends a message.
@@ -123,14 +129,14 @@ impl Conversation {
         question: &ToDevice,
         mut wanted: impl FnMut(ToHost) -> Option<T>,
     ) -> Result<T, DeviceError> {
-        let begun = (self.clock)();
+        let begun = self.now();
         let mut asked: Option<Instant> = None;
         while self.since(begun) < PATIENCE {
             if asked.is_none_or(|at| self.since(at) > AGAIN) {
                 // A zero first ends whatever the line picked up before.
                 self.link.write_all(&[0])?;
                 self.say(question)?;
-                asked = Some((self.clock)());
+                asked = Some(self.now());
             }
             match self.hear()? {
                 // A start has refusals of its own: this one is of an earlier question.
@@ -175,6 +181,7 @@ impl Conversation {
                 ours: VERSION,
             });
         }
+        check_about(&about)?;
         Ok(about)
     }
 
@@ -186,7 +193,7 @@ impl Conversation {
     /// Time-out; a refusal.
     pub fn start(&mut self, job: Job, plan: &[Segment]) -> Result<(), DeviceError> {
         let of = self.send_plan(plan)?;
-        let begun = (self.clock)();
+        let begun = self.now();
         loop {
             let nonce = self.ask(&ToDevice::Arm, |message| match message {
                 ToHost::Armed { nonce, .. } => Some(nonce),
@@ -224,7 +231,7 @@ impl Conversation {
     fn send_plan(&mut self, plan: &[Segment]) -> Result<PlanDigest, DeviceError> {
         let of = PlanDigest::of(plan);
         let mut held = 0;
-        let mut progress = (self.clock)();
+        let mut progress = self.now();
         while let Some(rest) = plan.get(held..)
             && !rest.is_empty()
         {
@@ -239,7 +246,7 @@ impl Conversation {
                 _ => None,
             })?;
             if holds > held {
-                progress = (self.clock)();
+                progress = self.now();
             } else if self.since(progress) > PATIENCE {
                 return Err(self.silent());
             }

@@ -55,6 +55,25 @@ pub enum DeviceError {
         "the device restarted in the middle of the run (its supply may have broken down); its bridge is off since then"
     )]
     Restarted,
+    /// The device goes on for ever.
+    #[error(
+        "the device {} {seconds:.0} s: it was told to stop; restart it, and flash the firmware that belongs to this servoid",
+        if *.still { "has brought nothing new for" } else { "has not come to its end after" }
+    )]
+    Endless {
+        /// Time waited.
+        seconds: f64,
+        /// Nothing new came for so long.
+        still: bool,
+    },
+    /// The device says what cannot be.
+    #[error(
+        "the device says {what}, which cannot be: its numbers are not used; flash the firmware that belongs to this servoid"
+    )]
+    Nonsense {
+        /// What it says.
+        what: String,
+    },
     /// A flag does not fit the device.
     #[error("{0}")]
     Order(String),

@@ -10,6 +10,7 @@
 //! | `port` | serial port, TCP or Unix socket, by one address |
 //! | `conversation` | request and response, arming and starting |
 //! | `order` | a job in SI and in the device's units |
+//! | `expected` | what a run can bring by its job: time, rows, numbers |
 //! | `run` | one run: the device's messages assembled; progress; stop |
 //! | `report` | the report of a run that `servoid_results::device_run` writes |
 //! | `replay` | the device's fit repeated on the host |
@@ -19,6 +20,7 @@
 mod conversation;
 mod emulation;
 mod error;
+mod expected;
 mod lockstep;
 mod order;
 mod port;
@@ -29,6 +31,7 @@ mod run;
 pub use conversation::{Clock, Conversation};
 pub use emulation::{Emulation, Image};
 pub use error::DeviceError;
+pub use expected::Expected;
 pub use lockstep::plant;
 pub use order::{Order, segments};
 pub use port::{Link, Port, serial_ports};

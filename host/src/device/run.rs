@@ -1,5 +1,6 @@
 //! One run: assembles the device's messages.
 
+use super::expected::Expected;
 use super::{Conversation, DeviceError};
 use servoid_results::device_run::Recorded;
 use shared::wire::{About, Failure, Report, Rows, Stage, ToDevice, ToHost};
@@ -37,68 +38,33 @@ pub enum Progress<'a> {
     Models(u32, u32),
 }
 
-/// Longest stage that can be real, rows: a damaged number must not ask for all memory.
-const MOST_ROWS: usize = 50_000_000;
-
 /// Follows a run from its start to its report, asking again for rows of the recording that were lost.
 ///
 /// # Errors
-/// A link that breaks, a device that falls silent or restarts. What arrived is in `recorded` then.
+/// A link that breaks, a device that falls silent, restarts, goes on for longer than what is expected of it, or says what makes no
+/// sense. What arrived is in `recorded` then.
 pub fn follow(
     conversation: &mut Conversation,
     about: &About,
+    expected: &Expected,
     stop: &AtomicBool,
     recorded: &mut Vec<Recorded>,
-    mut progress: impl FnMut(Progress<'_>),
+    progress: impl FnMut(Progress<'_>) -> Result<(), DeviceError>,
 ) -> Result<Run, DeviceError> {
-    let mut said = Instant::now();
-    let mut heard = Instant::now();
-    let mut stopped: Option<Instant> = None;
-    let outcome = loop {
-        if stop.load(Ordering::Relaxed) && stopped.is_none_or(|at| at.elapsed() > FAREWELL / 4) {
-            if stopped.is_some_and(|at| at.elapsed() > FAREWELL) {
-                return Err(DeviceError::Link(std::io::ErrorKind::TimedOut.into()));
-            }
-            conversation.say(&ToDevice::Stop)?;
-            stopped.get_or_insert_with(Instant::now);
-        }
-        if said.elapsed() >= ALIVE {
-            conversation.say(&ToDevice::Alive)?;
-            said = Instant::now();
-        }
-        let Some(message) = conversation.hear()? else {
-            if heard.elapsed() > GONE {
-                return Err(DeviceError::Silent {
-                    port: "the device".to_owned(),
-                    seconds: GONE.as_secs_f64(),
-                    noise: String::new(),
-                });
-            }
-            continue;
-        };
-        heard = Instant::now();
-        match message {
-            ToHost::About(now) if now.boot != about.boot => return Err(DeviceError::Restarted),
-            ToHost::Refused(refusal) => return Err(DeviceError::Refused(refusal)),
-            ToHost::Stage { stage, length, .. } => {
-                let known = length > 0 && length < u32::MAX && stage != Stage::Probe;
-                progress(Progress::Stage(stage, known.then_some(length)));
-            }
-            ToHost::Rows(rows) => {
-                enter(recorded, &rows);
-                progress(Progress::Rows(&rows));
-            }
-            ToHost::Fitting { done, of, .. } => progress(Progress::Models(done, of)),
-            ToHost::Report(report) => break Ok(report),
-            ToHost::Failed(failure) => break Err(failure),
-            ToHost::About(_)
-            | ToHost::Armed { .. }
-            | ToHost::Planned { .. }
-            | ToHost::Started { .. }
-            | ToHost::NotStarted { .. } => {}
-        }
+    let outcome = until_the_end(conversation, about, expected, stop, recorded, progress);
+    let outcome = outcome.inspect_err(|_| {
+        // Whatever it still does, it does for nobody.
+        let _ = conversation.say(&ToDevice::Stop);
+    })?;
+    let report = match &outcome {
+        Ok(report) => Some(report),
+        Err(failure) => failure.report.as_ref(),
     };
-    resend(conversation, recorded)?;
+    if let Some(report) = report {
+        expected.complete(recorded, report, outcome.is_ok());
+    }
+    // The outcome is there: a link that is lost now costs no more than the rows that were lost before.
+    let _ = resend(conversation, recorded);
     Ok(Run {
         about: about.clone(),
         recorded: recorded.clone(),
@@ -107,10 +73,88 @@ pub fn follow(
     })
 }
 
-fn enter(recorded: &mut Vec<Recorded>, rows: &Rows) {
-    if rows.first as usize > MOST_ROWS {
-        return;
+fn until_the_end(
+    conversation: &mut Conversation,
+    about: &About,
+    expected: &Expected,
+    stop: &AtomicBool,
+    recorded: &mut Vec<Recorded>,
+    mut progress: impl FnMut(Progress<'_>) -> Result<(), DeviceError>,
+) -> Result<Result<Report, Failure>, DeviceError> {
+    let begun = conversation.now();
+    let (mut said, mut heard, mut advanced) = (begun, begun, begun);
+    let mut models = 0;
+    let mut stopped: Option<Instant> = None;
+    loop {
+        let now = conversation.now();
+        if stop.load(Ordering::Relaxed)
+            && stopped.is_none_or(|at| now.duration_since(at) > FAREWELL / 4)
+        {
+            if stopped.is_some_and(|at| now.duration_since(at) > FAREWELL) {
+                return Err(DeviceError::Link(std::io::ErrorKind::TimedOut.into()));
+            }
+            conversation.say(&ToDevice::Stop)?;
+            stopped.get_or_insert(now);
+        }
+        if now.duration_since(said) >= ALIVE {
+            conversation.say(&ToDevice::Alive)?;
+            said = now;
+        }
+        expected.check_time(now.duration_since(begun), now.duration_since(advanced))?;
+        let Some(message) = conversation.hear()? else {
+            if now.duration_since(heard) > GONE {
+                return Err(DeviceError::Silent {
+                    port: "the device".to_owned(),
+                    seconds: GONE.as_secs_f64(),
+                    noise: String::new(),
+                });
+            }
+            continue;
+        };
+        heard = now;
+        match message {
+            ToHost::About(now) if now.boot != about.boot => return Err(DeviceError::Restarted),
+            ToHost::Stage { stage, length, .. } => {
+                let known = length > 0 && length < u32::MAX && stage != Stage::Probe;
+                advanced = now;
+                progress(Progress::Stage(stage, known.then_some(length)))?;
+            }
+            ToHost::Rows(rows) => {
+                expected.check_rows(&rows)?;
+                if enter(recorded, &rows) {
+                    advanced = now;
+                }
+                progress(Progress::Rows(&rows))?;
+            }
+            ToHost::Fitting { done, of, .. } => {
+                if done > models {
+                    (models, advanced) = (done, now);
+                }
+                progress(Progress::Models(done, of))?;
+            }
+            ToHost::Report(report) => {
+                expected.check_report(&report)?;
+                return Ok(Ok(report));
+            }
+            ToHost::Failed(failure) => {
+                if let Some(report) = &failure.report {
+                    expected.check_report(report)?;
+                }
+                return Ok(Err(failure));
+            }
+            // A refusal is of an earlier question: the run has begun.
+            ToHost::Refused(_)
+            | ToHost::About(_)
+            | ToHost::Armed { .. }
+            | ToHost::Planned { .. }
+            | ToHost::Started { .. }
+            | ToHost::NotStarted { .. } => {}
+        }
     }
+}
+
+/// Puts rows into their stage; true if they bring it on.
+fn enter(recorded: &mut Vec<Recorded>, rows: &Rows) -> bool {
     let known = recorded.iter().position(|part| part.stage == rows.stage);
     let index = known.unwrap_or_else(|| {
         recorded.push(Recorded {
@@ -120,7 +164,9 @@ fn enter(recorded: &mut Vec<Recorded>, rows: &Rows) {
         });
         recorded.len() - 1
     });
+    let before = recorded[index].rows.len();
     recorded[index].take(rows);
+    recorded[index].rows.len() > before
 }
 
 /// Requests the lost rows again: the device still holds those that it fitted.
@@ -128,22 +174,23 @@ fn resend(conversation: &mut Conversation, recorded: &mut [Recorded]) -> Result<
     let Some(part) = recorded.iter_mut().find(|part| part.stage == Stage::Record) else {
         return Ok(());
     };
-    let begun = Instant::now();
+    let begun = conversation.now();
     while let Some(first) = part.rows.iter().position(Option::is_none) {
         conversation.say(&ToDevice::Resend {
             first: first as u32,
         })?;
-        let asked = Instant::now();
-        while part.rows[first].is_none() && asked.elapsed() < ALIVE * 10 {
+        let asked = conversation.now();
+        while part.rows[first].is_none() && conversation.since(asked) < ALIVE * 10 {
             if let Some(ToHost::Rows(rows)) = conversation.hear()?
                 && rows.stage == Stage::Record
+                && rows.first as usize + rows.rows.len() <= part.rows.len()
             {
                 let count = part.count;
                 part.take(&rows);
                 part.count = count;
             }
         }
-        if begun.elapsed() > GONE {
+        if conversation.since(begun) > GONE {
             break;
         }
     }

@@ -1,5 +1,6 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
+use super::live::left_in;
 use super::{FolderError, Recorded};
 use crate::schema::DeviceRun;
 use crate::schema::device::FILE as DEVICE;
@@ -18,12 +19,12 @@ pub struct Folder {
 }
 
 /// Files of a run, with the stage that each comes from.
-const RECORDINGS: [(&str, Stage); 3] = [
+pub(super) const RECORDINGS: [(&str, Stage); 3] = [
     ("recording.csv", Stage::Excite),
     ("fitted.csv", Stage::Record),
     ("verify.csv", Stage::Verify),
 ];
-const MOTOR: &str = "motor.toml";
+pub(super) const MOTOR: &str = "motor.toml";
 
 impl Folder {
     /// A folder that a run may be written to: new, or empty of runs.
@@ -41,6 +42,14 @@ impl Folder {
                 why: "holds a run already, which is not replaced; name another folder".to_owned(),
             });
         }
+        if let Some(file) = left_in(path) {
+            return Err(FolderError::Unusable {
+                path: file,
+                why:
+                    "is what an unfinished run has left, which is not replaced; name another folder"
+                        .to_owned(),
+            });
+        }
         fs::create_dir_all(path).map_err(|error| FolderError::Unusable {
             path: path.to_owned(),
             why: format!("{error}; name a folder that can be made"),
@@ -53,6 +62,11 @@ impl Folder {
         Folder {
             path: path.to_owned(),
         }
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Path of the recording of a stage.
@@ -95,13 +109,9 @@ impl Folder {
             write_recording(&self.path.join(name), &recording, &provenance)?;
             written.push(name);
         }
-        let motor = MotorFile {
-            counts_per_rev: Some(saved.counts_per_rev),
-            supply_v: Some(saved.supply_v),
-            ..MotorFile::default()
-        };
+        let motor = motor_file(saved.supply_v, saved.counts_per_rev);
         write_whole(&self.path.join(MOTOR), |out| {
-            out.write_all(motor.to_toml().as_bytes())
+            out.write_all(motor.as_bytes())
         })?;
         let json = serde_json::to_string_pretty(saved).map_err(|error| FolderError::Unusable {
             path: self.path.join(DEVICE),
@@ -148,6 +158,16 @@ impl Folder {
         let duties = recording.command.iter().enumerate().map(duty);
         Ok((duties.take(recording.len() - 1).collect(), steps))
     }
+}
+
+/// The motor file of a run.
+pub(super) fn motor_file(supply_v: f64, counts_per_rev: f64) -> String {
+    MotorFile {
+        counts_per_rev: Some(counts_per_rev),
+        supply_v: Some(supply_v),
+        ..MotorFile::default()
+    }
+    .to_toml()
 }
 
 /// Rows as a recording; the reading after the last period is a row of its own, with no drive.

@@ -43,6 +43,9 @@ pub struct DeviceRun {
     pub verified_rms_counts: Option<f64>,
     /// Why the run was given up; null if it was not.
     pub failure: Option<Failure>,
+    /// Periods in which the current's limit held the drive back; what was driven is recorded.
+    #[serde(default)]
+    pub limited_periods: u32,
     /// Periods that never arrived, in all files.
     pub missing: usize,
     /// Whether the run is incomplete: periods are missing, or it was given up or broke off.

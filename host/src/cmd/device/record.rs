@@ -4,12 +4,14 @@ use super::emulate::{self, Reached};
 use crate::cli::{
     CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
 };
-use crate::device::{Conversation, Order, Progress, Run, broken, follow, report, segments};
+use crate::device::{
+    Conversation, DeviceError, Expected, Order, Progress, Run, broken, follow, report, segments,
+};
 use crate::error::Error;
 use crate::session::{Session, print};
 use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
-use servoid_results::device_run::{DutyScale, Folder, Recorded};
+use servoid_results::device_run::{COLUMNS, Folder, Lines, Live, Recorded};
 use servoid_results::schema::DeviceRun;
 use shared::fit::{Method, Settings};
 use shared::wire::{About, Fault, Kind, Segment, Stage};
@@ -93,19 +95,21 @@ impl Bench {
         order: &Order,
         plan: &[Segment],
         recorded: &mut Vec<Recorded>,
-        mut also: impl FnMut(Progress<'_>),
+        mut also: impl FnMut(Progress<'_>) -> Result<(), DeviceError>,
     ) -> Result<Run, Error> {
         let job = order.job(&self.about, plan)?;
+        let expected = Expected::of(&job, plan, &self.about);
         self.conversation.start(job, plan)?;
         let bar = session.progress(0, "device");
         let run = follow(
             &mut self.conversation,
             &self.about,
+            &expected,
             session.stop(),
             recorded,
             |progress| {
                 show(&bar, progress);
-                also(progress);
+                also(progress)
             },
         );
         bar.finish_and_clear();
@@ -143,7 +147,22 @@ fn into_folder(
     path: &Path,
 ) -> Result<(), Error> {
     let mut recorded = Vec::new();
-    let run = bench.run(session, order, plan, &mut recorded, |_| {});
+    let mut live = Live::begin(
+        folder.path(),
+        bench.about.period_us,
+        order.scale(&bench.about),
+        order.counts_per_rev,
+    )?;
+    let run = bench.run(
+        session,
+        order,
+        plan,
+        &mut recorded,
+        |progress| match progress {
+            Progress::Rows(rows) => Ok(live.take(rows)?),
+            _ => Ok(()),
+        },
+    );
     let current = bench.about.senses_current;
     let run = match run {
         Ok(run) => run,
@@ -153,6 +172,7 @@ fn into_folder(
             } else {
                 let saved = broken(&bench.about, order, &recorded);
                 folder.write(&saved, &recorded, current)?;
+                live.finish()?;
                 format!(
                     "\nwhat had arrived is in {}, and says that it is partial",
                     path.display()
@@ -163,6 +183,7 @@ fn into_folder(
     };
     let saved = report(&run, order);
     let written = folder.write(&saved, &run.recorded, current)?;
+    live.finish()?;
     let text = summary(&saved, &run, path, &written);
     match &saved.failure {
         None => session.deliver(&text, &saved),
@@ -216,6 +237,12 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
         text += &format!(
             "the shaft first moved at {:.3} V; excited with up to {:.2} V\n",
             saved.breakaway_v, saved.amplitude_v
+        );
+    }
+    if saved.limited_periods > 0 {
+        text += &format!(
+            "the limit of the current held the drive back in {} periods; what was driven is recorded\n",
+            saved.limited_periods
         );
     }
     if let Some(outcome) = &saved.outcome {
@@ -317,18 +344,18 @@ pub(super) fn play(session: &Session, args: &RunArgs) -> Result<(), Error> {
 /// `servoid device stream`.
 pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> {
     let (mut bench, order) = excited(session, args)?;
-    let mut lines = Lines {
-        count: 0,
-        printed: 0,
-        period_s: f64::from(bench.about.period_us) * 1e-6,
-        scale: order.scale(&bench.about),
-        closed: false,
-    };
-    print(b"t_s,voltage_v,angle_counts,current_a,enabled\n")?;
+    let mut lines = Lines::new(bench.about.period_us, order.scale(&bench.about));
+    // Set once stdout is closed.
+    let mut closed = false;
+    print(COLUMNS.as_bytes())?;
     let run = bench.run(session, &order, &[], &mut Vec::new(), |progress| {
-        if let Progress::Rows(rows) = progress {
-            lines.print(rows);
+        if let Progress::Rows(rows) = progress
+            && rows.stage == Stage::Excite
+            && !closed
+        {
+            closed = print(lines.of(rows).as_bytes()).is_err();
         }
+        Ok(())
     })?;
     match run.outcome {
         Ok(_) => Ok(()),
@@ -336,49 +363,5 @@ pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> 
             "the device gave up: {}",
             failure.fault
         ))),
-    }
-}
-
-/// Rows of the excitation as lines of CSV.
-struct Lines {
-    count: i32,
-    printed: u32,
-    period_s: f64,
-    scale: DutyScale,
-    /// Set once stdout is closed.
-    closed: bool,
-}
-
-impl Lines {
-    fn print(&mut self, rows: &shared::wire::Rows) {
-        if rows.stage != Stage::Excite || self.closed {
-            return;
-        }
-        let mut text = String::new();
-        if rows.first != self.printed {
-            text += &format!(
-                "# {} periods were lost\n",
-                rows.first.saturating_sub(self.printed)
-            );
-        }
-        self.count = rows.count;
-        for (k, row) in rows.rows.iter().enumerate() {
-            let open = row.duty == shared::trace::OPEN;
-            let volts = if open {
-                0.0
-            } else {
-                self.scale.volts(row.duty)
-            };
-            let time = f64::from(rows.first + k as u32) * self.period_s;
-            text += &format!(
-                "{time:?},{volts:?},{},{:?},{}\n",
-                self.count,
-                f64::from(row.current_ma) * 1e-3,
-                u8::from(!open)
-            );
-            self.count = self.count.wrapping_add(row.step.into());
-        }
-        self.printed = rows.first + rows.rows.len() as u32;
-        self.closed = print(text.as_bytes()).is_err();
     }
 }
