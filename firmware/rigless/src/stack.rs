@@ -38,8 +38,8 @@ pub fn used(memory: &mut dyn Host) -> Result<u64, Error> {
     Ok(top - end)
 }
 
-/// No address to return to: a Cortex-M's are odd.
-const NOWHERE: u64 = 0;
+/// No memory is there, no instruction may be, and no length is as large.
+const NOWHERE: u64 = 0xffff_ffff;
 /// Bytes of the stack in which a program that sleeps has its return addresses.
 const DEPTH: u64 = 512;
 

@@ -302,12 +302,13 @@ fn a_crystal_that_stops_opens_the_bridge_at_once() {
 fn a_program_that_crashes_opens_the_bridge_and_knows_it_when_it_has_started_again() {
     for board in BOARDS {
         let (after, mut bench) = opened_after(board, "--crashes-at");
-        assert!(after < 0.002, "{board}: after {after} s");
         assert_eq!(bench.reset().as_deref(), Some("power-up"), "{board}");
         let reset = bench.reset().unwrap_or_default();
-        assert!(
-            ["panic", "hard fault"].contains(&&*reset),
-            "{board}: {reset}"
-        );
+        // Where it goes wrong is up to the image: it may also run round in circles.
+        match &*reset {
+            "panic" | "hard fault" => assert!(after < 0.002, "{board}: after {after} s"),
+            "watchdog" => assert!(after < 0.010, "{board}: after {after} s"),
+            _ => panic!("{board}: {reset}"),
+        }
     }
 }
