@@ -54,7 +54,11 @@ export class Chip {
     const watchdog = this.mcu.peripherals[WATCHDOG];
     Object.assign(watchdog, { reason, scratchData });
     this.resets = false;
-    watchdog.onWatchdogTrigger = () => (this.resets = true);
+    watchdog.onWatchdogTrigger = () => {
+      this.resets = true;
+      // Or the emulator calls for ever.
+      watchdog.alarm.enable = false;
+    };
     const start = new DataView(this.mcu.flash.buffer, this.mcu.flash.byteOffset + VECTORS);
     const core = this.mcu.core;
     core.SP = start.getUint32(0, true);

@@ -3,8 +3,9 @@
 import assert from "node:assert/strict";
 import { execFile, spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { connect } from "node:net";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, test } from "node:test";
 import { promisify } from "node:util";
@@ -16,10 +17,33 @@ assert.ok(PICO && SERVOID, "PICO and SERVOID name the image and the program: run
 const folder = mkdtempSync(join(tmpdir(), "servoid-pico-"));
 after(() => rmSync(folder, { recursive: true }));
 const COUNTS = "2000";
+const BENCH = join(import.meta.dirname, "bench.mjs");
+
+test("the watchdog opens the bridge of a program that does not come back, and the program knows it", async () => {
+  // The program for a first power-up is beside the application: it tells on the line what made it start.
+  const bringup = join(dirname(PICO), "bringup-rp2040");
+  const bench = spawn("node", [BENCH, bringup, "--wedged-at", "0.4"], { stdio: ["ignore", "pipe", "inherit"] });
+  try {
+    const told = createInterface(bench.stdout)[Symbol.asyncIterator]();
+    const port = Number((await told.next()).value.split(":").at(-1));
+    const line = connect(port, "127.0.0.1");
+    line.write("++++");
+    const said = createInterface(line)[Symbol.asyncIterator]();
+    let last = "";
+    for (let next = ""; !next.startsWith("reset:"); next = (await said.next()).value) last = next;
+    assert.match(last, /duty 2048 ok/);
+    const [, at] = (await told.next()).value.match(/restarted at ([\d.]+) s/);
+    assert.ok(at - 0.4 < 0.016, at);
+    assert.match((await said.next()).value, /duty 0 ok/);
+    line.destroy();
+  } finally {
+    bench.kill();
+  }
+});
 
 // A bench, and what the host says to the device on it: its exit code, and the run that it kept.
 async function commission(name, benchFlags, flags) {
-  const bench = spawn("node", [join(import.meta.dirname, "bench.mjs"), PICO, "--counts-per-rev", COUNTS, ...benchFlags], {
+  const bench = spawn("node", [BENCH, PICO, "--counts-per-rev", COUNTS, ...benchFlags], {
     stdio: ["ignore", "pipe", "inherit"],
   });
   try {

@@ -220,6 +220,7 @@ impl Driver<Rig> for Bench {
         let Faults {
             reset_at,
             wedged_at,
+            crashes_at,
             crystal_stops_at,
             ..
         } = self.settings.faults;
@@ -228,6 +229,9 @@ impl Driver<Rig> for Bench {
         self.turn(session.board_mut(), at);
         if begins(wedged_at) {
             host.hold(true);
+        }
+        if begins(crashes_at) {
+            stack::spoil(host).expect("an image has a stack");
         }
         if begins(crystal_stops_at) {
             session.board_mut().stop_crystal(at);

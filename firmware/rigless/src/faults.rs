@@ -24,6 +24,9 @@ pub struct Faults {
     /// The core stands still until a reset, and all around it goes on: so looks a program that never comes back.
     #[arg(long, value_name = "SECONDS")]
     pub wedged_at: Option<f64>,
+    /// What the program has on its stack is overwritten: it goes wrong, and the processor notices.
+    #[arg(long, value_name = "SECONDS")]
+    pub crashes_at: Option<f64>,
     /// The crystal stops.
     #[arg(long, value_name = "SECONDS")]
     pub crystal_stops_at: Option<f64>,

@@ -1,4 +1,4 @@
-//! Measures an image's stack: paints memory before the run and inspects it afterwards.
+//! Measures an image's stack: paints memory before the run and inspects it afterwards. Or spoils it.
 
 use rigless::emulator::{Error, Host};
 use rigless::soc::Width;
@@ -36,4 +36,18 @@ pub fn used(memory: &mut dyn Host) -> Result<u64, Error> {
         }
     }
     Ok(top - end)
+}
+
+/// No memory is there, no instruction may be, and no length is as large.
+const NOWHERE: u64 = 0xffff_ffff;
+/// Bytes of the stack in which a program that sleeps has its return addresses.
+const DEPTH: u64 = 512;
+
+/// Lets all that is on the stack point nowhere.
+pub fn spoil(memory: &mut dyn Host) -> Result<(), Error> {
+    let top = memory.read(FLASH, Width::W32)?;
+    for address in (top - DEPTH..top).step_by(WORD as usize) {
+        memory.write(address, Width::W32, NOWHERE)?;
+    }
+    Ok(())
 }

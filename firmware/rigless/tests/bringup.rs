@@ -3,8 +3,10 @@
 //! `scripts/rig test` builds the image for each board that runs here and names the folder in `SERVOID_BRINGUP`.
 
 use std::env;
+use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
 const BOARD: &str = "stm32f427";
@@ -86,6 +88,19 @@ impl Bench {
                     duty: duty.parse().unwrap(),
                     state: state.join(" "),
                 });
+            }
+        }
+    }
+
+    /// The next reset that the image says it comes from.
+    fn reset(&mut self) -> Option<String> {
+        loop {
+            let mut text = String::new();
+            if self.terminal.read_line(&mut text).ok()? == 0 {
+                return None;
+            }
+            if let Some(reset) = text.trim().strip_prefix("reset: ") {
+                return Some(reset.to_owned());
             }
         }
     }
@@ -231,5 +246,69 @@ fn a_reversed_or_stuck_encoder_is_seen_by_the_image() {
             expected,
             "{flags:?}: {lines:?}"
         );
+    }
+}
+
+/// A bench whose bridge is driven when a fault of the microcontroller comes; the time from then to the open bridge, s, and the
+/// bench after that.
+fn opened_after(board: &str, fault: &str) -> (f64, Bench) {
+    const AT: f64 = 0.3;
+    let log = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{board}{fault}.csv"));
+    let (name, at) = (log.to_str().unwrap(), AT.to_string());
+    let mut bench = Bench::start(board, 1.0, &[fault, &at, "--log", name]);
+    bench.press("++++");
+    let mut output = String::new();
+    bench.output.read_to_string(&mut output).unwrap();
+    let log = fs::read_to_string(&log).unwrap();
+    let states: Vec<(f64, bool)> = log
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let mut values = line.split(',');
+            let time = values.next().unwrap().parse().unwrap();
+            (time, values.next().unwrap() == "open")
+        })
+        .collect();
+    let driven = states.iter().rev().find(|(time, _)| *time < AT);
+    assert_eq!(driven.map(|(_, open)| *open), Some(false), "{board}");
+    let (opened, _) = states
+        .iter()
+        .find(|(time, open)| *time >= AT && *open)
+        .expect("the bridge opens");
+    let stays = states.iter().all(|(time, open)| time < opened || *open);
+    assert!(stays, "{board}: it closed again");
+    (opened - AT, bench)
+}
+
+#[test]
+fn the_watchdog_opens_the_bridge_of_a_program_that_does_not_come_back() {
+    for board in BOARDS {
+        let (after, mut bench) = opened_after(board, "--wedged-at");
+        assert!(after < 0.010, "{board}: after {after} s");
+        assert_eq!(bench.reset().as_deref(), Some("power-up"), "{board}");
+        assert_eq!(bench.reset().as_deref(), Some("watchdog"), "{board}");
+    }
+}
+
+#[test]
+fn a_crystal_that_stops_opens_the_bridge_at_once() {
+    for board in BOARDS {
+        let (after, _) = opened_after(board, "--crystal-stops-at");
+        assert!(after < 0.002, "{board}: after {after} s");
+    }
+}
+
+#[test]
+fn a_program_that_crashes_opens_the_bridge_and_knows_it_when_it_has_started_again() {
+    for board in BOARDS {
+        let (after, mut bench) = opened_after(board, "--crashes-at");
+        assert_eq!(bench.reset().as_deref(), Some("power-up"), "{board}");
+        let reset = bench.reset().unwrap_or_default();
+        // Where it goes wrong is up to the image: it may also run round in circles.
+        match &*reset {
+            "panic" | "hard fault" => assert!(after < 0.002, "{board}: after {after} s"),
+            "watchdog" => assert!(after < 0.010, "{board}: after {after} s"),
+            _ => panic!("{board}: {reset}"),
+        }
     }
 }

@@ -134,7 +134,8 @@ impl Bridge {
         // Off means low, not floating. The idle levels are low after reset and nobody changes them.
         timer.set_ossi(Ossi::IDLE_LEVEL);
         timer.set_ossr(Ossr::IDLE_LEVEL);
-        // The clock security system acts through the break, pin or no pin: without one its input is low.
+        // The clock security system acts through the break, pin or no pin. Without one the break's input is low; were it not,
+        // the bridge would never close.
         timer.set_break_polarity(Bkp::ACTIVE_HIGH);
         timer.set_break_enable(true);
         for channel in [Channel::Ch1, Channel::Ch2] {

@@ -11,9 +11,12 @@ pub fn reason() -> Reset {
         WATCHDOG.reason().read(),
         VREG_AND_CHIP_RESET.chip_reset().read(),
     );
+    // Taken: a later reset by another's hand must not find it.
+    let note = WATCHDOG.scratch0().read();
+    WATCHDOG.scratch0().write_value(0);
     // The watchdog's own marks are only there if the last reset was its.
     if watchdog.force() {
-        note::said(WATCHDOG.scratch0().read()).unwrap_or(Reset::Software)
+        note::said(note).unwrap_or(Reset::Software)
     } else if watchdog.timer() {
         Reset::Watchdog
     } else if chip.had_run() {

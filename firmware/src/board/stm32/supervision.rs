@@ -13,7 +13,8 @@ use super::{open_bridge, restart};
 /// After this long without [`Supervision::feed`] the chip is reset, µs by the nominal 32 kHz of the watchdog's own oscillator.
 /// On an F4 that is anything from 17 to 47 kHz: 5.1 to 14.1 ms. On a G4 it keeps to some 5 %.
 ///
-/// The loop comes round once a millisecond. Its longest turns, in which a fit builds its model or is begun, take three.
+/// The loop comes round once a millisecond. Its longest turn, while a fit is at work, takes between two and three (in the
+/// emulator, with two cycles an instruction at 168 MHz).
 const TIME_OUT_US: u32 = 7_500;
 
 /// The watchdog, which nobody can stop again.
