@@ -90,6 +90,7 @@ fn to_device() -> Vec<ToDevice> {
             segments: [segment; 2].into_iter().collect(),
         }),
         ToDevice::Resend { first: 48 },
+        ToDevice::Describe,
     ]
 }
 
@@ -155,6 +156,12 @@ fn to_host() -> Vec<ToHost> {
             run: 0xdead_beef,
             why: Refusal::BadPlan,
         },
+        ToHost::Details(Details {
+            reset: Reset::Watchdog,
+            current_limit_ma: 40_000,
+            senses_supply: true,
+            dead_time: 273,
+        }),
     ]
 }
 

@@ -11,7 +11,8 @@ use shared::fit::Arithmetic;
 use shared::rng::Rng;
 use shared::trace::OPEN;
 use shared::wire::{
-    About, Job, Kind, PlanDigest, PlanPart, Refusal, Report, Row, ToDevice, ToHost, VERSION,
+    About, Details, Job, Kind, PlanDigest, PlanPart, Refusal, Report, Row, ToDevice, ToHost,
+    VERSION,
 };
 
 /// A nonce starts a run for this long.
@@ -69,6 +70,15 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             }
             ToDevice::Plan(part) => self.plan(&part),
             ToDevice::Resend { first } => self.resend(first),
+            ToDevice::Describe => {
+                let details = Details {
+                    reset: self.board.reset(),
+                    current_limit_ma: B::CURRENT_LIMIT_MA,
+                    senses_supply: self.board.supply_mv().is_some(),
+                    dead_time: self.board.dead_time(),
+                };
+                self.memory.outbox.post(&ToHost::Details(details));
+            }
         }
     }
 

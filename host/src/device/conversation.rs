@@ -3,8 +3,8 @@
 use super::expected::check_about;
 use super::{DeviceError, Link, Port};
 use shared::wire::{
-    About, Deframer, Job, LONGEST_FRAME, MOST_SEGMENTS, PlanDigest, PlanPart, Refusal, Segment,
-    ToDevice, ToHost, VERSION, encode,
+    About, Deframer, Details, Job, LONGEST_FRAME, MOST_SEGMENTS, PlanDigest, PlanPart, Refusal,
+    Segment, ToDevice, ToHost, VERSION, encode,
 };
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Write};
@@ -183,6 +183,17 @@ impl Conversation {
         }
         check_about(&about)?;
         Ok(about)
+    }
+
+    /// What more the device says of itself.
+    ///
+    /// # Errors
+    /// Time-out.
+    pub fn details(&mut self) -> Result<Details, DeviceError> {
+        self.ask(&ToDevice::Describe, |message| match message {
+            ToHost::Details(details) => Some(details),
+            _ => None,
+        })
     }
 
     /// Starts a run: sends the plan of one that plays it, arms the device, and starts until the device says that it has.

@@ -148,7 +148,8 @@ fn until_the_end(
             | ToHost::Armed { .. }
             | ToHost::Planned { .. }
             | ToHost::Started { .. }
-            | ToHost::NotStarted { .. } => {}
+            | ToHost::NotStarted { .. }
+            | ToHost::Details(_) => {}
         }
     }
 }

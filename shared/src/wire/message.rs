@@ -2,7 +2,7 @@
 //! [`VERSION`](super::VERSION) is raised. [`ToDevice::Hello`] and [`About`] never change: they tell two peers that they do not
 //! understand each other.
 
-use super::{Fault, PlanDigest, PlanPart};
+use super::{Fault, PlanDigest, PlanPart, Reset};
 use crate::fit::{Outcome, Settings};
 use heapless::{String, Vec};
 use serde::{Deserialize, Serialize};
@@ -37,6 +37,8 @@ pub enum ToDevice {
         /// Index of the first row, counted from the start of the recording.
         first: u32,
     },
+    /// What are you made of? Answered by [`ToHost::Details`].
+    Describe,
 }
 
 /// To the host.
@@ -98,6 +100,8 @@ pub enum ToHost {
         /// Why.
         why: Refusal,
     },
+    /// Answer to [`ToDevice::Describe`].
+    Details(Details),
 }
 
 impl ToHost {
@@ -114,7 +118,8 @@ impl ToHost {
             | ToHost::Armed { .. }
             | ToHost::Refused(_)
             | ToHost::Fitting { .. }
-            | ToHost::Planned { .. } => None,
+            | ToHost::Planned { .. }
+            | ToHost::Details(_) => None,
         }
     }
 }
@@ -143,6 +148,20 @@ pub struct About {
     /// Duty that puts the whole supply across the winding, at most 32,768. All duties are in this measure: one in which
     /// the bridge's own steps are whole numbers.
     pub full: u16,
+}
+
+/// What more there is to say of a device. Unlike [`About`], it may change with the version.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Details {
+    /// What made it start.
+    pub reset: Reset,
+    /// Current that its bridge bears, mA; zero if that protects itself.
+    pub current_limit_ma: u32,
+    /// Whether it measures the supply.
+    pub senses_supply: bool,
+    /// Part of the supply that its bridge's dead time takes, as a duty, which the device makes good in what it records; zero if it does
+    /// not.
+    pub dead_time: u16,
 }
 
 /// A number format of the model.

@@ -20,8 +20,8 @@ mod reset;
 pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
 pub use message::{
-    About, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows, Stage,
-    ToDevice, ToHost, Verified,
+    About, Details, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows,
+    Stage, ToDevice, ToHost, Verified,
 };
 pub use plan::{MOST_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
 pub use reset::Reset;

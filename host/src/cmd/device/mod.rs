@@ -69,12 +69,19 @@ struct AboutJson<'a> {
     capacity: u16,
     format: &'static str,
     senses_current: bool,
+    senses_supply: bool,
+    /// Current that the bridge bears, A; null if it protects itself.
+    current_limit_a: Option<f64>,
+    /// What made the device start.
+    reset: String,
     stage: String,
 }
 
 fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
     let device = emulate::reach(&args.port, None, session.seed)?;
-    let about = Conversation::open(&device.port)?.about()?;
+    let mut conversation = Conversation::open(&device.port)?;
+    let about = conversation.about()?;
+    let details = conversation.details()?;
     let format = match about.format {
         Format::F32 => "f32",
         Format::Fixed => "fixed point",
@@ -82,18 +89,21 @@ fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
     let stage = format!("{:?}", about.stage).to_lowercase();
     let period_s = f64::from(about.period_us) * 1e-6;
     let text = format!(
-        "{}, firmware {}, {stage}\n  control period {} ms; fits up to {} periods ({:.2} s) in {format}; {}\n",
+        "{}, firmware {}, {stage}\n  control period {} ms; fits up to {} periods ({:.2} s) in {format}\n  {}\n  last start: {}\n",
         about.board,
         about.firmware,
         period_s * 1e3,
         about.capacity,
         f64::from(about.capacity) * period_s,
-        if about.senses_current {
-            "measures the current"
-        } else {
-            "no current sensor"
-        }
+        match (about.senses_current, details.senses_supply) {
+            (true, true) => "measures the current and the supply",
+            (true, false) => "measures the current, not the supply",
+            (false, true) => "measures the supply, not the current",
+            (false, false) => "no sensor of current or supply",
+        },
+        details.reset
     );
+    let limit_a = f64::from(details.current_limit_ma) * 1e-3;
     let json = AboutJson {
         schema: "servoid.about/1",
         board: &about.board,
@@ -103,6 +113,9 @@ fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
         capacity: about.capacity,
         format,
         senses_current: about.senses_current,
+        senses_supply: details.senses_supply,
+        current_limit_a: Some(limit_a).filter(|limit| *limit > 0.0),
+        reset: details.reset.to_string(),
         stage,
     };
     session.deliver(&text, &json)
