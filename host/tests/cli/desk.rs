@@ -94,6 +94,19 @@ impl Desk {
         command.spawn().expect("servoid")
     }
 
+    /// The same from a shell that has done `first`.
+    #[cfg(unix)]
+    pub fn spawn_under(&self, first: &str, line: &str) -> Child {
+        let program = env!("CARGO_BIN_EXE_servoid");
+        let mut command = Command::new("sh");
+        command
+            .args(["-c", &format!("{first}; exec {program} {line}")])
+            .current_dir(self.folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command.spawn().expect("a shell")
+    }
+
     /// Runs `servoid` with the arguments in `line`.
     pub fn run(&self, line: &str) -> Outcome {
         let output = self.command(line).output().expect("servoid starts");

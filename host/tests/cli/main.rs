@@ -12,6 +12,7 @@ mod check;
 mod colour;
 mod contract;
 mod desk;
+mod device_signals;
 mod diagnose;
 mod diagnose_pairs;
 mod export;
