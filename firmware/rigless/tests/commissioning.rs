@@ -227,9 +227,7 @@ fn what_the_image_records_for_the_host_is_explained_to_the_encoders_floor() {
         assert!(error < HELD_OUT, "{recording}: {error}");
     }
     // The reversals are beyond what the sensor shows, which must not matter.
-    let parameters = verified["diagnosis"]["final"]["parameters"]
-        .as_array()
-        .unwrap();
+    let parameters = verified["diagnosis"]["final"]["parameters"].as_array().unwrap();
     let resistance = parameters.iter().find(|p| p["name"] == "resistance");
     let found = resistance.expect("the current was measured")["value"]
         .as_f64()
