@@ -13,6 +13,7 @@ use crate::faults::{Faults, begun};
 use crate::plant::{Motor, State, Terminal};
 use crate::rig::Rig;
 use crate::stack;
+use crate::unkind::Unkind;
 
 /// Settings of the bench.
 #[derive(Debug)]
@@ -29,6 +30,8 @@ pub struct Settings {
     pub end_ns: u64,
     /// Virtual seconds that may pass in a second; infinite to run as fast as it goes.
     pub pace: f64,
+    /// How unkind it is.
+    pub unkind: Unkind,
     /// Faults to inject.
     pub faults: Faults,
     /// Counts the stack used if set.
@@ -117,8 +120,10 @@ impl Bench {
         // First the drive that acted until now, then the next one.
         let duty = rig.duty();
         self.turns_in = rig.take_over(at).0;
+        let unkind = self.settings.unkind;
+        let bus = unkind.bus(self.settings.supply, duty, self.state.current);
         let terminal = match duty {
-            Some(duty) => Terminal::Driven(duty * self.settings.supply),
+            Some(duty) => Terminal::Driven(unkind.volts(bus, duty, self.state.current)),
             None => Terminal::Open(self.settings.supply),
         };
         let locked = begun(faults.rotor_locked_at, now);
@@ -126,11 +131,12 @@ impl Bench {
         self.state
             .advance(&self.settings.motor, terminal, locked, seconds);
         let over = begun(faults.over_current_at, now);
-        rig.sense(if over {
+        let current = if over {
             f64::INFINITY
         } else {
-            self.state.current
-        });
+            self.state.current + unkind.sensor_offset
+        };
+        rig.sense(current, bus);
         self.show_fault(rig, at, now);
         self.show_count(rig, at, now);
         if at.0 / MS != self.last / MS {
@@ -159,7 +165,13 @@ impl Bench {
         }
         let counts =
             self.state.angle / std::f64::consts::TAU * f64::from(self.settings.counts_per_rev);
-        let target = counts.floor() as i64;
+        let unkind = self.settings.unkind;
+        for _ in 0..unkind.glitches_between(self.last as f64 * 1e-9, now) {
+            let [a, b] = self.lines();
+            rig.drive_encoder(at, [!a, b]);
+            rig.drive_encoder(at, [a, b]);
+        }
+        let target = unkind.count(counts, self.settings.counts_per_rev);
         while self.shown != target {
             self.shown += (target - self.shown).signum();
             rig.drive_encoder(at, self.lines());
@@ -173,7 +185,9 @@ impl Bench {
             2 => [true, true],
             _ => [false, true],
         };
-        if self.settings.faults.encoder_reversed {
+        if self.settings.faults.encoder_line_dead {
+            [a, false]
+        } else if self.settings.faults.encoder_reversed {
             [b, a]
         } else {
             [a, b]

@@ -9,6 +9,9 @@ pub struct Faults {
     /// The encoder's lines are swapped: it counts the other way.
     #[arg(long)]
     pub encoder_reversed: bool,
+    /// The encoder's line B is dead: it counts to and fro.
+    #[arg(long)]
+    pub encoder_line_dead: bool,
     /// The encoder stops counting.
     #[arg(long, value_name = "SECONDS")]
     pub encoder_stuck_at: Option<f64>,

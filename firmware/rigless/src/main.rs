@@ -6,6 +6,7 @@ mod faults;
 mod plant;
 mod rig;
 mod stack;
+mod unkind;
 mod wiring;
 
 use std::error::Error;
@@ -53,6 +54,8 @@ struct Cli {
     log: Option<PathBuf>,
     #[command(flatten)]
     bench: BenchFlags,
+    #[command(flatten)]
+    unkind: unkind::Unkind,
     #[command(flatten)]
     faults: faults::Faults,
 }
@@ -115,6 +118,7 @@ impl Cli {
             } else {
                 f64::INFINITY
             },
+            unkind: self.unkind,
             faults: self.faults.clone(),
             measure_stack: self.stack,
         }

@@ -14,7 +14,7 @@ use rigless::soc::stm32f427::peripherals::gpio::{Gpio, Pin};
 use rigless::soc::stm32f427::peripherals::rcc::Apb;
 use rigless::time::VirtualNanos;
 
-use crate::wiring::{FaultLine, PinAt, Wiring};
+use crate::wiring::{FaultLine, PinAt, Sensing, Wiring};
 
 const TIM1: usize = 0;
 const ADC1: usize = 0;
@@ -141,13 +141,28 @@ impl Rig {
         });
     }
 
-    /// Sets the current sensor, if there is one, to `amperes`, clipped to its range.
-    pub fn sense(&mut self, amperes: f64) {
-        if let Some(channel) = self.wiring.current {
-            let millivolts = (1650.0 + 100.0 * amperes).clamp(0.0, 3300.0);
-            let channel = adc::Channel::new(channel).expect("an input on a pin");
-            self.mcu.adc[ADC1].set_input(channel, millivolts.round() as u32);
+    /// Sets what the board's sensors show of an armature current and of a supply voltage, clipped to their ranges.
+    pub fn sense(&mut self, amperes: f64, supply: f64) {
+        match self.wiring.sensing {
+            Sensing::Nothing => {}
+            Sensing::Armature(channel) => self.show(channel, 1650.0 + 100.0 * amperes),
+            Sensing::Legs {
+                shunts: [a, b],
+                supply: channel,
+                thermistor,
+            } => {
+                self.show(a, 1650.0 + 10.0 * amperes);
+                self.show(b, 1650.0 - 10.0 * amperes);
+                self.show(channel, supply * 1000.0 * 22.0 / 412.0);
+                self.show(thermistor, 1650.0);
+            }
         }
+    }
+
+    fn show(&mut self, channel: u8, millivolts: f64) {
+        let channel = adc::Channel::new(channel).expect("an input on a pin");
+        let millivolts = millivolts.clamp(0.0, 3300.0);
+        self.mcu.adc[ADC1].set_input(channel, millivolts.round() as u32);
     }
 
     /// Pins that the firmware has not connected to the peripheral that the board needs there.

@@ -40,8 +40,26 @@ pub struct Wiring {
     pub serial_port: usize,
     /// Transmit and receive.
     pub link: [PinAt; 2],
-    /// ADC channel of the current sensor: 1650 mV at zero, 100 mV/A.
-    pub current: Option<u8>,
+    /// What the ADC is connected to.
+    pub sensing: Sensing,
+}
+
+/// The sensors of a board, by the ADC's channels.
+#[derive(Debug, Clone, Copy)]
+pub enum Sensing {
+    /// None.
+    Nothing,
+    /// An amplifier of the armature current: 1650 mV at zero, 100 mV/A.
+    Armature(u8),
+    /// Shunts below legs A and B, 1650 mV at zero and 10 mV for an ampere out of the leg; the supply by 22/412; a thermistor at 25 °C.
+    Legs {
+        /// Of each leg.
+        shunts: [u8; 2],
+        /// Of the supply.
+        supply: u8,
+        /// Of the thermistor.
+        thermistor: u8,
+    },
 }
 
 /// The boards whose images run here. The STM32F427 has all that the others' programs use of theirs, at the same addresses.
@@ -67,7 +85,11 @@ impl Model {
                 encoder: [b(6, 2), b(7, 2)],
                 serial_port: 3,
                 link: [c(6, 8), c(7, 8)],
-                current: None,
+                sensing: Sensing::Legs {
+                    shunts: [6, 5],
+                    supply: 12,
+                    thermistor: 3,
+                },
             },
             Self::Stm32f427 => Wiring {
                 legs: [e(9, 1), e(8, 1), e(11, 1), e(10, 1)],
@@ -77,7 +99,7 @@ impl Model {
                 encoder: [c(6, 2), c(7, 2)],
                 serial_port: 1,
                 link: [d(5, 7), d(6, 7)],
-                current: Some(10),
+                sensing: Sensing::Armature(10),
             },
             Self::Stm32f446 => Wiring {
                 legs: [a(8, 1), b(13, 1), a(9, 1), b(14, 1)],
@@ -87,7 +109,7 @@ impl Model {
                 encoder: [c(6, 2), c(7, 2)],
                 serial_port: 1,
                 link: [a(2, 7), a(3, 7)],
-                current: None,
+                sensing: Sensing::Nothing,
             },
         }
     }

@@ -1,6 +1,6 @@
 //! The bring-up image on the bench: its terminal output agrees with the motor's motion.
 //!
-//! `scripts/rig test` builds the image for each board that runs here and names the folder in `SERVOID_BRINGUP`.
+//! `scripts/rig test` builds the image for each board that runs here and names the folder in `SERVOID_IMAGES`.
 
 use std::env;
 use std::fs;
@@ -34,8 +34,8 @@ struct Line {
 impl Bench {
     /// A bench that runs for `seconds`, at a pace at which keys arrive in time.
     fn start(board: &str, seconds: f64, flags: &[&str]) -> Self {
-        let images = env::var("SERVOID_BRINGUP")
-            .expect("SERVOID_BRINGUP names the folder of images: run scripts/rig test");
+        let images = env::var("SERVOID_IMAGES")
+            .expect("SERVOID_IMAGES names the folder of images: run scripts/rig test");
         let mut process = Command::new(env!("CARGO_BIN_EXE_servoid-rigless"))
             .arg(format!("{images}/bringup-{board}"))
             .args(["--board", board])

@@ -1,6 +1,6 @@
 //! The application's image, as it is flashed, commissions motors on the bench; and whatever breaks there, the bridge opens.
 //!
-//! `scripts/rig test` builds the image and the host's program, and names them in `SERVOID_APPLICATION` and `SERVOID`.
+//! `scripts/rig test` builds the images and the host's program, and names their folder and it in `SERVOID_IMAGES` and `SERVOID`.
 
 use std::env;
 use std::fs;
@@ -76,10 +76,17 @@ struct Bench {
 
 impl Bench {
     fn start(flags: &[String]) -> Self {
-        let image = env::var("SERVOID_APPLICATION")
-            .expect("SERVOID_APPLICATION names the image: run scripts/rig test");
+        Self::of("stm32f427", flags)
+    }
+
+    /// A bench with a board.
+    fn of(board: &str, flags: &[String]) -> Self {
+        let folder = env::var("SERVOID_IMAGES")
+            .expect("SERVOID_IMAGES names the folder of the images: run scripts/rig test");
+        let image = Path::new(&folder).join(format!("application-{board}"));
         let mut process = Command::new(env!("CARGO_BIN_EXE_servoid-rigless"))
             .arg(image)
+            .args(["--board", board])
             .args(flags)
             .stdout(Stdio::piped())
             .spawn()
@@ -202,6 +209,68 @@ fn the_image_identifies_motors_of_half_a_watt_to_half_a_kilowatt() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+#[test]
+fn the_images_of_the_other_boards_identify_a_motor_too() {
+    let motor = &MOTORS[5];
+    for board in ["stm32f405", "stm32f446"] {
+        let out = folder(board).join("run");
+        let bench = Bench::of(board, &motor.flags());
+        let output = commission(&bench, motor, &out, &["--excite", "0"]);
+        assert!(output.status.success(), "{board}: {output:?}");
+        let held_out = saved(&out)["verified_rms_counts"].as_f64().unwrap();
+        println!("{board}: {held_out} counts held out");
+        assert!(held_out < HELD_OUT, "{board}: {held_out}");
+    }
+}
+
+/// What an ordinary bench costs, with and without the board's own measurements. A run whose model does not predict what it has not seen is
+/// no success.
+#[test]
+fn on_an_ordinary_bench_a_run_is_within_its_limit_or_says_that_it_is_not() {
+    let motor = &MOTORS[5];
+    let benches = [
+        ("ideal", &[][..]),
+        ("400 ns dead time", &["--dead-time-ns", "400"]),
+        ("0.2 ohm supply", &["--supply-resistance", "0.2"]),
+        ("edges 0.2 counts off", &["--edge-error", "0.2"]),
+        ("100 glitches a second", &["--glitches", "100"]),
+        ("sensor 0.2 A off", &["--sensor-offset", "0.2"]),
+        (
+            "all of it",
+            &[
+                "--dead-time-ns",
+                "400",
+                "--supply-resistance",
+                "0.2",
+                "--edge-error",
+                "0.2",
+                "--glitches",
+                "100",
+                "--sensor-offset",
+                "0.2",
+            ],
+        ),
+    ];
+    for board in ["stm32f405", "stm32f446"] {
+        for (name, more) in benches {
+            let out = folder(&format!("{board} {name}")).join("run");
+            let mut flags = motor.flags();
+            flags.extend(more.iter().map(|flag| (*flag).to_owned()));
+            let bench = Bench::of(board, &flags);
+            let output = commission(&bench, motor, &out, &["--excite", "0"]);
+            let json = saved(&out);
+            let held_out = json["verified_rms_counts"].as_f64();
+            let fault = json["failure"]["fault"].as_str();
+            println!("{board}, {name}: {held_out:?} counts held out, {fault:?}");
+            let verified = output.status.success() && held_out.is_some_and(|counts| counts <= 1.0);
+            assert!(
+                verified || fault == Some("NotVerified"),
+                "{board}, {name}: {output:?}"
+            );
+        }
+    }
+}
+
 /// The long excitation coasts again and again: the bridge must open and close where a duty would act, or each would cost counts
 /// that no physics explains.
 #[test]
@@ -227,7 +296,9 @@ fn what_the_image_records_for_the_host_is_explained_to_the_encoders_floor() {
         assert!(error < HELD_OUT, "{recording}: {error}");
     }
     // The reversals are beyond what the sensor shows, which must not matter.
-    let parameters = verified["diagnosis"]["final"]["parameters"].as_array().unwrap();
+    let parameters = verified["diagnosis"]["final"]["parameters"]
+        .as_array()
+        .unwrap();
     let resistance = parameters.iter().find(|p| p["name"] == "resistance");
     let found = resistance.expect("the current was measured")["value"]
         .as_f64()
@@ -246,6 +317,7 @@ fn whatever_breaks_on_the_bench_the_bridge_opens_and_stays_open() {
     // The fault, and the message that the host must get.
     let cases = [
         ("encoder-reversed", None, "Runaway"),
+        ("encoder-line-dead", None, "EncoderLine"),
         ("encoder-stuck-at", Some(AT), "Stall"),
         ("rotor-locked-at", Some(AT), "Stall"),
         ("over-current-at", Some(AT), "Overcurrent"),

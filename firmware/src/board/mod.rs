@@ -19,6 +19,7 @@ mod period;
 pub mod qemu;
 #[cfg(all(target_os = "none", feature = "rp2040"))]
 pub mod rp2040;
+pub mod shunts;
 #[cfg(all(target_os = "none", feature = "stm32"))]
 mod stm32;
 #[cfg(all(
@@ -126,7 +127,7 @@ pub trait Board {
     /// # Errors
     ///
     /// [`Fault::Overrun`] if that end had already passed, so that the last duty lasted longer than a period;
-    /// [`Fault::Bridge`] if the bridge's own protection switched it off.
+    /// [`Fault::Bridge`] if the bridge's own protection switched it off; [`Fault::BridgeHot`] if it would get too hot.
     fn tick(&mut self) -> Result<(), Fault>;
 
     /// Takes a byte that the host has sent, if there is one. Never waits.

@@ -47,6 +47,10 @@ pub trait Wiring {
     const SLICE: u32;
     /// See [`Board::SENSES_CURRENT`].
     const SENSES_CURRENT: bool = false;
+    /// See [`Board::CURRENT_LIMIT_MA`].
+    const CURRENT_LIMIT_MA: u32 = 0;
+    /// See [`Board::CURRENT_RESOLUTION_MA`].
+    const CURRENT_RESOLUTION_MA: u16 = 1;
     /// The timer that decodes the encoder.
     type EncoderTimer: GeneralInstance4Channel;
 
@@ -62,9 +66,20 @@ pub trait Wiring {
         false
     }
 
-    /// See [`Board::current_ma`].
-    fn current_ma(&mut self) -> i32 {
+    /// See [`Board::current_ma`]; `forward` if leg A is high for longer. The carrier is at its peak, where both low sides conduct.
+    fn current_ma(&mut self, forward: bool) -> i32 {
+        let _ = forward;
         0
+    }
+
+    /// See [`Board::supply_mv`].
+    fn supply_mv(&mut self) -> Option<u16> {
+        None
+    }
+
+    /// True if the bridge is too hot.
+    fn is_hot(&mut self) -> bool {
+        false
     }
 }
 
@@ -104,6 +119,9 @@ pub struct Bridge {
     timer: Timer<'static, TIM1>,
     legs: HalfBridges,
     driven: bool,
+    /// Leg A is high for longer.
+    forward: bool,
+    dead_time_ns: u32,
     /// It is to drive from the carrier's next turn on.
     begins: bool,
     _pins: BridgePins,
@@ -158,6 +176,8 @@ impl Bridge {
                 refresh: (refresh_ns * clock_mhz).div_ceil(2000) as u16,
             },
             driven: false,
+            forward: true,
+            dead_time_ns,
             begins: false,
             _pins: pins,
             _break_pin: None,
@@ -195,7 +215,15 @@ impl Bridge {
         self.set(0);
     }
 
+    /// What the dead times of both legs take in a carrier's period, as a duty.
+    fn dead_time(&self) -> u16 {
+        let full = u64::from(self.legs.full_duty());
+        let carrier_ns = u64::from(PERIOD_US) * 1000 / u64::from(CARRIERS);
+        (full * 2 * u64::from(self.dead_time_ns) / carrier_ns) as u16
+    }
+
     fn set(&mut self, duty: i16) {
+        self.forward = duty >= 0;
         let (a, b) = self.legs.compares(duty);
         self.timer.set_compare_value(Channel::Ch1, a);
         self.timer.set_compare_value(Channel::Ch2, b);
@@ -302,6 +330,8 @@ impl<W: Wiring> Board for Stm32<W> {
     const PERIOD_US: u32 = PERIOD_US;
     const SLICE: u32 = W::SLICE;
     const SENSES_CURRENT: bool = W::SENSES_CURRENT;
+    const CURRENT_LIMIT_MA: u32 = W::CURRENT_LIMIT_MA;
+    const CURRENT_RESOLUTION_MA: u16 = W::CURRENT_RESOLUTION_MA;
 
     fn drive(&mut self, duty: i16) {
         self.bridge.drive(duty);
@@ -331,7 +361,19 @@ impl<W: Wiring> Board for Stm32<W> {
     }
 
     fn current_ma(&mut self) -> i32 {
-        self.wiring.current_ma()
+        self.wiring.current_ma(self.bridge.forward)
+    }
+
+    fn supply_mv(&mut self) -> Option<u16> {
+        self.wiring.supply_mv()
+    }
+
+    fn dead_time(&self) -> u16 {
+        if W::SENSES_CURRENT {
+            self.bridge.dead_time()
+        } else {
+            0
+        }
     }
 
     fn tick(&mut self) -> Result<(), Fault> {
@@ -341,6 +383,9 @@ impl<W: Wiring> Board for Stm32<W> {
         self.bridge.timer.clear_update_interrupt();
         if self.bridge.tripped() || (self.bridge.driven && self.wiring.reports_fault()) {
             return Err(Fault::Bridge);
+        }
+        if self.bridge.driven && self.wiring.is_hot() {
+            return Err(Fault::BridgeHot);
         }
         Ok(())
     }

@@ -87,6 +87,9 @@ impl Wiring for Connections {
     const NAME: &'static str = "STM32F427";
     const SLICE: u32 = 1000;
     const SENSES_CURRENT: bool = true;
+    // The amplifier shows up to 16.5 A.
+    const CURRENT_LIMIT_MA: u32 = 14_000;
+    const CURRENT_RESOLUTION_MA: u16 = 9;
     type EncoderTimer = TIM3;
 
     fn enable(&mut self, on: bool) {
@@ -97,7 +100,7 @@ impl Wiring for Connections {
         self.reading()
     }
 
-    fn current_ma(&mut self) -> i32 {
+    fn current_ma(&mut self, _forward: bool) -> i32 {
         let reading = self.reading();
         self.sensor.ma(reading)
     }

@@ -7,23 +7,31 @@
 //! | PA10, PB15 | high side and low side of phase W, held off |
 //! | PB6, PB7 | encoder A and B, on the hall connector |
 //! | PB3, PB4 | link, transmit and receive, over the ST-LINK's USB |
+//! | PA1, PA3, PA2 | shunt of phase U: the amplifier's inputs and output |
+//! | PA7, PA5, PA6 | shunt of phase V: the amplifier's inputs and output |
+//! | PA0 | supply, by 169 kΩ and 18 kΩ |
+//! | PB14 | thermistor, 10 kΩ at 25 °C, to 3.3 V; 4.7 kΩ to ground |
 //! | PF0, PF1 | crystal, 8 MHz |
 //!
 //! Its gate drivers L6387 keep the two transistors of a leg from conducting together, hold them off without a supply,
-//! and have no enable input. Their high sides live on capacitors that recharge while the low side conducts. Its shunts
-//! are below the low sides and show the current only while those conduct, so it is not sensed.
+//! and have no enable input. Their high sides live on capacitors that recharge while the low side conducts.
+//!
+//! Shunts of 3 mΩ are below the low sides. The chip's own amplifiers and the board's resistors make 64/7 of that, inverted; the signs and
+//! the dividers are those of ST's motor control kit for this board.
 
-use embassy_stm32::adc::{Adc, SampleTime, Temperature};
+use embassy_stm32::adc::{Adc, SampleTime};
 use embassy_stm32::gpio::{Level, Output, Speed};
-use embassy_stm32::peripherals::{ADC1, TIM4, USART2};
+use embassy_stm32::opamp::{OpAmp, OpAmpGain, OpAmpOutput, OpAmpSpeed};
+use embassy_stm32::peripherals::{ADC1, ADC2, OPAMP1, OPAMP2, PA0, PB14, TIM4, USART2};
 use embassy_stm32::rcc::{Hse, HseMode, Pll, PllMul, PllPreDiv, PllRDiv, PllSource, Sysclk, mux};
 use embassy_stm32::time::mhz;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
-use embassy_stm32::{Config, bind_interrupts};
-use static_cell::ConstStaticCell;
+use embassy_stm32::{Config, Peri, bind_interrupts};
+use static_cell::{ConstStaticCell, StaticCell};
 
 use super::link;
+use super::shunts::Shunts;
 use super::stm32::{self, Bridge, BridgePins, Stm32, Wiring};
 
 /// B-G431B-ESC1.
@@ -38,8 +46,10 @@ static RECEIVE: ConstStaticCell<[u8; link::RECEIVE_BUFFER]> = ConstStaticCell::n
 
 /// The pins that are not one timer's or the link's.
 pub struct Connections {
-    adc: Adc<'static, ADC1>,
-    thermometer: Temperature,
+    amplifiers: Amplifiers,
+    supply: Peri<'static, PA0>,
+    thermistor: Peri<'static, PB14>,
+    shunts: Shunts,
     _held: [Output<'static>; 2],
 }
 
@@ -64,10 +74,21 @@ impl Stm32g431 {
             stm32::uart(),
         )
         .expect("the clock suits the link's speed");
-        let adc = Adc::new(p.ADC1, Default::default());
+        let u = OPAMP_U.init(OpAmp::new(p.OPAMP1, OpAmpSpeed::HighSpeed));
+        let v = OPAMP_V.init(OpAmp::new(p.OPAMP2, OpAmpSpeed::HighSpeed));
+        let mut amplifiers = Amplifiers {
+            u: u.pga_biased_ext(p.PA1, p.PA3, p.PA2, OpAmpGain::Mul16),
+            v: v.pga_biased_ext(p.PA7, p.PA5, p.PA6, OpAmpGain::Mul16),
+            adc_u: Adc::new(p.ADC1, Default::default()),
+            adc_v: Adc::new(p.ADC2, Default::default()),
+        };
+        // The bridge is open: no current flows.
+        let shunts = Shunts::new(STEP_UA, || amplifiers.readings());
         let wiring = Connections {
-            thermometer: adc.enable_temperature(),
-            adc,
+            amplifiers,
+            supply: p.PA0,
+            thermistor: p.PB14,
+            shunts,
             _held: held,
         };
         Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
@@ -95,15 +116,60 @@ fn clocks() -> Config {
     config
 }
 
+/// The amplifiers of the shunts, each before an ADC of its own.
+struct Amplifiers {
+    u: OpAmpOutput<'static, OPAMP1>,
+    v: OpAmpOutput<'static, OPAMP2>,
+    adc_u: Adc<'static, ADC1>,
+    adc_v: Adc<'static, ADC2>,
+}
+
+impl Amplifiers {
+    fn readings(&mut self) -> [u16; 2] {
+        [
+            self.adc_u.blocking_read(&mut self.u, SAMPLING),
+            self.adc_v.blocking_read(&mut self.v, SAMPLING),
+        ]
+    }
+}
+
+static OPAMP_U: StaticCell<OpAmp<'static, OPAMP1>> = StaticCell::new();
+static OPAMP_V: StaticCell<OpAmp<'static, OPAMP2>> = StaticCell::new();
+
+const SAMPLING: SampleTime = SampleTime::CYCLES24_5;
+/// A step of the ADC: 3.3 V by 4096, a shunt of three milliohms and a gain of -64/7, µA.
+const STEP_UA: i32 = -29_372;
+/// Reading of the thermistor at 85 °C, where it has 1.45 kΩ (B = 3435 K).
+const HOT: u16 = 3_130;
+
 impl Wiring for Connections {
     const NAME: &'static str = "B-G431B-ESC1";
     const SLICE: u32 = 1000;
+    const SENSES_CURRENT: bool = true;
+    const CURRENT_LIMIT_MA: u32 = 20_000;
+    const CURRENT_RESOLUTION_MA: u16 = 30;
     type EncoderTimer = TIM4;
 
     fn enable(&mut self, _on: bool) {}
 
     fn noise(&mut self) -> u16 {
-        let time = SampleTime::CYCLES2_5;
-        self.adc.blocking_read(&mut self.thermometer, time)
+        let [u, v] = self.amplifiers.readings();
+        u ^ v
+    }
+
+    fn current_ma(&mut self, forward: bool) -> i32 {
+        self.shunts.ma(self.amplifiers.readings(), forward)
+    }
+
+    fn supply_mv(&mut self) -> Option<u16> {
+        let adc = &mut self.amplifiers.adc_u;
+        let reading = adc.blocking_read(&mut self.supply, SAMPLING);
+        // 3.3 V are 4096 steps, behind a divider by 187 / 18.
+        u16::try_from(u32::from(reading) * 3_300 * 187 / (4_096 * 18)).ok()
+    }
+
+    fn is_hot(&mut self) -> bool {
+        let adc = &mut self.amplifiers.adc_u;
+        adc.blocking_read(&mut self.thermistor, SAMPLING) > HOT
     }
 }

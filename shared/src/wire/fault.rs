@@ -45,11 +45,13 @@ pub enum Fault {
     Overvoltage,
     /// The supply is below what it may be.
     Undervoltage,
+    /// The bridge is too hot.
+    BridgeHot,
 }
 
 impl Fault {
     /// All of them, in the order of the wire.
-    pub const ALL: [Fault; 19] = [
+    pub const ALL: [Fault; 20] = [
         Fault::Stopped,
         Fault::LinkLost,
         Fault::Overrun,
@@ -69,6 +71,7 @@ impl Fault {
         Fault::CurrentSensor,
         Fault::Overvoltage,
         Fault::Undervoltage,
+        Fault::BridgeHot,
     ];
 
     /// The unit of the number that broke the limit, and of the limit; nothing where there is none.
@@ -83,6 +86,7 @@ impl Fault {
             Fault::Stopped
             | Fault::Stall
             | Fault::EncoderLine
+            | Fault::BridgeHot
             | Fault::MotorLead
             | Fault::CurrentSensor
             | Fault::LinkLost
@@ -115,6 +119,7 @@ impl fmt::Display for Fault {
             Fault::CurrentSensor => "the motor runs but the current sensor shows no current: check the sensor; without it the current cannot be limited",
             Fault::Overvoltage => "the supply rose too far, the motor brakes into it: add a brake resistor or capacitance, or ask for a smaller amplitude",
             Fault::Undervoltage => "the supply broke down: it bears too little current for this drive; ask for a smaller amplitude, or take a stronger supply",
+            Fault::BridgeHot => "the bridge is too hot: let it cool, cool it better, or ask for a smaller amplitude",
         })
     }
 }
