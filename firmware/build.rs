@@ -12,17 +12,21 @@ fn main() {
     let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
     // Where the linker finds the map.x that memory.x, at the top of the workspace, includes. An image for no board at all, as for
     // QEMU, has the STM32s' map unless scripts/mcu --memory names another.
-    let chip = if has("RP2040") { "rp2040" } else { "stm32" };
+    let chip = if has("RP2040_PARTS") {
+        "rp2040"
+    } else {
+        "stm32"
+    };
     println!("cargo:rustc-link-search={here}/memory/{chip}");
     if has("DEFMT") {
-        println!("cargo:rustc-link-arg-bins=-Tdefmt.x");
+        println!("cargo:rustc-link-arg=-Tdefmt.x");
     }
     if has("STM32") {
-        println!("cargo:rustc-link-arg-bins=-T{here}/memory/stm32/chip.x");
+        println!("cargo:rustc-link-arg=-T{here}/memory/stm32/chip.x");
     }
-    if has("RP2040") {
+    if has("RP2040_PARTS") {
         // Functions that are equal to the byte, such as readers of message fields of one length, once.
-        println!("cargo:rustc-link-arg-bins=--icf=all");
-        println!("cargo:rustc-link-arg-bins=-T{here}/memory/rp2040/chip.x");
+        println!("cargo:rustc-link-arg=--icf=all");
+        println!("cargo:rustc-link-arg=-T{here}/memory/rp2040/chip.x");
     }
 }

@@ -21,6 +21,7 @@ pub mod bringup;
 pub mod count;
 #[cfg(all(target_os = "none", feature = "proof"))]
 pub mod emulator;
+pub mod encoder;
 pub mod guard;
 #[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
 mod halt;

@@ -161,6 +161,7 @@ fn to_host() -> Vec<ToHost> {
             current_limit_ma: 40_000,
             senses_supply: true,
             dead_time: 273,
+            encoder_latency_us: 255,
         }),
     ]
 }

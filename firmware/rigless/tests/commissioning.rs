@@ -229,12 +229,12 @@ fn the_images_of_the_other_boards_identify_a_motor_too() {
 fn on_an_ordinary_bench_a_run_is_within_its_limit_or_says_that_it_is_not() {
     let motor = &MOTORS[5];
     let benches = [
-        ("ideal", &[][..]),
-        ("400 ns dead time", &["--dead-time-ns", "400"]),
+        ("400 ns dead time", &["--dead-time-ns", "400"][..]),
         ("0.2 ohm supply", &["--supply-resistance", "0.2"]),
-        ("edges 0.2 counts off", &["--edge-error", "0.2"]),
-        ("100 glitches a second", &["--glitches", "100"]),
-        ("sensor 0.2 A off", &["--sensor-offset", "0.2"]),
+        (
+            "edges off, glitches, a sensor that is off",
+            &["--edge-error", "0.2", "--glitches", "100", "--sensor-offset", "0.2"],
+        ),
         (
             "all of it",
             &[

@@ -218,11 +218,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         let (Some(guard), Work::Play { script, .. }) = (&mut self.guard, &mut self.work) else {
             return false;
         };
-        if let Script::Step {
-            brake, duty: step, ..
-        } = *script
-        {
-            if brake > 0 || duty != step {
+        if let Script::Step { brake, .. } = *script {
+            if brake > 0 || duty == 0 {
                 // It brakes: the step begins where that ends.
                 self.begun_at = self.count;
             } else if guard.probe_step(duty, self.count.wrapping_sub(self.begun_at), current_ma) {

@@ -76,6 +76,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                     current_limit_ma: B::CURRENT_LIMIT_MA,
                     senses_supply: self.board.supply_mv().is_some(),
                     dead_time: self.board.dead_time(),
+                    encoder_latency_us: self.board.encoder_latency_us(),
                 };
                 self.memory.outbox.post(&ToHost::Details(details));
             }
@@ -130,7 +131,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if self.phase != Phase::Idle {
             return self.refuse(Refusal::Busy);
         }
-        let nonce = self.nonces.next_u32();
+        // Asked for again, because the answer was late: the same, or a start by the first answer would be refused.
+        let nonce = match self.armed {
+            Some((nonce, _)) => nonce,
+            None => self.nonces.next_u32(),
+        };
         let periods = Self::periods(ARMED_US);
         self.armed = Some((nonce, periods));
         self.memory.outbox.post(&ToHost::Armed { nonce, periods });

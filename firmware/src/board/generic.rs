@@ -101,8 +101,18 @@ impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, 
 
 /// A counter of the encoder's edges.
 pub trait Position {
-    /// See [`Board::count`].
+    /// See [`Board::count`]. Of a reading that failed, the last one.
     fn count(&mut self) -> i32;
+
+    /// True if readings have failed for so long that the count is not to be trusted.
+    fn failed(&self) -> bool {
+        false
+    }
+
+    /// How long a count is late, µs.
+    fn latency_us(&self) -> u32 {
+        0
+    }
 }
 
 /// The carrier's turn, at which the legs take a new duty over. The first one comes some 20 µs after a control period's end.
@@ -139,6 +149,24 @@ pub trait Tick {
     fn end(&mut self) -> Result<(), Fault>;
     /// A number that differs between two events that nobody synchronised.
     fn time(&self) -> u32;
+}
+
+/// The control period of an application that is called once in each, by a task of somebody else's firmware: nothing waits here, and a
+/// period that comes late is not noticed here.
+#[derive(Debug, Default)]
+pub struct CallersClock {
+    periods: u32,
+}
+
+impl Tick for CallersClock {
+    fn end(&mut self) -> Result<(), Fault> {
+        self.periods = self.periods.wrapping_add(1);
+        Ok(())
+    }
+
+    fn time(&self) -> u32 {
+        self.periods
+    }
 }
 
 /// The parts of one board.
@@ -218,7 +246,14 @@ impl<P: Parts> Board for Generic<P> {
         if self.bridge.tripped() {
             return Err(Fault::Bridge);
         }
+        if self.bridge.closed && self.position.failed() {
+            return Err(Fault::Encoder);
+        }
         Ok(())
+    }
+
+    fn encoder_latency_us(&self) -> u32 {
+        self.position.latency_us()
     }
 
     fn receive(&mut self) -> Option<u8> {

@@ -13,8 +13,10 @@ pub mod lockstep;
 pub mod note;
 #[cfg(not(target_os = "none"))]
 pub mod pc;
-#[cfg(all(target_os = "none", feature = "cortex-m"))]
+#[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
 mod period;
+#[cfg(all(target_os = "none", feature = "rp2040-parts"))]
+pub mod pio_encoder;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod qemu;
 #[cfg(all(target_os = "none", feature = "rp2040"))]
@@ -108,13 +110,19 @@ pub trait Board {
         0
     }
 
+    /// How long [`count`](Self::count) is late, µs: the latency of an encoder behind a bus and a filter.
+    fn encoder_latency_us(&self) -> u32 {
+        0
+    }
+
     /// Supply voltage of the bridge, mV, if the board measures it.
     fn supply_mv(&mut self) -> Option<u16> {
         None
     }
 
     /// Part of the supply that the bridge's dead time takes from a duty, against the current, as a duty: twice the dead time by the
-    /// carrier's period, of [`full`](Self::full). Zero where the current is not measured: its sign is needed.
+    /// carrier's period, of [`full`](Self::full), to be made good in what is recorded. Zero where the current's sign is not known well
+    /// enough: a reading a period does not tell when it changes, and half an ampere of friction decides.
     fn dead_time(&self) -> u16 {
         0
     }

@@ -13,7 +13,6 @@
 //! The dead time is the module's business: this chip's PWM has none. So all but the encoder is a [`Generic`] board of
 //! `embassy-rp`'s parts.
 
-mod encoder;
 mod reset;
 mod supervision;
 
@@ -27,7 +26,6 @@ use embassy_rp::pwm::{self, Pwm, PwmOutput};
 use embassy_rp::uart::{self, BufferedUart};
 use static_cell::ConstStaticCell;
 
-use self::encoder::Encoder;
 pub use self::reset::restart;
 use self::supervision::Supervised;
 use super::BAUD;
@@ -35,6 +33,7 @@ use super::entropy::Entropy;
 use super::generic::{Generic, HBridge, Parts, Turn};
 use super::link::{self, Link};
 use super::period::Period;
+use super::pio_encoder::Encoder;
 
 /// Fixed point: the core has no floating-point unit.
 pub type Number = shared::scalar::Fixed;

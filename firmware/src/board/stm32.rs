@@ -121,7 +121,6 @@ pub struct Bridge {
     driven: bool,
     /// Leg A is high for longer.
     forward: bool,
-    dead_time_ns: u32,
     /// It is to drive from the carrier's next turn on.
     begins: bool,
     _pins: BridgePins,
@@ -177,7 +176,6 @@ impl Bridge {
             },
             driven: false,
             forward: true,
-            dead_time_ns,
             begins: false,
             _pins: pins,
             _break_pin: None,
@@ -213,13 +211,6 @@ impl Bridge {
         self.timer.set_moe(false);
         (self.driven, self.begins) = (false, false);
         self.set(0);
-    }
-
-    /// What the dead times of both legs take in a carrier's period, as a duty.
-    fn dead_time(&self) -> u16 {
-        let full = u64::from(self.legs.full_duty());
-        let carrier_ns = u64::from(PERIOD_US) * 1000 / u64::from(CARRIERS);
-        (full * 2 * u64::from(self.dead_time_ns) / carrier_ns) as u16
     }
 
     fn set(&mut self, duty: i16) {
@@ -366,14 +357,6 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn supply_mv(&mut self) -> Option<u16> {
         self.wiring.supply_mv()
-    }
-
-    fn dead_time(&self) -> u16 {
-        if W::SENSES_CURRENT {
-            self.bridge.dead_time()
-        } else {
-            0
-        }
     }
 
     fn tick(&mut self) -> Result<(), Fault> {

@@ -270,7 +270,8 @@ impl Guard {
         } else if duty.is_some_and(|duty| self.motion.is_strong(duty)) {
             self.quiet = self.quiet.saturating_add(1);
         }
-        self.gained |= quiet && shown == Some(Shown::Gains);
+        // All the while without a current.
+        self.gained |= matches!(shown, Some(Shown::Gains(periods)) if self.quiet >= periods);
         let window = self.motion.window();
         if quiet && self.quiet > window && self.gained {
             return Err(Tripped::by(Fault::CurrentSensor));

@@ -70,8 +70,8 @@ pub struct Motion {
 pub enum Shown {
     /// The shaft stands, where any would have moved.
     Rest,
-    /// It gains speed with the drive.
-    Gains,
+    /// It has gained speed with the drive in the last of them, so many.
+    Gains(u32),
 }
 
 impl Motion {
@@ -195,8 +195,10 @@ impl Motion {
         }
         let gain = stretch.gain();
         if stretch.travel >= 0 {
-            let gains = stretch.travel.min(gain) >= i64::from(REST_COUNTS);
-            return Ok(gains.then_some(Shown::Gains));
+            // Not what the last bit of a run-up to no-load speed still brings.
+            let much = i64::from(REST_COUNTS).max(least / 4);
+            let gains = stretch.travel.min(gain) >= much;
+            return Ok(gains.then_some(Shown::Gains(stretch.periods)));
         }
         self.against += stretch.periods;
         self.lost = self.lost.saturating_add(gain);

@@ -12,6 +12,8 @@ use crate::plant::Motor;
 /// Bytes that wait on one direction of the link.
 const ROOM: usize = 2048;
 const PERIOD_S: f32 = 1e-3;
+/// Smallest change of a duty.
+const STEP: i16 = 7;
 
 /// Motor, link and injected faults.
 #[derive(Debug)]
@@ -144,6 +146,11 @@ impl<const SENSES: bool> Board for OnBench<'_, SENSES> {
         } else {
             bench.waits = Some(duty);
         }
+    }
+
+    /// In steps, as a real bridge.
+    fn nearest(&self, duty: i16) -> i16 {
+        duty / STEP * STEP
     }
 
     fn coast(&mut self) {

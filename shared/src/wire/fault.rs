@@ -47,11 +47,13 @@ pub enum Fault {
     Undervoltage,
     /// The bridge is too hot.
     BridgeHot,
+    /// Several readings of the encoder in a row were unusable.
+    Encoder,
 }
 
 impl Fault {
     /// All of them, in the order of the wire.
-    pub const ALL: [Fault; 20] = [
+    pub const ALL: [Fault; 21] = [
         Fault::Stopped,
         Fault::LinkLost,
         Fault::Overrun,
@@ -72,6 +74,7 @@ impl Fault {
         Fault::Overvoltage,
         Fault::Undervoltage,
         Fault::BridgeHot,
+        Fault::Encoder,
     ];
 
     /// The unit of the number that broke the limit, and of the limit; nothing where there is none.
@@ -87,6 +90,7 @@ impl Fault {
             | Fault::Stall
             | Fault::EncoderLine
             | Fault::BridgeHot
+            | Fault::Encoder
             | Fault::MotorLead
             | Fault::CurrentSensor
             | Fault::LinkLost
@@ -120,6 +124,7 @@ impl fmt::Display for Fault {
             Fault::Overvoltage => "the supply rose too far, the motor brakes into it: add a brake resistor or capacitance, or ask for a smaller amplitude",
             Fault::Undervoltage => "the supply broke down: it bears too little current for this drive; ask for a smaller amplitude, or take a stronger supply",
             Fault::BridgeHot => "the bridge is too hot: let it cool, cool it better, or ask for a smaller amplitude",
+            Fault::Encoder => "the encoder's readings were unusable: check its wires, its supply and its magnet",
         })
     }
 }

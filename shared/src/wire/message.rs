@@ -162,6 +162,8 @@ pub struct Details {
     /// Part of the supply that its bridge's dead time takes, as a duty, which the device makes good in what it records; zero if it does
     /// not.
     pub dead_time: u16,
+    /// How long its encoder's readings are late, µs.
+    pub encoder_latency_us: u32,
 }
 
 /// A number format of the model.

@@ -72,6 +72,8 @@ struct AboutJson<'a> {
     senses_supply: bool,
     /// Current that the bridge bears, A; null if it protects itself.
     current_limit_a: Option<f64>,
+    /// How long its encoder's readings are late, s.
+    encoder_latency_s: f64,
     /// What made the device start.
     reset: String,
     stage: String,
@@ -115,6 +117,7 @@ fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
         senses_current: about.senses_current,
         senses_supply: details.senses_supply,
         current_limit_a: Some(limit_a).filter(|limit| *limit > 0.0),
+        encoder_latency_s: f64::from(details.encoder_latency_us) * 1e-6,
         reset: details.reset.to_string(),
         stage,
     };
