@@ -29,11 +29,16 @@ pub fn sets(stop: &Arc<AtomicBool>) {
 mod unix {
     use super::ENDED;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    use signal_hook::flag;
+    use signal_hook::iterator::Signals;
     use std::fs;
     use std::os::raw::c_int;
     use std::sync::Arc;
     use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread;
+    use std::time::{Duration, Instant};
+
+    /// Signals closer together than this are one wish: `timeout` sends each to the program and to its group.
+    const ONE_WISH: Duration = Duration::from_millis(300);
 
     static TAKEN: AtomicBool = AtomicBool::new(false);
 
@@ -42,15 +47,24 @@ mod unix {
             return;
         }
         let ignored = ignored();
-        for signal in [SIGINT, SIGTERM, SIGHUP] {
-            // Under `nohup` a closed terminal is nobody's wish to stop.
-            if ignored >> (signal - 1) & 1 == 1 {
-                continue;
+        // Under `nohup` a closed terminal is nobody's wish to stop.
+        let taken = [SIGINT, SIGTERM, SIGHUP]
+            .into_iter()
+            .filter(|signal| ignored >> (signal - 1) & 1 == 0);
+        let Ok(mut signals) = Signals::new(taken) else {
+            return;
+        };
+        let stop = Arc::clone(stop);
+        thread::spawn(move || {
+            let mut first: Option<Instant> = None;
+            for _ in &mut signals {
+                stop.store(true, Ordering::Relaxed);
+                let since = first.get_or_insert_with(Instant::now).elapsed();
+                if since > ONE_WISH {
+                    std::process::exit(ENDED);
+                }
             }
-            // In this order: the first signal finds the flag down, and raises it; the next one ends the program.
-            let _ = flag::register_conditional_shutdown(signal, ENDED, Arc::clone(stop));
-            let _ = flag::register(signal, Arc::clone(stop));
-        }
+        });
     }
 
     /// The signals that whoever started the program has set to be ignored, one a bit. Where there is no `/proc`, nobody can say without

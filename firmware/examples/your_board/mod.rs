@@ -10,6 +10,7 @@ use embassy_rp::uart::{self, BufferedUart};
 use embassy_time::Delay;
 use firmware::board::generic::{AfterDelay, CallersClock, Generic, HBridge, Parts};
 use firmware::board::link::{Link, RECEIVE_BUFFER, SEND_BUFFER};
+use firmware::board::modulation::HalfBridges;
 use firmware::board::pio_encoder::Encoder;
 use static_cell::ConstStaticCell;
 
@@ -35,6 +36,7 @@ impl Parts for Yours {
     type LegB = PwmOutput<'static>;
     type Enable = Output<'static>;
     type Fault = Input<'static>;
+    type Modulation = HalfBridges;
     type Serial = BufferedUart;
     type Position = Encoder;
     type Turn = AfterDelay<Delay>;

@@ -20,15 +20,16 @@ use embedded_io_async::{Read, Write};
 
 use super::Board;
 use super::entropy::Entropy;
-use super::half_bridges::HalfBridges;
 use super::link::Link;
+use super::modulation::{HalfBridges, Modulation};
 use crate::phase::Fault;
 use shared::wire::Reset;
 
-/// An H bridge of two half bridges with one carrier, an enable input (high: on) and a fault output (low: fault).
+/// An H bridge behind two outputs of one carrier, an enable input (high: on) and a fault output (low: fault). How the outputs make a duty
+/// is the bridge's [`Modulation`].
 #[derive(Debug)]
-pub struct HBridge<A, B, E, F> {
-    legs: HalfBridges,
+pub struct HBridge<A, B, E, F, M = HalfBridges> {
+    legs: M,
     a: A,
     b: B,
     enable: E,
@@ -40,16 +41,15 @@ pub struct HBridge<A, B, E, F> {
     failed: bool,
 }
 
-impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, E, F> {
+impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin, M: Modulation>
+    HBridge<A, B, E, F, M>
+{
     /// Opens the bridge. `full` is the carrier's compare value for a leg that is high all the time; a HAL whose largest duty
     /// cycle is less costs as much of the largest duty, and nothing below it.
     pub fn new(a: A, b: B, enable: E, fault: F, full: u16) -> Self {
         let longest = a.max_duty_cycle().min(b.max_duty_cycle());
         let mut bridge = HBridge {
-            legs: HalfBridges {
-                full,
-                refresh: full.saturating_sub(longest),
-            },
+            legs: M::new(full, longest),
             a,
             b,
             enable,
@@ -62,9 +62,9 @@ impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, 
         bridge
     }
 
-    /// The two half bridges' measure of a duty.
-    pub fn legs(&self) -> HalfBridges {
-        self.legs
+    /// The rule by which it makes a duty.
+    pub fn legs(&self) -> &M {
+        &self.legs
     }
 
     /// Gives both legs a duty. They take it over at the carrier's next turn, which must not pass in between.
@@ -85,7 +85,7 @@ impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, 
     pub fn open(&mut self) {
         self.failed |= self.enable.set_low().is_err();
         (self.driven, self.closed) = (false, false);
-        self.set(0);
+        self.give(self.legs.open());
     }
 
     /// True while driving if the bridge reports a fault or one of its parts failed.
@@ -94,7 +94,10 @@ impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin> HBridge<A, B, 
     }
 
     fn set(&mut self, duty: i16) {
-        let (a, b) = self.legs.compares(duty);
+        self.give(self.legs.compares(duty));
+    }
+
+    fn give(&mut self, (a, b): (u16, u16)) {
         self.failed |= self.a.set_duty_cycle(a).is_err() | self.b.set_duty_cycle(b).is_err();
     }
 }
@@ -185,6 +188,8 @@ pub trait Parts {
     type Enable: OutputPin;
     /// Their fault output.
     type Fault: InputPin;
+    /// How the bridge makes a duty: [`HalfBridges`], or another rule of [`modulation`](super::modulation).
+    type Modulation: Modulation;
     /// Serial port of the link.
     type Serial: Read + Write;
     /// The encoder.
@@ -195,10 +200,19 @@ pub trait Parts {
     type Tick: Tick;
 }
 
+/// The bridge of a board's parts.
+pub type BridgeOf<P> = HBridge<
+    <P as Parts>::LegA,
+    <P as Parts>::LegB,
+    <P as Parts>::Enable,
+    <P as Parts>::Fault,
+    <P as Parts>::Modulation,
+>;
+
 /// A board that is put together of parts.
 pub struct Generic<P: Parts> {
     /// The bridge, open.
-    pub bridge: HBridge<P::LegA, P::LegB, P::Enable, P::Fault>,
+    pub bridge: BridgeOf<P>,
     /// The link.
     pub link: Link<P::Serial>,
     /// The encoder.
@@ -353,6 +367,7 @@ mod tests {
         type LegB = Pwm;
         type Enable = Pin;
         type Fault = Pin;
+        type Modulation = HalfBridges;
         type Serial = Serial;
         type Position = Counter;
         type Turn = AfterDelay<CheckedDelay>;

@@ -10,6 +10,7 @@ pub mod half_bridges;
 pub mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]
 pub mod lockstep;
+pub mod modulation;
 pub mod note;
 #[cfg(not(target_os = "none"))]
 pub mod pc;

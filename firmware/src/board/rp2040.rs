@@ -32,6 +32,7 @@ use super::BAUD;
 use super::entropy::Entropy;
 use super::generic::{Generic, HBridge, Parts, Turn};
 use super::link::{self, Link};
+use super::modulation::HalfBridges;
 use super::period::Period;
 use super::pio_encoder::Encoder;
 
@@ -72,6 +73,7 @@ impl Parts for Pico {
     type LegB = PwmOutput<'static>;
     type Enable = Output<'static>;
     type Fault = Input<'static>;
+    type Modulation = HalfBridges;
     type Serial = BufferedUart;
     type Position = Encoder;
     type Turn = Carrier;

@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
 
 /// Part of the name of an unfinished recording, before its extension.
 const UNFINISHED: &str = "unfinished";
@@ -23,7 +25,8 @@ pub struct Live {
     period_us: u32,
     scale: DutyScale,
     files: BTreeMap<&'static str, (File, Lines)>,
-    synced: Instant,
+    /// To the thread that syncs: a disk that is slow must not keep the program from speaking to the device.
+    synced: Sender<File>,
 }
 
 impl Live {
@@ -44,7 +47,7 @@ impl Live {
             period_us,
             scale,
             files: BTreeMap::new(),
-            synced: Instant::now(),
+            synced: syncs(),
         })
     }
 
@@ -68,23 +71,18 @@ impl Live {
         let (file, lines) = match self.files.entry(name) {
             std::collections::btree_map::Entry::Occupied(entry) => entry.into_mut(),
             std::collections::btree_map::Entry::Vacant(entry) => {
-                let mut file = File::create(path)?;
+                let mut file = File::create_new(path)?;
                 writeln!(
                     file,
                     "# unfinished: the program that recorded this did not come to its end"
                 )?;
                 file.write_all(COLUMNS.as_bytes())?;
+                let _ = self.synced.send(file.try_clone()?);
                 entry.insert((file, Lines::new(self.period_us, self.scale)))
             }
         };
         // In one piece: a program that is killed leaves whole lines.
         file.write_all(lines.of(rows).as_bytes())?;
-        if self.synced.elapsed() >= SYNCED {
-            for (file, _) in self.files.values() {
-                file.sync_data()?;
-            }
-            self.synced = Instant::now();
-        }
         Ok(())
     }
 
@@ -102,6 +100,27 @@ impl Live {
         }
         Ok(())
     }
+}
+
+/// A thread that brings the files that it is sent to the disk, again and again, until there is no sender.
+fn syncs() -> Sender<File> {
+    let (sender, receiver) = channel::<File>();
+    thread::spawn(move || {
+        let mut files = Vec::new();
+        loop {
+            match receiver.recv_timeout(SYNCED) {
+                Ok(file) => files.push(file),
+                Err(RecvTimeoutError::Timeout) => {
+                    for file in &files {
+                        // The program itself finds out what cannot be written.
+                        let _ = file.sync_data();
+                    }
+                }
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    });
+    sender
 }
 
 /// Path of a recording while it is unfinished.
