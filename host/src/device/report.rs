@@ -31,7 +31,7 @@ pub fn report(run: &Run, order: &Order) -> DeviceRun {
         let period_s = f64::from(run.about.period_us) * 1e-6;
         let scale = saved.scale();
         saved.breakaway_v = scale.volts(report.breakaway);
-        saved.limited_periods = report.limited;
+        saved.limited_periods = Some(report.limited);
         saved.amplitude_v = scale.volts(report.amplitude);
         saved.outcome = report
             .outcome
@@ -64,7 +64,7 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun 
         outcome: None,
         verified_rms_counts: None,
         failure: None,
-        limited_periods: 0,
+        limited_periods: None,
         missing: recorded.iter().map(Recorded::missing).sum(),
         partial: true,
     }

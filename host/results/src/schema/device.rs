@@ -44,8 +44,8 @@ pub struct DeviceRun {
     /// Why the run was given up; null if it was not.
     pub failure: Option<Failure>,
     /// Periods in which the current's limit held the drive back; what was driven is recorded.
-    #[serde(default)]
-    pub limited_periods: u32,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limited_periods: Option<u32>,
     /// Periods that never arrived, in all files.
     pub missing: usize,
     /// Whether the run is incomplete: periods are missing, or it was given up or broke off.

@@ -239,10 +239,9 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
             saved.breakaway_v, saved.amplitude_v
         );
     }
-    if saved.limited_periods > 0 {
+    if let Some(limited @ 1..) = saved.limited_periods {
         text += &format!(
-            "the limit of the current held the drive back in {} periods; what was driven is recorded\n",
-            saved.limited_periods
+            "the limit of the current held the drive back in {limited} periods; what was driven is recorded\n"
         );
     }
     if let Some(outcome) = &saved.outcome {
