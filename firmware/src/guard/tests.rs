@@ -160,7 +160,13 @@ fn the_winding_bears_a_peak_for_a_while_and_its_continuous_current_forever() {
 fn a_shaft_that_does_not_follow_is_recognised_within_one_and_a_half_windows() {
     let reaction = 90;
     let steady = |_| Some(-20_000);
-    let hasty = |k: u32| Some(if k / 30 % 2 == 0 { 20_000 } else { -20_000 });
+    let hasty = |k: u32| {
+        Some(if (k / 30).is_multiple_of(2) {
+            20_000
+        } else {
+            -20_000
+        })
+    };
     for (drive, within) in [
         (steady as fn(u32) -> Option<i16>, reaction),
         // A drive that turns round again and again expects less.
