@@ -144,18 +144,16 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             return;
         };
         let limit = job.limits.duty;
-        *next = script
-            .next(self.memory.plan.segments())
-            .map(|duty| match (duty, &self.guard) {
-                (OPEN, _) => OPEN,
-                (duty, None) => duty.clamp(-limit, limit),
-                (duty, Some(guard)) => {
-                    let ordered = duty.clamp(-limit, limit);
-                    let bounded = guard.bounded(ordered);
-                    self.report.limited += u32::from(bounded != ordered);
-                    bounded
-                }
-            });
+        *next = script.next(self.memory.plan.segments()).map(|duty| {
+            if duty == OPEN {
+                return OPEN;
+            }
+            let ordered = duty.clamp(-limit, limit);
+            let guard = self.guard.as_ref();
+            let bounded = guard.map_or(ordered, |guard| guard.bounded(ordered));
+            self.report.limited += u32::from(bounded != ordered);
+            bounded
+        });
     }
 
     #[inline(never)]

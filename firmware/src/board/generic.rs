@@ -20,87 +20,11 @@ use embedded_io_async::{Read, Write};
 
 use super::Board;
 use super::entropy::Entropy;
+pub use super::h_bridge::HBridge;
 use super::link::Link;
-use super::modulation::{HalfBridges, Modulation};
+use super::modulation::Modulation;
 use crate::phase::Fault;
 use shared::wire::Reset;
-
-/// An H bridge behind two outputs of one carrier, an enable input (high: on) and a fault output (low: fault). How the outputs make a duty
-/// is the bridge's [`Modulation`].
-#[derive(Debug)]
-pub struct HBridge<A, B, E, F, M = HalfBridges> {
-    legs: M,
-    a: A,
-    b: B,
-    enable: E,
-    fault: F,
-    /// A duty was given: the bridge closes when that acts.
-    driven: bool,
-    closed: bool,
-    /// A part refused what it was told.
-    failed: bool,
-}
-
-impl<A: SetDutyCycle, B: SetDutyCycle, E: OutputPin, F: InputPin, M: Modulation>
-    HBridge<A, B, E, F, M>
-{
-    /// Opens the bridge. `full` is the carrier's compare value for a leg that is high all the time; a HAL whose largest duty
-    /// cycle is less costs as much of the largest duty, and nothing below it.
-    pub fn new(a: A, b: B, enable: E, fault: F, full: u16) -> Self {
-        let longest = a.max_duty_cycle().min(b.max_duty_cycle());
-        let mut bridge = HBridge {
-            legs: M::new(full, longest),
-            a,
-            b,
-            enable,
-            fault,
-            driven: false,
-            closed: false,
-            failed: false,
-        };
-        bridge.open();
-        bridge
-    }
-
-    /// The rule by which it makes a duty.
-    pub fn legs(&self) -> &M {
-        &self.legs
-    }
-
-    /// Gives both legs a duty. They take it over at the carrier's next turn, which must not pass in between.
-    pub fn drive(&mut self, duty: i16) {
-        self.set(duty);
-        self.driven = true;
-    }
-
-    /// Closes an open bridge that is to drive. After the carrier's turn: before, it would brake until then.
-    pub fn close(&mut self) {
-        if self.driven && !self.closed {
-            self.failed |= self.enable.set_high().is_err();
-            self.closed = true;
-        }
-    }
-
-    /// Opens the bridge at once.
-    pub fn open(&mut self) {
-        self.failed |= self.enable.set_low().is_err();
-        (self.driven, self.closed) = (false, false);
-        self.give(self.legs.open());
-    }
-
-    /// True while driving if the bridge reports a fault or one of its parts failed.
-    pub fn tripped(&mut self) -> bool {
-        self.closed && (self.failed || self.fault.is_low().unwrap_or(true))
-    }
-
-    fn set(&mut self, duty: i16) {
-        self.give(self.legs.compares(duty));
-    }
-
-    fn give(&mut self, (a, b): (u16, u16)) {
-        self.failed |= self.a.set_duty_cycle(a).is_err() | self.b.set_duty_cycle(b).is_err();
-    }
-}
 
 /// A counter of the encoder's edges.
 pub trait Position {
@@ -188,7 +112,7 @@ pub trait Parts {
     type Enable: OutputPin;
     /// Their fault output.
     type Fault: InputPin;
-    /// How the bridge makes a duty: [`HalfBridges`], or another rule of [`modulation`](super::modulation).
+    /// How the bridge makes a duty: [`HalfBridges`](super::modulation::HalfBridges), or another rule of [`modulation`](super::modulation).
     type Modulation: Modulation;
     /// Serial port of the link.
     type Serial: Read + Write;
@@ -260,7 +184,7 @@ impl<P: Parts> Board for Generic<P> {
         if self.bridge.tripped() {
             return Err(Fault::Bridge);
         }
-        if self.bridge.closed && self.position.failed() {
+        if self.bridge.is_closed() && self.position.failed() {
             return Err(Fault::Encoder);
         }
         Ok(())
@@ -290,6 +214,7 @@ impl<P: Parts> Board for Generic<P> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::board::modulation::HalfBridges;
     use core::convert::Infallible;
     use core::future::{pending, ready};
     use embedded_hal_mock::eh1::MockError;
@@ -422,9 +347,9 @@ mod tests {
             .delay
             .update_expectations(&[Wait::delay_ns(30_000), Wait::delay_ns(30_000)]);
         board.drive(8_000);
-        assert!(!board.bridge.closed);
+        assert!(!board.bridge.is_closed());
         assert_eq!(board.count(), 1);
-        assert!(board.bridge.closed);
+        assert!(board.bridge.is_closed());
         assert_eq!(board.tick(), Ok(()));
         assert_eq!(board.count(), 2);
         board.coast();

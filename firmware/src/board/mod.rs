@@ -6,6 +6,7 @@
 pub mod current;
 pub mod entropy;
 pub mod generic;
+pub mod h_bridge;
 pub mod half_bridges;
 pub mod link;
 #[cfg(any(feature = "emulated", not(target_os = "none")))]

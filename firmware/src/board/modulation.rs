@@ -13,18 +13,32 @@
 
 pub use super::half_bridges::HalfBridges;
 
-/// A rule for two outputs.
+/// A rule for two outputs. All rules have the steps of two half bridges: their sign and number are what a rule turns into pulses.
 pub trait Modulation {
     /// A rule for a carrier that counts up to `full`, whose outputs' longest pulse is `longest`.
     fn new(full: u16, longest: u16) -> Self;
-    /// See [`Board::full`](super::Board::full).
-    fn full_duty(&self) -> u16;
+    /// Its steps.
+    fn steps(&self) -> HalfBridges;
     /// Compare values of both outputs.
     fn compares(&self, duty: i16) -> (u16, u16);
-    /// `duty` in the steps of the rule.
-    fn nearest(&self, duty: i16) -> i16;
     /// Compare values of an open bridge, where its enable input alone does not open it.
     fn open(&self) -> (u16, u16);
+
+    /// See [`Board::full`](super::Board::full).
+    fn full_duty(&self) -> u16 {
+        self.steps().full_duty()
+    }
+
+    /// `duty` in the steps of the rule.
+    fn nearest(&self, duty: i16) -> i16 {
+        self.steps().nearest(duty)
+    }
+
+    /// Whether a duty drives forward, and its number of steps.
+    fn forward_steps(&self, duty: i16) -> (bool, u16) {
+        let (a, b) = self.steps().compares(duty);
+        (a >= b, a.abs_diff(b))
+    }
 }
 
 impl Modulation for HalfBridges {
@@ -35,16 +49,12 @@ impl Modulation for HalfBridges {
         }
     }
 
-    fn full_duty(&self) -> u16 {
-        HalfBridges::full_duty(*self)
+    fn steps(&self) -> HalfBridges {
+        *self
     }
 
     fn compares(&self, duty: i16) -> (u16, u16) {
         HalfBridges::compares(*self, duty)
-    }
-
-    fn nearest(&self, duty: i16) -> i16 {
-        HalfBridges::nearest(*self, duty)
     }
 
     fn open(&self) -> (u16, u16) {
@@ -52,45 +62,25 @@ impl Modulation for HalfBridges {
     }
 }
 
-/// Steps of a duty, one compare value each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Steps {
-    bridge: HalfBridges,
-}
-
-impl Steps {
-    /// Sign and number of the steps next to a duty.
-    fn of(self, duty: i16) -> (bool, u16) {
-        let (a, b) = self.bridge.compares(duty);
-        (a >= b, a.abs_diff(b))
-    }
-}
-
 /// IN1 and IN2, of which one is high all the time and the other between the pulses: the winding is shorted there. Both low open the bridge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SlowDecay(Steps);
+pub struct SlowDecay(HalfBridges);
 
 impl Modulation for SlowDecay {
     fn new(full: u16, longest: u16) -> Self {
-        SlowDecay(Steps {
-            bridge: HalfBridges::new(full, longest),
-        })
+        SlowDecay(HalfBridges::new(full, longest))
     }
 
-    fn full_duty(&self) -> u16 {
-        self.0.bridge.full_duty()
+    fn steps(&self) -> HalfBridges {
+        self.0
     }
 
     fn compares(&self, duty: i16) -> (u16, u16) {
-        let full = self.0.bridge.full;
-        match self.0.of(duty) {
+        let full = self.0.full;
+        match self.forward_steps(duty) {
             (true, steps) => (full, full - steps),
             (false, steps) => (full - steps, full),
         }
-    }
-
-    fn nearest(&self, duty: i16) -> i16 {
-        self.0.bridge.nearest(duty)
     }
 
     fn open(&self) -> (u16, u16) {
@@ -100,29 +90,22 @@ impl Modulation for SlowDecay {
 
 /// A PWM input and a direction input, which is high forward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PwmAndDirection(Steps);
+pub struct PwmAndDirection(HalfBridges);
 
 impl Modulation for PwmAndDirection {
     fn new(full: u16, longest: u16) -> Self {
-        PwmAndDirection(Steps {
-            bridge: HalfBridges::new(full, longest),
-        })
+        PwmAndDirection(HalfBridges::new(full, longest))
     }
 
-    fn full_duty(&self) -> u16 {
-        self.0.bridge.full_duty()
+    fn steps(&self) -> HalfBridges {
+        self.0
     }
 
     fn compares(&self, duty: i16) -> (u16, u16) {
-        let full = self.0.bridge.full;
-        match self.0.of(duty) {
-            (true, steps) => (steps, full),
+        match self.forward_steps(duty) {
+            (true, steps) => (steps, self.0.full),
             (false, steps) => (steps, 0),
         }
-    }
-
-    fn nearest(&self, duty: i16) -> i16 {
-        self.0.bridge.nearest(duty)
     }
 
     fn open(&self) -> (u16, u16) {
@@ -190,11 +173,11 @@ mod tests {
     /// Largest departure of the mean current from that of the ideal voltage, A.
     fn departs<M: Modulation>(transistors: Transistors) -> f64 {
         let rule = M::new(FULL, FULL);
-        let full = f64::from(rule.full_duty());
+        let full = f64::from(Modulation::full_duty(&rule));
         let mut worst = 0.0_f64;
         for part in [-0.9, -0.5, -0.1, -0.02, 0.0, 0.02, 0.1, 0.5, 0.9] {
             for emf in [-6.0, 0.0, 2.0] {
-                let duty = rule.nearest((part * full) as i16);
+                let duty = Modulation::nearest(&rule, (part * full) as i16);
                 let ideal = (f64::from(duty) / full * SUPPLY - emf) / RESISTANCE;
                 let seen = mean_current(rule.compares(duty), transistors, emf);
                 worst = worst.max((seen - ideal).abs());

@@ -1,37 +1,59 @@
-//! The count of an absolute encoder whose readings may be bad.
+//! The count of an absolute encoder: its angles, unwrapped; while they are bad, the last good one.
 
+use super::Readings;
+use crate::board::generic::Position;
 use shared::encoder::Unwrapped;
 
-/// Bad readings in a row from which on the encoder has failed: at a millisecond each, a shaft may turn far in them.
-const FAILED: u8 = 5;
+/// Angles of one kind of encoder.
+pub trait Angle {
+    /// The angle now; nothing if there is no good one.
+    fn angle(&mut self) -> Option<u32>;
 
-/// Unwraps angles of `BITS` bits, and holds the last good one while they are bad.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Absolute<const BITS: u32> {
-    angle: Unwrapped<BITS>,
-    bad: u8,
-    all_bad: u32,
+    /// How long it is late, µs.
+    fn latency_us(&self) -> u32 {
+        0
+    }
 }
 
-impl<const BITS: u32> Absolute<BITS> {
-    /// Takes a reading, or that there was no good one; gives the count.
-    pub fn take(&mut self, reading: Option<u32>) -> i32 {
-        if let Some(angle) = reading {
-            self.bad = 0;
-            return self.angle.read(angle);
-        }
-        self.bad = self.bad.saturating_add(1);
-        self.all_bad = self.all_bad.saturating_add(1);
-        self.angle.count()
-    }
+/// An encoder of `BITS` bits, as a count.
+#[derive(Debug)]
+pub struct Absolute<A, const BITS: u32> {
+    encoder: A,
+    count: Unwrapped<BITS>,
+    readings: Readings,
+}
 
-    /// True after so many bad readings in a row that the count is not to be trusted.
-    pub fn failed(&self) -> bool {
-        self.bad >= FAILED
+impl<A, const BITS: u32> Absolute<A, BITS> {
+    /// The count of an encoder.
+    pub(super) fn of(encoder: A) -> Self {
+        Absolute {
+            encoder,
+            count: Unwrapped::default(),
+            readings: Readings::default(),
+        }
     }
 
     /// Bad readings so far.
     pub fn bad(&self) -> u32 {
-        self.all_bad
+        self.readings.bad()
+    }
+}
+
+impl<A: Angle, const BITS: u32> Position for Absolute<A, BITS> {
+    fn count(&mut self) -> i32 {
+        let angle = self.encoder.angle();
+        self.readings.count(angle.is_some());
+        match angle {
+            Some(angle) => self.count.read(angle),
+            None => self.count.count(),
+        }
+    }
+
+    fn failed(&self) -> bool {
+        self.readings.failed()
+    }
+
+    fn latency_us(&self) -> u32 {
+        self.encoder.latency_us()
     }
 }

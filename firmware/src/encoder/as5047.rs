@@ -4,8 +4,7 @@
 //! AS5047P v1-11, section "SPI Interface"), so that an angle is as old as the frame before: one control period, unless two frames are sent
 //! for each, as here. Its dynamic angle error compensation is on in ANGLECOM.
 
-use super::Absolute;
-use crate::board::generic::Position;
+use super::{Absolute, Angle};
 use embedded_hal::spi::SpiDevice;
 
 /// Reads ANGLECOM (0x3fff): read bit, and a parity bit that makes the number of ones even.
@@ -19,21 +18,12 @@ const DATA: u16 = FLAG - 1;
 #[derive(Debug)]
 pub struct As5047<S> {
     spi: S,
-    count: Absolute<14>,
 }
 
 impl<S: SpiDevice> As5047<S> {
-    /// On its SPI device.
-    pub fn new(spi: S) -> Self {
-        As5047 {
-            spi,
-            count: Absolute::default(),
-        }
-    }
-
-    /// Bad readings so far.
-    pub fn bad(&self) -> u32 {
-        self.count.bad()
+    /// The count of the one on an SPI device.
+    pub fn on(spi: S) -> Absolute<Self, 14> {
+        Absolute::of(As5047 { spi })
     }
 
     fn frame(&mut self, command: u16) -> Option<u16> {
@@ -42,7 +32,9 @@ impl<S: SpiDevice> As5047<S> {
         let answer = u16::from_be_bytes(bytes);
         answer.count_ones().is_multiple_of(2).then_some(answer)
     }
+}
 
+impl<S: SpiDevice> Angle for As5047<S> {
     fn angle(&mut self) -> Option<u32> {
         self.frame(ANGLE)?;
         let answer = self.frame(ANGLE)?;
@@ -54,20 +46,10 @@ impl<S: SpiDevice> As5047<S> {
     }
 }
 
-impl<S: SpiDevice> Position for As5047<S> {
-    fn count(&mut self) -> i32 {
-        let angle = self.angle();
-        self.count.take(angle)
-    }
-
-    fn failed(&self) -> bool {
-        self.count.failed()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::board::generic::Position;
     use embedded_hal_mock::eh1::spi::{Mock, Transaction};
 
     fn exchange(command: u16, answer: u16) -> [Transaction<u8>; 3] {
@@ -112,7 +94,7 @@ mod tests {
         reads(with_parity(600 | FLAG), true, -1);
         reads(with_parity(16_000), false, -384);
         let mut spi = Mock::new(&script);
-        let mut encoder = As5047::new(spi.clone());
+        let mut encoder = As5047::on(spi.clone());
         for count in expected {
             assert_eq!(encoder.count(), count);
             assert!(!encoder.failed());

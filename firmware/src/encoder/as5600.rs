@@ -1,7 +1,6 @@
 //! AS5600 by ams OSRAM: 12 bits over I²C. Slow: it is late by its filter and by the bus, which the model has to know.
 
-use super::Absolute;
-use crate::board::generic::Position;
+use super::{Absolute, Angle};
 use embedded_hal::i2c::I2c;
 
 const ADDRESS: u8 = 0x36;
@@ -23,41 +22,22 @@ const BITS: u32 = 7 * 9;
 pub struct As5600<I> {
     bus: I,
     bus_hz: u32,
-    count: Absolute<12>,
 }
 
 impl<I: I2c> As5600<I> {
-    /// On a bus of this speed, Hz.
-    pub fn new(bus: I, bus_hz: u32) -> Self {
-        As5600 {
-            bus,
-            bus_hz,
-            count: Absolute::default(),
-        }
+    /// The count of the one on a bus of this speed, Hz.
+    pub fn on(bus: I, bus_hz: u32) -> Absolute<Self, 12> {
+        Absolute::of(As5600 { bus, bus_hz })
     }
+}
 
-    /// Bad readings so far.
-    pub fn bad(&self) -> u32 {
-        self.count.bad()
-    }
-
+impl<I: I2c> Angle for As5600<I> {
     fn angle(&mut self) -> Option<u32> {
         let mut bytes = [0; 3];
         self.bus.write_read(ADDRESS, &[STATUS], &mut bytes).ok()?;
         let [status, high, low] = bytes;
         let good = status & (DETECTED | WEAK | STRONG) == DETECTED;
         good.then_some((u32::from(high) << 8 | u32::from(low)) & 0xfff)
-    }
-}
-
-impl<I: I2c> Position for As5600<I> {
-    fn count(&mut self) -> i32 {
-        let angle = self.angle();
-        self.count.take(angle)
-    }
-
-    fn failed(&self) -> bool {
-        self.count.failed()
     }
 
     /// The filter. The angle is taken when the bus asks for it, in the first half of the reading.
@@ -69,6 +49,7 @@ impl<I: I2c> Position for As5600<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::board::generic::Position;
     use embedded_hal_mock::eh1::i2c::{Mock, Transaction};
 
     #[test]
@@ -85,7 +66,7 @@ mod tests {
             reads(DETECTED | STRONG, 77),
             reads(DETECTED, 4_000),
         ]);
-        let mut encoder = As5600::new(bus.clone(), 1_000_000);
+        let mut encoder = As5600::on(bus.clone(), 1_000_000);
         for count in [10, -6, -6, -6, -6, -96] {
             assert_eq!(encoder.count(), count);
         }

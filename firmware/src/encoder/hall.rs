@@ -3,6 +3,7 @@
 //! The lines are looked at once a period. More than one state in a period cannot be told from fewer the other way, so that a motor of `p`
 //! pole pairs may turn no faster than `1000 / (6 p)` revolutions a second at a millisecond.
 
+use super::Readings;
 use crate::board::generic::Position;
 use embedded_hal::digital::InputPin;
 
@@ -17,8 +18,6 @@ const PLACES: [Option<u8>; 8] = [
     Some(3),
     None,
 ];
-/// States in a row that cannot be, from which on the lines have failed.
-const FAILED: u8 = 5;
 
 /// The lines.
 #[derive(Debug)]
@@ -28,7 +27,7 @@ pub struct Hall<A, B, C> {
     c: C,
     place: Option<u8>,
     count: i32,
-    bad: u8,
+    readings: Readings,
 }
 
 impl<A: InputPin, B: InputPin, C: InputPin> Hall<A, B, C> {
@@ -40,7 +39,7 @@ impl<A: InputPin, B: InputPin, C: InputPin> Hall<A, B, C> {
             c,
             place: None,
             count: 0,
-            bad: 0,
+            readings: Readings::default(),
         }
     }
 
@@ -56,7 +55,7 @@ impl<A: InputPin, B: InputPin, C: InputPin> Hall<A, B, C> {
 impl<A: InputPin, B: InputPin, C: InputPin> Position for Hall<A, B, C> {
     fn count(&mut self) -> i32 {
         let Some(place) = self.state() else {
-            self.bad = self.bad.saturating_add(1);
+            self.readings.count(false);
             return self.count;
         };
         let ahead = (6 + place - self.place.unwrap_or(place)) % 6;
@@ -66,18 +65,14 @@ impl<A: InputPin, B: InputPin, C: InputPin> Position for Hall<A, B, C> {
             3 => 0,
             _ => i32::from(ahead) - 6,
         };
-        self.bad = if ahead == 3 {
-            self.bad.saturating_add(1)
-        } else {
-            0
-        };
+        self.readings.count(ahead != 3);
         self.place = Some(place);
         self.count = self.count.wrapping_add(step);
         self.count
     }
 
     fn failed(&self) -> bool {
-        self.bad >= FAILED
+        self.readings.failed()
     }
 }
 

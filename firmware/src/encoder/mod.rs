@@ -15,5 +15,7 @@ pub mod as5047;
 pub mod as5600;
 pub mod hall;
 pub mod mt6701;
+mod readings;
 
-pub use absolute::Absolute;
+pub use absolute::{Absolute, Angle};
+pub use readings::Readings;

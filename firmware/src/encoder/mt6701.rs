@@ -3,35 +3,19 @@
 //! A frame has 24 bits: the angle, four bits of status, and a CRC of both by x⁶ + x + 1 (data sheet rev. 1.8, section "SSI"). Set the SPI's
 //! mode by that section's timing: the clock idles high.
 
-use super::Absolute;
-use crate::board::generic::Position;
+use super::{Absolute, Angle};
 use embedded_hal::spi::SpiDevice;
 
 /// The encoder.
 #[derive(Debug)]
 pub struct Mt6701<S> {
     spi: S,
-    count: Absolute<14>,
 }
 
 impl<S: SpiDevice> Mt6701<S> {
-    /// On its SPI device.
-    pub fn new(spi: S) -> Self {
-        Mt6701 {
-            spi,
-            count: Absolute::default(),
-        }
-    }
-
-    /// Bad readings so far.
-    pub fn bad(&self) -> u32 {
-        self.count.bad()
-    }
-
-    fn angle(&mut self) -> Option<u32> {
-        let mut bytes = [0; 3];
-        self.spi.read(&mut bytes).ok()?;
-        decoded(bytes)
+    /// The count of the one on an SPI device.
+    pub fn on(spi: S) -> Absolute<Self, 14> {
+        Absolute::of(Mt6701 { spi })
     }
 }
 
@@ -53,20 +37,18 @@ fn crc(data: u32) -> u32 {
     })
 }
 
-impl<S: SpiDevice> Position for Mt6701<S> {
-    fn count(&mut self) -> i32 {
-        let angle = self.angle();
-        self.count.take(angle)
-    }
-
-    fn failed(&self) -> bool {
-        self.count.failed()
+impl<S: SpiDevice> Angle for Mt6701<S> {
+    fn angle(&mut self) -> Option<u32> {
+        let mut bytes = [0; 3];
+        self.spi.read(&mut bytes).ok()?;
+        decoded(bytes)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::board::generic::Position;
     use embedded_hal_mock::eh1::spi::{Mock, Transaction};
 
     fn frame(angle: u32, status: u32) -> [u8; 3] {
@@ -110,7 +92,7 @@ mod tests {
             })
             .collect();
         let mut spi = Mock::new(&script);
-        let mut encoder = Mt6701::new(spi.clone());
+        let mut encoder = Mt6701::on(spi.clone());
         for k in 0..6 {
             assert_eq!(encoder.count(), 7);
             assert_eq!(encoder.failed(), k == 5);

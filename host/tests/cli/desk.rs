@@ -5,6 +5,10 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+#[cfg(unix)]
+use std::thread::sleep;
+#[cfg(unix)]
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -187,4 +191,31 @@ fn list(folder: &Path, found: &mut BTreeMap<PathBuf, u64>) {
         }
         found.insert(entry.path(), about.len());
     }
+}
+
+/// Time to end after a signal: generous, against work of hours.
+#[cfg(unix)]
+pub const PATIENCE: Duration = Duration::from_secs(30);
+
+/// Sends a signal by its name, such as `-INT`.
+#[cfg(unix)]
+pub fn signal(name: &str, child: &Child) {
+    let killed = Command::new("kill")
+        .args([name, &child.id().to_string()])
+        .status();
+    assert!(killed.expect("kill").success());
+}
+
+/// What a program at work has left when it has ended, which it must soon.
+#[cfg(unix)]
+pub fn ended(mut child: Child, line: &str) -> Outcome {
+    let asked = Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        if asked.elapsed() > PATIENCE {
+            child.kill().expect("it can be killed");
+            panic!("{line}: does not stop");
+        }
+        sleep(Duration::from_millis(20));
+    }
+    Outcome::new(line, child.wait_with_output().expect("servoid ends"))
 }

@@ -3,15 +3,14 @@
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::process::{Child, Command};
+use std::process::Child;
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
 
 use shared::wire::*;
 
-use crate::desk::{Desk, Outcome};
+use crate::desk::{Desk, PATIENCE, ended, signal};
 
-const PATIENCE: Duration = Duration::from_secs(30);
 const NONCE: u32 = 9;
 
 /// A device that records for ever, until it is told to stop; its port.
@@ -110,25 +109,6 @@ fn under_way(desk: &Desk, spawn: impl FnOnce(&str) -> Child) -> (Child, String) 
         sleep(Duration::from_millis(20));
     }
     (child, line)
-}
-
-fn signal(name: &str, child: &Child) {
-    let killed = Command::new("kill")
-        .args([name, &child.id().to_string()])
-        .status();
-    assert!(killed.expect("kill").success());
-}
-
-fn ended(mut child: Child, line: &str) -> Outcome {
-    let asked = Instant::now();
-    while child.try_wait().expect("a child").is_none() {
-        if asked.elapsed() > PATIENCE {
-            child.kill().expect("it can be killed");
-            panic!("{line}: does not stop");
-        }
-        sleep(Duration::from_millis(20));
-    }
-    Outcome::new(line, child.wait_with_output().expect("servoid ends"))
 }
 
 #[test]

@@ -1,19 +1,16 @@
 //! Ctrl-C: the work ends soon, with what it has.
 #![cfg(unix)]
 
-use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
 use crate::contract::{has, is_fit, list};
-use crate::desk::{Desk, Outcome};
+use crate::desk::{Desk, Outcome, PATIENCE, ended, signal};
 
 /// Time to get to work before the signal. Too short only means that there is less to report.
 const AT_WORK: Duration = Duration::from_millis(1500);
-/// Time to end after it: generous, against work of hours.
-const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Runs `line`, which would take hours, and interrupts it.
 fn interrupted(desk: &Desk, line: &str) -> Outcome {
@@ -32,25 +29,10 @@ fn interrupted_when(desk: &Desk, line: &str, enough: impl Fn() -> bool) -> Outco
         child.try_wait().expect("a child").is_none(),
         "{line}: over before the signal"
     );
-    let killed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(killed.expect("kill").success());
-    wait(&mut child, line);
-    let outcome = Outcome::new(line, child.wait_with_output().expect("servoid ends"));
+    signal("-INT", &child);
+    let outcome = ended(child, line);
     outcome.is_refusal(1, &["stopped by the user", "best so far"]);
     outcome
-}
-
-fn wait(child: &mut Child, line: &str) {
-    let asked = Instant::now();
-    while child.try_wait().expect("a child").is_none() {
-        if asked.elapsed() > PATIENCE {
-            child.kill().expect("it can be killed");
-            panic!("{line}: does not stop");
-        }
-        sleep(Duration::from_millis(20));
-    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Duties of a device as volts.
 
 use crate::schema::DeviceRun;
-use shared::trace::DUTY;
+use shared::trace::{DUTY, OPEN};
 
 /// What a device's duties are worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,11 @@ impl DutyScale {
     /// Voltage of a duty, V.
     pub fn volts(self, duty: i16) -> f64 {
         f64::from(duty) * (self.supply_v / f64::from(self.full))
+    }
+
+    /// Voltage of a recorded duty, V: none where the bridge was open.
+    pub fn recorded(self, duty: i16) -> f64 {
+        if duty == OPEN { 0.0 } else { self.volts(duty) }
     }
 
     /// The duty next to a voltage; beyond what 16 bits hold if the voltage is.

@@ -174,13 +174,6 @@ pub(super) fn motor_file(supply_v: f64, counts_per_rev: f64) -> String {
 fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Recording {
     let period_s = f64::from(saved.period_us) * 1e-6;
     let coasts = rows.iter().any(|row| row.duty == OPEN);
-    let volts = |duty: i16| {
-        if duty == OPEN {
-            0.0
-        } else {
-            saved.scale().volts(duty)
-        }
-    };
     let mut counts = vec![f64::from(count)];
     let mut at = f64::from(count);
     for row in rows {
@@ -194,7 +187,7 @@ fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Reco
         time_s: (0..counts.len()).map(|k| k as f64 * period_s).collect(),
         command: rows
             .iter()
-            .map(|row| volts(row.duty))
+            .map(|row| saved.scale().recorded(row.duty))
             .chain([0.0])
             .collect(),
         counts,

@@ -39,18 +39,13 @@ impl Lines {
         }
         let mut count = rows.count;
         for (k, row) in (rows.first..).zip(&rows.rows) {
-            let open = row.duty == OPEN;
-            let volts = if open {
-                0.0
-            } else {
-                self.scale.volts(row.duty)
-            };
+            let volts = self.scale.recorded(row.duty);
             let _ = writeln!(
                 text,
                 "{:?},{volts:?},{count},{:?},{}",
                 f64::from(k) * self.period_s,
                 f64::from(row.current_ma) * 1e-3,
-                u8::from(!open)
+                u8::from(row.duty != OPEN)
             );
             count = count.wrapping_add(row.step.into());
         }

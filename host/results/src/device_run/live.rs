@@ -6,6 +6,7 @@ use super::{DutyScale, FolderError};
 use servoid_io::output::write_whole;
 use shared::wire::Rows;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -69,8 +70,8 @@ impl Live {
 
     fn append(&mut self, name: &'static str, path: &Path, rows: &Rows) -> io::Result<()> {
         let (file, lines) = match self.files.entry(name) {
-            std::collections::btree_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::btree_map::Entry::Vacant(entry) => {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => {
                 let mut file = File::create_new(path)?;
                 writeln!(
                     file,
@@ -132,6 +133,8 @@ fn unfinished(folder: &Path, name: &str) -> PathBuf {
 
 /// An unfinished recording that a folder holds.
 pub(super) fn left_in(folder: &Path) -> Option<PathBuf> {
-    let paths = RECORDINGS.iter().map(|(name, _)| unfinished(folder, name));
-    paths.into_iter().find(|path| path.exists())
+    RECORDINGS
+        .iter()
+        .map(|(name, _)| unfinished(folder, name))
+        .find(|path| path.exists())
 }

@@ -185,9 +185,10 @@ fn into_folder(
     let written = folder.write(&saved, &run.recorded, current)?;
     live.finish()?;
     let text = summary(&saved, &run, path, &written);
+    let unverified = matches!(&run.outcome, Err(failure) if failure.fault == Fault::NotVerified);
     match &saved.failure {
         None => session.deliver(&text, &saved),
-        Some(failure) if failure.fault == format!("{:?}", Fault::NotVerified) => {
+        Some(failure) if unverified => {
             session.deliver(&text, &saved)?;
             Err(Error::Failed(format!(
                 "the fit is not verified: {:.2} counts RMS on what it had not seen, more than {:.2} (--verify-within); \
