@@ -14,19 +14,21 @@ fn main() {
     // QEMU, has the STM32s' map unless scripts/mcu --memory names another.
     let chip = if has("RP2040_PARTS") {
         "rp2040"
+    } else if has("RP2350_PARTS") {
+        "rp2350"
     } else {
         "stm32"
     };
-    println!("cargo:rustc-link-search={here}/memory/{chip}");
+    let map = if has("STM32F103") { "stm32f103" } else { chip };
+    println!("cargo:rustc-link-search={here}/memory/{map}");
     if has("DEFMT") {
         println!("cargo:rustc-link-arg=-Tdefmt.x");
     }
-    if has("STM32") {
-        println!("cargo:rustc-link-arg=-T{here}/memory/stm32/chip.x");
+    if has("STM32") || chip != "stm32" {
+        println!("cargo:rustc-link-arg=-T{here}/memory/{chip}/chip.x");
     }
-    if has("RP2040_PARTS") {
+    if chip == "rp2040" {
         // Functions that are equal to the byte, such as readers of message fields of one length, once.
         println!("cargo:rustc-link-arg=--icf=all");
-        println!("cargo:rustc-link-arg=-T{here}/memory/rp2040/chip.x");
     }
 }

@@ -1,5 +1,5 @@
 // Boots an unmodified image of the Pico and closes the loop around it: its PWM drives a motor, the motor's encoder turns the lines
-// that its state machine watches, its serial port is a TCP socket.
+// that its state machine watches, its serial port, or with --usb its USB port, is a TCP socket.
 import net from "node:net";
 import { parseArgs } from "node:util";
 import { Chip } from "./chip.mjs";
@@ -13,6 +13,7 @@ const { values, positionals } = parseArgs({
     "encoder-reversed": { type: "boolean", default: false },
     "bridge-fault-at": { type: "string", default: "Infinity" },
     "wedged-at": { type: "string", default: "Infinity" },
+    usb: { type: "boolean", default: false },
   },
 });
 if (positionals.length !== 1) {
@@ -27,7 +28,7 @@ const LINES = [[false, false], [true, false], [true, true], [false, true]];
 // Virtual time between two looks at the clock on the wall, ns.
 const SLICE = 2e6;
 
-const chip = new Chip(positionals[0]);
+const chip = new Chip(positionals[0], values.usb);
 const motor = new Motor(TEN_WATTS);
 let shown = 0;
 let last = 0;

@@ -1,8 +1,8 @@
 // The RP2040 of rp2040js with an image in its flash, and what that emulator leaves out: the serial port's queue, the
-// end of a sleep by an interrupt that is masked, state machines in step with the core, the true periods of timer and carrier, and the
-// watchdog's reset.
+// end of a sleep by an interrupt that is masked, state machines in step with the core, the true periods of timer and carrier, the
+// watchdog's reset, and USB buffers that stay the controller's until the host has filled them.
 import { readFileSync } from "node:fs";
-import { RP2040 } from "./node_modules/rp2040js/dist/esm/index.js";
+import { RP2040, USBCDC } from "./node_modules/rp2040js/dist/esm/index.js";
 import { SimulationClock } from "./node_modules/rp2040js/dist/esm/clock/simulation-clock.js";
 
 const FLASH = 0x10000000;
@@ -18,6 +18,11 @@ const [FLAGS, DMA_CONTROL] = [0x18, 0x48];
 const [SEND_FULL, SEND_EMPTY] = [1 << 5, 1 << 7];
 const SENT = 1 << 5;
 const QUEUE = 32;
+// The first of the USB port's buffer control registers for packets from the host, of a pair for each endpoint, and the bit that says that
+// a buffer is the controller's (data sheet, 4.1.2.5).
+const FROM_HOST = 0x84;
+const AVAILABLE = 1 << 10;
+const PACKET = 64;
 // Where the emulator keeps the watchdog: its address without the last three digits.
 const WATCHDOG = 0x40058;
 
@@ -33,8 +38,10 @@ function load(flash, path) {
 }
 
 export class Chip {
-  constructor(image) {
+  // `usb`: what is sent and received goes through the USB port, not the serial one.
+  constructor(image, usb = false) {
     this.image = image;
+    this.overUsb = usb;
     this.sent = () => {};
     this.restarted = () => {};
     this.seen = () => {};
@@ -66,6 +73,8 @@ export class Chip {
     core.VTOR = FLASH + VECTORS;
     this.periods();
     this.line();
+    this.buffers();
+    if (this.overUsb) this.host();
     this.machines();
     this.carrier = this.mcu.pwm.channels[0];
     this.turns();
@@ -117,6 +126,39 @@ export class Chip {
           uart.checkInterrupts();
         }
       }
+    };
+  }
+
+  // The emulator gives a USB buffer back to the program before a host has filled it, even without one.
+  buffers() {
+    const { usbCtrl: port, usbDPRAMView: memory } = this.mcu;
+    const [updated, finished] = [port.DPRAMUpdated.bind(port), port.finishRead.bind(port)];
+    port.DPRAMUpdated = (offset, value) => {
+      updated(offset, value);
+      if (offset >= FROM_HOST && (offset & 4) !== 0 && value & AVAILABLE) memory.setUint32(offset, value, true);
+    };
+    port.finishRead = (endpoint, bytes) => {
+      finished(endpoint, bytes);
+      const control = FROM_HOST + 8 * endpoint;
+      memory.setUint32(control, memory.getUint32(control, true) & ~AVAILABLE, true);
+    };
+  }
+
+  // A host on the USB port, which takes and sends packets as soon as the chip lets it.
+  host() {
+    const { usbCtrl: port } = this.mcu;
+    const host = new USBCDC(port);
+    host.onSerialData = (bytes) => bytes.forEach((byte) => this.sent(byte));
+    let ready = false;
+    // The emulator's own would answer with nothing if there is nothing.
+    port.onEndpointRead = (endpoint) => {
+      ready ||= endpoint === host.outEndpoint;
+    };
+    this.waiting = [];
+    this.carry = () => {
+      if (!ready || this.waiting.length === 0) return;
+      ready = false;
+      port.endpointReadDone(host.outEndpoint, Uint8Array.from(this.waiting.splice(0, PACKET)));
     };
   }
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `+` and `-` change the duty by a 64th of the supply, at most to a quarter, and drive with it for half a second;
-//! any other key opens the bridge. Without keys the motor coasts. After a fault it coasts, and keys do nothing until the
+//! any other key opens the bridge, and `r` also has it say again what made the board start. Without keys the motor coasts. After a fault it coasts, and keys do nothing until the
 //! fault has been printed.
 
 use core::fmt::{self, Write};
@@ -48,17 +48,23 @@ impl<B: Board> Bringup<B> {
     /// Takes the board over and opens its bridge.
     pub fn new(mut board: B) -> Self {
         board.coast();
-        let mut line = Line::default();
-        let _ = write!(line, "reset: {}\r\n", board.reset());
-        Self {
+        let mut bringup = Self {
             board,
             duty: 0,
             left: 0,
             until_line: Self::LINE,
             fault: None,
             reported: false,
-            line,
-        }
+            line: Line::default(),
+        };
+        bringup.introduce();
+        bringup
+    }
+
+    /// Says what made the board start.
+    fn introduce(&mut self) {
+        self.line = Line::default();
+        let _ = write!(self.line, "reset: {}\r\n", self.board.reset());
     }
 
     /// One control period.
@@ -98,7 +104,12 @@ impl<B: Board> Bringup<B> {
         match key {
             b'+' => self.duty = (self.duty + STEP).min(LIMIT),
             b'-' => self.duty = (self.duty - STEP).max(-LIMIT),
-            _ => self.coast(),
+            key => {
+                self.coast();
+                if key == b'r' {
+                    self.introduce();
+                }
+            }
         }
     }
 
@@ -240,6 +251,15 @@ mod tests {
         assert_eq!(bringup.board.duty, Some(-STEP));
         run(&mut bringup, " ", 1);
         assert_eq!(bringup.board.duty, None);
+    }
+
+    #[test]
+    fn it_says_what_made_the_board_start_at_first_and_when_asked() {
+        let mut bringup = Bringup::new(Toy::default());
+        run(&mut bringup, "", 10);
+        run(&mut bringup, "+r", 10);
+        assert_eq!(bringup.board.duty, None);
+        assert_eq!(bringup.board.text, b"reset: unknown\r\n".repeat(2));
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl Parts for Yours {
     type Enable = Output<'static>;
     type Fault = Input<'static>;
     type Modulation = HalfBridges;
-    type Serial = BufferedUart;
+    type Port = Link<BufferedUart>;
     type Position = Encoder;
     type Turn = AfterDelay<Delay>;
     type Tick = CallersClock;

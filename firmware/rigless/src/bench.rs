@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 use rigless::emulator::{Driver, Error, Host, Stop};
 use rigless::session::Session;
 use rigless::time::VirtualNanos;
+use servoid_rigless::plant::{Motor, State, Terminal};
 
 use crate::faults::{Faults, begun};
-use crate::plant::{Motor, State, Terminal};
 use crate::rig::Rig;
 use crate::stack;
 use crate::unkind::Unkind;

@@ -3,7 +3,6 @@
 
 mod bench;
 mod faults;
-mod plant;
 mod rig;
 mod stack;
 mod unkind;
@@ -19,9 +18,9 @@ use rigless::emulator::{self, Start};
 use rigless::image::Image;
 use rigless::session::Session;
 use rigless::time::VirtualNanos;
+use servoid_rigless::plant::Motor;
 
 use bench::{Bench, Settings};
-use plant::Motor;
 use rig::Rig;
 use wiring::Model;
 

@@ -18,7 +18,6 @@ use crate::wiring::{FaultLine, PinAt, Sensing, Wiring};
 
 const TIM1: usize = 0;
 const ADC1: usize = 0;
-const CRYSTAL_HZ: u64 = 8_000_000;
 
 /// The board.
 #[derive(Debug)]
@@ -46,7 +45,7 @@ impl Rig {
     /// The board, out of reset, its serial port connected to `link`.
     pub fn new(wiring: Wiring, link: TcpPeer) -> Result<Self, rigless::soc::Error> {
         let mut mcu = Stm32f427::new()?;
-        mcu.rcc.attach_crystals(CRYSTAL_HZ, Crystal::NONE.0);
+        mcu.rcc.attach_crystals(wiring.crystal_hz, Crystal::NONE.0);
         mcu.set_supply(3300);
         mcu.usart[wiring.serial_port].attach(link);
         Ok(Self {
@@ -211,11 +210,12 @@ impl Board for Rig {
         let lines = u32::from(Operate::cpu(&self.mcu).interrupt_lines);
         let core = armv7m::Core {
             variant: armv7m::Variant::M4,
-            clock_hz: NonZeroU64::new(168_000_000).expect("it runs"),
+            clock_hz: NonZeroU64::new(self.wiring.core_hz).expect("it runs"),
             interrupt_lines: NonZeroU32::new(lines).expect("it has interrupts"),
             priority_bits: 4,
             refclk_divider: NonZeroU32::new(8).expect("not zero"),
-            instructions_per_second: INSTRUCTIONS_PER_SECOND,
+            instructions_per_second: NonZeroU64::new(self.wiring.core_hz / CYCLES_PER_INSTRUCTION)
+                .expect("it runs"),
             boot: "flash",
         }
         .spec_with_parts(
@@ -227,6 +227,5 @@ impl Board for Rig {
     }
 }
 
-/// Instructions that the core retires in a second: about two cycles each, which is what an M4 takes of mixed code from
-/// flash. The emulator counts no cycles; faster code on the real part only gets more done.
-const INSTRUCTIONS_PER_SECOND: NonZeroU64 = NonZeroU64::new(84_000_000).expect("it runs");
+/// What an M4 takes of mixed code from flash. The emulator counts no cycles; faster code on the real part only gets more done.
+const CYCLES_PER_INSTRUCTION: u64 = 2;

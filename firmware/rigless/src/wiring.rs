@@ -26,6 +26,10 @@ pub enum FaultLine {
 /// A board.
 #[derive(Debug, Clone, Copy)]
 pub struct Wiring {
+    /// Of the microcontroller's external oscillator, Hz.
+    pub crystal_hz: u64,
+    /// What its program makes of that for the core, Hz.
+    pub core_hz: u64,
     /// High and low side of leg A, of leg B: TIM1's first two outputs and their complements.
     pub legs: [PinAt; 4],
     /// Lets the bridge's driver follow them.
@@ -67,6 +71,8 @@ pub enum Sensing {
 pub enum Model {
     /// STM32F405, VESC 4
     Stm32f405,
+    /// STM32F411, Black Pill
+    Stm32f411,
     /// STM32F427
     Stm32f427,
     /// Nucleo-F446RE
@@ -78,6 +84,8 @@ impl Model {
     pub fn wiring(self) -> Wiring {
         match self {
             Self::Stm32f405 => Wiring {
+                crystal_hz: 8_000_000,
+                core_hz: 168_000_000,
                 legs: [a(8, 1), b(13, 1), a(9, 1), b(14, 1)],
                 enable: c(10, 0),
                 fault: FaultLine::Read(c(12, 0)),
@@ -91,7 +99,15 @@ impl Model {
                     thermistor: 3,
                 },
             },
+            Self::Stm32f411 => Wiring {
+                crystal_hz: 25_000_000,
+                core_hz: 100_000_000,
+                encoder: [a(6, 2), a(7, 2)],
+                ..Self::Stm32f446.wiring()
+            },
             Self::Stm32f427 => Wiring {
+                crystal_hz: 8_000_000,
+                core_hz: 168_000_000,
                 legs: [e(9, 1), e(8, 1), e(11, 1), e(10, 1)],
                 enable: e(7, 0),
                 fault: FaultLine::Break(e(15, 1)),
@@ -102,6 +118,8 @@ impl Model {
                 sensing: Sensing::Armature(10),
             },
             Self::Stm32f446 => Wiring {
+                crystal_hz: 8_000_000,
+                core_hz: 168_000_000,
                 legs: [a(8, 1), b(13, 1), a(9, 1), b(14, 1)],
                 enable: b(10, 0),
                 fault: FaultLine::Break(b(12, 1)),

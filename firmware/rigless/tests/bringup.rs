@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
 const BOARD: &str = "stm32f427";
-const BOARDS: [&str; 3] = ["stm32f405", "stm32f427", "stm32f446"];
+const BOARDS: [&str; 4] = ["stm32f405", "stm32f411", "stm32f427", "stm32f446"];
 
 /// RCC_DCKCFGR2, which chooses clocks that our image leaves as they are: the STM32F446 has it, the STM32F427 has not.
 const ONLY_F446: &str = "at=0x40023894";

@@ -212,7 +212,7 @@ fn the_image_identifies_motors_of_half_a_watt_to_half_a_kilowatt() {
 #[test]
 fn the_images_of_the_other_boards_identify_a_motor_too() {
     let motor = &MOTORS[5];
-    for board in ["stm32f405", "stm32f446"] {
+    for board in ["stm32f405", "stm32f411", "stm32f446"] {
         let out = folder(board).join("run");
         let bench = Bench::of(board, &motor.flags());
         let output = commission(&bench, motor, &out, &["--excite", "0"]);
@@ -233,7 +233,14 @@ fn on_an_ordinary_bench_a_run_is_within_its_limit_or_says_that_it_is_not() {
         ("0.2 ohm supply", &["--supply-resistance", "0.2"]),
         (
             "edges off, glitches, a sensor that is off",
-            &["--edge-error", "0.2", "--glitches", "100", "--sensor-offset", "0.2"],
+            &[
+                "--edge-error",
+                "0.2",
+                "--glitches",
+                "100",
+                "--sensor-offset",
+                "0.2",
+            ],
         ),
         (
             "all of it",

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | two half bridges | [`SetDutyCycle`] each |
 //! | the bridge's enable, its fault line | [`OutputPin`], [`InputPin`] |
-//! | the link | `embedded-io`'s, see [`Link`] |
+//! | the link | `embedded-io`'s, see [`Link`](super::link::Link); another one's [`Port`] |
 //! | position counter | [`Position`]: `embedded-hal` counts nothing |
 //! | when a new duty acts | [`Turn`], or [`DelayNs`] by [`AfterDelay`] |
 //! | control period | [`Tick`] |
@@ -16,13 +16,12 @@
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
-use embedded_io_async::{Read, Write};
 
 use super::Board;
 use super::entropy::Entropy;
 pub use super::h_bridge::HBridge;
-use super::link::Link;
 use super::modulation::Modulation;
+use super::port::Port;
 use crate::phase::Fault;
 use shared::wire::Reset;
 
@@ -114,8 +113,8 @@ pub trait Parts {
     type Fault: InputPin;
     /// How the bridge makes a duty: [`HalfBridges`](super::modulation::HalfBridges), or another rule of [`modulation`](super::modulation).
     type Modulation: Modulation;
-    /// Serial port of the link.
-    type Serial: Read + Write;
+    /// The link, mostly [`Link`](super::link::Link) over a serial port.
+    type Port: Port;
     /// The encoder.
     type Position: Position;
     /// The carrier's turn.
@@ -138,7 +137,7 @@ pub struct Generic<P: Parts> {
     /// The bridge, open.
     pub bridge: BridgeOf<P>,
     /// The link.
-    pub link: Link<P::Serial>,
+    pub link: P::Port,
     /// The encoder.
     pub position: P::Position,
     /// The carrier's turn.
@@ -214,6 +213,7 @@ impl<P: Parts> Board for Generic<P> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::board::link::Link;
     use crate::board::modulation::HalfBridges;
     use core::convert::Infallible;
     use core::future::{pending, ready};
@@ -221,6 +221,7 @@ mod tests {
     use embedded_hal_mock::eh1::delay::{CheckedDelay, Transaction as Wait};
     use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
     use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
+    use embedded_io_async::{Read, Write};
     use std::collections::VecDeque;
 
     /// Counts up to 1,000, and no HAL's duty cycle is all of it.
@@ -293,7 +294,7 @@ mod tests {
         type Enable = Pin;
         type Fault = Pin;
         type Modulation = HalfBridges;
-        type Serial = Serial;
+        type Port = Link<Serial>;
         type Position = Counter;
         type Turn = AfterDelay<CheckedDelay>;
         type Tick = Periods;

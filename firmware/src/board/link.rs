@@ -7,6 +7,8 @@ use core::task::Poll;
 use embassy_futures::poll_once;
 use embedded_io_async::{Read, Write};
 
+use super::port::Port;
+
 /// Bytes that wait to be sent. At this speed the line empties 92 of them in a millisecond.
 pub const SEND_BUFFER: usize = 512;
 /// Bytes that wait to be received: what comes in two milliseconds, and some.
@@ -18,14 +20,16 @@ pub struct Link<U> {
     uart: U,
 }
 
-impl<U: Read + Write> Link<U> {
+impl<U> Link<U> {
     /// The link over `uart`.
     pub fn new(uart: U) -> Self {
         Self { uart }
     }
+}
 
-    /// See [`Board::receive`](super::Board::receive). A byte that came damaged is lost: what frames the bytes finds out.
-    pub fn receive(&mut self) -> Option<u8> {
+impl<U: Read + Write> Port for Link<U> {
+    /// A byte that came damaged is lost: what frames the bytes finds out.
+    fn receive(&mut self) -> Option<u8> {
         let mut byte = 0;
         match poll_once(self.uart.read(slice::from_mut(&mut byte))) {
             Poll::Ready(Ok(1)) => Some(byte),
@@ -33,8 +37,8 @@ impl<U: Read + Write> Link<U> {
         }
     }
 
-    /// See [`Board::send`](super::Board::send). Byte by byte, because a driver takes all of a slice or none of it.
-    pub fn send(&mut self, bytes: &[u8]) -> usize {
+    /// Byte by byte, because a driver takes all of a slice or none of it.
+    fn send(&mut self, bytes: &[u8]) -> usize {
         bytes
             .iter()
             .take_while(|&byte| {

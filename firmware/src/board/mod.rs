@@ -15,24 +15,34 @@ pub mod modulation;
 pub mod note;
 #[cfg(not(target_os = "none"))]
 pub mod pc;
-#[cfg(all(target_os = "none", any(feature = "rp2040", feature = "stm32")))]
+#[cfg(all(target_os = "none", any(feature = "pico", feature = "stm32")))]
 mod period;
-#[cfg(all(target_os = "none", feature = "rp2040-parts"))]
+#[cfg(all(target_os = "none", feature = "pico"))]
+pub mod pico;
+#[cfg(all(target_os = "none", feature = "rp-parts"))]
 pub mod pio_encoder;
+pub mod port;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod qemu;
-#[cfg(all(target_os = "none", feature = "rp2040"))]
-pub mod rp2040;
 pub mod shunts;
 #[cfg(all(target_os = "none", feature = "stm32"))]
 mod stm32;
+#[cfg(all(target_os = "none", feature = "stm32f103"))]
+pub mod stm32f103;
 #[cfg(all(
     target_os = "none",
-    any(feature = "stm32f405", feature = "stm32f427", feature = "stm32f446")
+    any(
+        feature = "stm32f405",
+        feature = "stm32f411",
+        feature = "stm32f427",
+        feature = "stm32f446"
+    )
 ))]
 mod stm32f4;
 #[cfg(all(target_os = "none", feature = "stm32f405"))]
 pub mod stm32f405;
+#[cfg(all(target_os = "none", feature = "stm32f411"))]
+pub mod stm32f411;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]
 pub mod stm32f427;
 #[cfg(all(target_os = "none", feature = "stm32f446"))]
@@ -41,12 +51,16 @@ pub mod stm32f446;
 pub mod stm32g431;
 
 // The board that this build is for, the number that its application fits in, and the periods that it can.
-#[cfg(all(target_os = "none", feature = "rp2040"))]
-pub use rp2040::{CAPACITY, Number, Rp2040 as Fitted, open_bridge, restart};
+#[cfg(all(target_os = "none", feature = "pico"))]
+pub use pico::{CAPACITY, Number, PicoBoard as Fitted, open_bridge, restart};
 #[cfg(all(target_os = "none", feature = "stm32"))]
 pub use stm32::{CAPACITY, Number, open_bridge, restart};
+#[cfg(all(target_os = "none", feature = "stm32f103"))]
+pub use stm32f103::Stm32f103 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f405"))]
 pub use stm32f405::Stm32f405 as Fitted;
+#[cfg(all(target_os = "none", feature = "stm32f411"))]
+pub use stm32f411::Stm32f411 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f427"))]
 pub use stm32f427::Stm32f427 as Fitted;
 #[cfg(all(target_os = "none", feature = "stm32f446"))]

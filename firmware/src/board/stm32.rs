@@ -2,6 +2,8 @@
 //! encoder, a serial port is the link. A board is then a [`Wiring`].
 
 mod bridge;
+#[cfg(any(feature = "stm32f103", feature = "stm32f411", feature = "stm32f446"))]
+pub mod module;
 mod reset;
 mod supervision;
 
@@ -24,12 +26,21 @@ use super::entropy::Entropy;
 use super::generic::Tick;
 use super::link::Link;
 use super::period::Period;
+use super::port::Port;
 use crate::phase::Fault;
 
-/// The cores have a floating-point unit.
+/// The cores have a floating-point unit, but for one.
+#[cfg(not(feature = "stm32f103"))]
 pub type Number = f32;
+/// Fixed point.
+#[cfg(feature = "stm32f103")]
+pub type Number = shared::scalar::Fixed;
 /// Periods that they can fit.
+#[cfg(not(feature = "stm32f103"))]
 pub const CAPACITY: usize = 2000;
+/// Periods that it can fit: it has 20 KiB of RAM.
+#[cfg(feature = "stm32f103")]
+pub const CAPACITY: usize = 500;
 
 const PERIOD_US: u32 = 1000;
 /// Carrier periods in a control period: 20 kHz, above hearing and below the limit of most gate drivers.

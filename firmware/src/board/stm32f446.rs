@@ -11,21 +11,30 @@
 //! | PA2, PA3 | – | link, over the ST-LINK's USB |
 //! | PH0 | – | clock, 8 MHz, from the ST-LINK |
 
-use embassy_stm32::adc::{Adc, SampleTime, Temperature};
 use embassy_stm32::bind_interrupts;
-use embassy_stm32::gpio::{Level, Output, Speed};
-use embassy_stm32::peripherals::{ADC1, TIM3, USART2};
+use embassy_stm32::peripherals::{TIM3, USART2};
 use embassy_stm32::rcc::HseMode;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
 use static_cell::ConstStaticCell;
 
 use super::link;
-use super::stm32::{self, Bridge, BridgePins, Stm32, Wiring};
-use super::stm32f4;
+use super::stm32::module::{Module, ModuleBoard};
+use super::stm32::{self, Bridge, BridgePins, Stm32};
+use super::stm32f4::{self, Thermometer};
 
 /// Nucleo-F446RE and its bridge.
-pub type Stm32f446 = Stm32<Connections>;
+pub type Stm32f446 = Stm32<Module<Nucleo>>;
+
+/// The board.
+pub struct Nucleo;
+
+impl ModuleBoard for Nucleo {
+    const NAME: &'static str = "Nucleo-F446RE";
+    const SLICE: u32 = 1000;
+    type EncoderTimer = TIM3;
+    type Noise = Thermometer;
+}
 
 bind_interrupts!(struct Interrupts {
     USART2 => usart::BufferedInterruptHandler<USART2>;
@@ -34,18 +43,10 @@ bind_interrupts!(struct Interrupts {
 static SEND: ConstStaticCell<[u8; link::SEND_BUFFER]> = ConstStaticCell::new([0; _]);
 static RECEIVE: ConstStaticCell<[u8; link::RECEIVE_BUFFER]> = ConstStaticCell::new([0; _]);
 
-/// The pins that are not one timer's or the link's.
-pub struct Connections {
-    enable: Output<'static>,
-    adc: Adc<'static, ADC1>,
-    thermometer: Temperature,
-}
-
 impl Stm32f446 {
     /// Takes the microcontroller over. Once: a second call would find its peripherals taken, and panics.
     pub fn start() -> Self {
         let p = embassy_stm32::init(stm32f4::clocks(HseMode::Bypass));
-        let enable = Output::new(p.PB10, Level::Low, Speed::Low);
         let legs = BridgePins::new(p.PA8, p.PB13, p.PA9, p.PB14);
         let bridge = Bridge::new(p.TIM1, legs, 1000, 0).with_break_input(p.PB12);
         let encoder = Qei::new(p.TIM3, p.PC6, p.PC7, stm32::encoder());
@@ -59,27 +60,7 @@ impl Stm32f446 {
             stm32::uart(),
         )
         .expect("the clock suits the link's speed");
-        let adc = Adc::new(p.ADC1);
-        let wiring = Connections {
-            enable,
-            thermometer: adc.enable_temperature(),
-            adc,
-        };
+        let wiring = Module::new(p.PB10, Thermometer::new(p.ADC1));
         Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
-    }
-}
-
-impl Wiring for Connections {
-    const NAME: &'static str = "Nucleo-F446RE";
-    const SLICE: u32 = 1000;
-    type EncoderTimer = TIM3;
-
-    fn enable(&mut self, on: bool) {
-        self.enable.set_level(on.into());
-    }
-
-    fn noise(&mut self) -> u16 {
-        let time = SampleTime::CYCLES3;
-        self.adc.blocking_read(&mut self.thermometer, time)
     }
 }

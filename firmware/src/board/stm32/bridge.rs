@@ -1,5 +1,7 @@
 //! Two half bridges on the advanced timer TIM1, with a transistor a pin.
 
+#[cfg(feature = "stm32f103")]
+use embassy_stm32::gpio::AfioRemap;
 use embassy_stm32::gpio::{AfType, Flex, OutputType, Pull, Speed};
 use embassy_stm32::pac::timer::vals::{Bkp, Ckd, FilterValue, Ossi, Ossr};
 use embassy_stm32::peripherals::TIM1;
@@ -15,9 +17,11 @@ use crate::board::half_bridges::HalfBridges;
 /// The pins of the two half bridges: an input for the high side and one for the low side of each.
 pub struct BridgePins {
     pins: [Flex<'static>; 4],
+    #[cfg(not(feature = "stm32f103"))]
     functions: [u8; 4],
 }
 
+#[cfg(not(feature = "stm32f103"))]
 impl BridgePins {
     /// Leg A is high while TIM1's first output is, leg B while its second is.
     pub fn new(
@@ -41,7 +45,49 @@ impl BridgePins {
             ],
         }
     }
+
+    /// Lets the timer have them.
+    fn connect(&mut self) {
+        for (pin, function) in self.pins.iter_mut().zip(self.functions) {
+            pin.set_as_af_unchecked(function, LEG);
+        }
+    }
 }
+
+/// The F1 has all pins of a timer at one place, and none of the others' numbers.
+#[cfg(feature = "stm32f103")]
+impl BridgePins {
+    /// Leg A is high while TIM1's first output is, leg B while its second is.
+    pub fn new(
+        a_high: Peri<'static, impl TimerPin<TIM1, Ch1, AfioRemap<0>>>,
+        a_low: Peri<'static, impl TimerComplementaryPin<TIM1, Ch1, AfioRemap<0>>>,
+        b_high: Peri<'static, impl TimerPin<TIM1, Ch2, AfioRemap<0>>>,
+        b_low: Peri<'static, impl TimerComplementaryPin<TIM1, Ch2, AfioRemap<0>>>,
+    ) -> Self {
+        a_high.afio_remap();
+        Self {
+            pins: [
+                Flex::new(a_high),
+                Flex::new(a_low),
+                Flex::new(b_high),
+                Flex::new(b_low),
+            ],
+        }
+    }
+
+    /// Lets the timer have them.
+    fn connect(&mut self) {
+        for pin in &mut self.pins {
+            pin.set_as_af_unchecked(LEG);
+        }
+    }
+}
+
+/// How the timer drives a pin of the bridge: edges of some tens of nanoseconds.
+#[cfg(not(feature = "stm32f103"))]
+const LEG: AfType = AfType::output(OutputType::PushPull, Speed::High);
+#[cfg(feature = "stm32f103")]
+const LEG: AfType = AfType::output(OutputType::PushPull, Speed::Medium);
 
 /// Two half bridges on TIM1. All four outputs are low, and so all four transistors off, unless it drives.
 pub struct Bridge {
@@ -93,9 +139,7 @@ impl Bridge {
         timer.generate_update_event();
         timer.start();
         // Only now, when the timer holds all four low.
-        for (pin, function) in pins.pins.iter_mut().zip(pins.functions) {
-            pin.set_as_af_unchecked(function, AfType::output(OutputType::PushPull, Speed::High));
-        }
+        pins.connect();
         let mut bridge = Self {
             timer,
             legs: HalfBridges {
@@ -114,10 +158,26 @@ impl Bridge {
     }
 
     /// Lets a low level on `pin` switch the outputs off, in hardware, without the program and even without its clock.
-    pub fn with_break_input(mut self, pin: Peri<'static, impl BreakInputPin<TIM1, BkIn1>>) -> Self {
+    #[cfg(not(feature = "stm32f103"))]
+    pub fn with_break_input(self, pin: Peri<'static, impl BreakInputPin<TIM1, BkIn1>>) -> Self {
         let function = pin.af_num();
         let mut pin = Flex::new(pin);
         pin.set_as_af_unchecked(function, AfType::input(Pull::Up));
+        self.broken_by(pin)
+    }
+
+    /// Lets a low level on `pin` switch the outputs off, in hardware, without the program and even without its clock.
+    #[cfg(feature = "stm32f103")]
+    pub fn with_break_input(
+        self,
+        pin: Peri<'static, impl BreakInputPin<TIM1, BkIn1, AfioRemap<0>>>,
+    ) -> Self {
+        let mut pin = Flex::new(pin);
+        pin.set_as_af_unchecked(AfType::input(Pull::Up));
+        self.broken_by(pin)
+    }
+
+    fn broken_by(mut self, pin: Flex<'static>) -> Self {
         self._break_pin = Some(pin);
         self.timer.set_break_polarity(Bkp::ACTIVE_LOW);
         // Eight samples in a row, about 50 ns each: shorter than any short circuit that a transistor survives.

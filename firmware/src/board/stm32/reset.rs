@@ -19,17 +19,24 @@ pub fn reason() -> Reset {
     RCC.csr().modify(|w| w.set_rmvf(true));
     // Every reset pulls the pin, and power-up leaves the mark of a brown-out as well: so the order matters. The G4 has no mark
     // of power-up but that.
-    #[cfg(not(feature = "stm32g431"))]
+    #[cfg(not(any(feature = "stm32f103", feature = "stm32g431")))]
     let (watchdog, pin, up) = (flags.wdgrstf(), flags.padrstf(), flags.porrstf());
+    #[cfg(feature = "stm32f103")]
+    let (watchdog, pin, up) = (flags.iwdgrstf(), flags.pinrstf(), flags.porrstf());
     #[cfg(feature = "stm32g431")]
     let (watchdog, pin, up) = (flags.iwdgrstf(), flags.pinrstf(), flags.borrstf());
+    // The F1 takes a brown-out for power-up.
+    #[cfg(feature = "stm32f103")]
+    let brown_out = false;
+    #[cfg(not(feature = "stm32f103"))]
+    let brown_out = flags.borrstf();
     if watchdog {
         Reset::Watchdog
     } else if flags.sftrstf() {
         note::said(read_note()).unwrap_or(Reset::Software)
     } else if up {
         Reset::PowerUp
-    } else if flags.borrstf() {
+    } else if brown_out {
         Reset::BrownOut
     } else if pin {
         Reset::Pin

@@ -11,7 +11,8 @@ use shared::wire::Reset;
 use super::{open_bridge, restart};
 
 /// After this long without [`Supervision::feed`] the chip is reset, µs by the nominal 32 kHz of the watchdog's own oscillator.
-/// On an F4 that is anything from 17 to 47 kHz: 5.1 to 14.1 ms. On a G4 it keeps to some 5 %.
+/// On an F4 that is anything from 17 to 47 kHz: 5.1 to 14.1 ms. On a G4 it keeps to some 5 %. On an F1 it is nominally 40 kHz, of 30 to
+/// 60: 5 to 10 ms.
 ///
 /// The loop comes round once a millisecond. Its longest turn, while a fit is at work, takes between two and three (in the
 /// emulator, with two cycles an instruction at 168 MHz).
@@ -47,8 +48,14 @@ fn watch_clock() {
 /// 38.16.2; RM0440, TIM1's debug mode). They come back when the core goes on, unless the watchdog was faster: that goes on
 /// counting in a halt, whatever a debugger has asked for before the program began.
 fn halt_with_core() {
+    #[cfg(feature = "stm32f103")]
+    DBGMCU.cr().modify(|w| {
+        w.set_tim1(true);
+        w.set_iwdg(false);
+    });
+    #[cfg(not(feature = "stm32f103"))]
     DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
-    #[cfg(not(feature = "stm32g431"))]
+    #[cfg(not(any(feature = "stm32f103", feature = "stm32g431")))]
     DBGMCU.apb1fzr().modify(|w| w.set_iwdg(false));
     #[cfg(feature = "stm32g431")]
     DBGMCU.apb1lfzr().modify(|w| w.set_iwdg(false));

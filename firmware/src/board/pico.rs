@@ -1,4 +1,4 @@
-//! Raspberry Pi Pico with a bridge module of two half bridges and an enable input, such as two BTS7960 on one board. Not
+//! Raspberry Pi Pico or Pico 2 with a bridge module of two half bridges and an enable input, such as two BTS7960 on one board. Not
 //! yet run on hardware.
 //!
 //! | pin | what |
@@ -8,26 +8,35 @@
 //! | GP18 | enables both half bridges (R_EN and L_EN), pulled down by 10 kΩ to ground |
 //! | GP19 | fault output of the bridge, active low; may stay open |
 //! | GP20, GP21 | encoder A and B |
-//! | GP0, GP1 | link, transmit and receive |
+//! | USB | link |
+//! | GP0, GP1 | the same, transmit and receive, for an adapter that isolates; whichever spoke last is answered |
 //!
-//! The dead time is the module's business: this chip's PWM has none. So all but the encoder is a [`Generic`] board of
+//! The two boards have the same pins. The dead time is the module's business: their chips' PWM has none. So all but the encoder is a [`Generic`] board of
 //! `embassy-rp`'s parts.
 
+#[cfg_attr(feature = "rp2040", path = "pico/rp2040.rs")]
+#[cfg_attr(feature = "rp2350", path = "pico/rp2350.rs")]
+mod chip;
 mod reset;
 mod supervision;
+mod usb;
 
 use embassy_rp::bind_interrupts;
 use embassy_rp::clocks::RoscRng;
 use embassy_rp::gpio::{Input, Level, Output, Pull};
 use embassy_rp::pac::{PWM, SIO};
-use embassy_rp::peripherals::{PIO0, UART0};
+use embassy_rp::peripherals::{PIO0, UART0, USB};
 use embassy_rp::pio::{self, Pio};
 use embassy_rp::pwm::{self, Pwm, PwmOutput};
 use embassy_rp::uart::{self, BufferedUart};
+use embassy_rp::usb::{self as usb_controller, Driver};
 use static_cell::ConstStaticCell;
 
+use self::chip::CORE_HZ;
+pub use self::chip::{CAPACITY, Number};
 pub use self::reset::restart;
 use self::supervision::Supervised;
+use self::usb::UsbSerial;
 use super::BAUD;
 use super::entropy::Entropy;
 use super::generic::{Generic, HBridge, Parts, Turn};
@@ -35,16 +44,10 @@ use super::link::{self, Link};
 use super::modulation::HalfBridges;
 use super::period::Period;
 use super::pio_encoder::Encoder;
+use super::port::EitherPort;
 
-/// Fixed point: the core has no floating-point unit.
-pub type Number = shared::scalar::Fixed;
-/// Periods that it can fit.
-pub const CAPACITY: usize = 1000;
-
-/// Core clock, which `embassy-rp` sets off the Pico's crystal.
-const CORE_HZ: u32 = 125_000_000;
 /// Compare value of an output that is always high: the carrier counts up to the step before it and down again, at 20 kHz.
-const FULL: u16 = 3125;
+const FULL: u16 = (CORE_HZ / 20_000 / 2) as u16;
 /// Number of the pin that enables the bridge.
 const ENABLE: usize = 18;
 /// Part of the PWM that has the bridge's pins.
@@ -53,34 +56,34 @@ const SLICE: usize = 0;
 bind_interrupts!(struct Interrupts {
     UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
     PIO0_IRQ_0 => pio::InterruptHandler<PIO0>;
+    USBCTRL_IRQ => usb_controller::InterruptHandler<USB>;
 });
 
 static SEND: ConstStaticCell<[u8; link::SEND_BUFFER]> = ConstStaticCell::new([0; _]);
 static RECEIVE: ConstStaticCell<[u8; link::RECEIVE_BUFFER]> = ConstStaticCell::new([0; _]);
 
-/// Raspberry Pi Pico and its bridge.
-pub type Rp2040 = Generic<Pico>;
+/// Raspberry Pi Pico or Pico 2 and its bridge.
+pub type PicoBoard = Generic<Pico>;
 
 /// The types of its parts.
 pub struct Pico;
 
 impl Parts for Pico {
-    const NAME: &'static str = "Raspberry Pi Pico";
+    const NAME: &'static str = chip::NAME;
     const PERIOD_US: u32 = 1000;
-    // A core without a floating-point unit: some 1,500 instructions a sample.
-    const SLICE: u32 = 20;
+    const SLICE: u32 = chip::SAMPLES;
     type LegA = PwmOutput<'static>;
     type LegB = PwmOutput<'static>;
     type Enable = Output<'static>;
     type Fault = Input<'static>;
     type Modulation = HalfBridges;
-    type Serial = BufferedUart;
+    type Port = EitherPort<UsbSerial, Link<BufferedUart>>;
     type Position = Encoder;
     type Turn = Carrier;
     type Tick = Supervised;
 }
 
-impl Rp2040 {
+impl PicoBoard {
     /// Takes the microcontroller over. Once: a second call would find its peripherals taken, and panics.
     pub fn start() -> Self {
         // Before anything else.
@@ -122,12 +125,16 @@ impl Rp2040 {
         }
         let core = cortex_m::Peripherals::take().expect("a board is put together once");
         let bridge = HBridge::new(a, b, enable, fault, FULL);
+        let usb = UsbSerial::new(Driver::new(p.USB, Interrupts), chip::NAME);
+        let link = EitherPort::new(usb, Link::new(uart));
+        // At once one after the other: the carrier's phase in the control period is what passes in between.
         let period = Period::new(core.SYST, CORE_HZ / 1_000_000 * Pico::PERIOD_US);
+        let turn = Carrier::start();
         Generic {
             bridge,
-            link: Link::new(uart),
+            link,
             position: encoder,
-            turn: Carrier::start(),
+            turn,
             tick: Supervised::begin(period, p.WATCHDOG),
             entropy,
             reset,
@@ -139,7 +146,7 @@ impl Rp2040 {
 pub struct Carrier;
 
 /// Mark of the PWM that its counter has come to zero again, where it takes new compare values over (RP2040 data sheet, 4.5.2.3
-/// and 4.5.2.7).
+/// and 4.5.2.7; RP2350 data sheet, 12.5.2).
 const TAKEN_OVER: u32 = 1 << SLICE;
 
 impl Carrier {

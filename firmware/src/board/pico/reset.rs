@@ -1,16 +1,14 @@
-//! Why an RP2040 started, and how it starts again.
+//! Why a Pico started, and how it starts again.
 
-use embassy_rp::pac::{PSM, VREG_AND_CHIP_RESET, WATCHDOG};
+use embassy_rp::pac::{PSM, WATCHDOG};
 use shared::wire::Reset;
 
+use super::chip;
 use crate::board::note;
 
 /// Why the chip started. A reset of the core alone, as debuggers do, leaves no mark: it is taken for the reset before it.
 pub fn reason() -> Reset {
-    let (watchdog, chip) = (
-        WATCHDOG.reason().read(),
-        VREG_AND_CHIP_RESET.chip_reset().read(),
-    );
+    let watchdog = WATCHDOG.reason().read();
     // Taken: a later reset by another's hand must not find it.
     let note = WATCHDOG.scratch0().read();
     WATCHDOG.scratch0().write_value(0);
@@ -19,12 +17,8 @@ pub fn reason() -> Reset {
         note::said(note).unwrap_or(Reset::Software)
     } else if watchdog.timer() {
         Reset::Watchdog
-    } else if chip.had_run() {
-        Reset::Pin
-    } else if chip.had_por() {
-        Reset::PowerUp
     } else {
-        Reset::Unknown
+        chip::reset_reason()
     }
 }
 
@@ -34,7 +28,7 @@ pub fn restart(why: Reset) -> ! {
     WATCHDOG.scratch0().write_value(note::word(why));
     // All but the oscillators, as `embassy-rp` has it.
     PSM.wdsel().write(|w| {
-        w.0 = 0x1_ffff;
+        w.0 = u32::MAX;
         w.set_rosc(false);
         w.set_xosc(false);
     });

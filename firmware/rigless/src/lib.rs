@@ -1,0 +1,3 @@
+//! What the benches of different boards share.
+
+pub mod plant;
