@@ -12,7 +12,9 @@ fn main() {
     let here = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
     // Where the linker finds the map.x that memory.x, at the top of the workspace, includes. An image for no board at all, as for
     // QEMU, has the STM32s' map unless scripts/mcu --memory names another.
-    let chip = if has("RP2040_PARTS") {
+    let chip = if has("ESP32C6") {
+        "esp32c6"
+    } else if has("RP2040_PARTS") {
         "rp2040"
     } else if has("RP2350_PARTS") {
         "rp2350"
@@ -24,7 +26,10 @@ fn main() {
     if has("DEFMT") {
         println!("cargo:rustc-link-arg=-Tdefmt.x");
     }
-    if has("STM32") || chip != "stm32" {
+    if chip == "esp32c6" {
+        // Its HAL's scripts have all else.
+        println!("cargo:rustc-link-arg=-Tlinkall.x");
+    } else if has("STM32") || chip != "stm32" {
         println!("cargo:rustc-link-arg=-T{here}/memory/{chip}/chip.x");
     }
     if chip == "rp2040" {

@@ -3,6 +3,7 @@
 
 use core::panic::PanicInfo;
 
+#[cfg(feature = "cortex-m")]
 use cortex_m_rt::{ExceptionFrame, exception};
 use shared::wire::Reset;
 
@@ -16,10 +17,11 @@ fn panic(info: &PanicInfo) -> ! {
     restart(Reset::Panic)
 }
 
-/// A fault of the processor: memory that is not there, an instruction that does not exist, a stack that has run over.
+/// A fault of the processor (on an ESP32-C6 it is a panic): memory that is not there, an instruction that does not exist, a stack that has run over.
 ///
 /// Unsafe, as the runtime demands, because it interrupts whatever holds a lock or a mutable reference: it takes none, and
 /// does not return to the interrupted code.
+#[cfg(feature = "cortex-m")]
 #[exception]
 unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
     open_bridge();

@@ -23,7 +23,7 @@ pub mod count;
 pub mod emulator;
 pub mod encoder;
 pub mod guard;
-#[cfg(all(target_os = "none", any(feature = "pico", feature = "stm32")))]
+#[cfg(all(target_os = "none", feature = "board"))]
 mod halt;
 pub mod log;
 pub mod phase;

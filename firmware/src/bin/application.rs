@@ -11,7 +11,8 @@ mod image {
     static MEMORY: ConstStaticCell<Memory<Number>> = ConstStaticCell::new(Memory::new());
     static RECORDING: ConstStaticCell<Recording<CAPACITY>> = ConstStaticCell::new(Recording::new());
 
-    #[cortex_m_rt::entry]
+    #[cfg_attr(feature = "esp32c6", esp_hal::main)]
+    #[cfg_attr(not(feature = "esp32c6"), cortex_m_rt::entry)]
     fn main() -> ! {
         let board = Fitted::start();
         log::woke(board.reset());

@@ -2,7 +2,8 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
-#[cortex_m_rt::entry]
+#[cfg_attr(feature = "esp32c6", esp_hal::main)]
+#[cfg_attr(not(feature = "esp32c6"), cortex_m_rt::entry)]
 fn main() -> ! {
     let mut bringup = firmware::bringup::Bringup::new(firmware::board::Fitted::start());
     loop {

@@ -5,6 +5,8 @@
 
 pub mod current;
 pub mod entropy;
+#[cfg(all(target_os = "none", feature = "esp32c6"))]
+pub mod esp32c6;
 pub mod generic;
 pub mod h_bridge;
 pub mod half_bridges;
@@ -51,6 +53,8 @@ pub mod stm32f446;
 pub mod stm32g431;
 
 // The board that this build is for, the number that its application fits in, and the periods that it can.
+#[cfg(all(target_os = "none", feature = "esp32c6"))]
+pub use esp32c6::{CAPACITY, Esp32c6 as Fitted, Number, open_bridge, restart};
 #[cfg(all(target_os = "none", feature = "pico"))]
 pub use pico::{CAPACITY, Number, PicoBoard as Fitted, open_bridge, restart};
 #[cfg(all(target_os = "none", feature = "stm32"))]
