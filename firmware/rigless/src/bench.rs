@@ -121,10 +121,11 @@ impl Bench {
         let duty = rig.duty();
         self.turns_in = rig.take_over(at).0;
         let unkind = self.settings.unkind;
-        let bus = unkind.bus(self.settings.supply, duty, self.state.current);
+        let supply = faults.supply(self.settings.supply, now);
+        let bus = unkind.bus(supply, now, duty, self.state.current);
         let terminal = match duty {
             Some(duty) => Terminal::Driven(unkind.volts(bus, duty, self.state.current)),
-            None => Terminal::Open(self.settings.supply),
+            None => Terminal::Open(supply),
         };
         let locked = begun(faults.rotor_locked_at, now);
         let seconds = (at.0 - self.last) as f64 * 1e-9;

@@ -24,6 +24,9 @@ pub struct Faults {
     /// The bridge's driver reports a fault, for a millisecond.
     #[arg(long, value_name = "SECONDS")]
     pub bridge_fault_at: Option<f64>,
+    /// The supply breaks down to half, for a fifth of a second.
+    #[arg(long, value_name = "SECONDS")]
+    pub brown_out_at: Option<f64>,
     /// The core stands still until a reset, and all around it goes on: so looks a program that never comes back.
     #[arg(long, value_name = "SECONDS")]
     pub wedged_at: Option<f64>,
@@ -36,6 +39,17 @@ pub struct Faults {
     /// The microcontroller's reset pin is pulled.
     #[arg(long, value_name = "SECONDS")]
     pub reset_at: Option<f64>,
+}
+
+/// How long a brown-out lasts, s.
+const BROWN_OUT: f64 = 0.2;
+
+impl Faults {
+    /// The supply of `volts` as it is at `now`, s.
+    pub fn supply(&self, volts: f64, now: f64) -> f64 {
+        let low = begun(self.brown_out_at, now) && !begun(self.brown_out_at, now - BROWN_OUT);
+        if low { 0.5 * volts } else { volts }
+    }
 }
 
 /// True once a fault that begins at `at` has begun by `now`, s.

@@ -1,10 +1,12 @@
-//! What an ordinary bench has and a kind one has not: dead time, a supply that gives way, an encoder whose edges are off, glitches on its
-//! lines, a current sensor that is off.
+//! What an ordinary bench has and a kind one has not: dead time, a supply that gives way and ripples, an encoder whose edges are off,
+//! glitches on its lines, a current sensor that is off.
 
 use clap::Args;
 
 /// Carrier of all boards here, Hz.
 const CARRIER_HZ: f64 = 20_000.0;
+/// A full-wave rectifier's ripple, Hz.
+const RIPPLE_HZ: f64 = 100.0;
 
 /// How unkind the bench is; nothing of it unless asked for.
 #[derive(Debug, Clone, Copy, Default, Args)]
@@ -16,6 +18,9 @@ pub struct Unkind {
     /// Resistance of the supply and its leads, Ω.
     #[arg(long, value_name = "OHM", default_value_t = 0.0)]
     pub supply_resistance: f64,
+    /// Ripple of the supply, V from its mean to its peak, at twice the frequency of a mains of 50 Hz.
+    #[arg(long, value_name = "VOLT", default_value_t = 0.0)]
+    pub ripple: f64,
     /// How far the encoder's edges are off, counts either way, each always by as much.
     #[arg(long, value_name = "COUNTS", default_value_t = 0.0)]
     pub edge_error: f64,
@@ -28,9 +33,10 @@ pub struct Unkind {
 }
 
 impl Unkind {
-    /// Voltage of the supply at the bridge, V.
-    pub fn bus(&self, supply: f64, duty: Option<f64>, current: f64) -> f64 {
-        supply - self.supply_resistance * duty.unwrap_or(0.0) * current
+    /// Voltage of the supply at the bridge at `now`, s, V.
+    pub fn bus(&self, supply: f64, now: f64, duty: Option<f64>, current: f64) -> f64 {
+        let ripple = self.ripple * (std::f64::consts::TAU * RIPPLE_HZ * now).sin();
+        supply + ripple - self.supply_resistance * duty.unwrap_or(0.0) * current
     }
 
     /// Voltage across the winding, V.
@@ -77,7 +83,7 @@ mod tests {
         let kind = Unkind::default();
         for duty in [-1.0, -0.3, 0.0, 0.7] {
             for current in [-3.0, 0.0, 5.0] {
-                let bus = kind.bus(24.0, Some(duty), current);
+                let bus = kind.bus(24.0, 1.234, Some(duty), current);
                 assert_eq!(kind.volts(bus, duty, current), 24.0 * duty);
             }
         }

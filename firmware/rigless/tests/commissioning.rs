@@ -231,6 +231,7 @@ fn on_an_ordinary_bench_a_run_is_within_its_limit_or_says_that_it_is_not() {
     let benches = [
         ("400 ns dead time", &["--dead-time-ns", "400"][..]),
         ("0.2 ohm supply", &["--supply-resistance", "0.2"]),
+        ("0.5 V ripple", &["--ripple", "0.5"]),
         (
             "edges off, glitches, a sensor that is off",
             &[
@@ -275,6 +276,28 @@ fn on_an_ordinary_bench_a_run_is_within_its_limit_or_says_that_it_is_not() {
                 "{board}, {name}: {output:?}"
             );
         }
+    }
+}
+
+/// A supply that breaks down for a while stops the board that measures it. One that does not measure may end with a model of a motor that
+/// there is not, which then is no success.
+#[test]
+fn a_brown_out_stops_a_run_or_its_model_is_not_verified() {
+    let motor = &MOTORS[5];
+    for (board, faults) in [
+        ("stm32f405", &["Undervoltage"][..]),
+        ("stm32f446", &["NotVerified", "Stall", "MotorLead"]),
+    ] {
+        // While it records what it will fit.
+        let out = folder(&format!("{board} brown-out")).join("run");
+        let mut flags = motor.flags();
+        flags.extend(["--brown-out-at", "2.5"].map(str::to_owned));
+        let bench = Bench::of(board, &flags);
+        let output = commission(&bench, motor, &out, &["--excite", "2"]);
+        let json = saved(&out);
+        let fault = json["failure"]["fault"].as_str().unwrap_or_default();
+        println!("{board}: {fault}");
+        assert!(!output.status.success() && faults.contains(&fault), "{board}: {output:?}");
     }
 }
 

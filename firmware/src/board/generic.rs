@@ -35,7 +35,7 @@ pub trait Position {
         false
     }
 
-    /// How long a count is late, µs.
+    /// How long a count is late, µs; [`SampledLate`](crate::encoder::SampledLate) makes that good.
     fn latency_us(&self) -> u32 {
         0
     }

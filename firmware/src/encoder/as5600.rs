@@ -1,4 +1,4 @@
-//! AS5600 by ams OSRAM: 12 bits over I²C. Slow: it is late by its filter and by the bus, which the model has to know.
+//! AS5600 by ams OSRAM: 12 bits over I²C. Slow: it is late by its filter and by the bus, see [`SampledLate`](super::SampledLate).
 
 use super::{Absolute, Angle};
 use embedded_hal::i2c::I2c;

@@ -8,7 +8,7 @@
 //! | `as5600` | AS5600: I²C, 12 bits | field; late |
 //! | `hall` | three lines, six states an electrical revolution | states that cannot be |
 //!
-//! An absolute angle becomes a cumulative count while the shaft turns less than half a revolution in a control period.
+//! An encoder that is late is asked as much later ([`SampledLate`]). An absolute angle becomes a cumulative count while the shaft turns less than half a revolution in a control period.
 
 mod absolute;
 pub mod as5047;
@@ -16,6 +16,8 @@ pub mod as5600;
 pub mod hall;
 pub mod mt6701;
 mod readings;
+mod sampled_late;
 
 pub use absolute::{Absolute, Angle};
 pub use readings::Readings;
+pub use sampled_late::SampledLate;
