@@ -12,14 +12,9 @@ use std::sync::Arc;
 /// The two recordings of a seed's motor, and what is hidden in it.
 pub(super) fn demonstration(seed: u64) -> Result<(Recordings, Secret), Error> {
     let hidden = surprise(&showcase::machine(), seed)?;
-    let recordings = Recordings {
-        fitted: recorded(&hidden, seed, &format!("blind demo {seed}"))?,
-        held_out: Some(recorded(
-            &hidden,
-            seed.wrapping_add(1),
-            "its second recording",
-        )?),
-    };
+    let first = recorded(&hidden, seed, &format!("blind demo {seed}"))?;
+    let second = recorded(&hidden, seed.wrapping_add(1), "its second recording")?;
+    let recordings = Recordings::new(first, Some(second));
     let secret = Secret {
         hidden,
         seed,

@@ -1,12 +1,12 @@
 //! What may be taken away from the bench as a file.
 
 use super::session_file::SessionFile;
-use super::shown;
 use super::state::Bench;
 use crate::error::Error;
 use serde_json::Value;
 use servoid_results::export::{Format, Options, Side, Subject};
-use servoid_results::schema::Identified;
+use servoid_results::report::html;
+use servoid_results::schema::{Document, Identified};
 
 /// The file's name, and its text.
 pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Error> {
@@ -21,7 +21,7 @@ pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Erro
     };
     let named = |name: &str, text: String| Ok((name.to_owned(), text));
     match format {
-        "report" => named("servoid-report.html", shown::report(bench)?),
+        "report" => named("servoid-report.html", report(bench)?),
         "session" => named(
             "servoid-session.json",
             SessionFile::of(&bench.state()).text()?,
@@ -60,4 +60,26 @@ fn ending(format: &str) -> &str {
         "wpilib" | "gains" => "txt",
         same => same,
     }
+}
+
+/// The report of the bench: of its diagnosis if there is one, else of the chosen model.
+fn report(bench: &Bench) -> Result<String, Error> {
+    let (recordings, json) = {
+        let state = bench.state();
+        let recordings = state.recordings()?;
+        let json = match (&state.diagnosis, state.chosen) {
+            (Some(diagnosis), _) => diagnosis.clone(),
+            (None, Some(id)) => state.model(id)?.json(&recordings)?,
+            (None, None) => {
+                return Err(Error::Usage("nothing is fitted yet; fit first".to_owned()));
+            }
+        };
+        (recordings, json)
+    };
+    let document = Document::from_json(json).map_err(|fault| Error::Failed(fault.to_string()))?;
+    let drawn = html::Recordings {
+        fitted: Some(recordings.shown()),
+        held_out: recordings.kind().source().map(|_| recordings.parts().1),
+    };
+    Ok(html::page(&document, drawn)?.render())
 }

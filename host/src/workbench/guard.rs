@@ -12,7 +12,7 @@ use axum::response::{IntoResponse, Response};
 
 /// Scripts and data from this server alone; plotly writes its styles into the page.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self'; \
-                      img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+                      img-src 'self' data: blob:; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// A secret that cannot be guessed, as 32 hexadecimal digits.
 ///

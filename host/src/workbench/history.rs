@@ -75,6 +75,7 @@ impl State {
             && models
             && self.race == other.race
             && self.diagnosis == other.diagnosis
+            && self.locked == other.locked
             && told(self) == told(other)
     }
 }

@@ -88,6 +88,15 @@ impl Loaded {
         Self::taken(sources, recordings, self.known.clone())
     }
 
+    /// Name, seconds and samples of each.
+    pub fn recordings(&self) -> impl Iterator<Item = (&str, f64, usize)> {
+        self.recordings.iter().map(|recording| {
+            let time = &recording.time_s;
+            let seconds = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+            (recording.source.as_str(), seconds, recording.len())
+        })
+    }
+
     /// Whether one of them holds the same samples as one of the others: then it tests nothing that was fitted to that.
     pub fn has_copy_of(&self, other: &Loaded) -> bool {
         let mut own = self.recordings.iter();

@@ -10,7 +10,9 @@
 //! | `job` | one piece of work at a time, which stops when nobody watches |
 //! | `work` | the pieces of work: fit, suggest, diagnose, race |
 //! | `preview` | the first rows of a file, and which column may be what |
-//! | `shown` | what the page draws |
+//! | `shown`, `proposals`, `sliders` | what the page says |
+//! | `series`, `failing`, `details`, `drawings` | what it draws: lanes, where models fail, tabs, each made once |
+//! | `files` | the files of the page |
 //! | `session_file` | the bench as a file |
 //! | `download` | what may be taken away as a file |
 //! | `words` | what was written for a terminal, in the words of a page |
@@ -23,7 +25,11 @@
 mod answer;
 mod begun;
 mod blind;
+mod details;
 mod download;
+mod drawings;
+mod failing;
+mod files;
 mod guard;
 mod history;
 mod job;
@@ -32,10 +38,13 @@ mod lock;
 mod model;
 mod opened;
 mod preview;
+mod proposals;
 mod routes;
+mod series;
 mod server;
 mod session_file;
 mod shown;
+mod sliders;
 mod state;
 mod words;
 mod work;

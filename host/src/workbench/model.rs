@@ -7,12 +7,14 @@ use servoid_engine::problem::Data;
 use servoid_engine::problem::rms_counts;
 use servoid_engine::solve::Found;
 use servoid_identify::diagnose::HeldOut;
+use servoid_identify::diagnose::residual_analysis::{Signature, signature, whiteness};
 use servoid_identify::fit::scores::whole;
 use servoid_identify::fit::{self, Fit, Options, validation_errors};
 use servoid_results::schema;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The search method that is meant where none is named.
 pub(super) const USUAL: &str = "lm";
@@ -28,6 +30,14 @@ pub(super) struct Model {
     pub(super) fit: Arc<Fit>,
     /// RMS error that was foreseen before the fit, counts.
     pub(super) predicted: Option<f64>,
+    /// The model from which it was made by adding or removing effects.
+    pub(super) parent: Option<usize>,
+    /// Whether nothing is left in the error of the free run but the encoder's steps; `None` where the motor moved too little to tell.
+    pub(super) white: Option<bool>,
+    /// What each of its effects takes of the drive, of those that a quantity tells.
+    pub(super) signatures: Arc<Vec<(Kind, Signature)>>,
+    /// Differs from that of every other fit.
+    pub(super) stamp: u64,
 }
 
 /// Recordings of one piece of work.
@@ -37,9 +47,25 @@ pub(super) struct Recordings {
     pub(super) fitted: Arc<Loaded>,
     /// Others, never fitted.
     pub(super) held_out: Option<Arc<Loaded>>,
+    /// Differs from that of all other recordings.
+    pub(super) stamp: u64,
+}
+
+/// A number that was not given before.
+fn stamp() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 impl Recordings {
+    pub(super) fn new(fitted: Arc<Loaded>, held_out: Option<Arc<Loaded>>) -> Self {
+        Recordings {
+            fitted,
+            held_out,
+            stamp: stamp(),
+        }
+    }
+
     /// Whether they are the same ones.
     pub(super) fn are(&self, other: &Recordings) -> bool {
         let held_out = match (&self.held_out, &other.held_out) {
@@ -92,6 +118,31 @@ impl Recordings {
 }
 
 impl Model {
+    /// A fitted model, not yet numbered.
+    pub(super) fn new(
+        effects: Vec<Kind>,
+        fit: Fit,
+        predicted: Option<f64>,
+        parent: Option<usize>,
+        recordings: &Recordings,
+    ) -> Self {
+        let (data, _) = recordings.parts();
+        let errors = whole(data, &fit.candidate, fit.method).ok();
+        let white = errors.and_then(|errors| whiteness(data, &errors));
+        let drawn = |&kind: &Kind| Some((kind, signature(data, &fit.candidate, kind)?));
+        let signatures = Arc::new(effects.iter().filter_map(drawn).collect());
+        Model {
+            id: 0,
+            effects,
+            fit: Arc::new(fit),
+            predicted,
+            parent,
+            white: white.map(|found| found.is_white()),
+            signatures,
+            stamp: stamp(),
+        }
+    }
+
     /// A model that was kept, with its errors and intervals found again.
     pub(super) fn again(
         id: usize,
@@ -134,9 +185,7 @@ impl Model {
         fit.validate_rms_counts = Some(rms_counts(held_out, &other));
         Ok(Model {
             id,
-            effects,
-            fit: Arc::new(fit),
-            predicted: None,
+            ..Model::new(effects, fit, None, None, recordings)
         })
     }
 
@@ -163,7 +212,14 @@ impl Model {
 
     /// Whether it leaves more than the encoder's own error.
     pub(super) fn leaves_something(&self) -> bool {
-        self.fit.rms_counts > 1.15 * FLOOR_RMS_COUNTS
+        let most = 1.15 * FLOOR_RMS_COUNTS;
+        let held_out = self.fit.validate_rms_counts.unwrap_or(0.0);
+        self.fit.rms_counts.max(held_out) > most
+    }
+
+    /// Whether it explains the recordings: at the encoder's floor, and with an error that is noise.
+    pub(super) fn explains(&self) -> bool {
+        !self.leaves_something() && self.white != Some(false)
     }
 }
 

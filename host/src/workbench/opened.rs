@@ -12,6 +12,9 @@ use crate::error::Error;
 use axum::Json;
 use axum::extract::{Query, State};
 use serde::Deserialize;
+use serde_json::{Value, json};
+use servoid_engine::problem::Data;
+use servoid_io::recording::Drive;
 use std::sync::Arc;
 
 /// What a recording is taken as.
@@ -42,7 +45,7 @@ pub(super) struct Sent {
 }
 
 pub(super) async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> Answer {
-    aside(move || {
+    let answer = aside(move || {
         let mapping = sent.mapping.map(|mapping| mapping.motor());
         let motor = sent.motor.or(mapping).unwrap_or_default();
         let loaded = Loaded::read(vec![Source {
@@ -51,25 +54,62 @@ pub(super) async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> A
             motor,
         }])?;
         if sent.check {
-            return Ok(());
+            return Ok(meaning(&loaded.data));
         }
         let before = bench.state().recordings.clone();
         let recordings = placed(loaded, sent.role, before)?;
         free(&bench)?;
         bench.change(|state| state.begin(recordings));
-        Ok(())
+        Ok(json!({}))
     })
     .await?;
-    done()
+    Ok(Json(answer))
+}
+
+/// What a recording says under a mapping, in numbers that an engineer can check by feel.
+fn meaning(data: &Data) -> Value {
+    let turns = |counts: f64| counts / data.units.counts_per_rev;
+    let mut with = 0.0;
+    for k in 1..data.len() {
+        if !data.recordings.is_first(k) {
+            with += data.command[k - 1] * (data.counts[k] - data.counts[k - 1]);
+        }
+    }
+    let drive = data.command.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    json!({
+        "drive": drive * data.units.volts,
+        "drive_unit": match data.drive { Drive::Current => "A", _ => "V" },
+        "rpm": fastest(data) * 60.0 / data.units.counts_per_rev,
+        "turns": turns(data.travel_counts()),
+        "forward": with >= 0.0,
+        "samples": data.len(),
+        "interval_s": data.units.interval,
+    })
+}
+
+/// Samples over which a speed is taken: a count in one sample is none.
+const AROUND: usize = 10;
+
+/// The largest speed over a few samples, counts/s.
+fn fastest(data: &Data) -> f64 {
+    (0..data.len()).step_by(AROUND / 2).fold(0.0, |most, k| {
+        let near = data.recordings.around(k, AROUND);
+        let (from, to) = (near.start, near.end - 1);
+        let time = data.time_s[to] - data.time_s[from];
+        let speed = (data.counts[to] - data.counts[from]).abs() / time.max(f64::MIN_POSITIVE);
+        most.max(speed)
+    })
+}
+
+/// The mapping as a `motor.toml`.
+pub(super) async fn motor(Json(mapping): Json<Mapping>) -> Answer {
+    Ok(Json(json!({ "text": mapping.motor() })))
 }
 
 /// The recordings of the bench with one more.
 fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Recordings, Error> {
     let Some(before) = before.filter(|_| role != Role::Fitted) else {
-        return Ok(Recordings {
-            fitted: Arc::new(loaded),
-            held_out: None,
-        });
+        return Ok(Recordings::new(Arc::new(loaded), None));
     };
     let together = |those: &Loaded| those.with(&loaded).map(Arc::new);
     let judged_by = match role {
@@ -83,10 +123,7 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
         )));
     }
     if role == Role::Beside {
-        return Ok(Recordings {
-            fitted: together(&before.fitted)?,
-            ..before
-        });
+        return Ok(Recordings::new(together(&before.fitted)?, before.held_out));
     }
     // Another encoder or another drive would judge nothing.
     together(&before.fitted)?;
@@ -94,10 +131,7 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
         Some(others) => together(others)?,
         None => Arc::new(loaded),
     };
-    Ok(Recordings {
-        held_out: Some(held_out),
-        ..before
-    })
+    Ok(Recordings::new(before.fitted, Some(held_out)))
 }
 
 /// What lies on the bench is not exchanged under work that is going on.

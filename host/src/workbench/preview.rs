@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 const SHOWN: usize = 6;
 /// Most columns that are shown.
 const COLUMNS: usize = 200;
+/// Most values of a column that are drawn.
+const DRAWN: usize = 200;
 
 /// The first rows of a file.
 #[derive(Debug, Default, PartialEq, Serialize)]
@@ -16,6 +18,10 @@ pub(super) struct Preview {
     pub(super) rows: Vec<Vec<String>>,
     /// Which column may be what.
     pub(super) guess: Mapping,
+    /// What separates the columns.
+    pub(super) divider: Option<char>,
+    /// Values of each column, evenly picked from the rows that were sent; none for what is no number.
+    pub(super) values: Vec<Vec<Option<f64>>>,
 }
 
 /// Which column is what, and in which unit; empty for what is not there.
@@ -79,13 +85,36 @@ pub(super) fn preview(csv: &str) -> Preview {
             .collect()
     };
     let header = cells(first);
-    let rows = lines.take(SHOWN).map(cells).collect();
+    let lines: Vec<&str> = lines.collect();
+    let rows = lines.iter().take(SHOWN).map(|line| cells(line)).collect();
+    // The last line may be cut off.
+    let whole = &lines[..lines.len().saturating_sub(1)];
+    let picked = whole.iter().step_by(whole.len().div_ceil(DRAWN).max(1));
+    let mut values = vec![Vec::new(); header.len()];
+    for line in picked {
+        let cells = cells(line);
+        for (k, values) in values.iter_mut().enumerate() {
+            values.push(cells.get(k).and_then(|cell| number(cell, divider)));
+        }
+    }
     let guess = guess(&header);
     Preview {
         header,
         rows,
         guess,
+        divider: Some(divider),
+        values,
     }
+}
+
+/// A number, which has a decimal comma where commas do not separate.
+fn number(cell: &str, divider: char) -> Option<f64> {
+    let text = if divider == ',' {
+        cell.to_owned()
+    } else {
+        cell.replace(',', ".")
+    };
+    text.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
 fn guess(header: &[String]) -> Mapping {

@@ -3,12 +3,14 @@
 use super::answer::{Answer, Refusal, aside, done};
 use super::begun::begin;
 use super::job::Watch;
-use super::opened::{demo, free, recording, session};
+use super::opened::{demo, free, motor, recording, session};
+use super::details::Tab;
+use super::files::files;
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
-use super::{download, guard, shown};
+use super::{details, download, failing, guard, series, shown, sliders};
 use crate::error::Error;
-use axum::extract::{DefaultBodyLimit, Query, State};
+use axum::extract::{DefaultBodyLimit, Path, Query, State};
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
@@ -17,39 +19,33 @@ use axum::{Json, Router, middleware};
 use futures_util::stream::{self, Stream};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
-use servoid_results::number_text::short;
-use servoid_results::page::assets;
+use shared::effects::Kind;
 use std::convert::Infallible;
 use std::sync::Arc;
 use tokio::sync::broadcast::error::RecvError;
 
 /// Most bytes of a recording that a page may send.
 const MOST_BYTES: usize = 1 << 30;
-const PAGE: &str = include_str!("assets/bench.html");
-const SCRIPT: &str = include_str!("assets/bench.js");
-const STYLE: &str = include_str!("assets/bench.css");
-
 /// The bench, as every answer gets it.
 pub(super) type Shared = State<Arc<Bench>>;
 
 /// Everything under the secret.
 pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
-    let text = |kind: &'static str, content: &'static str| {
-        get(move || async move { ([(CONTENT_TYPE, kind)], content) })
-    };
-    let script = "text/javascript; charset=utf-8";
-    let style = "text/css; charset=utf-8";
-    let page = Router::new()
-        .route("/", text("text/html; charset=utf-8", PAGE))
-        .route("/bench.js", text(script, SCRIPT))
-        .route("/plots.js", text(script, assets::PLOTS))
-        .route("/plotly.js", text(script, assets::plotly()))
-        .route("/page.css", text(style, assets::STYLE))
-        .route("/bench.css", text(style, STYLE))
+    let mut page = Router::new();
+    for file in files() {
+        let answer = get(move || async move { ([(CONTENT_TYPE, file.kind)], file.content) });
+        page = page.route(&format!("/{}", file.name), answer);
+    }
+    let page = page
         .route("/state", get(state))
         .route("/events", get(events))
-        .route("/pictures", get(pictures))
+        .route("/details/{tab}", get(details))
+        .route("/failing", get(failing))
+        .route("/series/{what}", get(series::of_recording))
+        .route("/series/model/{id}", get(series::of_model))
+        .route("/series/proposal/{id}/{effect}", get(series::of_proposal))
         .route("/preview", post(previewed))
+        .route("/motor", post(motor))
         .route("/recording", post(recording))
         .route("/session", post(session))
         .route("/demo", post(demo))
@@ -60,6 +56,7 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/redo", post(redo))
         .route("/choose", post(choose))
         .route("/remove", post(remove))
+        .route("/lock", post(lock))
         .route("/trial", post(trial))
         .route("/export", get(export))
         .layer(DefaultBodyLimit::max(MOST_BYTES))
@@ -100,8 +97,29 @@ async fn events(State(bench): Shared) -> Sse<impl Stream<Item = Result<Event, In
     Sse::new(tellings).keep_alive(KeepAlive::default())
 }
 
-async fn pictures(State(bench): Shared) -> Answer {
-    Ok(Json(aside(move || shown::pictures(&bench)).await?))
+/// The drawings of a tab.
+async fn details(State(bench): Shared, Path(tab): Path<String>) -> Answer {
+    let tab = Tab::by_name(&tab)?;
+    drawn(&bench, tab.name(), move |bench| tab.drawn(bench)).await
+}
+
+/// Where the chosen model fails, and the one beside it.
+async fn failing(State(bench): Shared) -> Answer {
+    drawn(&bench, "failing", failing::of).await
+}
+
+/// What is drawn of the models that are looked at: found once, however many ask for it.
+async fn drawn(
+    bench: &Arc<Bench>,
+    what: &str,
+    draw: impl FnOnce(&Bench) -> Result<Value, Error> + Send + 'static,
+) -> Answer {
+    let key = bench.state().looked_at(what);
+    let from = Arc::clone(bench);
+    let found = (bench.drawings)
+        .get(key, aside(move || draw(&from)))
+        .await?;
+    Ok(Json((*found).clone()))
 }
 
 async fn previewed(body: String) -> Json<Value> {
@@ -162,18 +180,26 @@ struct Which {
 }
 
 async fn remove(State(bench): Shared, Json(which): Json<Which>) -> Answer {
-    bench.act(|state| -> Result<(), Error> {
-        state.model(which.model)?;
-        state.models.retain(|model| model.id != which.model);
-        if state.against == Some(which.model) {
-            state.against = None;
+    bench.act(|state| state.remove(which.model))?;
+    done()
+}
+
+#[derive(Deserialize)]
+struct Lock {
+    effect: String,
+    locked: bool,
+}
+
+/// Takes an effect out of what is proposed, or lets it in again.
+async fn lock(State(bench): Shared, Json(asked): Json<Lock>) -> Answer {
+    let kind = Kind::by_name(&asked.effect)
+        .ok_or_else(|| Error::Usage(format!("there is no effect `{}`", asked.effect)))?;
+    bench.act(|state| {
+        state.locked.retain(|other| *other != kind);
+        if asked.locked {
+            state.locked.push(kind);
         }
-        if state.chosen == Some(which.model) {
-            state.chosen = state.models.last().map(|model| model.id);
-            state.against = None;
-        }
-        Ok(())
-    })?;
+    });
     done()
 }
 
@@ -183,28 +209,19 @@ struct Trial {
     values: Map<String, Value>,
 }
 
-/// A model with some of its constants moved by hand, beside the model.
-async fn trial(State(bench): Shared, Json(trial): Json<Trial>) -> Answer {
+/// The residual of a model with some of its constants moved by hand.
+async fn trial(State(bench): Shared, Json(trial): Json<Trial>) -> Result<series::Packed, Refusal> {
     let answer = aside(move || {
         let (recordings, model) = {
             let state = bench.state();
             (state.recordings()?, state.model(trial.model)?.clone())
         };
-        let mut by_hand = shown::drawn("moved by hand", &model);
-        by_hand.candidate = shown::moved(&by_hand.candidate, &trial.values)?;
-        let data = recordings.shown();
-        let run = by_hand.run(data)?;
-        let squares: f64 = run.residual.iter().map(|e| e * e).sum();
-        let rms = (squares / data.len() as f64).sqrt();
-        let models = [shown::drawn(&model.name(), &model), by_hand];
-        Ok(json!({
-            "rms_counts": rms,
-            "said": short(rms),
-            "timeline": shown::timeline(&recordings, &models)?,
-        }))
+        let mut by_hand = details::drawn("moved by hand", &model);
+        by_hand.candidate = sliders::moved(&by_hand.candidate, &trial.values)?;
+        Ok(series::packed(&by_hand.run(recordings.shown())?.residual))
     })
     .await?;
-    Ok(Json(answer))
+    Ok(answer)
 }
 
 #[derive(Deserialize)]

@@ -58,10 +58,7 @@ impl Server {
         match opening {
             Opening::Empty => {}
             Opening::Recording(fitted, held_out) => {
-                let recordings = Recordings {
-                    fitted: Arc::from(fitted),
-                    held_out: held_out.map(Arc::from),
-                };
+                let recordings = Recordings::new(Arc::from(fitted), held_out.map(Arc::from));
                 bench.change(|state| state.begin(recordings));
                 first_fit = true;
             }

@@ -10,6 +10,7 @@ use serde_json::Value;
 use servoid_io::output::write_whole;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
+use shared::effects::Kind;
 use servoid_results::schema::{self, Document};
 use std::path::Path;
 use std::sync::Arc;
@@ -40,6 +41,9 @@ pub struct SessionFile {
     chosen: Option<usize>,
     #[serde(default)]
     against: Option<usize>,
+    /// Effects that are not proposed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    locked: Vec<String>,
     #[serde(default)]
     race: Option<Value>,
     #[serde(default)]
@@ -54,6 +58,9 @@ struct SavedModel {
     algorithm: String,
     evaluations: usize,
     foreseen_rms_counts: Option<f64>,
+    /// Place of the model from which it was made.
+    #[serde(default)]
+    parent: Option<usize>,
     model: schema::Model,
 }
 
@@ -81,11 +88,13 @@ impl SessionFile {
                     algorithm: model.fit.algorithm.clone(),
                     evaluations: model.fit.evaluations,
                     foreseen_rms_counts: model.predicted,
+                    parent: place(model.parent),
                     model: schema::Model::of(&model.fit.candidate, model.fit.method),
                 })
                 .collect(),
             chosen: place(state.chosen),
             against: place(state.against),
+            locked: state.locked.iter().map(|kind| kind.name().to_owned()).collect(),
             race: state.race.clone(),
             diagnosis: state.diagnosis.clone(),
             blind: (state.secret.as_ref()).map(|secret| (secret.seed, secret.revealed)),
@@ -143,11 +152,15 @@ impl SessionFile {
         };
         let others = self.held_out_with;
         let held_out = self.held_out.map(|first| read(first, others)).transpose()?;
-        let recordings = Recordings {
-            fitted: Arc::new(read(fitted, self.fitted_with)?),
-            held_out: held_out.map(Arc::new),
-        };
+        let fitted = Arc::new(read(fitted, self.fitted_with)?);
+        let recordings = Recordings::new(fitted, held_out.map(Arc::new));
         state.begin(recordings.clone());
+        state.locked = self
+            .locked
+            .iter()
+            .filter_map(|name| Kind::by_name(name))
+            .collect();
+        let parents: Vec<Option<usize>> = self.models.iter().map(|saved| saved.parent).collect();
         let mut ids = Vec::new();
         let mut faults = Vec::new();
         for (place, saved) in self.models.into_iter().enumerate() {
@@ -165,6 +178,16 @@ impl SessionFile {
                     faults.push(error.to_string());
                     ids.push(None);
                 }
+            }
+        }
+        // A model is made from one that was there before; anything else would be no tree.
+        let made_from = |place: usize| {
+            let parent = parents[place].filter(|parent| *parent < place)?;
+            ids[parent]
+        };
+        for (place, id) in ids.iter().enumerate() {
+            if let Some(model) = state.models.iter_mut().find(|model| Some(model.id) == *id) {
+                model.parent = made_from(place);
             }
         }
         let mut id = |key: &str, place: Option<usize>| {

@@ -1,5 +1,6 @@
 //! The bench's state, and its change notifications to the page.
 
+use super::drawings::Drawings;
 use super::history::History;
 use super::job::Job;
 use super::model::{Model, Recordings};
@@ -7,6 +8,8 @@ use crate::error::Error;
 use serde_json::Value;
 use servoid_identify::diagnose::Suggestion;
 use servoid_plant::Hidden;
+use shared::effects::Kind;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::broadcast;
@@ -24,6 +27,8 @@ pub(super) struct Bench {
     /// Where the bench is kept after every change.
     file: Option<PathBuf>,
     history: Mutex<History>,
+    /// Drawings of what is looked at.
+    pub(super) drawings: Drawings,
 }
 
 /// Which way through the history.
@@ -57,8 +62,10 @@ pub(super) struct State {
     pub(super) chosen: Option<usize>,
     /// The one that it is compared with.
     pub(super) against: Option<usize>,
-    /// What would explain more than the chosen model, once it was looked for.
-    pub(super) suggested: Option<(usize, Vec<Suggestion>)>,
+    /// What would explain more than a model, of each for which that was looked for.
+    pub(super) proposed: BTreeMap<usize, Arc<Proposed>>,
+    /// Effects that are not proposed.
+    pub(super) locked: Vec<Kind>,
     /// The last race of search methods, `servoid.compare/1`.
     pub(super) race: Option<Value>,
     /// The last diagnosis, `servoid.diagnosis/1`.
@@ -68,6 +75,16 @@ pub(super) struct State {
     /// What went wrong last, in words.
     pub(super) fault: Option<String>,
     next: usize,
+}
+
+/// What would explain more than a model.
+pub(super) struct Proposed {
+    /// Best first.
+    pub(super) list: Vec<Suggestion>,
+    /// Models that were tried for it.
+    pub(super) tried: usize,
+    /// Time that this took, s.
+    pub(super) seconds: f64,
 }
 
 /// What is hidden in a blind demonstration.
@@ -114,8 +131,10 @@ impl State {
             other.effects == model.effects && other.fit.algorithm == model.fit.algorithm
         };
         if let Some(place) = self.models.iter().position(same) {
-            model.id = self.models[place].id;
+            let old = &self.models[place];
+            (model.id, model.parent) = (old.id, old.parent);
             let id = model.id;
+            self.proposed.remove(&id);
             self.models[place] = model;
             self.choose(id);
             return id;
@@ -143,6 +162,47 @@ impl State {
             .ok_or_else(|| Error::Usage(format!("there is no model {id} on the bench")))
     }
 
+    /// Takes a model away; what was made from it hangs on what it was made from.
+    ///
+    /// # Errors
+    /// A number that no model has.
+    pub(super) fn remove(&mut self, id: usize) -> Result<(), Error> {
+        let parent = self.model(id)?.parent;
+        self.models.retain(|model| model.id != id);
+        for model in &mut self.models {
+            if model.parent == Some(id) {
+                model.parent = parent;
+            }
+        }
+        self.proposed.remove(&id);
+        if self.against == Some(id) {
+            self.against = None;
+        }
+        if self.chosen == Some(id) {
+            let known = parent.filter(|parent| self.model(*parent).is_ok());
+            self.chosen = known.or(self.models.last().map(|model| model.id));
+            self.against = None;
+        }
+        Ok(())
+    }
+
+    /// The number that the next model gets.
+    pub(super) fn next_number(&self) -> usize {
+        self.next + 1
+    }
+
+    /// A key for a drawing of that name: the same as long as the models that are looked at, and the recordings, are.
+    pub(super) fn looked_at(&self, what: &str) -> String {
+        let stamp = |id: Option<usize>| {
+            let model = id.and_then(|id| self.model(id).ok());
+            model.map(|model| (model.id, model.stamp))
+        };
+        let recordings = self.recordings.as_ref().map(|recordings| recordings.stamp);
+        let race = self.race.as_ref().filter(|_| what == "race");
+        let race = race.map(ToString::to_string);
+        format!("{what} {recordings:?} {:?} {:?} {race:?}", stamp(self.chosen), stamp(self.against))
+    }
+
     /// The recordings.
     pub(super) fn recordings(&self) -> Result<Recordings, Error> {
         self.recordings.clone().ok_or_else(|| {
@@ -159,6 +219,7 @@ impl Bench {
             job: Job::default(),
             file,
             history: Mutex::default(),
+            drawings: Drawings::default(),
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::job::Teller;
 use super::model::{Model, Recordings, USUAL, options};
-use super::state::Bench;
+use super::state::{Bench, Proposed};
 use crate::error::Error;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -16,28 +16,27 @@ use servoid_results::schema;
 use shared::effects::Kind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
 
-/// Fits a model with these effects, and puts it on the bench.
+/// Fits a model with these effects, puts it on the bench, and looks for what would explain more.
 pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<(), Error> {
-    let (recordings, suggestion) = {
+    let (recordings, parent, suggestion) = {
         let state = bench.state();
-        let suggestion = (state.suggested.iter())
-            .flat_map(|(_, list)| list)
-            .find(|suggestion| diagnose::same(&suggestion.model.effects, effects))
+        let proposals = state.proposed.values().flat_map(|proposed| &proposed.list);
+        let suggestion = proposals
+            .filter(|suggestion| diagnose::same(&suggestion.model.effects, effects))
+            .min_by(|a, b| a.model.by_score(&b.model))
             .cloned();
-        (state.recordings()?, suggestion)
+        (state.recordings()?, state.chosen, suggestion)
     };
     let fit = fitted(bench, &recordings, effects, algorithm, suggestion.as_ref())?;
-    let model = Model {
-        id: 0,
-        effects: effects.to_vec(),
-        fit: Arc::new(fit),
-        predicted: suggestion.map(|s| s.model.predicted_rms_counts),
-    };
-    bench.change(|state| {
-        state.put(model);
-        state.suggested = None;
-    });
+    let predicted = suggestion.map(|s| s.model.predicted_rms_counts);
+    let model = Model::new(effects.to_vec(), fit, predicted, parent, &recordings);
+    let more = model.leaves_something();
+    let id = bench.change(|state| state.put(model));
+    if more && !bench.job.flag().load(Ordering::Relaxed) {
+        suggest(bench, id)?;
+    }
     Ok(())
 }
 
@@ -105,6 +104,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
     let options = options(&recordings.fitted, &[], 1);
     let watched = Watched::new(bench, data.len());
     let done = || watched.tried();
+    let began = Instant::now();
     let found = diagnose::suggest(
         data,
         held_out,
@@ -113,7 +113,17 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         &Budget::usual(bench.job.flag()),
         &done,
     )?;
-    bench.change(|state| state.suggested = Some((id, found.list)));
+    let proposed = Proposed {
+        list: found.list,
+        tried: watched.tried.load(Ordering::Relaxed),
+        seconds: began.elapsed().as_secs_f64(),
+    };
+    bench.change(|state| {
+        // It may have been taken away meanwhile.
+        if state.model(id).is_ok() {
+            state.proposed.insert(id, Arc::new(proposed));
+        }
+    });
     Ok(())
 }
 
@@ -140,19 +150,24 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     } else {
         on_the_way(bench, &recordings, &diagnosis, last)?
     };
-    bench.change(|state| {
-        for model in models {
-            state.put(model);
+    let last = bench.change(|state| {
+        let mut before = None;
+        for mut model in models {
+            model.parent = before;
+            before = Some(state.put(model));
         }
         // The whole way is what is looked at: the last model beside the linear motor.
         state.against = (state.models.iter())
             .find(|model| model.effects.is_empty())
             .map(|model| model.id)
             .filter(|id| state.chosen != Some(*id));
-        state.suggested = None;
         state.diagnosis = Some(json);
+        before.filter(|id| state.model(*id).is_ok_and(Model::leaves_something))
     });
-    Ok(())
+    match last {
+        Some(id) if !interrupted => suggest(bench, id),
+        _ => Ok(()),
+    }
 }
 
 /// The models of a diagnosis' steps, from the linear motor on.
@@ -162,12 +177,8 @@ fn on_the_way(
     found: &Diagnosis,
     last: Fit,
 ) -> Result<Vec<Model>, Error> {
-    let mut models = vec![Model {
-        id: 0,
-        effects: Vec::new(),
-        fit: Arc::new(fitted(bench, recordings, &[], USUAL, None)?),
-        predicted: None,
-    }];
+    let first = fitted(bench, recordings, &[], USUAL, None)?;
+    let mut models = vec![Model::new(Vec::new(), first, None, None, recordings)];
     let mut effects = Vec::new();
     for (depth, step) in found.steps.iter().enumerate() {
         effects.push(step.added);
@@ -181,17 +192,14 @@ fn on_the_way(
                 effect: step.added,
                 model: after.clone(),
                 evidence: None,
+                signature: None,
                 p_value: 0.0,
                 believed: true,
             };
             fitted(bench, recordings, &effects, USUAL, Some(&suggestion))?
         };
-        models.push(Model {
-            id: 0,
-            effects: effects.clone(),
-            fit: Arc::new(fit),
-            predicted: Some(after.predicted_rms_counts),
-        });
+        let foreseen = Some(after.predicted_rms_counts);
+        models.push(Model::new(effects.clone(), fit, foreseen, None, recordings));
     }
     Ok(models)
 }
@@ -208,12 +216,7 @@ fn as_found(recordings: &Recordings, found: &Diagnosis, last: Fit) -> Result<Vec
         .map(|(kind, _)| kind)
         .collect();
     if !effects.is_empty() {
-        models.push(Model {
-            id: 0,
-            effects,
-            fit: Arc::new(last),
-            predicted: None,
-        });
+        models.push(Model::new(effects, last, None, None, recordings));
     }
     Ok(models)
 }
@@ -289,10 +292,9 @@ mod tests {
             ("cogging", vec![Kind::Cogging]),
         ] {
             let hidden = Hidden::typical(name, &showcase::machine()).expect("an effect");
-            let recordings = Recordings {
-                fitted: recorded(&hidden, 1, "a.csv").expect("a recording"),
-                held_out: Some(recorded(&hidden, 2, "b.csv").expect("a recording")),
-            };
+            let [first, second] =
+                [(1, "a.csv"), (2, "b.csv")].map(|(seed, name)| recorded(&hidden, seed, name).expect("a recording"));
+            let recordings = Recordings::new(first, Some(second));
             let bench = Bench::new(None);
             let shown = fitted(&bench, &recordings, &effects, USUAL, None).expect("a fit");
             let asked = Options {

@@ -7,7 +7,7 @@ use super::context::{Budget, Context};
 use super::explain::evidence;
 use super::models::FittedModel;
 use super::outcome::Verdict;
-use super::residual_analysis::analyse_residual;
+use super::residual_analysis::{Signature, analyse_residual, signature, without};
 use super::selection::{extensions, judge};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
@@ -24,6 +24,8 @@ pub struct Suggestion {
     pub model: FittedModel,
     /// What was measured that speaks for it, if the recording shows it.
     pub evidence: Option<String>,
+    /// Its volts along the motion, and those that the motor asked for; nothing where no quantity tells them.
+    pub signature: Option<Signature>,
     /// Chance of so large a gain if it were absent.
     pub p_value: f64,
     /// Whether it removes enough of the held-out error to be believed.
@@ -69,12 +71,13 @@ pub fn suggest(
         let Some(&effect) = model.effects.last() else {
             continue;
         };
-        let without = evidence::without(&model.candidate, effect);
-        let missing = analyse_residual(data, &without, &model.candidate, model.method)?;
+        let bare = without(&model.candidate, effect);
+        let missing = analyse_residual(data, &bare, &model.candidate, model.method)?;
         let values = model.values_of(effect);
         list.push(Suggestion {
             effect,
             evidence: evidence::sentence(effect, &values, &missing),
+            signature: signature(data, &model.candidate, effect),
             p_value: judge::p_value(data, &parent, &model),
             believed: judge::removes(&parent, &model),
             model,

@@ -4,10 +4,10 @@
 
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis};
+use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis, without};
 use crate::error::Error;
-use servoid_engine::problem::{Candidate, Data};
-use shared::effects::{EffectSet, Evidence, Kind};
+use servoid_engine::problem::Data;
+use shared::effects::{Evidence, Kind};
 
 /// A mean counts as different from zero from so many standard errors on.
 const SURE: f64 = 5.0;
@@ -54,21 +54,6 @@ pub fn asked_for(
     };
     let without = without(&after.candidate, step.added);
     residual_analysis::analyse_residual(data, &without, &after.candidate, after.method).map(Some)
-}
-
-/// The model less one effect.
-pub(crate) fn without(candidate: &Candidate, kind: Kind) -> Candidate {
-    let mut effects = EffectSet::default();
-    for (own, values) in candidate.effects.iter() {
-        if own != kind {
-            // They fitted in before.
-            let _ = effects.push(own, values);
-        }
-    }
-    Candidate {
-        effects,
-        ..*candidate
-    }
 }
 
 /// What the drawing shows of the effect `kind` with these `values` of its parameters, if it shows anything.

@@ -218,14 +218,18 @@ impl Map {
     }
 }
 
-struct Point {
+/// A residual against a quantity.
+pub(super) struct Point {
     /// Place among the residuals.
     index: usize,
-    x: f64,
-    volts: f64,
+    /// The quantity.
+    pub(super) x: f64,
+    /// Missing volts, against the motion where those are counted so.
+    pub(super) volts: f64,
 }
 
-fn points(
+/// The residuals against a quantity, where it is defined.
+pub(super) fn points(
     against: Against,
     data: &Data,
     machine: &Machine<f64>,
@@ -309,8 +313,14 @@ fn quantiles(sorted: &[f64], bins: usize) -> Vec<f64> {
 /// Samples divided by the sum of their autocorrelation as far as it is positive (Geyer, *Statistical Science*
 /// 7(4), 1992).
 fn independent(points: &[Point]) -> f64 {
-    let stride = points.len().div_ceil(PICKED).max(1);
-    let picked: Vec<f64> = points.iter().step_by(stride).map(|p| p.volts).collect();
+    let volts: Vec<f64> = points.iter().map(|p| p.volts).collect();
+    independent_of(&volts)
+}
+
+/// The same of volts alone.
+pub(super) fn independent_of(volts: &[f64]) -> f64 {
+    let stride = volts.len().div_ceil(PICKED).max(1);
+    let picked: Vec<f64> = volts.iter().copied().step_by(stride).collect();
     let n = picked.len();
     let square: f64 = picked.iter().map(|x| x * x).sum();
     if square <= 0.0 {

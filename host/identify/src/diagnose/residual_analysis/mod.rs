@@ -2,10 +2,16 @@
 //! could tell why.
 
 mod bins;
+mod cumulative;
+mod own_volts;
+mod signature;
 mod spectrum;
 pub mod whiteness;
 
 pub use bins::{Against, Bin, Map};
+pub use cumulative::{Cumulative, cumulative};
+pub use own_volts::{OwnVolts, without};
+pub use signature::{Axis, Signature, signature};
 pub use spectrum::{Line, Spectrum};
 pub use whiteness::{Correlations, Whiteness, correlations, whiteness};
 

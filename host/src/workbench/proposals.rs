@@ -1,0 +1,95 @@
+//! What would explain more than a model, as the page shows it.
+
+use super::state::{Proposed, State};
+use serde_json::{Value, json};
+use servoid_identify::diagnose::Suggestion;
+use servoid_identify::diagnose::residual_analysis::{Axis, Signature};
+use shared::encoder::FLOOR_RMS_COUNTS;
+use std::cmp::Ordering;
+
+/// Held-out errors within this factor explain about equally, unless one of them is the encoder's own.
+const ABOUT: f64 = 3.0;
+/// The same next to the encoder's own error.
+const ABOUT_FLOOR: f64 = 1.15;
+/// What leaves more than this part of the model's error explains little.
+const LITTLE: f64 = 0.7;
+
+/// The proposals beside model `id`; `None` before anybody looked for them.
+pub(super) fn view(state: &State, id: usize) -> Option<Value> {
+    let proposed = state.proposed.get(&id)?;
+    let before = state.model(id).ok()?.fit.validate_rms_counts;
+    let list: Vec<Value> = ordered(proposed)
+        .into_iter()
+        .map(|suggestion| entry(state, suggestion, before))
+        .collect();
+    Some(json!({ "of": id, "tried": proposed.tried, "seconds": proposed.seconds, "list": list }))
+}
+
+/// Those that explain about as much as the best come first, the fewest parameters before all; the rest by what they leave.
+fn ordered(proposed: &Proposed) -> Vec<&Suggestion> {
+    let held_out = |one: &Suggestion| one.model.judged().held_out;
+    let best = (proposed.list.iter().map(held_out)).fold(f64::INFINITY, f64::min);
+    let about = if best <= ABOUT_FLOOR * FLOOR_RMS_COUNTS {
+        ABOUT_FLOOR
+    } else {
+        ABOUT
+    };
+    let rank = |one: &Suggestion| {
+        let near = held_out(one) <= about * best;
+        (!near, if near { one.model.freedom() } else { 0 })
+    };
+    let mut list: Vec<&Suggestion> = proposed.list.iter().collect();
+    list.sort_by(|a, b| {
+        let by_rank: Ordering = rank(a).cmp(&rank(b));
+        by_rank.then(held_out(a).total_cmp(&held_out(b)))
+    });
+    list
+}
+
+fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
+    let description = suggestion.effect.description();
+    let model = &suggestion.model;
+    let little = before.is_some_and(|before| model.validate_rms_counts > LITTLE * before);
+    json!({
+        "effect": suggestion.effect.name(),
+        "title": description.title,
+        "equation": description.equation,
+        "signature_said": description.signature,
+        "evidence": suggestion.evidence,
+        "believed": suggestion.believed,
+        "little": little,
+        "worse": before.is_some_and(|before| model.validate_rms_counts > before),
+        "locked": state.locked.contains(&suggestion.effect),
+        "parameters": model.freedom(),
+        "foreseen_rms_counts": finite(model.predicted_rms_counts),
+        "rms_counts": finite(model.rms_counts),
+        "held_out_rms_counts": finite(model.validate_rms_counts),
+        "chance": finite(suggestion.p_value),
+        "looks_like": description.look_alikes,
+        "exposed_by": description.exposed_by,
+        "signature": suggestion.signature.as_ref().map(drawn),
+    })
+}
+
+fn finite(x: f64) -> Option<f64> {
+    Some(x).filter(|x| x.is_finite())
+}
+
+/// A signature as it is drawn.
+pub(super) fn drawn(signature: &Signature) -> Value {
+    let (name, unit) = match signature.axis {
+        Axis::Map(against) => {
+            let (name, unit) = against.name();
+            (name.replace('_', " "), unit.to_owned())
+        }
+        Axis::Wave(1) => ("angle".to_owned(), "revolution".to_owned()),
+        Axis::Wave(waves) => (
+            "angle".to_owned(),
+            format!("1/{waves} revolution"),
+        ),
+    };
+    let bins: Vec<Value> = (signature.bins.iter())
+        .map(|bin| json!([0.5 * (bin.low + bin.high), bin.mean_v, finite(bin.error_v)]))
+        .collect();
+    json!({ "against": name, "unit": unit, "bins": bins, "curve": signature.curve })
+}

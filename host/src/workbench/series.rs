@@ -1,0 +1,137 @@
+//! Whole series of samples for the lanes, as little-endian numbers: the page thins them for what is seen.
+
+use super::answer::{Refusal, aside};
+use super::details::drawn;
+use super::model::Recordings;
+use super::routes::Shared;
+use super::state::Bench;
+use crate::error::Error;
+use axum::extract::{Path, Query, State};
+use axum::http::HeaderName;
+use axum::http::header::CONTENT_TYPE;
+use serde::Deserialize;
+use servoid_engine::problem::Data;
+use servoid_results::report::html::Model as Drawn;
+use shared::effects::Kind;
+
+/// Numbers as bytes, f32 each but for times.
+pub(super) type Packed = ([(HeaderName, &'static str); 1], Vec<u8>);
+
+/// Numbers as f32.
+pub(super) fn packed(values: &[f64]) -> Packed {
+    bytes(values.iter().flat_map(|x| (*x as f32).to_le_bytes()))
+}
+
+fn bytes(bytes: impl Iterator<Item = u8>) -> Packed {
+    ([(CONTENT_TYPE, "application/octet-stream")], bytes.collect())
+}
+
+/// Which recordings.
+#[derive(Clone, Copy, Deserialize)]
+pub(super) struct Which {
+    /// Those that are held out, instead of those that are fitted.
+    #[serde(default)]
+    held_out: bool,
+}
+
+impl Which {
+    fn of(self, recordings: &Recordings) -> Result<&Data, Error> {
+        if !self.held_out {
+            return Ok(recordings.shown());
+        }
+        let held_out = recordings.held_out.as_ref();
+        let held_out = held_out.ok_or_else(|| {
+            Error::Usage("no recording of its own is held out on the bench".to_owned())
+        })?;
+        Ok(&held_out.data)
+    }
+}
+
+/// `time` (s, f64), `angle` (counts from the first reading), `drive` (V or A), `open` (1 where the bridge is open), `current` (A).
+pub(super) async fn of_recording(
+    State(bench): Shared,
+    Path(what): Path<String>,
+    Query(which): Query<Which>,
+) -> Result<Packed, Refusal> {
+    aside(move || {
+        let recordings = bench.state().recordings()?;
+        let data = which.of(&recordings)?;
+        Ok(match what.as_str() {
+            "time" => bytes(data.time_s.iter().flat_map(|t| t.to_le_bytes())),
+            "angle" => {
+                let first = data.counts.first().copied().unwrap_or(0.0);
+                let counts: Vec<f64> = data.counts.iter().map(|c| c - first).collect();
+                packed(&counts)
+            }
+            "drive" => {
+                let drive: Vec<f64> = data.command.iter().map(|v| v * data.units.volts).collect();
+                packed(&drive)
+            }
+            "open" => bytes((0..data.len()).map(|k| u8::from(data.is_open(k)))),
+            "current" => packed(data.current_a.as_deref().unwrap_or_default()),
+            other => {
+                return Err(Error::Usage(format!("there is no series `{other}`")));
+            }
+        })
+    })
+    .await
+}
+
+/// Model minus measured of a model on the bench, counts.
+pub(super) async fn of_model(
+    State(bench): Shared,
+    Path(id): Path<usize>,
+    Query(which): Query<Which>,
+) -> Result<Packed, Refusal> {
+    residual(bench, which, move |bench| {
+        let state = bench.state();
+        let model = state.model(id)?;
+        Ok(drawn(&model.name(), model))
+    })
+    .await
+}
+
+/// The same of a model that is proposed: with one effect more than model `id`.
+pub(super) async fn of_proposal(
+    State(bench): Shared,
+    Path((id, effect)): Path<(usize, String)>,
+    Query(which): Query<Which>,
+) -> Result<Packed, Refusal> {
+    residual(bench, which, move |bench| {
+        let state = bench.state();
+        let proposed = state.proposed.get(&id);
+        let kind = Kind::by_name(&effect);
+        let found = proposed.and_then(|proposed| {
+            let mut list = proposed.list.iter();
+            list.find(|suggestion| Some(suggestion.effect) == kind)
+        });
+        let found = found.ok_or_else(|| {
+            Error::Usage(format!("`{effect}` is not proposed beside model {id}"))
+        })?;
+        Ok(Drawn {
+            name: effect,
+            candidate: found.model.candidate,
+            method: found.model.method,
+        })
+    })
+    .await
+}
+
+async fn residual(
+    bench: std::sync::Arc<Bench>,
+    which: Which,
+    model: impl FnOnce(&Bench) -> Result<Drawn, Error> + Send + 'static,
+) -> Result<Packed, Refusal> {
+    aside(move || {
+        let recordings = bench.state().recordings()?;
+        let model = model(&bench)?;
+        let data = which.of(&recordings)?;
+        let run = if which.held_out {
+            model.run_unseen(data)?
+        } else {
+            model.run(data)?
+        };
+        Ok(packed(&run.residual))
+    })
+    .await
+}
