@@ -82,8 +82,8 @@ export function outside(page, own) {
 // Nothing is being done, and what is shown has been drawn.
 export async function settled(page, models) {
   await page.waitForFunction(
-    (models) => document.getElementById("stop").hidden && !document.getElementById("bench").hidden
-      && document.querySelectorAll("#models tbody tr").length >= models,
+    (models) => document.getElementById("work").hidden && !document.getElementById("bench").hidden
+      && document.querySelectorAll("#tree .node").length >= models,
     models, { timeout: 120_000 });
   const begun = Date.now();
   const rests = () => page.evaluate(async () => {
@@ -95,6 +95,9 @@ export async function settled(page, models) {
     await page.waitForTimeout(50);
   }
 }
+
+// What the program says of the bench.
+export const state = (page) => page.evaluate(async () => (await fetch("state")).json());
 
 // Every drawing stands in a place of its own height, fills it, and covers no other.
 export async function drawnApart(page) {
@@ -130,7 +133,7 @@ export async function drawnApart(page) {
 // Through light and dark, and windows of several widths.
 export async function turnAndResize(page) {
   for (const width of [1280, 1100, 390, 1280]) {
-    await page.click("[data-switch-theme]");
+    await page.click("[data-switch-theme], #theme");
     await page.setViewportSize({ width, height: 900 });
     await page.waitForTimeout(700);
     await drawnApart(page);
@@ -141,10 +144,32 @@ export async function turnAndResize(page) {
 export async function drop(page, files) {
   const data = await page.evaluateHandle((files) => {
     const data = new DataTransfer();
-    for (const [name, text] of files) data.items.add(new File([text], name));
+    // Characters below 256 that are no text stand for bytes.
+    const bytes = (text) => (/^[\u0080-\u00ff]/.test(text) ? Uint8Array.from(text, (c) => c.charCodeAt(0)) : text);
+    for (const [name, text] of files) data.items.add(new File([bytes(text)], name));
     return data;
   }, files);
   await page.dispatchEvent("#drop", "drop", { dataTransfer: data });
 }
 
-export const error = async (page) => Number(await page.textContent("#error-now"));
+// The error that is shown, once it no longer counts.
+export async function error(page) {
+  let before = null;
+  for (;;) {
+    const text = await page.textContent("#error-now");
+    if (text === before) return Number(text.replace(/[\s\u202f]/g, "").replace("\u2212", "-"));
+    before = text;
+    await page.waitForTimeout(120);
+  }
+}
+
+// Opens a tab beneath the lanes.
+export async function tab(page, name) {
+  if ((await page.getAttribute(`#tab-${name}`, "aria-selected")) !== "true") await page.click(`#tab-${name}`);
+}
+
+// Adds an effect by its name, whatever is proposed.
+export async function add(page, effect) {
+  await page.selectOption("#effect", effect);
+  await page.click("#add-any");
+}

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { after, before } from "node:test";
-import { Desk, browser, open, settled, test } from "./bench.mjs";
+import { Desk, browser, open, settled, tab, test } from "./bench.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const SHOTS = process.env.SHOTS;
@@ -57,13 +57,17 @@ for (const [width, height] of [[1280, 900], [390, 844]]) {
       const bench = await desk.bench("rec.csv --validate other.csv");
       const page = await open(chrome, bench.url, options);
       await settled(page, 1);
-      await page.click("#suggest");
-      await page.waitForSelector("#suggestions article");
-      await settled(page, 1);
-      await looked(page, `suggested-${width}-${colorScheme}`);
-      await page.click("#suggestions button:text('Add cogging')");
+      await page.waitForSelector("#proposals article");
+      await looked(page, `proposed-${width}-${colorScheme}`);
+      await page.click("#add");
       await settled(page, 2);
       await looked(page, `added-${width}-${colorScheme}`);
+      for (const name of ["failing", "response", "clock", "limits", "hand", "searches", "log"]) {
+        await tab(page, name);
+        await settled(page, 2);
+        await page.waitForTimeout(300);
+        await looked(page, `tab-${name}-${width}-${colorScheme}`);
+      }
       await page.context().close();
       await bench.end();
 

@@ -64,10 +64,18 @@ impl Tab {
             let state = bench.state();
             let find = |id: Option<usize>| id.and_then(|id| state.model(id).ok().cloned());
             let race = state.race.clone();
-            (state.recordings()?, find(state.chosen), find(state.against), race)
+            (
+                state.recordings()?,
+                find(state.chosen),
+                find(state.against),
+                race,
+            )
         };
         let models: Vec<&Model> = against.iter().chain(&chosen).collect();
-        let drawn: Vec<Drawn> = models.iter().map(|model| drawn(&model.name(), model)).collect();
+        let drawn: Vec<Drawn> = models
+            .iter()
+            .map(|model| drawn(&model.name(), model))
+            .collect();
         let data = recordings.shown();
         let of_failing = |id: &str| -> Result<Vec<Section>, Error> {
             let all = failing("bench", data, &drawn)?;
@@ -123,7 +131,12 @@ fn intervals(models: &[&Model]) -> Vec<Section> {
     let found: Vec<(String, Vec<Estimate>)> = models
         .iter()
         .rev()
-        .map(|model| (model.name(), model.fit.parameters.iter().map(Estimate::from).collect()))
+        .map(|model| {
+            (
+                model.name(),
+                model.fit.parameters.iter().map(Estimate::from).collect(),
+            )
+        })
         .collect();
     let sources: Vec<Estimates<'_>> = found
         .iter()

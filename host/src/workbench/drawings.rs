@@ -57,8 +57,7 @@ mod tests {
                             made.fetch_add(1, Ordering::Relaxed);
                             Ok::<_, ()>(json!(7))
                         };
-                        *drawings.get("one".to_owned(), draw).await.expect("drawn")
-                            == json!(7)
+                        *drawings.get("one".to_owned(), draw).await.expect("drawn") == json!(7)
                     })
                 })
                 .collect();

@@ -32,7 +32,8 @@ pub(super) fn of(bench: &Bench) -> Result<Value, Error> {
 
 fn of_model(data: &Data, model: &Model) -> Result<Value, Error> {
     let [time, speed] = cumulative(data, &model.fit.candidate, model.fit.method)?;
-    let curve = |summed: &Cumulative| json!({ "x": summed.x, "share": summed.share, "band": summed.band });
+    let curve =
+        |summed: &Cumulative| json!({ "x": summed.x, "share": summed.share, "band": summed.band });
     let mut orders = vec![0.0; ORDERS];
     for line in order_lines(data, &model.fit.candidate) {
         if let Some(order) = orders.get_mut(line.order - 1) {

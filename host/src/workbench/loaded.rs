@@ -92,7 +92,10 @@ impl Loaded {
     pub fn recordings(&self) -> impl Iterator<Item = (&str, f64, usize)> {
         self.recordings.iter().map(|recording| {
             let time = &recording.time_s;
-            let seconds = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+            let seconds = time
+                .last()
+                .zip(time.first())
+                .map_or(0.0, |(last, first)| last - first);
             (recording.source.as_str(), seconds, recording.len())
         })
     }

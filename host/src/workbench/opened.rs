@@ -75,7 +75,10 @@ fn meaning(data: &Data) -> Value {
             with += data.command[k - 1] * (data.counts[k] - data.counts[k - 1]);
         }
     }
-    let drive = data.command.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    let drive = data
+        .command
+        .iter()
+        .fold(0.0f64, |most, v| most.max(v.abs()));
     json!({
         "drive": drive * data.units.volts,
         "drive_unit": match data.drive { Drive::Current => "A", _ => "V" },

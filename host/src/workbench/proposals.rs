@@ -83,10 +83,7 @@ pub(super) fn drawn(signature: &Signature) -> Value {
             (name.replace('_', " "), unit.to_owned())
         }
         Axis::Wave(1) => ("angle".to_owned(), "revolution".to_owned()),
-        Axis::Wave(waves) => (
-            "angle".to_owned(),
-            format!("1/{waves} revolution"),
-        ),
+        Axis::Wave(waves) => ("angle".to_owned(), format!("1/{waves} revolution")),
     };
     let bins: Vec<Value> = (signature.bins.iter())
         .map(|bin| json!([0.5 * (bin.low + bin.high), bin.mean_v, finite(bin.error_v)]))

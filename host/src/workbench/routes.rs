@@ -2,10 +2,10 @@
 
 use super::answer::{Answer, Refusal, aside, done};
 use super::begun::begin;
-use super::job::Watch;
-use super::opened::{demo, free, motor, recording, session};
 use super::details::Tab;
 use super::files::files;
+use super::job::Watch;
+use super::opened::{demo, free, motor, recording, session};
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
 use super::{details, download, failing, guard, series, shown, sliders};

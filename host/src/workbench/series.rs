@@ -11,6 +11,7 @@ use axum::http::HeaderName;
 use axum::http::header::CONTENT_TYPE;
 use serde::Deserialize;
 use servoid_engine::problem::Data;
+use servoid_identify::diagnose::HeldOut;
 use servoid_results::report::html::Model as Drawn;
 use shared::effects::Kind;
 
@@ -23,7 +24,10 @@ pub(super) fn packed(values: &[f64]) -> Packed {
 }
 
 fn bytes(bytes: impl Iterator<Item = u8>) -> Packed {
-    ([(CONTENT_TYPE, "application/octet-stream")], bytes.collect())
+    (
+        [(CONTENT_TYPE, "application/octet-stream")],
+        bytes.collect(),
+    )
 }
 
 /// Which recordings.
@@ -39,11 +43,12 @@ impl Which {
         if !self.held_out {
             return Ok(recordings.shown());
         }
-        let held_out = recordings.held_out.as_ref();
-        let held_out = held_out.ok_or_else(|| {
-            Error::Usage("no recording of its own is held out on the bench".to_owned())
-        })?;
-        Ok(&held_out.data)
+        match recordings.kind() {
+            HeldOut::Recording(_) => Ok(recordings.parts().1),
+            HeldOut::End { .. } | HeldOut::Nothing => Err(Error::Usage(
+                "no recording of its own is held out on the bench".to_owned(),
+            )),
+        }
     }
 }
 
@@ -105,9 +110,8 @@ pub(super) async fn of_proposal(
             let mut list = proposed.list.iter();
             list.find(|suggestion| Some(suggestion.effect) == kind)
         });
-        let found = found.ok_or_else(|| {
-            Error::Usage(format!("`{effect}` is not proposed beside model {id}"))
-        })?;
+        let found = found
+            .ok_or_else(|| Error::Usage(format!("`{effect}` is not proposed beside model {id}")))?;
         Ok(Drawn {
             name: effect,
             candidate: found.model.candidate,

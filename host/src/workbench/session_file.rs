@@ -10,8 +10,8 @@ use serde_json::Value;
 use servoid_io::output::write_whole;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
-use shared::effects::Kind;
 use servoid_results::schema::{self, Document};
+use shared::effects::Kind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -94,7 +94,11 @@ impl SessionFile {
                 .collect(),
             chosen: place(state.chosen),
             against: place(state.against),
-            locked: state.locked.iter().map(|kind| kind.name().to_owned()).collect(),
+            locked: state
+                .locked
+                .iter()
+                .map(|kind| kind.name().to_owned())
+                .collect(),
             race: state.race.clone(),
             diagnosis: state.diagnosis.clone(),
             blind: (state.secret.as_ref()).map(|secret| (secret.seed, secret.revealed)),

@@ -1,6 +1,5 @@
 //! What the page shows: the bench in words and numbers.
 
-use super::loaded::Loaded;
 use super::model::{Model, Recordings};
 use super::proposals;
 use super::sliders::sliders;
@@ -61,18 +60,28 @@ fn recording(recordings: &Recordings) -> Value {
         "stamp": recordings.stamp,
         "drive_unit": match data.drive { Drive::Current => "A", _ => "V" },
         "quantised": data.quantised,
-        "sources": sources(&recordings.fitted, "fitted").chain(
-            recordings.held_out.iter().flat_map(|held_out| sources(held_out, "held out"))
-        ).collect::<Vec<_>>(),
+        "sources": sources(recordings),
     })
 }
 
-/// Each recording by its name.
-fn sources<'a>(loaded: &'a Loaded, role: &'static str) -> impl Iterator<Item = Value> + 'a {
-    let recordings = loaded.recordings();
-    recordings.map(move |(name, seconds, samples)| {
-        json!({ "name": name, "seconds": seconds, "samples": samples, "role": role })
-    })
+/// Each recording by its name, with its role.
+fn sources(recordings: &Recordings) -> Vec<Value> {
+    let fitted: Vec<_> = recordings.fitted.recordings().collect();
+    // Of several the last judges, where no other one does.
+    let last = fitted.len() - 1;
+    let judges = |k: usize| recordings.held_out.is_none() && last > 0 && k == last;
+    let fitted = fitted.into_iter().enumerate();
+    let fitted = fitted.map(|(k, own)| (own, if judges(k) { "held out" } else { "fitted" }));
+    let held_out = recordings
+        .held_out
+        .iter()
+        .flat_map(|held_out| held_out.recordings());
+    fitted
+        .chain(held_out.map(|own| (own, "held out")))
+        .map(|((name, seconds, samples), role)| {
+            json!({ "name": name, "seconds": seconds, "samples": samples, "role": role })
+        })
+        .collect()
 }
 
 fn entry(state: &State, model: &Model) -> Value {

@@ -200,7 +200,11 @@ impl State {
         let recordings = self.recordings.as_ref().map(|recordings| recordings.stamp);
         let race = self.race.as_ref().filter(|_| what == "race");
         let race = race.map(ToString::to_string);
-        format!("{what} {recordings:?} {:?} {:?} {race:?}", stamp(self.chosen), stamp(self.against))
+        format!(
+            "{what} {recordings:?} {:?} {:?} {race:?}",
+            stamp(self.chosen),
+            stamp(self.against)
+        )
     }
 
     /// The recordings.

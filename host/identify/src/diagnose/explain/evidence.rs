@@ -4,7 +4,9 @@
 
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis, without};
+use crate::diagnose::residual_analysis::{
+    self, Against, Bin, Line, Map, ResidualAnalysis, without,
+};
 use crate::error::Error;
 use servoid_engine::problem::Data;
 use shared::effects::{Evidence, Kind};

@@ -65,10 +65,7 @@ pub fn cumulative(
             band,
         }
     };
-    Ok([
-        summed(&by_time, &data.time_s),
-        summed(&by_speed, &speeds),
-    ])
+    Ok([summed(&by_time, &data.time_s), summed(&by_speed, &speeds)])
 }
 
 /// Speed of the model's run at a sample, rad/s.

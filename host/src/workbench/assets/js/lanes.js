@@ -192,6 +192,7 @@ function draw() {
   strip();
   inset();
   readout();
+  Object.assign(at("lanes").dataset, { from: span[0], to: span[1], points: made.angle.data[0].length });
   document.body.dataset.lanes = shown.map((model) => `${model.id}${model.dashed ? "p" : ""}`).join(" ");
   for (const does of listeners) does(between());
 }

@@ -167,6 +167,12 @@ function show(fault) {
   at("column-fault").textContent = fault;
 }
 
+// As it is typed: nobody has to leave a field first.
+let typed = null;
+at("columns").addEventListener("input", () => {
+  clearTimeout(typed);
+  typed = setTimeout(check, 120);
+});
 at("columns").addEventListener("change", check);
 at("load").addEventListener("click", async () => {
   try {
@@ -176,6 +182,9 @@ at("load").addEventListener("click", async () => {
     at("columns").close();
     await does.fit([]);
   } catch (error) {
+    // What is still being checked must not take this away.
+    clearTimeout(typed);
+    checks += 1;
     show(error.message);
   }
 });

@@ -74,13 +74,12 @@ function node(model, [x, y], bench, does) {
   const beside = model.id === bench.against && does.comparing;
   const made = svg("g", {
     class: "node", role: "button", tabindex: 0, "data-model": model.id, "aria-pressed": own ? "true" : "false",
-    "aria-label": `${letter(model.id)}: ${model.name}, ${counts(judged(model))} counts`,
   },
   svg("circle", { class: "ring", cx: x, cy: y, r: 12, fill: "none", stroke: own || beside ? colour(model.id) : "transparent", "stroke-width": 1.5,
     "stroke-dasharray": beside ? "3 2" : "" }),
   svg("circle", { cx: x, cy: y, r: 9, fill: colour(model.id) }),
   svg("text", { class: "l", x, y: y + 4, "text-anchor": "middle" }, letter(model.id)),
-  svg("text", { class: "n", x, y: y + 26, "text-anchor": "middle" }, counts(judged(model))),
+  svg("text", { class: "n", x, y: y + 26, "text-anchor": "middle" }, ` ${counts(judged(model))} `),
   svg("title", {}, `${model.name}: click shows it, Shift+click compares, Delete removes it`));
   made.addEventListener("click", (event) => (event.shiftKey ? does.compare(model.id) : does.choose(model.id)));
   made.addEventListener("keydown", (event) => {

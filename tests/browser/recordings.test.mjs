@@ -1,0 +1,237 @@
+// Recordings and sessions of the workbench in a real browser.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { after, before } from "node:test";
+import { Desk, add, browser, drop, error, open, settled, state, tab, test } from "./bench.mjs";
+
+let chrome;
+let desk;
+before(async () => {
+  chrome = await browser();
+  desk = new Desk();
+  desk.run("simulate --hide coulomb --out rec.csv --seed 1");
+  desk.run("simulate --hide coulomb --out other.csv --seed 2");
+});
+after(async () => {
+  await chrome?.close();
+  desk?.clear();
+});
+
+test("a bad file shows the reader's message, a foreign one asks which column is what", async () => {
+  const bench = await desk.bench("");
+  const page = await open(chrome, bench.url);
+  await drop(page, [["garbage.csv", "t_s,voltage_v,angle_counts\n0,1,0\n0.001,x,3\n"]]);
+  await page.waitForSelector("#columns[open]");
+  await page.fill("#map-counts_per_rev", "2000");
+  await page.locator("#map-counts_per_rev").blur();
+  await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("garbage.csv:3:"));
+  for (const counts of ["-2000", "0"]) {
+    await page.fill("#map-counts_per_rev", counts);
+    await page.locator("#map-counts_per_rev").blur();
+    await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("greater than zero"));
+  }
+  assert.ok(await page.isDisabled("#load"));
+  await page.click("#columns button[value=cancel]");
+  // The same recording under names of somebody else.
+  const foreign = readFileSync(desk.path("rec.csv"), "utf8").replace("t_s,voltage_v,angle_counts", "when,u,enc");
+  await drop(page, [["foreign.csv", foreign]]);
+  await page.waitForSelector("#columns[open]");
+  const columns = (words) => page.waitForFunction((words) => document.getElementById("column-fault").textContent.includes(words), words);
+  await page.fill("#map-counts_per_rev", "");
+  await page.selectOption("#map-time", "");
+  await columns("choose which column is which");
+  await page.selectOption("#map-time", "when");
+  await columns("fill them in");
+  await page.fill("#map-counts_per_rev", "2000");
+  await page.locator("#map-counts_per_rev").blur();
+  await page.waitForFunction(() => !document.getElementById("load").disabled);
+  await page.click("#load");
+  await settled(page, 1);
+  const { sources } = (await state(page)).recording;
+  assert.deepEqual(sources.map((one) => [one.name, one.samples]), [["foreign.csv", 20000]]);
+  const says = (words) => page.waitForFunction((words) => document.getElementById("fault").textContent.includes(words), words);
+  // What is no table is refused by what it is.
+  await drop(page, [["picture.csv", "\u0089PNG\r\n"]]);
+  await says("this is a PNG picture");
+  await drop(page, [["nothing.csv", ""]]);
+  await says("empty");
+  // A session that is none.
+  await drop(page, [["other.json", "{\"schema\": \"x\"}"]]);
+  await says("schema is `x`");
+  await drop(page, [["newer.json", "{\"schema\": \"servoid.session/9\", \"fitted\": 1}"]]);
+  await says("servoid.session/9");
+  await drop(page, [["list.json", "[1, 2]"]]);
+  await says("a session is what the workbench saved");
+  // The same recording once more tests nothing.
+  await drop(page, [["foreign.csv", foreign]]);
+  await page.waitForSelector("#columns[open]");
+  await page.selectOption("#map-time", "when");
+  await page.fill("#map-counts_per_rev", "2000");
+  await page.check("#role [value=held_out]");
+  await page.waitForFunction(() => !document.getElementById("load").disabled);
+  await page.click("#load");
+  await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("no test"));
+  await page.context().close();
+  await bench.end();
+});
+
+test("runs of one motor are fitted together, on the command line, by dropping, and in a session", async () => {
+  desk.run("simulate --hide coulomb --out third.csv --seed 3");
+  const text = (name) => readFileSync(desk.path(name), "utf8");
+  const together = async (page) => {
+    await settled(page, 1);
+    const { sources, samples } = (await state(page)).recording;
+    assert.deepEqual(sources.map((one) => [one.name, one.role]), [["rec.csv", "fitted"], ["other.csv", "fitted"], ["third.csv", "held out"]]);
+    assert.equal(samples, 40000);
+    return error(page);
+  };
+  // The last judges, as in a diagnosis; the error is over both that are fitted.
+  const bench = await desk.bench("rec.csv other.csv third.csv --session several.json");
+  const page = await open(chrome, bench.url);
+  const shown = await together(page);
+  await page.context().close();
+  await bench.end();
+  const again = await desk.bench("several.json");
+  const reopened = await open(chrome, again.url);
+  assert.equal(await together(reopened), shown);
+  await reopened.context().close();
+  await again.end();
+  // The same by dropping all three, and by adding one after the other.
+  const empty = await desk.bench("");
+  const dropped = await open(chrome, empty.url);
+  const motor = ["motor.toml", "counts_per_rev = 2000\n"];
+  await drop(dropped, [motor, ...["rec.csv", "other.csv", "third.csv"].map((name) => [name, text(name)])]);
+  assert.equal(await together(dropped), shown);
+  assert.deepEqual(dropped.faults, []);
+  const more = async (name, role) => {
+    await drop(dropped, [[name, text(name)]]);
+    await dropped.waitForSelector("#columns[open]");
+    await dropped.fill("#map-counts_per_rev", "2000");
+    await dropped.check(`#role [value=${role}]`);
+    await dropped.waitForFunction(() => !document.getElementById("load").disabled);
+    await dropped.click("#load");
+  };
+  await more("rec.csv", "fitted");
+  await dropped.click("#put-away-yes");
+  await settled(dropped, 1);
+  for (const [name, role] of [["third.csv", "held_out"], ["other.csv", "beside"]]) {
+    await more(name, role);
+    await dropped.waitForFunction((name) => document.getElementById("recordings").textContent.includes(name), name);
+    await settled(dropped, 1);
+  }
+  assert.equal(await together(dropped), shown);
+  // One that judges is not fitted as well, nor the other way round.
+  for (const [name, role, words] of [["third.csv", "beside", "no test"], ["rec.csv", "held_out", "no test"], ["rec.csv", "beside", "same samples"]]) {
+    await more(name, role);
+    await dropped.waitForFunction((words) => document.getElementById("column-fault").textContent.includes(words), words);
+    await dropped.click("#columns button[value=cancel]");
+  }
+  await dropped.context().close();
+  await empty.end();
+});
+
+test("a second tab does not break the first, and a session is opened again as it was", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv --session kept.json");
+  const first = await open(chrome, bench.url);
+  const second = await open(chrome, bench.url);
+  await settled(first, 1);
+  await settled(second, 1);
+  await add(second, "coulomb");
+  await settled(second, 2);
+  await settled(first, 2);
+  assert.equal(await error(first), await error(second));
+  await second.context().close();
+  await first.waitForSelector("#explained");
+  const shown = await error(first);
+  await first.context().close();
+  await bench.end();
+  const again = await desk.bench("kept.json");
+  const page = await open(chrome, again.url);
+  await settled(page, 2);
+  assert.equal(await error(page), shown);
+  await page.context().close();
+  await again.end();
+});
+
+test("another recording asks first, undo brings the bench back, and two programs do not share a session", async () => {
+  const bench = await desk.bench("rec.csv --session undone.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  const before = await error(page);
+  const name = () => page.textContent("#recordings");
+  const motor = readFileSync(desk.path("motor.toml"), "utf8");
+  const other = [["other.csv", readFileSync(desk.path("other.csv"), "utf8")], ["motor.toml", motor]];
+  await drop(page, other);
+  await page.click("#put-away-no");
+  assert.match(await name(), /rec\.csv/);
+  await drop(page, other);
+  await page.click("#put-away-yes");
+  await page.waitForFunction(() => document.getElementById("recordings").textContent.includes("other.csv"));
+  await settled(page, 1);
+  // The fit, then the recording.
+  await page.click("#undo");
+  await settled(page, 0);
+  await page.keyboard.press("Control+z");
+  await page.waitForFunction(() => document.getElementById("recordings").textContent.includes("rec.csv"));
+  await settled(page, 1);
+  assert.equal(await error(page), before);
+  await page.click("#redo");
+  await page.waitForFunction(() => document.getElementById("recordings").textContent.includes("other.csv"));
+  await page.click("#undo");
+  await settled(page, 1);
+  await assert.rejects(desk.bench("--session undone.json"), /ended with 2/);
+  await page.context().close();
+  await bench.end();
+  assert.match(readFileSync(desk.path("undone.json"), "utf8"), /rec\.csv/);
+});
+
+test("a model of chaotic runs is opened again as it was, and its notes and its method are told", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv --session chaos.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await tab(page, "searches");
+  await page.selectOption("#algorithm", "pso");
+  await page.click("#refit");
+  await settled(page, 2);
+  await add(page, "cogging");
+  await settled(page, 3);
+  const table = async (page) => (await state(page)).models.map((model) => [model.name, model.rms_counts, model.held_out_rms_counts, model.parent].join(" ")).join("\n");
+  const [shown, models] = [await error(page), await table(page)];
+  assert.match(models, /linear motor \(by pso\)/);
+  await tab(page, "log");
+  assert.ok((await page.locator("#notes li").count()) > 0);
+  assert.doesNotMatch(await page.textContent("#notes"), / --/);
+  await page.context().close();
+  await bench.end();
+  const again = await desk.bench("--session chaos.json");
+  const second = await open(chrome, again.url);
+  await settled(second, 3);
+  assert.equal(await error(second), shown);
+  assert.equal(await table(second), models);
+  await second.context().close();
+  await again.end();
+});
+
+test("what is wrong in a session that was edited is left out with a word", async () => {
+  const bench = await desk.bench("rec.csv --session edited.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await page.context().close();
+  await bench.end();
+  const session = JSON.parse(readFileSync(desk.path("edited.json"), "utf8"));
+  session.models.push({ ...session.models[0], algorithm: "magic" });
+  writeFileSync(desk.path("edited.json"), JSON.stringify({
+    ...session, chosen: 99, race: { schema: "x" }, diagnosis: session.models[0],
+  }));
+  const again = await desk.bench("edited.json");
+  const second = await open(chrome, again.url);
+  await settled(second, 1);
+  const said = await second.textContent("#fault");
+  for (const words of ["chosen: there is no model 99", "no search method `magic`", "race: schema is `x`", "diagnosis: schema"]) {
+    assert.ok(said.includes(words), `${words}: ${said}`);
+  }
+  assert.ok((await error(second)) > 0, "the model that is left is looked at");
+  assert.equal(await second.locator("#verdict").count(), 0);
+  await second.context().close();
+  await again.end();
+});
