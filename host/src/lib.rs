@@ -12,4 +12,5 @@ pub mod error;
 mod interrupt;
 pub mod prove;
 pub mod session;
+pub mod twins;
 pub mod workbench;

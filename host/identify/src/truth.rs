@@ -4,8 +4,9 @@
 //! model's terms ([`Hidden::truth`](servoid_plant::Hidden::truth)): a torque is the volts that the winding spends
 //! on it (`R/Kt` times the torque), a current the volts across the resistance.
 
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use servoid_plant::Machine;
+use servoid_plant::{Hidden, Machine};
 use shared::effects::{Kind, Pair};
 use shared::motor::Physical;
 
@@ -68,11 +69,101 @@ pub fn errors(kind: Kind, found: &[f64], truth: &[f64]) -> Vec<ParameterError> {
     errors
 }
 
+/// Most steps towards an effect's parameters.
+const STEPS: usize = 60;
+/// Parts of a parameter by which it is moved to see what it does.
+const MOVED: f64 = 1e-5;
+/// Largest part by which what is found may be off.
+const OFF: f64 = 1e-4;
+/// A parameter that is only the curve's form, of which the bench has few.
+const FORM: &str = "form";
+/// A parameter that is a whole number.
+const ORDER: &str = "order";
+
+/// The effect of the bench whose truth is `values`, but for their form: the inverse of
+/// [`Hidden::truth`](servoid_plant::Hidden::truth), by Gauss and Newton's method. `None` where no parameters of the bench make them.
+pub fn hidden(
+    kind: Kind,
+    values: &[f64],
+    machine: &Machine,
+    counts_per_rev: u32,
+) -> Option<Hidden> {
+    let mut hidden = Hidden::typical(kind.name(), machine).ok()?;
+    if let Some(order) = kind.facts().periodic.and_then(|order| order.of(values)) {
+        // Of what repeats once a revolution there is nothing to set.
+        let _ = hidden.set(ORDER, order as f64);
+    }
+    let names: Vec<&str> = kind.parameters().iter().map(|p| p.name).collect();
+    let typical = hidden.truth(machine, counts_per_rev);
+    let size = |k: usize| values[k].abs().max(1e-3 * typical[k].abs()).max(1e-12);
+    let off = |hidden: &Hidden| {
+        let truth = hidden.truth(machine, counts_per_rev);
+        DVector::from_iterator(
+            names.len(),
+            (0..names.len()).map(|k| match names[k] {
+                FORM => 0.0,
+                _ => (truth[k] - values[k]) / size(k),
+            }),
+        )
+    };
+    let keys: Vec<(&str, f64)> = (hidden.parameters())
+        .filter(|(name, ..)| *name != ORDER)
+        .map(|(name, value, _)| (name, value.abs()))
+        .collect();
+    let mut here = off(&hidden);
+    for _ in 0..STEPS {
+        if here.amax() < 0.01 * OFF {
+            break;
+        }
+        let now: Vec<f64> = current(&hidden, &keys);
+        let mut slopes = DMatrix::zeros(here.len(), keys.len());
+        for (k, (name, typical)) in keys.iter().enumerate() {
+            let step = MOVED * typical.max(now[k].abs()).max(1e-9);
+            let mut moved = hidden.clone();
+            let signed = if moved.set(name, now[k] + step).is_ok() {
+                step
+            } else if moved.set(name, now[k] - step).is_ok() {
+                -step
+            } else {
+                continue;
+            };
+            slopes.set_column(k, &((off(&moved) - &here) / signed));
+        }
+        let towards = slopes.svd(true, true).solve(&here, 1e-12).ok()?;
+        let mut part = 1.0;
+        let next = loop {
+            let mut tried = hidden.clone();
+            let set = keys.iter().enumerate().all(|(k, (name, _))| {
+                let value = now[k] - part * towards[k];
+                value == now[k] || tried.set(name, value).is_ok()
+            });
+            let there = off(&tried);
+            if set && there.norm() < here.norm() {
+                break Some((tried, there));
+            }
+            part *= 0.5;
+            if part < 1e-6 {
+                break None;
+            }
+        };
+        let Some((better, there)) = next else { break };
+        (hidden, here) = (better, there);
+    }
+    (here.amax() < OFF).then_some(hidden)
+}
+
+fn current(hidden: &Hidden, keys: &[(&str, f64)]) -> Vec<f64> {
+    let value = |name: &str| hidden.parameters().find(|p| p.0 == name).map(|p| p.1);
+    keys.iter()
+        .map(|(name, _)| value(name).unwrap_or(0.0))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use servoid_plant::PRESETS;
     use servoid_plant::effects::CATALOGUE;
-    use servoid_plant::{Hidden, PRESETS};
     use std::collections::BTreeSet;
 
     #[test]
@@ -105,6 +196,32 @@ mod tests {
                     errors.iter().all(|error| error.percent == 0.0),
                     "{errors:?}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn every_effect_s_values_are_put_back_on_the_bench() {
+        for name in PRESETS {
+            let machine = Machine::preset(name).unwrap();
+            for &kind in Kind::ALL {
+                for strength in [0.4, 1.0, 1.7] {
+                    let typical = Hidden::typical(kind.name(), &machine).unwrap();
+                    let Ok(wanted) = typical.scaled(strength) else {
+                        continue;
+                    };
+                    let values = wanted.truth(&machine, 2000);
+                    let found = hidden(kind, &values, &machine, 2000)
+                        .unwrap_or_else(|| panic!("{name}, {kind:?}, {strength}"));
+                    let again = found.truth(&machine, 2000);
+                    for (k, (a, b)) in again.iter().zip(&values).enumerate() {
+                        let scale = b.abs().max(1e-9);
+                        assert!(
+                            (a - b).abs() < 1e-3 * scale,
+                            "{name}, {kind:?}, {k}: {a} {b}"
+                        );
+                    }
+                }
             }
         }
     }

@@ -114,7 +114,30 @@ pub fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    try_write(path, write).map_err(|fault| WriteError {
+    written(path, ANYBODYS, write)
+}
+
+/// The same for nobody's eyes but the user's: a file that is new is one that no other user of the machine can read.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_private(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    written(path, PRIVATE, write)
+}
+
+/// Permissions of a new file: like any, less the umask; and of one that is private.
+const ANYBODYS: u32 = 0o666;
+const PRIVATE: u32 = 0o600;
+
+fn written(
+    path: &Path,
+    mode: u32,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    try_write(path, mode, write).map_err(|fault| WriteError {
         path: path.into(),
         fault,
     })
@@ -122,11 +145,12 @@ pub fn write_whole(
 
 fn try_write(
     path: &Path,
+    mode: u32,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteFault> {
     match destination(path)? {
         Destination::Device => write_direct(path, write),
-        Destination::File { target, folder } => replace(&target, &folder, write),
+        Destination::File { target, folder } => replace(&target, &folder, mode, write),
     }
     .map_err(WriteFault::Io)
 }
@@ -134,13 +158,15 @@ fn try_write(
 fn replace(
     target: &Path,
     folder: &Path,
+    mode: u32,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".servoid-").suffix(".part");
-    // Like any new file, not private as temporary files are; the umask still applies.
     #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    #[cfg(not(unix))]
+    let _ = mode;
     let mut temporary = builder.tempfile_in(folder)?;
     let mut buffer = BufWriter::new(temporary.as_file_mut());
     write(&mut buffer)?;

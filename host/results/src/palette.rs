@@ -1,20 +1,20 @@
 //! Colours of all drawings: the colour-blind tell them apart (Okabe and Ito, 2008), and they show on white and on black.
 
-/// What was measured.
-pub const MEASURED: &str = "#0072b2";
-/// The linear motor.
-pub const BASE: &str = "#cc79a7";
+/// What was measured: grey, since colours are models.
+pub const MEASURED: &str = "#7f8790";
+/// The first model, which lacks something.
+pub const BASE: &str = "#d55e00";
 /// The best model.
-pub const MODEL: &str = "#d55e00";
+pub const MODEL: &str = "#0072b2";
 /// The encoder's own error.
-pub const FLOOR: &str = "#009e73";
+pub const FLOOR: &str = "#7f8790";
 /// A further series.
-pub const OTHER: &str = "#e69f00";
-/// Marks and frames.
+pub const OTHER: &str = "#009e73";
+/// Marks and frames, and models on the way.
 pub const QUIET: &str = "#7f8790";
-/// For as many series as come.
+/// For as many series as come, the best first.
 pub const LIST: [&str; 8] = [
-    MEASURED, MODEL, FLOOR, BASE, OTHER, "#56b4e9", "#8a6d3b", QUIET,
+    MODEL, BASE, OTHER, "#cc79a7", "#e69f00", "#56b4e9", "#8a6d3b", QUIET,
 ];
 
 /// The colour of series `k`.

@@ -8,6 +8,7 @@ use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, Source};
 use serde::Serialize;
 use servoid_io::output::is_same_file;
 use std::fs;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 #[derive(Serialize)]
@@ -27,14 +28,29 @@ pub(super) fn run(session: &Session, args: &BenchArgs) -> Result<(), Error> {
         url: url.clone(),
     };
     session.deliver(&text, &json)?;
-    if !args.no_open
-        && let Err(error) = open::that_detached(&url)
-    {
+    let opened = (!args.no_open).then(|| browser(&url)).transpose();
+    if let Err(error) = &opened {
         session.remark(&format!(
             "no browser could be opened ({error}): open the address above yourself"
         ));
     }
     server.serve(session.stop())
+}
+
+/// Opens a page in the user's browser, by a file that only the user can read and that lasts as long as what is returned: every user
+/// of the machine sees the words of a command, and whoever has the address may use the bench.
+fn browser(url: &str) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut file = tempfile::Builder::new()
+        .prefix("servoid-")
+        .suffix(".html")
+        .tempfile()?;
+    write!(
+        file,
+        "<!doctype html><title>servoid workbench</title><meta http-equiv=\"refresh\" content=\"0; url={url}\">\
+         <a href=\"{url}\">servoid workbench</a>"
+    )?;
+    open::that_detached(file.path())?;
+    Ok(file)
 }
 
 /// Checks before anything is read that the bench replaces no file but the session that it goes on with.
@@ -117,7 +133,6 @@ fn saved(path: &Path) -> Result<Opening, Error> {
 
 /// A file whose first words are a session's, of whatever version.
 fn is_session(path: &Path) -> bool {
-    use std::io::Read;
     let mut start = [0; 4096];
     let read = fs::File::open(path).and_then(|mut file| file.read(&mut start));
     read.is_ok_and(|count| String::from_utf8_lossy(&start[..count]).contains(FAMILY))

@@ -24,6 +24,9 @@ pub(super) enum Work {
         model: usize,
     },
     Diagnose,
+    Twins {
+        model: usize,
+    },
     Race {
         #[serde(default)]
         effects: Vec<String>,
@@ -49,6 +52,9 @@ pub(super) async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answ
         }
         Work::Suggest { model } => {
             job::start(&bench, "suggest", move |bench| work::suggest(bench, model))?;
+        }
+        Work::Twins { model } => {
+            job::start(&bench, "twins", move |bench| work::twins(bench, model))?;
         }
         Work::Diagnose => job::start(&bench, "diagnose", work::diagnose)?,
         Work::Race {

@@ -68,7 +68,7 @@ pub(super) fn files() -> Vec<File> {
         file!(STYLE, "vendor/uPlot.min.css"),
         file!("font/woff2", "vendor/inter-latin.woff2"),
         shared("plots.js", SCRIPT, assets::PLOTS),
-        shared("plotly.js", SCRIPT, assets::plotly()),
+        shared("plotly.js", SCRIPT, assets::PLOTLY),
         shared("page.css", STYLE, assets::STYLE),
     ]
 }

@@ -88,6 +88,27 @@ impl Loaded {
         Self::taken(sources, recordings, self.known.clone())
     }
 
+    /// Each of them with its source.
+    pub fn singles(&self) -> impl Iterator<Item = (Source, Recording)> + '_ {
+        let sources = self.sources.iter().cloned();
+        sources.zip(self.recordings.iter().cloned())
+    }
+
+    /// These recordings of one motor, of which `known` is known; nothing of none.
+    ///
+    /// # Errors
+    /// Recordings that cannot be taken together.
+    pub fn of(
+        singles: Vec<(Source, Recording)>,
+        known: &Known,
+    ) -> Result<Option<Arc<Self>>, Error> {
+        if singles.is_empty() {
+            return Ok(None);
+        }
+        let (sources, recordings) = singles.into_iter().unzip();
+        Self::taken(sources, recordings, known.clone()).map(|taken| Some(Arc::new(taken)))
+    }
+
     /// Name, seconds and samples of each.
     pub fn recordings(&self) -> impl Iterator<Item = (&str, f64, usize)> {
         self.recordings.iter().map(|recording| {

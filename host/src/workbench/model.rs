@@ -2,6 +2,7 @@
 
 use super::loaded::Loaded;
 use crate::error::Error;
+use serde::Deserialize;
 use serde_json::Value;
 use servoid_engine::problem::Data;
 use servoid_engine::problem::rms_counts;
@@ -47,8 +48,24 @@ pub(super) struct Recordings {
     pub(super) fitted: Arc<Loaded>,
     /// Others, never fitted.
     pub(super) held_out: Option<Arc<Loaded>>,
+    /// Others that are neither fitted nor judge.
+    pub(super) ignored: Option<Arc<Loaded>>,
     /// Differs from that of all other recordings.
     pub(super) stamp: u64,
+}
+
+/// What a recording on the bench is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub(super) enum Role {
+    /// Models learn from it.
+    #[serde(rename = "fitted")]
+    Fitted,
+    /// It judges them.
+    #[serde(rename = "held out")]
+    HeldOut,
+    /// Nothing.
+    #[serde(rename = "ignored")]
+    Ignored,
 }
 
 /// A number that was not given before.
@@ -62,18 +79,54 @@ impl Recordings {
         Recordings {
             fitted,
             held_out,
+            ignored: None,
             stamp: stamp(),
         }
     }
 
-    /// Whether they are the same ones.
-    pub(super) fn are(&self, other: &Recordings) -> bool {
-        let held_out = match (&self.held_out, &other.held_out) {
-            (None, None) => true,
-            (Some(one), Some(other)) => Arc::ptr_eq(one, other),
-            _ => false,
+    /// The same recordings in other roles, in the order fitted, held out, ignored in which they stand now.
+    ///
+    /// # Errors
+    /// As many roles as there are recordings, and one at least that is fitted.
+    pub(super) fn in_roles(&self, roles: &[Role]) -> Result<Self, Error> {
+        let all = [
+            Some(&self.fitted),
+            self.held_out.as_ref(),
+            self.ignored.as_ref(),
+        ];
+        let all: Vec<_> = all
+            .into_iter()
+            .flatten()
+            .flat_map(|one| one.singles())
+            .collect();
+        if all.len() != roles.len() {
+            return Err(Error::Usage(format!(
+                "{} recordings have {} roles",
+                all.len(),
+                roles.len()
+            )));
+        }
+        let of = |role: Role| {
+            let own = all.iter().zip(roles).filter(|(_, own)| **own == role);
+            Loaded::of(
+                own.map(|(single, _)| single.clone()).collect(),
+                &self.fitted.known,
+            )
         };
-        held_out && Arc::ptr_eq(&self.fitted, &other.fitted)
+        let fitted = of(Role::Fitted)?.ok_or_else(|| {
+            Error::Usage(
+                "one recording at least must be fitted; give another that role first".to_owned(),
+            )
+        })?;
+        Ok(Recordings {
+            ignored: of(Role::Ignored)?,
+            ..Recordings::new(fitted, of(Role::HeldOut)?)
+        })
+    }
+
+    /// Whether they are the same ones, in the same roles.
+    pub(super) fn are(&self, other: &Recordings) -> bool {
+        self.stamp == other.stamp
     }
 
     /// What is fitted and what is held out: the other recordings, or a part of the fitted ones where they are long enough.

@@ -3,7 +3,7 @@
 use super::answer::{Answer, aside, done};
 use super::blind;
 use super::loaded::{Loaded, Source};
-use super::model::Recordings;
+use super::model::{self, Recordings};
 use super::preview::Mapping;
 use super::routes::Shared;
 use super::session_file::SessionFile;
@@ -126,7 +126,10 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
         )));
     }
     if role == Role::Beside {
-        return Ok(Recordings::new(together(&before.fitted)?, before.held_out));
+        return Ok(Recordings {
+            ignored: before.ignored,
+            ..Recordings::new(together(&before.fitted)?, before.held_out)
+        });
     }
     // Another encoder or another drive would judge nothing.
     together(&before.fitted)?;
@@ -134,7 +137,10 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
         Some(others) => together(others)?,
         None => Arc::new(loaded),
     };
-    Ok(Recordings::new(before.fitted, Some(held_out)))
+    Ok(Recordings {
+        ignored: before.ignored,
+        ..Recordings::new(before.fitted, Some(held_out))
+    })
 }
 
 /// What lies on the bench is not exchanged under work that is going on.
@@ -190,6 +196,23 @@ pub(super) async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answ
             state.begin(recordings);
             state.secret = Some(secret);
         });
+        Ok(())
+    })
+    .await?;
+    done()
+}
+
+#[derive(Deserialize)]
+pub(super) struct Roles {
+    roles: Vec<model::Role>,
+}
+
+/// Gives the recordings on the bench other roles.
+pub(super) async fn roles(State(bench): Shared, Json(asked): Json<Roles>) -> Answer {
+    aside(move || {
+        let recordings = bench.state().recordings()?.in_roles(&asked.roles)?;
+        free(&bench)?;
+        bench.change(|state| state.begin(recordings));
         Ok(())
     })
     .await?;

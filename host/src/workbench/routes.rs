@@ -5,7 +5,7 @@ use super::begun::begin;
 use super::details::Tab;
 use super::files::files;
 use super::job::Watch;
-use super::opened::{demo, free, motor, recording, session};
+use super::opened::{demo, free, motor, recording, roles, session};
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
 use super::{details, download, failing, guard, series, shown, sliders};
@@ -46,6 +46,7 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/series/proposal/{id}/{effect}", get(series::of_proposal))
         .route("/preview", post(previewed))
         .route("/motor", post(motor))
+        .route("/roles", post(roles))
         .route("/recording", post(recording))
         .route("/session", post(session))
         .route("/demo", post(demo))

@@ -10,6 +10,11 @@ use super::session_file::SessionFile;
 use super::state::Bench;
 use super::work;
 use crate::error::Error;
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use std::io::{self, ErrorKind};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,6 +25,9 @@ use tokio::runtime::Runtime;
 
 /// How often it is looked whether the user has enough, or nobody watches any more.
 const LOOK: Duration = Duration::from_millis(100);
+
+/// Longest time until what is asked for is said.
+const HEADERS: Duration = Duration::from_secs(10);
 
 /// What lies on the bench when it is opened.
 pub enum Opening {
@@ -103,7 +111,7 @@ impl Server {
         let app = routes(Arc::clone(&bench), &self.secret);
         let served = self.runtime.block_on(async {
             tokio::select! {
-                served = axum::serve(self.listener, app) => served,
+                served = accept(&self.listener, &app) => served,
                 () = until(stop, &bench) => Ok(()),
             }
         });
@@ -111,6 +119,32 @@ impl Server {
         self.runtime.shutdown_timeout(Duration::from_secs(2));
         served.map_err(|error| Error::Failed(format!("the workbench broke off: {error}")))
     }
+}
+
+/// Answers every connection; one on which nobody asks for long is closed.
+async fn accept(listener: &TcpListener, app: &Router) -> io::Result<()> {
+    loop {
+        let (stream, _) = match listener.accept().await {
+            Ok(accepted) => accepted,
+            // Of one connection, which is gone.
+            Err(error) if is_of_a_connection(&error) => continue,
+            Err(error) => return Err(error),
+        };
+        let service = TowerToHyperService::new(app.clone());
+        tokio::spawn(async move {
+            let mut http = http1::Builder::new();
+            http.timer(TokioTimer::new()).header_read_timeout(HEADERS);
+            // A browser that goes away in the middle is no fault.
+            let _ = http.serve_connection(TokioIo::new(stream), service).await;
+        });
+    }
+}
+
+fn is_of_a_connection(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::ConnectionRefused | ErrorKind::ConnectionAborted | ErrorKind::ConnectionReset
+    )
 }
 
 /// Waits for `stop`; meanwhile stops work that nobody watches any more.

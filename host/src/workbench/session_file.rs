@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::prove::surprise;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use servoid_io::output::write_whole;
+use servoid_io::output::write_private;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
 use servoid_results::schema::{self, Document};
@@ -35,6 +35,9 @@ pub struct SessionFile {
     /// Others that are held out with it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     held_out_with: Vec<Source>,
+    /// Others that are neither.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    ignored: Vec<Source>,
     #[serde(default)]
     models: Vec<SavedModel>,
     #[serde(default)]
@@ -81,6 +84,8 @@ impl SessionFile {
             fitted_with: recordings.map_or(Vec::new(), |r| others(&r.fitted)),
             held_out: held_out.and_then(first),
             held_out_with: held_out.map_or(Vec::new(), others),
+            ignored: (recordings.and_then(|r| r.ignored.as_ref()))
+                .map_or(Vec::new(), |ignored| ignored.sources.clone()),
             models: state
                 .models
                 .iter()
@@ -157,7 +162,11 @@ impl SessionFile {
         let others = self.held_out_with;
         let held_out = self.held_out.map(|first| read(first, others)).transpose()?;
         let fitted = Arc::new(read(fitted, self.fitted_with)?);
-        let recordings = Recordings::new(fitted, held_out.map(Arc::new));
+        let ignored = (!self.ignored.is_empty()).then(|| Loaded::read(self.ignored));
+        let recordings = Recordings {
+            ignored: ignored.transpose()?.map(Arc::new),
+            ..Recordings::new(fitted, held_out.map(Arc::new))
+        };
         state.begin(recordings.clone());
         state.locked = self
             .locked
@@ -254,8 +263,8 @@ fn result(
     None
 }
 
-/// Writes the bench to a file, whole or not at all.
+/// Writes the bench to a file, whole or not at all. It holds recordings: it is the user's alone.
 pub(super) fn write(path: &Path, state: &State) -> Result<(), Error> {
     let text = SessionFile::of(state).text()?;
-    Ok(write_whole(path, |out| out.write_all(text.as_bytes()))?)
+    Ok(write_private(path, |out| out.write_all(text.as_bytes()))?)
 }

@@ -5,6 +5,7 @@ use super::proposals;
 use super::sliders::sliders;
 use super::state::{Bench, State};
 use super::words::on_the_page;
+use super::work::TWINS;
 use serde_json::{Map, Value, json};
 use servoid_io::recording::Drive;
 use servoid_results::export::FORMATS;
@@ -27,6 +28,9 @@ pub(super) fn view(bench: &Bench) -> Value {
         "chosen": state.chosen,
         "against": state.against,
         "proposed": state.chosen.and_then(|id| proposals::view(&state, id)),
+        "twins": state.chosen.and_then(|id| state.twins.get(&id)).map(|found| json!({
+            "of": TWINS, "tried": found.tried, "same": found.same, "others": found.others,
+        })),
         "locked": state.locked.iter().map(|kind| kind.name()).collect::<Vec<_>>(),
         "diagnosis": state.diagnosis.as_ref().map(|d| json!({
             "verdict": d["verdict"], "summary": on_the_page(d["summary"].as_str().unwrap_or_default()), "advice": d["advice"], "cannot_tell": d["cannot_tell"],
@@ -76,8 +80,13 @@ fn sources(recordings: &Recordings) -> Vec<Value> {
         .held_out
         .iter()
         .flat_map(|held_out| held_out.recordings());
+    let ignored = recordings
+        .ignored
+        .iter()
+        .flat_map(|ignored| ignored.recordings());
     fitted
         .chain(held_out.map(|own| (own, "held out")))
+        .chain(ignored.map(|own| (own, "ignored")))
         .map(|((name, seconds, samples), role)| {
             json!({ "name": name, "seconds": seconds, "samples": samples, "role": role })
         })

@@ -5,6 +5,7 @@ use super::history::History;
 use super::job::Job;
 use super::model::{Model, Recordings};
 use crate::error::Error;
+use crate::twins::Found;
 use serde_json::Value;
 use servoid_identify::diagnose::Suggestion;
 use servoid_plant::Hidden;
@@ -70,6 +71,8 @@ pub(super) struct State {
     pub(super) race: Option<Value>,
     /// The last diagnosis, `servoid.diagnosis/1`.
     pub(super) diagnosis: Option<Value>,
+    /// What was named in twins of a model, as far as they were tried.
+    pub(super) twins: BTreeMap<usize, Found>,
     /// What is hidden in the motor of a blind demonstration.
     pub(super) secret: Option<Secret>,
     /// What went wrong last, in words.
@@ -135,6 +138,7 @@ impl State {
             (model.id, model.parent) = (old.id, old.parent);
             let id = model.id;
             self.proposed.remove(&id);
+            self.twins.remove(&id);
             self.models[place] = model;
             self.choose(id);
             return id;
@@ -175,6 +179,7 @@ impl State {
             }
         }
         self.proposed.remove(&id);
+        self.twins.remove(&id);
         if self.against == Some(id) {
             self.against = None;
         }

@@ -4,11 +4,12 @@ use super::job::Teller;
 use super::model::{Model, Recordings, USUAL, options};
 use super::state::{Bench, Proposed};
 use crate::error::Error;
+use crate::twins::Twin;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::solve::{self, Objective};
-use servoid_identify::diagnose::{self, Budget, Diagnosis, Suggestion};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, HeldOut, Suggestion};
 use servoid_identify::fit::{Fit, Options};
 use servoid_identify::{Diagnosed, Progress, bounded_problem, diagnose_data, identify_data};
 use servoid_results::report::diagnosis::DiagnosisReport;
@@ -168,6 +169,34 @@ pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
         Some(id) if !interrupted => suggest(bench, id),
         _ => Ok(()),
     }
+}
+
+/// Twins of a motor that are diagnosed.
+pub(super) const TWINS: usize = 20;
+
+/// Diagnoses twins of a model, and says what was named in them as they come.
+pub(super) fn twins(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
+    let (recordings, candidate) = {
+        let state = bench.state();
+        (state.recordings()?, state.model(id)?.fit.candidate)
+    };
+    let (fitted, held_out) = match recordings.kind() {
+        HeldOut::Recording(_) => {
+            let (fitted, held_out) = recordings.parts();
+            (fitted, Some(held_out))
+        }
+        HeldOut::End { .. } | HeldOut::Nothing => (recordings.shown(), None),
+    };
+    let twin = Twin::of(&candidate, fitted, held_out)?;
+    let watched = Watched::new(bench, fitted.len());
+    twin.diagnosed(TWINS, 1, &watched, |found| {
+        bench.change(|state| {
+            if state.model(id).is_ok() {
+                state.twins.insert(id, found.clone());
+            }
+        });
+    })?;
+    Ok(())
 }
 
 /// The models of a diagnosis' steps, from the linear motor on.

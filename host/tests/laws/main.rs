@@ -17,6 +17,8 @@ mod plans;
 mod position_drives;
 mod quick_costs;
 mod reader_laws;
+mod signatures;
 mod threads;
 mod unexcited_recordings;
+mod vendored;
 mod whole_files;

@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `body` | words, tables and pictures as HTML |
-//! | `assets` | style and scripts; plotly itself comes from its crate |
+//! | `assets` | style and scripts; plotly's own script, vendored |
 
 pub mod assets;
 mod body;
@@ -95,7 +95,11 @@ impl Page {
             "<script type=\"application/json\" id=\"drawings\">{}</script>\n",
             inside_script(&drawings(&self.sections))
         );
-        for script in [assets::plotly(), assets::PLOTS, assets::REPORT] {
+        out += &format!(
+            "<script type=\"text/plain\" id=\"plotly\">{}</script>\n",
+            assets::packed_plotly()
+        );
+        for script in [assets::PLOTS, assets::REPORT] {
             out += &format!("<script>{script}</script>\n");
         }
         out += "</body>\n</html>\n";

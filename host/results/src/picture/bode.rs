@@ -21,7 +21,7 @@ pub fn bode(id: &str, loops: &[(String, Loop)]) -> Picture {
         let width = 1.5 + 1.2 * (loops.len() - 1 - k) as f64;
         let line = || {
             Line::new()
-                .color(colour::of(k))
+                .color(colour::of(loops.len() - 1 - k))
                 .width(width)
                 .simplify(false)
         };

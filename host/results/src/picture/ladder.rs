@@ -2,7 +2,7 @@
 
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::report::diagnosis::bars::counts;
-use plotly::common::{DashType, Line, Marker, Mode};
+use plotly::common::{DashType, Line, Marker, Mode, TextPosition};
 use plotly::layout::{AxisType, Shape, ShapeLine, ShapeType};
 use plotly::{Bar, Plot, Scatter};
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -22,23 +22,31 @@ pub struct LadderBar {
 pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
     let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
     let mut plot = Plot::new();
-    let mut bars = |name: &str, colour: &'static str, of: fn(&LadderBar) -> Option<f64>| {
+    // The first and the last model have their colours; how full they are tells what was fitted.
+    let colours: Vec<&str> = (0..entries.len())
+        .map(|k| match k {
+            _ if k + 1 == entries.len() => colour::MODEL,
+            0 => colour::BASE,
+            _ => colour::QUIET,
+        })
+        .collect();
+    let mut bars = |name: &str, full: f64, of: fn(&LadderBar) -> Option<f64>| {
         if entries.iter().any(|entry| of(entry).is_some()) {
             let values: Vec<Option<f64>> = entries.iter().map(|r| of(r).map(rounded)).collect();
             let shown = entries.iter().map(|r| of(r).map_or(String::new(), counts));
             plot.add_trace(
                 Bar::new(names.clone(), values)
                     .name(name)
-                    .marker(Marker::new().color(colour))
+                    .marker(Marker::new().color_array(colours.clone()))
+                    .opacity(full)
+                    .text_position(TextPosition::Outside)
                     .text_array(shown.collect())
                     .hover_template("%{x}: %{text} counts RMS"),
             );
         }
     };
-    bars("fitted recording", colour::MEASURED, |entry| entry.fitted);
-    bars("held out, never fitted", colour::MODEL, |entry| {
-        entry.held_out
-    });
+    bars("fitted (pale)", 0.45, |entry| entry.fitted);
+    bars("held out, never fitted (full)", 1.0, |entry| entry.held_out);
     plot.add_trace(
         Scatter::new(names.clone(), vec![rounded(FLOOR_RMS_COUNTS); names.len()])
             .name("what the encoder alone leaves")

@@ -35,8 +35,8 @@ pub fn orders(id: &str, model: &str, spectrum: &Spectrum, named: &[usize]) -> Op
         "of the missing, %",
     ]);
     for (name, lines, sign, colour) in [
-        ("forward", &spectrum.forward, 1.0, colour::MEASURED),
-        ("backward", &spectrum.backward, -1.0, colour::MODEL),
+        ("forward", &spectrum.forward, 1.0, colour::MODEL),
+        ("backward", &spectrum.backward, -1.0, colour::QUIET),
     ] {
         let mut lines: Vec<&Line> = (lines.iter())
             .filter(|line| drawn.contains(&line.order))

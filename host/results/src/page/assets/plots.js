@@ -203,7 +203,7 @@ const servoid = (() => {
       type: "scatter", mode: "lines", name, yaxis: axis[lane], line: { color: colour, width: 1.5 }, ...extra,
       ...thinned(time, values, from, to, blocks),
     });
-    const traces = [line(found.measured, "measured", "#0072b2", "angle", { line: { color: "#0072b2", width: 4 } })];
+    const traces = [line(found.measured, "measured", "#7f8790", "angle", { line: { color: "#7f8790", width: 6 }, opacity: 0.6 })];
     for (const run of found.runs) traces.push(line(run.model, run.name, run.colour, "angle", { legendgroup: run.name }));
     for (const run of found.runs) {
       traces.push(line(run.residual, `${run.name} less measured`, run.colour, "residual", { legendgroup: run.name, showlegend: false }));

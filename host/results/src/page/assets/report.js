@@ -2,12 +2,26 @@
 "use strict";
 {
   const drawings = JSON.parse(document.getElementById("drawings").textContent);
-  const draw = (div) => {
-    if (div.dataset.drawn) return Promise.resolve();
-    div.dataset.drawn = "yes";
-    return servoid.draw(div, drawings[div.id]);
-  };
   const divs = Array.from(document.querySelectorAll(".plot"));
+
+  // What draws is packed, or it would be most of the page.
+  const ready = (async () => {
+    const packed = Uint8Array.from(atob(document.getElementById("plotly").textContent), (c) => c.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const script = document.createElement("script");
+    script.textContent = await new Response(stream).text();
+    document.head.append(script);
+  })();
+  ready.catch((error) => divs.forEach((div) => {
+    div.textContent = `This browser cannot draw here (${error.message}): open the page in a newer one. The numbers are beneath.`;
+  }));
+
+  const draw = async (div) => {
+    if (div.dataset.drawn) return;
+    div.dataset.drawn = "yes";
+    await ready;
+    await servoid.draw(div, drawings[div.id]);
+  };
   const seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {
       if (entry.isIntersecting) {

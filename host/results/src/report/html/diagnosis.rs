@@ -1,7 +1,9 @@
 //! The page of a diagnosis.
 
 use super::fit::{model, named};
-use super::{Model, Recordings, failing, no_recording, parameters, recording_facts, timelines};
+use super::{
+    Model, Recordings, failing, found, no_recording, parameters, recording_facts, timelines,
+};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, LadderBar, Table};
@@ -29,7 +31,11 @@ pub(super) fn page(diagnosis: &Diagnosis, recordings: Recordings<'_>) -> Result<
     } else {
         vec![base, last]
     };
-    let mut sections = vec![ladder(diagnosis), seen(diagnosis, recordings, &models)?];
+    let mut sections = vec![
+        ladder(diagnosis),
+        found(&diagnosis.last.parameters),
+        seen(diagnosis, recordings, &models)?,
+    ];
     sections.extend(named_effects(diagnosis));
     sections.push(next(diagnosis));
     if let Some(data) = recordings.fitted {

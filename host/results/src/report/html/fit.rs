@@ -1,6 +1,8 @@
 //! The page of a fit.
 
-use super::{Model, Recordings, failing, no_recording, parameters, recording_facts, timelines};
+use super::{
+    Model, Recordings, failing, found, no_recording, parameters, recording_facts, timelines,
+};
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Drawing, LadderBar, Picture, Table};
@@ -24,7 +26,7 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
     } else {
         seen.blocks.push(Block::Text(no_recording(&fit.recording)));
     }
-    let mut sections = vec![seen];
+    let mut sections = vec![found(&fit.parameters), seen];
     if fit.ladder.len() > 1 {
         let mut ladder = Section::new("ladder", "What each effect brings");
         ladder.blocks.push(Block::Picture(picture::ladder(

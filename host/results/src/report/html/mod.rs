@@ -25,7 +25,7 @@ pub use belongs::doubts;
 pub use failing::{Model, failing};
 
 use crate::error::Error;
-use crate::number_text::rough;
+use crate::number_text::{rough, short};
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Drawing, Estimates, Picture, Run, Table};
 use crate::schema::{Document, Estimate};
@@ -107,6 +107,32 @@ fn timelines(
     }
     Ok(blocks)
 }
+
+/// The parameters in one table, for who reads no further.
+fn found(parameters: &[Estimate]) -> Section {
+    let mut table = Table::new(&["parameter", "value", "± (95 %)", "unit"]);
+    for p in parameters {
+        let wide = match (p.std, p.at_bound) {
+            (_, true) => "at a bound of its search".to_owned(),
+            (Some(std), _) if p.identifiable => short(SURE * std),
+            (None, _) if p.identifiable => "known".to_owned(),
+            _ => "not determined".to_owned(),
+        };
+        let value = if p.identifiable {
+            short(p.value)
+        } else {
+            "-".to_owned()
+        };
+        table.row([p.name.clone(), value, wide, p.unit.clone()]);
+    }
+    let mut section = Section::new("found", "The motor");
+    let caption = "Parameters of the last model".to_owned();
+    section.blocks.push(Block::Table(caption, table));
+    section
+}
+
+/// Half the width of an interval of 95 %, standard errors.
+const SURE: f64 = 1.96;
 
 /// Parameters with their intervals, notes on them, and position loops.
 fn parameters(

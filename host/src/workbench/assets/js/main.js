@@ -77,6 +77,7 @@ const does = {
   lock: (effect, locked) => act("lock", { effect, locked }),
   suggest: () => work({ what: "suggest", model: bench.chosen }),
   diagnose: () => work({ what: "diagnose" }),
+  twins: (id) => work({ what: "twins", model: id }),
   reveal: () => act("reveal", {}),
   race: (algorithms, effects, budget, seeds) => work({ what: "race", algorithms, effects, budget, seeds }),
   preview: () => {
@@ -100,6 +101,17 @@ const does = {
   },
   remove: (id) => act("remove", { model: id }),
   exports: () => exports.show(bench, say),
+  role: async (k, role, of) => {
+    const roles = of.recording.sources.map((one, place) => (place === k ? role : one.role));
+    if (!await putAway()) return;
+    const effects = model(bench.chosen)?.effects ?? [];
+    try {
+      await ask("roles", { roles });
+      await work({ what: "fit", effects, algorithm: "lm" });
+    } catch (fault) {
+      say(fault);
+    }
+  },
   view: (held) => {
     heldOut = held;
     show();
@@ -211,10 +223,11 @@ function showWork() {
   }
   if (!began || at("work-what").dataset.job !== job) began = performance.now();
   at("work-what").dataset.job = job;
-  const titles = { fit: "Fitting", suggest: "Testing what is missing", diagnose: "Finding everything that is missing", race: "Racing searches" };
+  const titles = { fit: "Fitting", suggest: "Testing what is missing", diagnose: "Finding everything that is missing", race: "Racing searches", twins: "Trying motors like yours" };
   at("work-what").textContent = job === "fit" && tried !== null ? titles.suggest : titles[job] ?? job;
   const bar = at("work-bar");
-  if (tried !== null && job !== "diagnose") bar.value = Math.min(0.98, tried / USUALLY_TRIED);
+  if (job === "twins" && bench.twins) bar.value = bench.twins.tried / bench.twins.of;
+  else if (tried !== null && job !== "diagnose" && job !== "twins") bar.value = Math.min(0.98, tried / USUALLY_TRIED);
   else bar.removeAttribute("value");
   const seconds = ((performance.now() - began) / 1000).toFixed(0);
   at("progress").textContent = `${lastSaid ? `${lastSaid} · ` : ""}${seconds} s`;
@@ -224,7 +237,7 @@ setInterval(() => bench?.job && showWork(), 500);
 function progress(what) {
   if (what.tried !== undefined) {
     ({ tried } = what);
-    lastSaid = what.job === "diagnose" ? `${tried} models tried` : `${tried} of about ${Math.max(USUALLY_TRIED, tried)} models`;
+    lastSaid = ["diagnose", "twins"].includes(what.job) ? `${tried} models tried` : `${tried} of about ${Math.max(USUALLY_TRIED, tried)} models`;
   } else {
     tried = null;
     const name = what.algorithm ? `${what.algorithm}: ` : "";

@@ -217,9 +217,27 @@ function foot(bench, chosen, does) {
       () => does.fit(chosen.effects.filter((other) => other !== effect)), { class: "btn link", disabled: Boolean(bench.job) }))));
   }
   parts.push(el("p", { class: "row" }, button("Find everything that is missing", does.diagnose, { id: "diagnose", disabled: Boolean(bench.job) })));
+  if (chosen.effects.length) parts.push(twins(bench, chosen, does));
   if (bench.secret) {
     parts.push(bench.secret.told === null ? el("p", {}, button("Reveal what is hidden", does.reveal, { id: "reveal" })) : null,
       el("p", { id: "secret", role: "status" }, bench.secret.told === null ? "" : `Hidden was ${bench.secret.told}`));
   }
   return el("div", { class: "foot" }, ...parts);
+}
+
+// How far the name can be trusted: what is named in motors like this one.
+function twins(bench, chosen, does) {
+  const found = bench.twins;
+  const goes = bench.job === "twins";
+  if (!found && !goes) {
+    return el("p", { class: "row" }, button("Try it on motors like yours", () => does.twins(chosen.id), {
+      id: "twins", disabled: Boolean(bench.job), title: "20 motors of the virtual bench with these constants and effects, driven and read as yours was",
+    }));
+  }
+  const { tried, same, of, others } = found ?? { tried: 0, same: 0, of: 20, others: {} };
+  const rest = Object.entries(others).sort((a, b) => b[1] - a[1]).map(([names, count]) => `${count} × ${spoken(names)}`);
+  return el("div", { id: "twins-found" },
+    tried === 0 ? el("p", { class: "quiet" }, "Diagnosing motors like yours …") : el("p", {}, el("span", { class: "strong" }, `In ${same} of ${tried}`), ` motors like yours ${chosen.effects.length === 1 ? "this effect alone is" : "just these effects are"} named.`,
+      tried < of && goes ? el("span", { class: "quiet" }, ` ${of - tried} to go.`) : null),
+    rest.length ? el("p", { class: "quiet s12" }, `Named in the others: ${rest.join(", ")}.`) : null);
 }

@@ -3,6 +3,8 @@
 import { at, el } from "./elements.js";
 import { digits } from "./numbers.js";
 
+const ROLES = ["fitted", "held out", "ignored"];
+
 /** A chip for each; `does.view` shows those of a role. */
 export function show(bench, heldOut, does) {
   const { recording } = bench;
@@ -12,12 +14,19 @@ export function show(bench, heldOut, does) {
     at("about").textContent = "";
     return;
   }
-  at("recordings").replaceChildren(...recording.sources.map((one) => {
+  at("recordings").replaceChildren(...recording.sources.map((one, k) => {
     const held = one.role === "held out";
-    return el("li", {}, el("button", {
-      type: "button", class: "rec", "aria-pressed": String(held === heldOut), title: `Show ${one.name} along the models`, onclick: () => does.view(held),
-    }, el("b", {}, one.name), el("span", { class: "quiet s12 len" }, `${digits(one.seconds, 3)} s · ${rate(one)}`),
-    el("span", { class: `role ${one.role}` }, one.role)));
+    const name = one.name.split(/[\\/]/).at(-1);
+    return el("li", { class: `rec ${one.role}`, "data-shown": String(held === heldOut && one.role !== "ignored") },
+      el("button", {
+        type: "button", "aria-pressed": String(held === heldOut && one.role !== "ignored"), title: `Show ${one.name} along the models`,
+        disabled: one.role === "ignored", onclick: () => does.view(held),
+      }, el("b", {}, name), el("span", { class: "quiet s12 len" }, `${digits(one.seconds, 3)} s · ${rate(one)}`)),
+      el("select", { class: `role ${one.role.replace(" ", "_")}`, "aria-label": `Role of ${name}`, disabled: Boolean(bench.job), onchange: (event) => {
+        does.role(k, event.target.value, bench).finally(() => {
+          event.target.value = one.role;
+        });
+      } }, ...ROLES.map((role) => el("option", { value: role, selected: role === one.role }, role))));
   }));
   const end = recording.held_out_from_s === null || recording.held_out === null ? "" : ` · from ${digits(recording.held_out_from_s, 3)} s held out`;
   at("about").textContent = `${digits(recording.supply_v, 3)} ${recording.drive_unit} · ${recording.counts_per_rev} counts/rev${end}`;

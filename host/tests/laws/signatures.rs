@@ -1,0 +1,110 @@
+//! What the workbench draws of an effect: its own equation goes through what the recording asks for, for every effect that a quantity
+//! tells; and a right model stays within the band of its cumulative error, which a wrong one leaves.
+
+use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
+use servoid_identify::diagnose::residual_analysis::{cumulative, signature, without};
+use servoid_identify::truth;
+use servoid_io::showcase;
+use servoid_plant::Hidden;
+use shared::effects::{EffectSet, Kind};
+
+/// The bench's recording with an effect hidden in it, and the model that is true of it.
+fn recorded(hidden: &Hidden, seed: u64) -> (Data, Candidate, Kind) {
+    let machine = showcase::machine();
+    let recording = showcase::record(hidden, seed, "bench").expect("a recording");
+    let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
+    let mut effects = EffectSet::default();
+    effects
+        .push(kind, &hidden.truth(&machine, showcase::COUNTS_PER_REV))
+        .expect("a valid effect");
+    let candidate = Candidate {
+        machine: truth::physical(&machine).machine(),
+        effects,
+        start_speed: 0.0,
+        start_offset: 0.0,
+    };
+    (Data::new(&recording).expect("data"), candidate, kind)
+}
+
+/// Effects whose volts go with no quantity that can be drawn: they pass by, or are no volts at all.
+const NOT_DRAWN: [&str; 6] = [
+    "backlash",
+    "compliance",
+    "delay",
+    "enc_ecc",
+    "lugre",
+    "missed_counts",
+];
+
+#[test]
+fn the_equation_of_an_effect_goes_through_what_the_recording_asks_for() {
+    let machine = showcase::machine();
+    for &kind in Kind::ALL {
+        for seed in [1, 2] {
+            let hidden = Hidden::typical(kind.name(), &machine).expect("an effect");
+            let (data, candidate, kind) = recorded(&hidden, seed);
+            let name = kind.name();
+            let Some(found) = signature(&data, &candidate, kind) else {
+                assert!(
+                    NOT_DRAWN.contains(&name),
+                    "{name} is not drawn, seed {seed}"
+                );
+                continue;
+            };
+            assert!(!NOT_DRAWN.contains(&name), "{name} is drawn");
+            let most = found
+                .curve
+                .iter()
+                .fold(0.0f64, |most, p| most.max(p.1.abs()));
+            // Where the curve is level, and in bins that it covers.
+            let mut off: Vec<f64> = (found.bins.iter())
+                .filter_map(|bin| {
+                    let inside = found
+                        .curve
+                        .iter()
+                        .filter(|p| (bin.low..=bin.high).contains(&p.0));
+                    let within: Vec<f64> = inside.map(|p| p.1).collect();
+                    let mean = within.iter().sum::<f64>() / within.len() as f64;
+                    (within.len() > 1).then(|| (bin.mean_v - mean).abs() / most)
+                })
+                .collect();
+            off.sort_by(f64::total_cmp);
+            let median = off.get(off.len() / 2).copied().unwrap_or(f64::INFINITY);
+            println!(
+                "{name}, seed {seed}: {:?} off by {median:.3} of {most:.4} V",
+                found.axis
+            );
+            assert!(median < 0.2, "{name}, seed {seed}: {off:?}");
+        }
+    }
+}
+
+#[test]
+fn a_right_model_stays_within_the_band_and_a_wrong_one_leaves_it() {
+    let hidden = Hidden::typical("coulomb", &showcase::machine()).expect("an effect");
+    let mut outside = 0;
+    for seed in 1..=30 {
+        let (data, candidate, kind) = recorded(&hidden, seed);
+        let leaves = |candidate: &Candidate| {
+            let found = cumulative(&data, candidate, Method::default()).expect("it runs");
+            found.map(|curve| {
+                let points = curve.share.iter().zip(&curve.band);
+                let beyond = points.map(|(share, [low, high])| (low - share).max(share - high));
+                beyond.fold(0.0f64, f64::max)
+            })
+        };
+        let right = leaves(&candidate);
+        let wrong = leaves(&without(&candidate, kind));
+        println!("seed {seed}: right {right:?}, wrong {wrong:?}");
+        outside += usize::from(right.iter().any(|beyond| *beyond > 0.01));
+        assert!(
+            wrong.iter().any(|beyond| *beyond > 0.05),
+            "seed {seed}: {wrong:?}"
+        );
+    }
+    assert!(
+        outside <= 2,
+        "{outside} of 30 right models leave the band by more than 1 %"
+    );
+}
