@@ -50,6 +50,7 @@ pub(super) fn files() -> Vec<File> {
         file!(SCRIPT, "js/error.js"),
         file!(SCRIPT, "js/exports.js"),
         file!(SCRIPT, "js/failing.js"),
+        file!(SCRIPT, "js/gallery.js"),
         file!(SCRIPT, "js/keyboard.js"),
         file!(SCRIPT, "js/ladder.js"),
         file!(SCRIPT, "js/lanes.js"),

@@ -12,6 +12,7 @@
 //! | `preview` | the first rows of a file, and which column may be what |
 //! | `shown`, `proposals`, `sliders` | what the page says |
 //! | `series`, `failing`, `details`, `drawings` | what it draws: lanes, where models fail, tabs, each made once |
+//! | `catalogue` | every effect's signature |
 //! | `files` | the files of the page |
 //! | `session_file` | the bench as a file |
 //! | `download` | what may be taken away as a file |
@@ -25,6 +26,7 @@
 mod answer;
 mod begun;
 mod blind;
+mod catalogue;
 mod details;
 mod download;
 mod drawings;

@@ -8,7 +8,7 @@ use super::job::Watch;
 use super::opened::{demo, free, motor, recording, roles, session};
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
-use super::{details, download, failing, guard, series, shown, sliders};
+use super::{catalogue, details, download, failing, guard, series, shown, sliders};
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Path, Query, State};
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -41,6 +41,7 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/events", get(events))
         .route("/details/{tab}", get(details))
         .route("/failing", get(failing))
+        .route("/catalogue", get(catalogue))
         .route("/series/{what}", get(series::of_recording))
         .route("/series/model/{id}", get(series::of_model))
         .route("/series/proposal/{id}/{effect}", get(series::of_proposal))
@@ -107,6 +108,13 @@ async fn details(State(bench): Shared, Path(tab): Path<String>) -> Answer {
 /// Where the chosen model fails, and the one beside it.
 async fn failing(State(bench): Shared) -> Answer {
     drawn(&bench, "failing", failing::of).await
+}
+
+/// The effects that servoid knows, with their signatures; drawn once.
+async fn catalogue(State(bench): Shared) -> Answer {
+    let draw = aside(catalogue::effects);
+    let found = bench.drawings.get("catalogue".to_owned(), draw).await?;
+    Ok(Json((*found).clone()))
 }
 
 /// What is drawn of the models that are looked at: found once, however many ask for it.

@@ -6,6 +6,7 @@ import * as details from "./details.js";
 import { at, el } from "./elements.js";
 import * as error from "./error.js";
 import * as exports from "./exports.js";
+import * as gallery from "./gallery.js";
 import * as keyboard from "./keyboard.js";
 import * as ladder from "./ladder.js";
 import * as lanes from "./lanes.js";
@@ -152,7 +153,10 @@ function show() {
   showWork();
   if (recording && !recording.sources.some((one) => one.role === "held out")) heldOut = false;
   recordings.show(bench, heldOut, does);
-  if (!recording) return;
+  if (!recording) {
+    gallery.show().catch(say);
+    return;
+  }
   if (!model(bench.against)) comparing = false;
   proposals.show(bench, does);
   if (proposals.preview() === null) proposals.previewOpen();

@@ -1,0 +1,44 @@
+//! What each effect of the catalogue leaves in a recording, for a bench on which nothing lies yet: drawn of the virtual bench's motor.
+
+use super::proposals::drawn;
+use crate::error::Error;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use servoid_engine::problem::{Candidate, Data};
+use servoid_identify::diagnose::residual_analysis::signature;
+use servoid_identify::truth;
+use servoid_io::showcase;
+use servoid_plant::Hidden;
+use shared::effects::{EffectSet, Kind};
+
+/// Every effect with its signature, if a quantity tells it.
+///
+/// # Errors
+/// A bench that does not run.
+pub(super) fn effects() -> Result<Value, Error> {
+    let entries: Result<Vec<Value>, Error> =
+        Kind::ALL.par_iter().map(|&kind| entry(kind)).collect();
+    Ok(Value::Array(entries?))
+}
+
+fn entry(kind: Kind) -> Result<Value, Error> {
+    let machine = showcase::machine();
+    let hidden = Hidden::typical(kind.name(), &machine)?;
+    let recording = showcase::record(&hidden, 1, kind.name())?;
+    let mut effects = EffectSet::default();
+    effects.push(kind, &hidden.truth(&machine, showcase::COUNTS_PER_REV))?;
+    let candidate = Candidate {
+        machine: truth::physical(&machine).machine(),
+        effects,
+        start_speed: 0.0,
+        start_offset: 0.0,
+    };
+    let found = signature(&Data::new(&recording)?, &candidate, kind);
+    let description = kind.description();
+    Ok(json!({
+        "effect": kind.name(),
+        "title": description.title,
+        "said": description.signature,
+        "signature": found.as_ref().map(drawn),
+    }))
+}
