@@ -5,6 +5,7 @@ use crate::error::Error;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
 use servoid_identify::diagnose::residual_analysis::signature;
 use servoid_identify::truth;
 use servoid_io::showcase;
@@ -33,7 +34,7 @@ fn entry(kind: Kind) -> Result<Value, Error> {
         start_speed: 0.0,
         start_offset: 0.0,
     };
-    let found = signature(&Data::new(&recording)?, &candidate, kind);
+    let found = signature(&Data::new(&recording)?, &candidate, kind, Method::default());
     let description = kind.description();
     Ok(json!({
         "effect": kind.name(),

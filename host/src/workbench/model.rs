@@ -182,7 +182,7 @@ impl Model {
         let (data, _) = recordings.parts();
         let errors = whole(data, &fit.candidate, fit.method).ok();
         let white = errors.and_then(|errors| whiteness(data, &errors));
-        let drawn = |&kind: &Kind| Some((kind, signature(data, &fit.candidate, kind)?));
+        let drawn = |&kind: &Kind| Some((kind, signature(data, &fit.candidate, kind, fit.method)?));
         let signatures = Arc::new(effects.iter().filter_map(drawn).collect());
         Model {
             id: 0,

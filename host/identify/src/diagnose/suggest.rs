@@ -77,7 +77,7 @@ pub fn suggest(
         list.push(Suggestion {
             effect,
             evidence: evidence::sentence(effect, &values, &missing),
-            signature: signature(data, &model.candidate, effect),
+            signature: signature(data, &model.candidate, effect, model.method),
             p_value: judge::p_value(data, &parent, &model),
             believed: judge::removes(&parent, &model),
             model,

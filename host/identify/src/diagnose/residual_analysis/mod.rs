@@ -126,15 +126,21 @@ fn perfect_volts(
     if !data.quantised {
         return Ok(0.0);
     }
-    let mut own = data.clone();
-    let simulation = Simulation::new(data, complete, method)?;
-    for segment in segments(data, complete, &Horizon::Whole, StartAngle::Free) {
-        simulation.run(Mode::Free, &segment, &mut own.counts);
-    }
+    let mut own = simulated(data, complete, method)?;
     for sight in &mut own.counts {
         *sight = sight.floor();
     }
     Ok(rms(&equation_residuals(&own, complete, time)))
+}
+
+/// The recording as a model makes it: its angles in place of the readings.
+fn simulated(data: &Data, candidate: &Candidate, method: Method) -> Result<Data, Error> {
+    let mut own = data.clone();
+    let simulation = Simulation::new(data, candidate, method)?;
+    for segment in segments(data, candidate, &Horizon::Whole, StartAngle::Free) {
+        simulation.run(Mode::Free, &segment, &mut own.counts);
+    }
+    Ok(own)
 }
 
 fn free_run(data: &Data, candidate: &Candidate, method: Method) -> Result<Vec<Part>, Error> {

@@ -1,8 +1,10 @@
-//! What one effect takes of the drive along the measured motion: the catalogue's equation with fitted values, through the filter of the
-//! residual.
+//! What one effect takes of the drive along a motion.
 
+use super::simulated;
+use crate::error::Error;
 use crate::fit::scores::{EquationResidual, equation_residuals};
 use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
 use shared::effects::{EffectSet, Kind};
 
 /// The model less one effect.
@@ -20,34 +22,33 @@ pub fn without(candidate: &Candidate, kind: Kind) -> Candidate {
     }
 }
 
-/// The volts that the model without an effect misses along the motion, sample by sample, and how many of them the effect accounts for.
+/// The volts that the model without an effect misses, along the measured motion and along the model's own.
 pub struct OwnVolts {
-    /// What the model without the effect misses, V.
+    /// Along the measured motion, V: the effect's, and whatever else is missing.
     pub missing: Vec<EquationResidual>,
-    /// The effect's part of them: at the same samples, as `missing` would be if nothing else were missing, V.
+    /// Along the motion of the model with the effect, V: the effect's alone, whichever state of it no recording shows.
     pub own: Vec<EquationResidual>,
 }
 
 impl OwnVolts {
     /// Of one effect of `candidate`, filtered with `time`, s.
-    pub fn of(data: &Data, candidate: &Candidate, kind: Kind, time: f64) -> Self {
-        let missing = equation_residuals(data, &without(candidate, kind), time);
-        let mut left = equation_residuals(data, candidate, time)
-            .into_iter()
-            .peekable();
-        let (mut kept, mut own) = (Vec::new(), Vec::new());
-        // A model with friction leaves out samples at which the shaft may be held.
-        for residual in missing {
-            while left.next_if(|left| left.sample < residual.sample).is_some() {}
-            let Some(left) = left.next_if(|left| left.sample == residual.sample) else {
-                continue;
-            };
-            own.push(EquationResidual {
-                volts: residual.volts - left.volts,
-                ..residual
-            });
-            kept.push(residual);
-        }
-        OwnVolts { missing: kept, own }
+    ///
+    /// # Errors
+    /// Where the model cannot run.
+    pub fn of(
+        data: &Data,
+        candidate: &Candidate,
+        kind: Kind,
+        method: Method,
+        time: f64,
+    ) -> Result<Self, Error> {
+        let bare = without(candidate, kind);
+        let mut run = simulated(data, candidate, method)?;
+        // Its angles are no counts.
+        run.quantised = false;
+        Ok(OwnVolts {
+            missing: equation_residuals(data, &bare, time),
+            own: equation_residuals(&run, &bare, time),
+        })
     }
 }

@@ -1,17 +1,20 @@
-//! The signature of an effect: the volts that the motor asked for without it, against the quantity with which the effect goes, and the
-//! catalogue's own equation over the same motion.
+//! The signature of an effect: the volts that the motor asked for without it, against the quantity with which the effect goes, and those
+//! that the model with the effect asks for over its own run under the same commands: the catalogue's own equation, states and all.
 
 use super::bins::{Against, Bin, Map, independent_of, points};
 use super::own_volts::OwnVolts;
 use crate::fit::scores::EquationResidual;
 use core::f64::consts::TAU;
 use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
 use shared::effects::Kind;
 
 /// Filter time of the volts, sample intervals: as of the residual's maps.
 const FILTER_SAMPLES: f64 = super::FILTER_SAMPLES;
 /// Share of an effect's volts that its quantity must explain, or it is not drawn.
-const TOLD: f64 = 0.4;
+const TOLD: f64 = 0.3;
+/// What is told against the motion counts for this part.
+const TURNED: f64 = 0.5;
 /// A wave that passes in less than so many filter times is not seen, rad.
 const SEEN: f64 = 0.5;
 /// Bins of the angle within one wave.
@@ -43,9 +46,17 @@ pub struct Signature {
 }
 
 /// The signature of `kind` within `candidate`; `None` where no quantity tells it, as of a delay.
-pub fn signature(data: &Data, candidate: &Candidate, kind: Kind) -> Option<Signature> {
+pub fn signature(
+    data: &Data,
+    candidate: &Candidate,
+    kind: Kind,
+    method: Method,
+) -> Option<Signature> {
+    if kind.facts().by_chance {
+        return None;
+    }
     let time = FILTER_SAMPLES * data.units.interval;
-    let volts = OwnVolts::of(data, candidate, kind, time);
+    let volts = OwnVolts::of(data, candidate, kind, method, time).ok()?;
     let machine = &candidate.machine;
     let values = candidate
         .effects
@@ -65,8 +76,10 @@ pub fn signature(data: &Data, candidate: &Candidate, kind: Kind) -> Option<Signa
     }
     let told = |against: Against| {
         let map = Map::new(against, data, machine, &volts.own, 0.0)?;
+        // Against the motion everything that brakes is level: that is looked at where nothing else tells.
+        let share = map.share * if against.turned() { TURNED } else { 1.0 };
         // A quantity is as good as the first of the list that tells about as much.
-        Some((against, (map.share * 20.0).round()))
+        Some((against, (share * 20.0).round()))
     };
     let (against, share) = Against::ALL
         .into_iter()

@@ -11,9 +11,12 @@ export async function show() {
   if (asked) return;
   asked = true;
   const effects = await ask("catalogue");
-  at("gallery").replaceChildren(...effects.map((one) => el("li", { title: one.said },
-    signature(one.signature && { ...one.signature, bins: [] }, { width: 90, height: 56, stroke: "var(--ink)" }),
-    el("p", { class: "s12" }, one.effect.replace(/_/g, " ")),
-    el("p", { class: "dim s11" }, one.signature ? `by ${one.signature.against}` : "over time"))));
+  const drawn = effects.filter((one) => one.signature);
+  const name = (one) => one.effect.replace(/_/g, " ");
+  at("gallery").replaceChildren(...drawn.map((one) => el("li", { title: one.said },
+    signature({ ...one.signature, bins: [] }, { width: 90, height: 56, stroke: "var(--ink)" }),
+    el("p", { class: "s12" }, name(one)), el("p", { class: "dim s11" }, `by ${one.signature.against}`))));
+  const others = effects.filter((one) => !one.signature).map(name);
+  at("gallery-others").textContent = `And what no single quantity shows: ${others.join(", ")}.`;
   at("gallery-count").textContent = `Each leaves its own mark on the residual. ${effects.length} are built in.`;
 }
