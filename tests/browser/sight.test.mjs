@@ -62,7 +62,7 @@ for (const [width, height] of [[1280, 900], [390, 844]]) {
       await page.click("#add");
       await settled(page, 2);
       await looked(page, `added-${width}-${colorScheme}`);
-      for (const name of ["failing", "response", "clock", "limits", "hand", "searches", "log"]) {
+      for (const name of ["failing", "response", "clock", "limits", "remedy", "hand", "searches", "log"]) {
         await tab(page, name);
         await settled(page, 2);
         await page.waitForTimeout(300);

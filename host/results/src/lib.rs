@@ -10,6 +10,7 @@
 //! | `page`, `picture` | an HTML file of words, tables and interactive drawings |
 //! | `plot` | drawings as SVG |
 //! | `export` | what was found for other programs |
+//! | `remedy` | what knowing the effects is good for: a speed loop with and without their compensation |
 //! | `reference` | the JSON as JSON Schema |
 //! | `error` | why a result cannot be shown |
 #![forbid(unsafe_code)]
@@ -23,6 +24,7 @@ pub(crate) mod palette;
 pub mod picture;
 pub mod plot;
 pub mod reference;
+pub mod remedy;
 pub mod report;
 pub mod schema;
 

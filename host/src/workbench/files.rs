@@ -60,6 +60,7 @@ pub(super) fn files() -> Vec<File> {
         file!(SCRIPT, "js/proposals.js"),
         file!(SCRIPT, "js/pyramid.js"),
         file!(SCRIPT, "js/recordings.js"),
+        file!(SCRIPT, "js/remedy.js"),
         file!(SCRIPT, "js/searches.js"),
         file!(SCRIPT, "js/signature.js"),
         file!(SCRIPT, "js/sliders.js"),

@@ -12,6 +12,7 @@
 //! | `preview` | the first rows of a file, and which column may be what |
 //! | `shown`, `proposals`, `sliders` | what the page says |
 //! | `series`, `failing`, `details`, `drawings` | what it draws: lanes, where models fail, tabs, each made once |
+//! | `remedy` | a speed loop with and without what is known of the effects |
 //! | `catalogue` | every effect's signature |
 //! | `files` | the files of the page |
 //! | `session_file` | the bench as a file |
@@ -41,6 +42,7 @@ mod model;
 mod opened;
 mod preview;
 mod proposals;
+mod remedy;
 mod routes;
 mod series;
 mod server;

@@ -8,7 +8,7 @@ use super::job::Watch;
 use super::opened::{demo, free, motor, recording, roles, session};
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
-use super::{catalogue, details, download, failing, guard, series, shown, sliders};
+use super::{catalogue, details, download, failing, guard, remedy, series, shown, sliders};
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Path, Query, State};
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -42,6 +42,7 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/details/{tab}", get(details))
         .route("/failing", get(failing))
         .route("/catalogue", get(catalogue))
+        .route("/remedy", get(remedied))
         .route("/series/{what}", get(series::of_recording))
         .route("/series/model/{id}", get(series::of_model))
         .route("/series/proposal/{id}/{effect}", get(series::of_proposal))
@@ -115,6 +116,11 @@ async fn catalogue(State(bench): Shared) -> Answer {
     let draw = aside(catalogue::effects);
     let found = bench.drawings.get("catalogue".to_owned(), draw).await?;
     Ok(Json((*found).clone()))
+}
+
+/// The speed loop of the chosen model.
+async fn remedied(State(bench): Shared) -> Answer {
+    drawn(&bench, "remedy", remedy::of).await
 }
 
 /// What is drawn of the models that are looked at: found once, however many ask for it.

@@ -4,12 +4,13 @@ import { ask } from "./ask.js";
 import { value, variable } from "./colours.js";
 import { at, button, el } from "./elements.js";
 import * as failing from "./failing.js";
+import * as remedy from "./remedy.js";
 import * as searches from "./searches.js";
 import * as sliders from "./sliders.js";
 
 const TABS = [
-  ["failing", "Where it fails", fails], ["response", "Frequency response", drawn], ["clock", "Sample clock", drawn],
-  ["limits", "Not determined", drawn], ["hand", "By hand", byHand], ["searches", "Searches", searched], ["log", "Log", log],
+  ["failing", "Where it fails", fails], ["response", "Response", drawn], ["clock", "Clock", drawn],
+  ["limits", "Not determined", drawn], ["remedy", "Remedy", remedied], ["hand", "By hand", byHand], ["searches", "Searches", searched], ["log", "Log", log],
 ];
 
 let open = null;
@@ -111,6 +112,12 @@ function coloured(drawing, bench) {
   for (const [old, id] of pairs) text = text.replaceAll(new RegExp(`"${old}"`, "gi"), `"@${id}"`);
   for (const [, id] of pairs) text = text.replaceAll(`"@${id}"`, `"${value(variable(id))}"`);
   return JSON.parse(text);
+}
+
+async function remedied(name, bench, does, current) {
+  const place = el("div");
+  at("dock").replaceChildren(place);
+  await remedy.show(place, bench, does).catch((error) => current() && place.replaceChildren(el("p", { class: "quiet" }, error.message)));
 }
 
 async function byHand(name, bench, does) {

@@ -188,7 +188,11 @@ function draw() {
   lanes.compareScale(before || comparing ? null : roots[0]);
   lanes.legend(drawn, (one) => (one.values ? "moved by hand" : one.dashed ? `+ ${seen.effect}, foreseen` : nameOf(model(one.id))));
   at("open-key").hidden = true;
-  lanes.show(bench.recording, drawn, heldOut).then(drawnNow, say);
+  const own = bench.revision;
+  lanes.show(bench.recording, drawn, heldOut).then(drawnNow, (fault) => {
+    // What was asked for may be gone by now: then the next state draws.
+    setTimeout(() => bench.revision === own && say(fault), 300);
+  });
   const choices = parent && !comparing ? [["Before", true], ["After", false]] : [];
   at("compare").replaceChildren(...choices.map(([text, value]) => el("button", {
     type: "button", "aria-pressed": String(before === value), title: "Before and after (Space)", onclick: () => {

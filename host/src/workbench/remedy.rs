@@ -1,0 +1,40 @@
+//! The speed loop of the chosen model, before and after what is known of its effects.
+
+use super::state::Bench;
+use crate::error::Error;
+use serde_json::{Value, json};
+use servoid_results::export::{Side, Subject};
+use servoid_results::remedy::remedy;
+use servoid_results::schema::Identified;
+
+/// The loop in numbers, and its speeds.
+///
+/// # Errors
+/// A motor for which no loop can be designed.
+pub(super) fn of(bench: &Bench) -> Result<Value, Error> {
+    let (recordings, model) = {
+        let state = bench.state();
+        let id = state
+            .chosen
+            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
+        (state.recordings()?, state.model(id)?.clone())
+    };
+    let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
+    let text = model.json(&recordings)?.to_string();
+    let result = Identified::parse(&text).map_err(|error| failed(&error))?;
+    let subject =
+        Subject::new(&result, "the workbench", Side::Motor).map_err(|error| failed(&error))?;
+    let found = remedy(&subject, &model.fit.candidate, recordings.shown().units)?;
+    let forward = &found.feed_forward;
+    let [kp, ki] = found.gains;
+    let [before, after] = found.rms;
+    Ok(json!({
+        "kp": kp, "ki": ki,
+        "k_s": forward.k_s, "k_s_from": forward.k_s_from,
+        "k_g": forward.k_g, "k_g_from": forward.k_g_from,
+        "k_v": forward.k_v, "k_a": forward.k_a,
+        "by_angle": found.by_angle,
+        "time_s": found.time_s, "wanted": found.wanted, "before": found.before, "after": found.after,
+        "rms_before": before, "rms_after": after,
+    }))
+}
