@@ -197,6 +197,32 @@ test("a tree of models: away and back, compared, removed, undone; a slider moves
   await bench.end();
 });
 
+test("from answer to remedy, and motors like this one", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  await page.click("#add");
+  await settled(page, 2);
+  assert.equal(await page.locator("#explained").count(), 1);
+  // Friction that is known is compensated: the loop follows better.
+  await tab(page, "remedy");
+  await page.waitForSelector("#dock .remedy svg");
+  const remedy = await page.evaluate(async () => (await fetch("remedy")).json());
+  assert.ok(remedy.rms_before > 1.5 * remedy.rms_after, `${remedy.rms_before} to ${remedy.rms_after}`);
+  assert.ok(Math.abs(remedy.k_s - 0.36) < 0.01 && remedy.k_s_from === "coulomb", JSON.stringify([remedy.k_s, remedy.k_s_from]));
+  // Twins are diagnosed one after the other, and what was found stays when a hand stops it.
+  await page.click("#twins");
+  await page.waitForFunction(() => /In \d+ of [1-9]/.test(document.getElementById("twins-found")?.textContent ?? ""), null, { timeout: 120_000 });
+  await page.keyboard.press("Escape");
+  await settled(page, 2);
+  const { twins } = await state(page);
+  assert.ok(twins.tried >= 1 && twins.tried < twins.of && twins.same <= twins.tried, JSON.stringify(twins));
+  assert.match(await page.textContent("#fault"), /twins: stopped/);
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+  await bench.end();
+});
+
 test("a blind demonstration: find what is missing, then reveal it", async () => {
   const bench = await desk.bench("");
   const page = await open(chrome, bench.url);

@@ -130,6 +130,41 @@ test("runs of one motor are fitted together, on the command line, by dropping, a
   await empty.end();
 });
 
+test("recordings change their roles, and undo and a session know of it", async () => {
+  const bench = await desk.bench("rec.csv --validate other.csv --session roles.json");
+  const page = await open(chrome, bench.url);
+  await settled(page, 1);
+  const roles = async (page) => (await state(page)).recording.sources.map((one) => [one.name, one.role].join(" "));
+  const held = await error(page);
+  const give = async (k, role) => {
+    await page.selectOption(`.rec >> nth=${k} >> select`, role);
+    await page.click("#put-away-yes");
+    await page.waitForFunction(([k, role]) => document.querySelectorAll(".rec select")[k]?.value === role && document.getElementById("work").hidden, [k, role]);
+    await settled(page, 1);
+  };
+  // One that judges is shown along the models, too.
+  await page.click(".rec >> nth=1 >> button");
+  await page.waitForFunction(() => document.querySelectorAll(".rec")[1].dataset.shown === "true");
+  await give(1, "ignored");
+  assert.deepEqual(await roles(page), ["rec.csv fitted", "other.csv ignored"]);
+  assert.notEqual((await state(page)).recording.held_out_from_s, null);
+  // The only one that is fitted stays so.
+  await page.selectOption(".rec >> nth=0 >> select", "ignored");
+  await page.click("#put-away-yes");
+  await page.waitForFunction(() => document.getElementById("fault").textContent.includes("one recording at least must be fitted"));
+  await give(1, "held out");
+  assert.deepEqual(await roles(page), ["rec.csv fitted", "other.csv held out"]);
+  await page.context().close();
+  await bench.end();
+  const again = await desk.bench("roles.json");
+  const second = await open(chrome, again.url);
+  await settled(second, 1);
+  assert.deepEqual(await roles(second), ["rec.csv fitted", "other.csv held out"]);
+  assert.ok(Math.abs((await error(second)) / held - 1) < 0.01);
+  await second.context().close();
+  await again.end();
+});
+
 test("a second tab does not break the first, and a session is opened again as it was", async () => {
   const bench = await desk.bench("rec.csv --validate other.csv --session kept.json");
   const first = await open(chrome, bench.url);
