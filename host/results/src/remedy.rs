@@ -224,7 +224,7 @@ mod tests {
                 effects: vec![kind],
                 ..FitOptions::default()
             };
-            let fit = identify(&recording, None, &asked, &Silent::default()).expect("a fit");
+            let fit = identify(&recording, &asked, &Silent::default()).expect("a fit");
             let data = Data::new(&recording).expect("data");
             let json = serde_json::to_string(&schema::Fit::new(&fit, &data, None)).expect("JSON");
             let result = schema::Identified::parse(&json).expect("a result");

@@ -30,7 +30,7 @@ pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Erro
         "diagnosis" => {
             let state = bench.state();
             let diagnosis = state.diagnosis.as_ref().ok_or_else(|| {
-                Error::Usage("nothing is diagnosed yet; name what is missing first".to_owned())
+                Error::Usage("nothing is diagnosed yet; find what is missing first".to_owned())
             })?;
             named("servoid-diagnosis.json", pretty(diagnosis))
         }

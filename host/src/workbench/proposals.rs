@@ -7,9 +7,9 @@ use servoid_identify::diagnose::residual_analysis::{Axis, Signature};
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::cmp::Ordering;
 
-/// Held-out errors within this factor explain about equally, unless one of them is the encoder's own.
-const ABOUT: f64 = 3.0;
-/// The same next to the encoder's own error.
+/// Effects explain about equally if the logarithms of what they divide the held-out error by are within this part of the best one's.
+const ABOUT: f64 = 0.7;
+/// Next to the encoder's own error they do within this factor.
 const ABOUT_FLOOR: f64 = 1.15;
 /// What leaves more than this part of the model's error explains little.
 const LITTLE: f64 = 0.7;
@@ -18,7 +18,7 @@ const LITTLE: f64 = 0.7;
 pub(super) fn view(state: &State, id: usize) -> Option<Value> {
     let proposed = state.proposed.get(&id)?;
     let before = state.model(id).ok()?.fit.validate_rms_counts;
-    let list: Vec<Value> = ordered(proposed)
+    let list: Vec<Value> = ordered(proposed, before)
         .into_iter()
         .map(|suggestion| entry(state, suggestion, before))
         .collect();
@@ -26,16 +26,19 @@ pub(super) fn view(state: &State, id: usize) -> Option<Value> {
 }
 
 /// Those that explain about as much as the best come first, the fewest parameters before all; the rest by what they leave.
-fn ordered(proposed: &Proposed) -> Vec<&Suggestion> {
-    let held_out = |one: &Suggestion| one.model.judged().held_out;
+fn ordered(proposed: &Proposed, before: Option<f64>) -> Vec<&Suggestion> {
+    let held_out = |one: &Suggestion| one.model.validate_rms_counts;
     let best = (proposed.list.iter().map(held_out)).fold(f64::INFINITY, f64::min);
-    let about = if best <= ABOUT_FLOOR * FLOOR_RMS_COUNTS {
-        ABOUT_FLOOR
-    } else {
-        ABOUT
+    let before = before.unwrap_or(best).max(best);
+    let near = |one: &Suggestion| {
+        if best <= ABOUT_FLOOR * FLOOR_RMS_COUNTS {
+            held_out(one) <= ABOUT_FLOOR * best
+        } else {
+            (before / held_out(one)).ln() >= ABOUT * (before / best).ln()
+        }
     };
     let rank = |one: &Suggestion| {
-        let near = held_out(one) <= about * best;
+        let near = near(one);
         (!near, if near { one.model.freedom() } else { 0 })
     };
     let mut list: Vec<&Suggestion> = proposed.list.iter().collect();
@@ -60,6 +63,7 @@ fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
         "little": little,
         "worse": before.is_some_and(|before| model.validate_rms_counts > before),
         "locked": state.locked.contains(&suggestion.effect),
+        "in_windows": model.windowed.is_some(),
         "parameters": model.freedom(),
         "foreseen_rms_counts": finite(model.predicted_rms_counts),
         "rms_counts": finite(model.rms_counts),

@@ -268,3 +268,23 @@ pub(super) fn write(path: &Path, state: &State) -> Result<(), Error> {
     let text = SessionFile::of(state).text()?;
     Ok(write_private(path, |out| out.write_all(text.as_bytes()))?)
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+
+    #[test]
+    fn a_session_is_for_the_users_eyes_alone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("bench.json");
+        write(&path, &State::default()).expect("written");
+        let mode = std::fs::metadata(&path)
+            .expect("a file")
+            .permissions()
+            .mode();
+        assert_eq!(mode & 0o777, 0o600);
+        let text = std::fs::read_to_string(&path).expect("text");
+        SessionFile::parse(&text, "bench.json").expect("a session");
+    }
+}

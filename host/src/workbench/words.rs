@@ -83,7 +83,7 @@ const IN_PLACE_OF: [(&str, &str); 25] = [
     ),
     (
         "write this diagnosis with --json diagnosis.json, then: ",
-        "take this diagnosis away as diagnosis.json, then in a terminal: ",
+        "export this diagnosis as diagnosis.json, then in a terminal: ",
     ),
     (
         "; give another --sample",

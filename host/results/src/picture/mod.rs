@@ -42,7 +42,7 @@ pub use orders::orders;
 pub use profiles::profiles;
 pub use refuted::refuted;
 pub use steady::{SteadyLine, steady_curve, steady_residual};
-pub use timeline::{FROM_THE_BENCH, IN_A_FILE, Run, Timeline, timeline};
+pub use timeline::{IN_A_FILE, Run, Timeline, timeline};
 
 use crate::palette as colour;
 use plotly::Plot;

@@ -15,8 +15,6 @@ use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// Samples of a page that stands alone; more are thinned before they go into it.
 pub const IN_A_FILE: usize = 400_000;
-/// Samples that a page asks a program on its own machine for.
-pub const FROM_THE_BENCH: usize = 4_000_000;
 
 /// A model's free run along a recording.
 pub struct Run {

@@ -19,7 +19,8 @@ export async function show(place) {
     el("p", { class: "quiet s12" }, `Share of the squared error of ${models.map((one) => letter(one.id)).join(" and ")} as samples are counted in order. `
       + "The grey band is what a right model would leave: where a line leaves it, the model fails."),
     el("div", { class: "curves" },
-      shares("Time", "s", models, "time"), shares("Speed", "rad/s, sorted", models, "speed"), cumulatedOrders(models), orders(models)));
+      shares("Time", "s", models, "time"), shares("Speed", "rad/s, sorted", models, "speed"), cumulatedOrders(models), orders(models)),
+    taken(best) ?? "");
 }
 
 function frame(title, unit, children) {
@@ -95,4 +96,32 @@ function orders(models) {
   }));
   for (const k of [1, n / 2, n]) parts.push(svg("text", { x: X((k - 0.5) / n), y: HIGH - 4, "text-anchor": "middle" }, String(k)));
   return frame("Orders", "missing drive, V", parts);
+}
+
+// What each effect of the model takes of the drive, stacked.
+function taken(model) {
+  if (!model.taken.length) return null;
+  const [wide, high] = [1180, 120];
+  const n = model.taken[0].parts_v.length;
+  const sums = Array.from({ length: n }, (_, k) => model.taken.reduce((sum, one) => sum + one.parts_v[k], 0));
+  const most = Math.max(...sums) || 1;
+  const x = (k) => LEFT + (k / n) * (wide - LEFT - 6);
+  const y = (v) => 6 + (1 - v / most) * (high - BOTTOM - 10);
+  const parts = [0.5, 1].flatMap((part) => [svg("path", { class: "grid", d: `M${LEFT} ${y(part * most)}H${wide - 6}` }),
+    svg("text", { x: LEFT - 4, y: y(part * most) + 4, "text-anchor": "end" }, digits(part * most, 2))]);
+  const below = new Array(n).fill(0);
+  model.taken.forEach((one, m) => {
+    // Steps: each part of the time has its own height.
+    const edge = (values) => values.flatMap((v, k) => [[x(k), y(v)], [x(k + 1), y(v)]]);
+    const above = below.map((v, k) => v + one.parts_v[k]);
+    parts.push(svg("path", { d: `${path([...edge(above), ...edge(below).reverse()])}Z`, fill: colour(model.id), opacity: 0.85 - 0.25 * (m % 3) }));
+    above.forEach((v, k) => {
+      below[k] = v;
+    });
+  });
+  parts.push(svg("text", { x: LEFT, y: high - 4 }, "0"), svg("text", { x: wide - 6, y: high - 4, "text-anchor": "end" }, `${digits(model.taken[0].seconds, 3)} s`));
+  const said = model.taken.map((one) => `${one.effect.replace(/_/g, " ")} ${digits(one.rms_v, 2)} V`).join(", ");
+  return el("figure", { style: "margin-top:16px" }, el("figcaption", {}, el("strong", {}, "What each effect takes of the drive"), " ",
+    el("span", { class: "quiet" }, `RMS over the recording, from below: ${said}`)),
+  svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: "100%", class: "taken", role: "img", "aria-label": `What each effect takes of the drive: ${said}` }, ...parts));
 }

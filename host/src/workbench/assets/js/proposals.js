@@ -87,7 +87,7 @@ function opened(one, rows, chosen, bench, does) {
     el("h3", { class: "ttl" }, title(one), el("small", {}, parameters(one) + (fewest && rows.length > 1 ? " · simplest" : ""))),
     el("p", { class: "falls" }, el("span", { class: "quiet" }, counts(chosen.held_out_rms_counts)), "→",
       el("span", { class: "to", style: `color:${stroke}` }, counts(one.held_out_rms_counts)),
-      el("span", { class: worse ? "warned s12" : "quiet s12" }, worse ? "held out: fits better, predicts worse" : "counts held out, verified")),
+      el("span", { class: worse ? "warned s12" : "quiet s12" }, worse ? "held out: fits better, predicts worse" : one.in_windows ? "held out, as fitted in windows" : "counts held out, verified")),
     signature(one.signature, { width: WIDE, height: 130, stroke, labels: true }),
     el("dl", { class: "kv" }, ...facts.filter(([, text]) => text).flatMap(([name, text]) => [el("dt", {}, name), el("dd", {}, text)])),
     el("p", { class: "acts" },
