@@ -72,6 +72,7 @@ for (const [width, height] of [[1280, 900], [390, 844]]) {
       await bench.end();
 
       const report = await open(chrome, `file://${desk.path("demo.html")}`, options);
+      await report.locator("#timeline").scrollIntoViewIfNeeded();
       await report.waitForSelector("#timeline .main-svg");
       await looked(report, `report-${width}-${colorScheme}`);
       await report.context().close();
