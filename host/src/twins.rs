@@ -165,7 +165,6 @@ mod tests {
     use super::*;
     use servoid_identify::Silent;
     use servoid_io::showcase;
-    use shared::effects::EffectSet;
 
     #[test]
     fn twins_of_a_motor_with_an_effect_are_named_as_it() {
@@ -174,15 +173,13 @@ mod tests {
             let recording = showcase::record(&hidden, seed, "bench").expect("a recording");
             Data::new(&recording).expect("data")
         };
-        let mut effects = EffectSet::default();
-        let truth = hidden.truth(&showcase::machine(), showcase::COUNTS_PER_REV);
-        effects.push(Kind::Coulomb, &truth).expect("a valid effect");
-        let model = Candidate {
-            machine: truth::physical(&showcase::machine()).machine(),
-            effects,
-            start_speed: 0.0,
-            start_offset: 0.0,
-        };
+        let model = truth::model(
+            &showcase::machine(),
+            Kind::Coulomb,
+            &hidden,
+            showcase::COUNTS_PER_REV,
+        )
+        .expect("a valid effect");
         let twin = Twin::of(&model, &data(1), Some(&data(2))).expect("a twin");
         let mut told = 0;
         let found = twin

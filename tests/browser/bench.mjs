@@ -3,7 +3,7 @@ import { spawn, execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { test as plain } from "node:test";
+import { after, before, test as plain } from "node:test";
 import { chromium } from "playwright-core";
 
 export const SERVOID = process.env.SERVOID;
@@ -57,6 +57,35 @@ export function browser() {
   const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync"];
   return chromium.launch({ executablePath: BROWSER, args });
+}
+
+// A browser and a desk for the tests of a file, on which `lines` have been run: `at.chrome`, `at.desk`.
+export function workplace(...lines) {
+  const place = {};
+  before(async () => {
+    place.chrome = await browser();
+    place.desk = new Desk();
+    for (const line of lines) place.desk.run(line);
+  });
+  after(async () => {
+    await place.chrome?.close();
+    place.desk?.clear();
+  });
+  return place;
+}
+
+// `servoid bench`, opened in the browser and at rest with so many models.
+export async function opened(place, line, models = 1, options = {}) {
+  const bench = await place.desk.bench(line);
+  const page = await open(place.chrome, bench.url, options);
+  await settled(page, models);
+  return [bench, page];
+}
+
+// Ends a page and its program.
+export async function close(page, bench) {
+  await page.context().close();
+  await bench.end();
 }
 
 // A page that keeps a list of everything it asked for, and of what went wrong on it.

@@ -1,22 +1,13 @@
 // The loop of the workbench in a real browser: measured against model, where it fails, what is missing, add, the error falls.
 import assert from "node:assert/strict";
-import { after, before } from "node:test";
-import { Desk, add, browser, error, open, outside, settled, state, tab, test, turnAndResize } from "./bench.mjs";
+import { add, close, error, open, opened, outside, settled, state, tab, test, turnAndResize, workplace } from "./bench.mjs";
 
-let chrome;
-let desk;
-before(async () => {
-  chrome = await browser();
-  desk = new Desk();
-  desk.run("simulate --hide coulomb --out rec.csv --seed 1");
-  desk.run("simulate --hide coulomb --out other.csv --seed 2");
-  desk.run("simulate --hide coulomb --hide cogging --excite commissioning-coast --out two.csv --seed 1");
-  desk.run("simulate --hide coulomb --hide cogging --excite commissioning-coast --out more.csv --seed 2");
-});
-after(async () => {
-  await chrome?.close();
-  desk?.clear();
-});
+const at = workplace(
+  "simulate --hide coulomb --out rec.csv --seed 1",
+  "simulate --hide coulomb --out other.csv --seed 2",
+  "simulate --hide coulomb --hide cogging --excite commissioning-coast --out two.csv --seed 1",
+  "simulate --hide coulomb --hide cogging --excite commissioning-coast --out more.csv --seed 2",
+);
 
 // What the loop needs is in the window, whole.
 async function inSight(page, ids) {
@@ -31,9 +22,7 @@ async function inSight(page, ids) {
 const ALWAYS = ["#error-now", "#ladder", "#lane-angle", "#lane-residual", "#lane-drive", "#strip", "#tree", "#parameters"];
 
 test("from the recording to `explained` without scrolling, and each added effect makes the error fall", async () => {
-  const bench = await desk.bench("two.csv --validate more.csv");
-  const page = await open(chrome, bench.url, { viewport: { width: 1280, height: 800 } });
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "two.csv --validate more.csv", 1, { viewport: { width: 1280, height: 800 } });
   await inSight(page, [...ALWAYS, "#proposals .open", "#add"]);
   const errors = [await error(page)];
   let clicks = 0;
@@ -65,13 +54,12 @@ test("from the recording to `explained` without scrolling, and each added effect
   // Nothing came from anywhere else, and nothing went wrong on the way.
   assert.deepEqual(outside(page, bench.url), []);
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("the keyboard alone does the whole loop", async () => {
-  const bench = await desk.bench("two.csv --validate more.csv");
-  const page = await open(chrome, bench.url, { viewport: { width: 1280, height: 800 } });
+  const bench = await at.desk.bench("two.csv --validate more.csv");
+  const page = await open(at.chrome, bench.url, { viewport: { width: 1280, height: 800 } });
   const press = (key) => page.keyboard.press(key);
   const opened = () => page.getAttribute("#proposals .open", "data-effect");
   await settled(page, 1);
@@ -125,14 +113,11 @@ test("the keyboard alone does the whole loop", async () => {
   await press("Shift+Enter");
   await page.waitForSelector("#compared");
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("what is pointed at is foreseen in lanes, ladder and tree before anything is fitted", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv");
   const other = page.locator("#proposals .prop").first();
   const name = (await other.getAttribute("data-effect")).replace(/_/g, " ");
   await other.hover();
@@ -149,14 +134,11 @@ test("what is pointed at is foreseen in lanes, ladder and tree before anything i
     return Math.sqrt(e.reduce((sum, x) => sum + x * x, 0) / e.length);
   }, found.effect);
   assert.ok(Math.abs(rms / found.rms_counts - 1) < 1e-2, `${rms} of ${found.rms_counts}`);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("a tree of models: away and back, compared, removed, undone; a slider moves the model", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv");
   const first = await error(page);
   await add(page, "coulomb");
   await settled(page, 2);
@@ -193,14 +175,11 @@ test("a tree of models: away and back, compared, removed, undone; a slider moves
   await page.click("#put-back");
   await page.waitForFunction(() => !document.body.dataset.lanes.includes("2p"));
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("from answer to remedy, and motors like this one", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv");
   await page.click("#add");
   await settled(page, 2);
   assert.equal(await page.locator("#explained").count(), 1);
@@ -219,13 +198,12 @@ test("from answer to remedy, and motors like this one", async () => {
   assert.ok(twins.tried >= 1 && twins.tried < twins.of && twins.same <= twins.tried, JSON.stringify(twins));
   assert.match(await page.textContent("#fault"), /twins: stopped/);
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("a blind demonstration: find what is missing, then reveal it", async () => {
-  const bench = await desk.bench("");
-  const page = await open(chrome, bench.url);
+  const bench = await at.desk.bench("");
+  const page = await open(at.chrome, bench.url);
   // By the keyboard alone.
   await page.focus("#demo");
   await page.keyboard.press("Enter");
@@ -237,15 +215,12 @@ test("a blind demonstration: find what is missing, then reveal it", async () => 
   await page.click("#reveal");
   await page.waitForFunction(() => document.getElementById("secret").textContent.startsWith("Hidden was "));
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("a recording of twenty minutes is thinned for drawing, never for what is near", async () => {
-  desk.run("simulate --hide coulomb --seconds 1200 --out long.csv --seed 3 --no-motor");
-  const bench = await desk.bench("long.csv --counts-per-rev 2000 --supply-v 12");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  at.desk.run("simulate --hide coulomb --seconds 1200 --out long.csv --seed 3 --no-motor");
+  const [bench, page] = await opened(at, "long.csv --counts-per-rev 2000 --supply-v 12");
   const lanes = () => page.evaluate(() => ({ ...document.getElementById("lanes").dataset }));
   const whole = await lanes();
   assert.ok(whole.to - whole.from >= 1_200_000 && whole.points < 4000, JSON.stringify(whole));
@@ -261,14 +236,11 @@ test("a recording of twenty minutes is thinned for drawing, never for what is ne
   assert.equal(Number(near.points), near.to - near.from, `every sample is drawn: ${JSON.stringify(near)}`);
   await page.locator("#lane-angle .u-over").dblclick();
   assert.deepEqual(await lanes(), whole);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("light, dark and other widths leave every drawing in its place", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv");
   await page.click("#add");
   await settled(page, 2);
   for (const name of ["failing", "response", "clock", "limits"]) {
@@ -280,6 +252,5 @@ test("light, dark and other widths leave every drawing in its place", async () =
   await page.click("#dock .acts button");
   await page.waitForFunction(() => document.querySelectorAll("#dock .main-svg").length > 3);
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });

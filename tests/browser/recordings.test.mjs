@@ -1,25 +1,16 @@
 // Recordings and sessions of the workbench in a real browser.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import { after, before } from "node:test";
-import { Desk, add, browser, drop, error, open, settled, state, tab, test } from "./bench.mjs";
+import { add, close, drop, error, open, opened, settled, state, tab, test, workplace } from "./bench.mjs";
 
-let chrome;
-let desk;
-before(async () => {
-  chrome = await browser();
-  desk = new Desk();
-  desk.run("simulate --hide coulomb --out rec.csv --seed 1");
-  desk.run("simulate --hide coulomb --out other.csv --seed 2");
-});
-after(async () => {
-  await chrome?.close();
-  desk?.clear();
-});
+const at = workplace(
+  "simulate --hide coulomb --out rec.csv --seed 1",
+  "simulate --hide coulomb --out other.csv --seed 2",
+);
 
 test("a bad file shows the reader's message, a foreign one asks which column is what", async () => {
-  const bench = await desk.bench("");
-  const page = await open(chrome, bench.url);
+  const bench = await at.desk.bench("");
+  const page = await open(at.chrome, bench.url);
   await drop(page, [["garbage.csv", "t_s,voltage_v,angle_counts\n0,1,0\n0.001,x,3\n"]]);
   await page.waitForSelector("#columns[open]");
   await page.fill("#map-counts_per_rev", "2000");
@@ -33,7 +24,7 @@ test("a bad file shows the reader's message, a foreign one asks which column is 
   assert.ok(await page.isDisabled("#load"));
   await page.click("#columns button[value=cancel]");
   // The same recording under names of somebody else.
-  const foreign = readFileSync(desk.path("rec.csv"), "utf8").replace("t_s,voltage_v,angle_counts", "when,u,enc");
+  const foreign = readFileSync(at.desk.path("rec.csv"), "utf8").replace("t_s,voltage_v,angle_counts", "when,u,enc");
   await drop(page, [["foreign.csv", foreign]]);
   await page.waitForSelector("#columns[open]");
   const columns = (words) => page.waitForFunction((words) => document.getElementById("column-fault").textContent.includes(words), words);
@@ -71,13 +62,12 @@ test("a bad file shows the reader's message, a foreign one asks which column is 
   await page.waitForFunction(() => !document.getElementById("load").disabled);
   await page.click("#load");
   await page.waitForFunction(() => document.getElementById("column-fault").textContent.includes("no test"));
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("runs of one motor are fitted together, on the command line, by dropping, and in a session", async () => {
-  desk.run("simulate --hide coulomb --out third.csv --seed 3");
-  const text = (name) => readFileSync(desk.path(name), "utf8");
+  at.desk.run("simulate --hide coulomb --out third.csv --seed 3");
+  const text = (name) => readFileSync(at.desk.path(name), "utf8");
   const together = async (page) => {
     await settled(page, 1);
     const { sources, samples } = (await state(page)).recording;
@@ -86,19 +76,17 @@ test("runs of one motor are fitted together, on the command line, by dropping, a
     return error(page);
   };
   // The last judges, as in a diagnosis; the error is over both that are fitted.
-  const bench = await desk.bench("rec.csv other.csv third.csv --session several.json");
-  const page = await open(chrome, bench.url);
+  const bench = await at.desk.bench("rec.csv other.csv third.csv --session several.json");
+  const page = await open(at.chrome, bench.url);
   const shown = await together(page);
-  await page.context().close();
-  await bench.end();
-  const again = await desk.bench("several.json");
-  const reopened = await open(chrome, again.url);
+  await close(page, bench);
+  const again = await at.desk.bench("several.json");
+  const reopened = await open(at.chrome, again.url);
   assert.equal(await together(reopened), shown);
-  await reopened.context().close();
-  await again.end();
+  await close(reopened, again);
   // The same by dropping all three, and by adding one after the other.
-  const empty = await desk.bench("");
-  const dropped = await open(chrome, empty.url);
+  const empty = await at.desk.bench("");
+  const dropped = await open(at.chrome, empty.url);
   const motor = ["motor.toml", "counts_per_rev = 2000\n"];
   await drop(dropped, [motor, ...["rec.csv", "other.csv", "third.csv"].map((name) => [name, text(name)])]);
   assert.equal(await together(dropped), shown);
@@ -126,14 +114,11 @@ test("runs of one motor are fitted together, on the command line, by dropping, a
     await dropped.waitForFunction((words) => document.getElementById("column-fault").textContent.includes(words), words);
     await dropped.click("#columns button[value=cancel]");
   }
-  await dropped.context().close();
-  await empty.end();
+  await close(dropped, empty);
 });
 
 test("recordings change their roles, and undo and a session know of it", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv --session roles.json");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv --session roles.json");
   const roles = async (page) => (await state(page)).recording.sources.map((one) => [one.name, one.role].join(" "));
   const held = await error(page);
   const give = async (k, role) => {
@@ -154,21 +139,17 @@ test("recordings change their roles, and undo and a session know of it", async (
   await page.waitForFunction(() => document.getElementById("fault").textContent.includes("one recording at least must be fitted"));
   await give(1, "held out");
   assert.deepEqual(await roles(page), ["rec.csv fitted", "other.csv held out"]);
-  await page.context().close();
-  await bench.end();
-  const again = await desk.bench("roles.json");
-  const second = await open(chrome, again.url);
-  await settled(second, 1);
+  await close(page, bench);
+  const [again, second] = await opened(at, "roles.json");
   assert.deepEqual(await roles(second), ["rec.csv fitted", "other.csv held out"]);
   assert.ok(Math.abs((await error(second)) / held - 1) < 0.01);
-  await second.context().close();
-  await again.end();
+  await close(second, again);
 });
 
 test("a second tab does not break the first, and a session is opened again as it was", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv --session kept.json");
-  const first = await open(chrome, bench.url);
-  const second = await open(chrome, bench.url);
+  const bench = await at.desk.bench("rec.csv --validate other.csv --session kept.json");
+  const first = await open(at.chrome, bench.url);
+  const second = await open(at.chrome, bench.url);
   await settled(first, 1);
   await settled(second, 1);
   await add(second, "coulomb");
@@ -178,24 +159,18 @@ test("a second tab does not break the first, and a session is opened again as it
   await second.context().close();
   await first.waitForSelector("#explained");
   const shown = await error(first);
-  await first.context().close();
-  await bench.end();
-  const again = await desk.bench("kept.json");
-  const page = await open(chrome, again.url);
-  await settled(page, 2);
+  await close(first, bench);
+  const [again, page] = await opened(at, "kept.json", 2);
   assert.equal(await error(page), shown);
-  await page.context().close();
-  await again.end();
+  await close(page, again);
 });
 
 test("another recording asks first, undo brings the bench back, and two programs do not share a session", async () => {
-  const bench = await desk.bench("rec.csv --session undone.json");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --session undone.json");
   const before = await error(page);
   const name = () => page.textContent("#recordings");
-  const motor = readFileSync(desk.path("motor.toml"), "utf8");
-  const other = [["other.csv", readFileSync(desk.path("other.csv"), "utf8")], ["motor.toml", motor]];
+  const motor = readFileSync(at.desk.path("motor.toml"), "utf8");
+  const other = [["other.csv", readFileSync(at.desk.path("other.csv"), "utf8")], ["motor.toml", motor]];
   await drop(page, other);
   await page.click("#put-away-no");
   assert.match(await name(), /rec\.csv/);
@@ -214,16 +189,13 @@ test("another recording asks first, undo brings the bench back, and two programs
   await page.waitForFunction(() => document.getElementById("recordings").textContent.includes("other.csv"));
   await page.click("#undo");
   await settled(page, 1);
-  await assert.rejects(desk.bench("--session undone.json"), /ended with 2/);
-  await page.context().close();
-  await bench.end();
-  assert.match(readFileSync(desk.path("undone.json"), "utf8"), /rec\.csv/);
+  await assert.rejects(at.desk.bench("--session undone.json"), /ended with 2/);
+  await close(page, bench);
+  assert.match(readFileSync(at.desk.path("undone.json"), "utf8"), /rec\.csv/);
 });
 
 test("a model of chaotic runs is opened again as it was, and its notes and its method are told", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv --session chaos.json");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv --session chaos.json");
   await tab(page, "searches");
   await page.selectOption("#algorithm", "pso");
   await page.click("#refit");
@@ -236,37 +208,27 @@ test("a model of chaotic runs is opened again as it was, and its notes and its m
   await tab(page, "log");
   assert.ok((await page.locator("#notes li").count()) > 0);
   assert.doesNotMatch(await page.textContent("#notes"), / --/);
-  await page.context().close();
-  await bench.end();
-  const again = await desk.bench("--session chaos.json");
-  const second = await open(chrome, again.url);
-  await settled(second, 3);
+  await close(page, bench);
+  const [again, second] = await opened(at, "--session chaos.json", 3);
   assert.equal(await error(second), shown);
   assert.equal(await table(second), models);
-  await second.context().close();
-  await again.end();
+  await close(second, again);
 });
 
 test("what is wrong in a session that was edited is left out with a word", async () => {
-  const bench = await desk.bench("rec.csv --session edited.json");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
-  await page.context().close();
-  await bench.end();
-  const session = JSON.parse(readFileSync(desk.path("edited.json"), "utf8"));
+  const [bench, page] = await opened(at, "rec.csv --session edited.json");
+  await close(page, bench);
+  const session = JSON.parse(readFileSync(at.desk.path("edited.json"), "utf8"));
   session.models.push({ ...session.models[0], algorithm: "magic" });
-  writeFileSync(desk.path("edited.json"), JSON.stringify({
+  writeFileSync(at.desk.path("edited.json"), JSON.stringify({
     ...session, chosen: 99, race: { schema: "x" }, diagnosis: session.models[0],
   }));
-  const again = await desk.bench("edited.json");
-  const second = await open(chrome, again.url);
-  await settled(second, 1);
+  const [again, second] = await opened(at, "edited.json");
   const said = await second.textContent("#fault");
   for (const words of ["chosen: there is no model 99", "no search method `magic`", "race: schema is `x`", "diagnosis: schema"]) {
     assert.ok(said.includes(words), `${words}: ${said}`);
   }
   assert.ok((await error(second)) > 0, "the model that is left is looked at");
   assert.equal(await second.locator("#verdict").count(), 0);
-  await second.context().close();
-  await again.end();
+  await close(second, again);
 });

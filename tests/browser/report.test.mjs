@@ -1,19 +1,10 @@
 // The report in a real browser, from a double click.
 import assert from "node:assert/strict";
-import { after, before } from "node:test";
-import { Desk, browser, open, outside, test, turnAndResize } from "./bench.mjs";
+import { open, outside, test, turnAndResize, workplace } from "./bench.mjs";
 
-let chrome;
-let desk;
-before(async () => {
-  chrome = await browser();
-  desk = new Desk();
-  desk.run("demo --out demo.html");
-});
-after(async () => {
-  await chrome?.close();
-  desk?.clear();
-});
+const at = workplace(
+  "demo --out demo.html",
+);
 
 // Scrolls through the page until every picture is drawn. A picture that is drawn above can push the awaited one out of view, so
 // that every look at it scrolls again.
@@ -30,8 +21,8 @@ async function drawn(page) {
 }
 
 test("it draws everything, offline, and nothing is asked for", async () => {
-  const url = `file://${desk.path("demo.html")}`;
-  const page = await open(chrome, url);
+  const url = `file://${at.desk.path("demo.html")}`;
+  const page = await open(at.chrome, url);
   await page.context().setOffline(true);
   assert.ok((await drawn(page)) >= 8);
   assert.deepEqual(outside(page, url), []);
@@ -40,7 +31,7 @@ test("it draws everything, offline, and nothing is asked for", async () => {
 });
 
 test("light, dark and other widths leave every drawing in its place", async () => {
-  const page = await open(chrome, `file://${desk.path("demo.html")}`);
+  const page = await open(at.chrome, `file://${at.desk.path("demo.html")}`);
   await drawn(page);
   await turnAndResize(page);
   assert.deepEqual(page.faults, []);
@@ -48,7 +39,7 @@ test("light, dark and other widths leave every drawing in its place", async () =
 });
 
 test("cursors show values and their difference, and time axes go together", async () => {
-  const page = await open(chrome, `file://${desk.path("demo.html")}`);
+  const page = await open(at.chrome, `file://${at.desk.path("demo.html")}`);
   await drawn(page);
   const first = page.locator("#timeline");
   await first.focus();
@@ -67,7 +58,7 @@ test("cursors show values and their difference, and time axes go together", asyn
 });
 
 test("a click sets cursor A, with shift cursor B, and the table tells what lies between", async () => {
-  const page = await open(chrome, `file://${desk.path("demo.html")}`);
+  const page = await open(at.chrome, `file://${at.desk.path("demo.html")}`);
   await drawn(page);
   const plot = page.locator("#timeline .xy .nsewdrag, #timeline .nsewdrag").first();
   await plot.scrollIntoViewIfNeeded();

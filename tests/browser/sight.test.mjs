@@ -2,24 +2,15 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { after, before } from "node:test";
-import { Desk, browser, open, settled, tab, test } from "./bench.mjs";
+import { close, open, settled, tab, test, workplace } from "./bench.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const SHOTS = process.env.SHOTS;
-let chrome;
-let desk;
-before(async () => {
-  chrome = await browser();
-  desk = new Desk();
-  desk.run("simulate --hide cogging --out rec.csv --seed 1");
-  desk.run("simulate --hide cogging --out other.csv --seed 2");
-  desk.run("demo --out demo.html");
-});
-after(async () => {
-  await chrome?.close();
-  desk?.clear();
-});
+const at = workplace(
+  "simulate --hide cogging --out rec.csv --seed 1",
+  "simulate --hide cogging --out other.csv --seed 2",
+  "demo --out demo.html",
+);
 
 // axe runs in the page's own world past its policy, as an extension would.
 async function faults(page) {
@@ -47,15 +38,14 @@ for (const [width, height] of [[1280, 900], [390, 844]]) {
   for (const colorScheme of ["light", "dark"]) {
     test(`workbench and report at ${width} pixels, ${colorScheme}`, async () => {
       const options = { viewport: { width, height }, colorScheme };
-      const empty = await desk.bench("");
-      const start = await open(chrome, empty.url, options);
+      const empty = await at.desk.bench("");
+      const start = await open(at.chrome, empty.url, options);
       await start.waitForSelector("#demo:visible");
       await looked(start, `start-${width}-${colorScheme}`);
-      await start.context().close();
-      await empty.end();
+      await close(start, empty);
 
-      const bench = await desk.bench("rec.csv --validate other.csv");
-      const page = await open(chrome, bench.url, options);
+      const bench = await at.desk.bench("rec.csv --validate other.csv");
+      const page = await open(at.chrome, bench.url, options);
       await settled(page, 1);
       await page.waitForSelector("#proposals article");
       await looked(page, `proposed-${width}-${colorScheme}`);
@@ -68,10 +58,9 @@ for (const [width, height] of [[1280, 900], [390, 844]]) {
         await page.waitForTimeout(300);
         await looked(page, `tab-${name}-${width}-${colorScheme}`);
       }
-      await page.context().close();
-      await bench.end();
+      await close(page, bench);
 
-      const report = await open(chrome, `file://${desk.path("demo.html")}`, options);
+      const report = await open(at.chrome, `file://${at.desk.path("demo.html")}`, options);
       await report.locator("#timeline").scrollIntoViewIfNeeded();
       await report.waitForSelector("#timeline .main-svg");
       await looked(report, `report-${width}-${colorScheme}`);

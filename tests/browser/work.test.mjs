@@ -1,24 +1,15 @@
 // Work on the workbench that goes on, is stopped, and is taken away, in a real browser.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before } from "node:test";
-import { Desk, add, browser, drop, error, open, settled, state, tab, test } from "./bench.mjs";
+import { add, browser, close, drop, error, open, opened, settled, tab, test, workplace } from "./bench.mjs";
 
-let chrome;
-let desk;
-before(async () => {
-  chrome = await browser();
-  desk = new Desk();
-  desk.run("simulate --hide coulomb --out rec.csv --seed 1");
-  desk.run("simulate --hide coulomb --out other.csv --seed 2");
-});
-after(async () => {
-  await chrome?.close();
-  desk?.clear();
-});
+const at = workplace(
+  "simulate --hide coulomb --out rec.csv --seed 1",
+  "simulate --hide coulomb --out other.csv --seed 2",
+);
 
 test("killing the browser stops the work", async () => {
-  const bench = await desk.bench("rec.csv");
+  const bench = await at.desk.bench("rec.csv");
   const alone = await browser();
   const page = await open(alone, bench.url);
   await settled(page, 1);
@@ -39,9 +30,7 @@ test("killing the browser stops the work", async () => {
 });
 
 test("searches race, and what was found is taken away", async () => {
-  const bench = await desk.bench("rec.csv");
-  const page = await open(chrome, bench.url);
-  await settled(page, 1);
+  const [bench, page] = await opened(at, "rec.csv");
   await tab(page, "searches");
   await page.fill("#budget", "200");
   await page.fill("#seeds", "3");
@@ -65,13 +54,12 @@ test("searches race, and what was found is taken away", async () => {
   await page.click("#export");
   await Promise.all([page.waitForEvent("download"), page.click("[data-format=toml]")]);
   await page.waitForFunction(() => document.getElementById("fault").hidden);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 });
 
 test("while work goes on the bench stays true, and what is stopped says so", async () => {
-  const bench = await desk.bench("rec.csv --validate other.csv");
-  let page = await open(chrome, bench.url);
+  const bench = await at.desk.bench("rec.csv --validate other.csv");
+  let page = await open(at.chrome, bench.url);
   await settled(page, 1);
   const first = await error(page);
   await add(page, "coulomb");
@@ -91,7 +79,7 @@ test("while work goes on the bench stays true, and what is stopped says so", asy
   await page.fill("#seeds", "100");
   await page.click("#race");
   await page.waitForSelector("#stop:visible");
-  await drop(page, [["other.csv", readFileSync(desk.path("other.csv"), "utf8")]]);
+  await drop(page, [["other.csv", readFileSync(at.desk.path("other.csv"), "utf8")]]);
   await says("busy (race)");
   // The model that is looked at goes, with its number and its line.
   await page.focus("#tree [data-model='2']");
@@ -105,13 +93,12 @@ test("while work goes on the bench stays true, and what is stopped says so", asy
   await says("race: stopped");
   // A refusal is no fault of the page.
   assert.deepEqual(page.faults.filter((text) => !text.includes("status of 422")), []);
-  await page.context().close();
-  await bench.end();
+  await close(page, bench);
 
   // Two minutes with cogging are looked at for many seconds: long enough for a hand to stop it.
-  desk.run("simulate --hide cogging --seconds 120 --out long.csv --seed 1");
-  const slow = await desk.bench("long.csv");
-  page = await open(chrome, slow.url);
+  at.desk.run("simulate --hide cogging --seconds 120 --out long.csv --seed 1");
+  const slow = await at.desk.bench("long.csv");
+  page = await open(at.chrome, slow.url);
   await settled(page, 1);
   await page.click("#diagnose");
   await page.click("#stop");
@@ -119,12 +106,11 @@ test("while work goes on the bench stays true, and what is stopped says so", asy
   await says("diagnose: stopped");
   assert.doesNotMatch(await page.textContent("#fault"), /lm/);
   assert.deepEqual(page.faults, []);
-  await page.context().close();
-  await slow.end();
+  await close(page, slow);
 });
 
 test("whoever has no secret finds nothing", async () => {
-  const bench = await desk.bench("");
+  const bench = await at.desk.bench("");
   const { origin, host } = new URL(bench.url);
   for (const path of ["/", "/state", "/0123/", "/js/main.js"]) {
     assert.equal((await fetch(origin + path)).status, 404, path);

@@ -6,8 +6,10 @@
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use servoid_engine::problem::Candidate;
 use servoid_plant::{Hidden, Machine};
-use shared::effects::{Kind, Pair};
+use shared::effects::{EffectSet, Kind, Pair};
+use shared::error::ModelError;
 use shared::motor::Physical;
 
 /// The bench's machine in the model's terms.
@@ -20,6 +22,26 @@ pub fn physical(machine: &Machine) -> Physical<f64> {
         inertia: machine.inertia_kg_m2,
         viscous: machine.viscous_n_m_s,
     }
+}
+
+/// The bench's machine with an effect hidden in it, as the model that is true of it.
+///
+/// # Errors
+/// Values that are none of the effect `kind`.
+pub fn model(
+    machine: &Machine,
+    kind: Kind,
+    hidden: &Hidden,
+    counts_per_rev: u32,
+) -> Result<Candidate, ModelError> {
+    let mut effects = EffectSet::default();
+    effects.push(kind, &hidden.truth(machine, counts_per_rev))?;
+    Ok(Candidate {
+        machine: physical(machine).machine(),
+        effects,
+        start_speed: 0.0,
+        start_offset: 0.0,
+    })
 }
 
 /// How far a found value is from the true one.

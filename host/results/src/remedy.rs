@@ -9,7 +9,7 @@ use crate::export::gains::{self, Asked, Loops, Section};
 use crate::export::{ExportError, Options, Subject, Written};
 use servoid_engine::problem::Candidate;
 use servoid_io::recording::Drive;
-use shared::effects::{EffectSet, Kind, Lowered, Place, Shaft};
+use shared::effects::{EffectSet, Lowered, Shaft};
 use shared::model::{Model, Plan, State};
 use shared::units::PerUnit;
 use std::f64::consts::TAU;
@@ -123,24 +123,15 @@ impl<'a> Bench<'a> {
             substeps: SUBSTEPS,
             ..Plan::linear(candidate.machine, units)
         };
-        let failed = |error: &dyn std::fmt::Display| ExportError::Loop(error.to_string());
-        let model = Model::new(&plan).map_err(|error| failed(&error))?;
-        let mut by_angle = EffectSet::default();
-        let periodic = |kind: Kind| {
-            kind.facts().periodic.is_some() && kind.description().place == Place::Torque
-        };
-        for (kind, values) in candidate.effects.iter().filter(|(kind, _)| periodic(*kind)) {
-            by_angle
-                .push(kind, values)
-                .map_err(|error| failed(&error))?;
-        }
+        let model = Model::new(&plan).map_err(|error| ExportError::Loop(error.to_string()))?;
+        let by_angle = candidate.keeping(|kind| kind.periodic_torque().is_some());
         let lag = feed_forward.k_a / feed_forward.k_v;
         Ok(Bench {
             model,
             units,
             pi,
             feed_forward,
-            by_angle,
+            by_angle: by_angle.effects,
             amplitude: AMPLITUDE * units.volts / feed_forward.k_v,
             period_s: (TIME_CONSTANTS * lag).clamp(PERIOD_S[0], PERIOD_S[1]),
         })
@@ -210,6 +201,7 @@ mod tests {
     use servoid_identify::{Silent, identify};
     use servoid_io::showcase;
     use servoid_plant::Hidden;
+    use shared::effects::Kind;
 
     #[test]
     fn what_is_known_of_an_effect_makes_the_loop_follow_better() {

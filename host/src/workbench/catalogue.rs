@@ -4,13 +4,13 @@ use super::proposals::drawn;
 use crate::error::Error;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::problem::Data;
 use servoid_engine::simulation::Method;
 use servoid_identify::diagnose::residual_analysis::signature;
 use servoid_identify::truth;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
-use shared::effects::{EffectSet, Kind};
+use shared::effects::Kind;
 
 /// Every effect with its signature, if a quantity tells it.
 ///
@@ -26,14 +26,7 @@ fn entry(kind: Kind) -> Result<Value, Error> {
     let machine = showcase::machine();
     let hidden = Hidden::typical(kind.name(), &machine)?;
     let recording = showcase::record(&hidden, 1, kind.name())?;
-    let mut effects = EffectSet::default();
-    effects.push(kind, &hidden.truth(&machine, showcase::COUNTS_PER_REV))?;
-    let candidate = Candidate {
-        machine: truth::physical(&machine).machine(),
-        effects,
-        start_speed: 0.0,
-        start_offset: 0.0,
-    };
+    let candidate = truth::model(&machine, kind, &hidden, showcase::COUNTS_PER_REV)?;
     let found = signature(&Data::new(&recording)?, &candidate, kind, Method::default());
     let description = kind.description();
     Ok(json!({

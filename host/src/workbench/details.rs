@@ -8,7 +8,7 @@ use servoid_engine::problem::Data;
 use servoid_identify::fit::margins::Loop;
 use servoid_results::page::{Block, Section, drawings, section};
 use servoid_results::picture::{self, Estimates};
-use servoid_results::report::html::{Model as Drawn, failing};
+use servoid_results::report::html::{Model as Drawn, missing_drive, whether_noise};
 use servoid_results::schema::{Document, Estimate};
 
 /// A tab.
@@ -60,34 +60,24 @@ impl Tab {
     }
 
     fn sections(self, bench: &Bench) -> Result<Vec<Section>, Error> {
-        let (recordings, chosen, against, race) = {
+        let (recordings, mut models, race) = {
             let state = bench.state();
-            let find = |id: Option<usize>| id.and_then(|id| state.model(id).ok().cloned());
-            let race = state.race.clone();
-            (
-                state.recordings()?,
-                find(state.chosen),
-                find(state.against),
-                race,
-            )
+            (state.recordings()?, state.both(), state.race.clone())
         };
-        let models: Vec<&Model> = against.iter().chain(&chosen).collect();
+        // The one that is looked at lies on top.
+        models.reverse();
         let drawn: Vec<Drawn> = models
             .iter()
             .map(|model| drawn(&model.name(), model))
             .collect();
         let data = recordings.shown();
-        let of_failing = |id: &str| -> Result<Vec<Section>, Error> {
-            let all = failing("bench", data, &drawn)?;
-            Ok(all.into_iter().filter(|section| section.id == id).collect())
-        };
         Ok(match self {
-            Tab::Maps => of_failing("bench-where")?,
+            Tab::Maps => missing_drive("bench", data, &drawn)?.into_iter().collect(),
             Tab::Response => response(&models),
             Tab::Clock => clock(data),
             Tab::Limits => {
                 let mut sections = intervals(&models);
-                sections.extend(of_failing("bench-noise")?);
+                sections.extend(whether_noise("bench", data, &drawn)?);
                 sections
             }
             Tab::Race => raced(race),
@@ -105,7 +95,7 @@ pub(super) fn drawn(name: &str, model: &Model) -> Drawn {
 }
 
 /// The frequency response of each model.
-fn response(models: &[&Model]) -> Vec<Section> {
+fn response(models: &[Model]) -> Vec<Section> {
     let loops: Vec<_> = models
         .iter()
         .map(|model| (model.name(), Loop::from(&model.fit.candidate.machine)))
@@ -127,7 +117,7 @@ fn clock(data: &Data) -> Vec<Section> {
 }
 
 /// The intervals of each model's parameters.
-fn intervals(models: &[&Model]) -> Vec<Section> {
+fn intervals(models: &[Model]) -> Vec<Section> {
     let found: Vec<(String, Vec<Estimate>)> = models
         .iter()
         .rev()

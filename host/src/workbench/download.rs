@@ -1,23 +1,20 @@
 //! What may be taken away from the bench as a file.
 
+use super::model::{Model, Recordings};
 use super::session_file::SessionFile;
 use super::state::Bench;
 use crate::error::Error;
 use serde_json::Value;
-use servoid_results::export::{Format, Options, Side, Subject};
+use servoid_results::export::{Format, Options};
 use servoid_results::report::html;
-use servoid_results::schema::{Document, Identified};
+use servoid_results::schema::Document;
 
 /// The file's name, and its text.
 pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Error> {
     let pretty = |value: &Value| format!("{value:#}\n");
-    let chosen = || -> Result<Value, Error> {
+    let chosen = || -> Result<(Model, Recordings), Error> {
         let state = bench.state();
-        let recordings = state.recordings()?;
-        let id = state
-            .chosen
-            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
-        state.model(id)?.json(&recordings)
+        Ok((state.chosen_model()?.clone(), state.recordings()?))
     };
     let named = |name: &str, text: String| Ok((name.to_owned(), text));
     match format {
@@ -26,7 +23,10 @@ pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Erro
             "servoid-session.json",
             SessionFile::of(&bench.state()).text()?,
         ),
-        "fit" => named("servoid-fit.json", pretty(&chosen()?)),
+        "fit" => {
+            let (model, recordings) = chosen()?;
+            named("servoid-fit.json", pretty(&model.json(&recordings)?))
+        }
         "diagnosis" => {
             let state = bench.state();
             let diagnosis = state.diagnosis.as_ref().ok_or_else(|| {
@@ -37,11 +37,8 @@ pub(super) fn file(bench: &Bench, format: &str) -> Result<(String, String), Erro
         other => {
             let format = Format::by_name(other)
                 .ok_or_else(|| Error::Usage(format!("there is no format `{other}`")))?;
-            let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-            let result = Identified::parse(&pretty(&chosen()?)).map_err(|error| failed(&error))?;
-            let subject = Subject::new(&result, "the workbench", Side::Motor)
-                .map_err(|error| failed(&error))?;
-            let written = (format.write)(&subject, &Options::default())?;
+            let (model, recordings) = chosen()?;
+            let written = (format.write)(&model.subject(&recordings)?, &Options::default())?;
             Ok((
                 format!("servoid-motor.{}", ending(format.name)),
                 written.text,
@@ -67,19 +64,16 @@ fn report(bench: &Bench) -> Result<String, Error> {
     let (recordings, json) = {
         let state = bench.state();
         let recordings = state.recordings()?;
-        let json = match (&state.diagnosis, state.chosen) {
-            (Some(diagnosis), _) => diagnosis.clone(),
-            (None, Some(id)) => state.model(id)?.json(&recordings)?,
-            (None, None) => {
-                return Err(Error::Usage("nothing is fitted yet; fit first".to_owned()));
-            }
+        let json = match &state.diagnosis {
+            Some(diagnosis) => diagnosis.clone(),
+            None => state.chosen_model()?.json(&recordings)?,
         };
         (recordings, json)
     };
     let document = Document::from_json(json).map_err(|fault| Error::Failed(fault.to_string()))?;
     let drawn = html::Recordings {
         fitted: Some(recordings.shown()),
-        held_out: recordings.kind().source().map(|_| recordings.parts().1),
+        held_out: recordings.judge(),
     };
     Ok(html::page(&document, drawn)?.render())
 }

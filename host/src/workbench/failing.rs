@@ -7,26 +7,18 @@ use crate::error::Error;
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::order_lines;
-use servoid_identify::diagnose::residual_analysis::{Cumulative, OwnVolts, cumulative};
+use servoid_identify::diagnose::residual_analysis::{Cumulative, cumulative, own_volts};
 
 /// Orders that are shown.
 const ORDERS: usize = 30;
 /// Parts of the time in which it is said what an effect takes.
 const PARTS: usize = 120;
-/// Filter time of these volts, sample intervals: as of the residual's maps.
-const FILTER_SAMPLES: f64 = 5.0;
 
 /// Of the chosen model, and of the one beside it.
 pub(super) fn of(bench: &Bench) -> Result<Value, Error> {
     let (recordings, models) = {
         let state = bench.state();
-        let looked_at = [state.chosen, state.against];
-        let models: Vec<Model> = looked_at
-            .into_iter()
-            .flatten()
-            .filter_map(|id| state.model(id).ok().cloned())
-            .collect();
-        (state.recordings()?, models)
+        (state.recordings()?, state.both())
     };
     let data = recordings.shown();
     let of = |model: &Model| of_model(data, model);
@@ -55,21 +47,20 @@ fn of_model(data: &Data, model: &Model) -> Result<Value, Error> {
 
 /// RMS of the volts that each effect takes of the drive, in parts of equal length.
 fn taken(data: &Data, model: &Model) -> Result<Vec<Value>, Error> {
-    let time = FILTER_SAMPLES * data.units.interval;
     let end = data.time_s.last().copied().unwrap_or(0.0);
     let mut all = Vec::new();
     for (kind, _) in model.fit.candidate.effects.iter() {
         let (candidate, method) = (&model.fit.candidate, model.fit.method);
-        let volts = OwnVolts::of(data, candidate, kind, method, time)?;
+        let volts = own_volts(data, candidate, kind, method)?;
         let mut sums = [(0usize, 0.0); PARTS];
-        for residual in &volts.own {
+        for residual in &volts {
             let place = data.time_s[residual.sample] / end * PARTS as f64;
             let sum = &mut sums[(place as usize).min(PARTS - 1)];
             *sum = (sum.0 + 1, sum.1 + residual.volts.powi(2));
         }
         let rms = sums.map(|(count, squares)| (squares / count.max(1) as f64).sqrt());
-        let count = volts.own.len().max(1) as f64;
-        let squares: f64 = volts.own.iter().map(|r| r.volts.powi(2)).sum();
+        let count = volts.len().max(1) as f64;
+        let squares: f64 = volts.iter().map(|r| r.volts.powi(2)).sum();
         all.push(json!({
             "effect": kind.name(), "rms_v": (squares / count).sqrt(), "parts_v": rms.to_vec(), "seconds": end,
         }));

@@ -11,7 +11,8 @@ use servoid_identify::diagnose::HeldOut;
 use servoid_identify::diagnose::residual_analysis::{Signature, signature, whiteness};
 use servoid_identify::fit::scores::whole;
 use servoid_identify::fit::{self, Fit, Options, validation_errors};
-use servoid_results::schema;
+use servoid_results::export::{Side, Subject};
+use servoid_results::schema::{self, Identified};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::sync::Arc;
@@ -148,6 +149,11 @@ impl Recordings {
         }
     }
 
+    /// The recordings that are never fitted, where these are recordings of their own.
+    pub(super) fn judge(&self) -> Option<&Data> {
+        self.kind().source().map(|_| self.parts().1)
+    }
+
     /// What is held out, in the words of a diagnosis.
     pub(super) fn kind(&self) -> HeldOut {
         if let Some(other) = &self.held_out {
@@ -247,6 +253,14 @@ impl Model {
         let kind = recordings.kind();
         let json = schema::Fit::new(&self.fit, recordings.shown(), kind.source());
         serde_json::to_value(json).map_err(|error| Error::Failed(error.to_string()))
+    }
+
+    /// What is exported of it.
+    pub(super) fn subject(&self, recordings: &Recordings) -> Result<Subject, Error> {
+        let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
+        let text = self.json(recordings)?.to_string();
+        let result = Identified::parse(&text).map_err(|error| failed(&error))?;
+        Subject::new(&result, "the workbench", Side::Motor).map_err(|error| failed(&error))
     }
 
     /// What it is called: its effects, and its method unless that is the usual one.

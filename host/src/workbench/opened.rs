@@ -96,11 +96,7 @@ const AROUND: usize = 10;
 /// The largest speed over a few samples, counts/s.
 fn fastest(data: &Data) -> f64 {
     (0..data.len()).step_by(AROUND / 2).fold(0.0, |most, k| {
-        let near = data.recordings.around(k, AROUND);
-        let (from, to) = (near.start, near.end - 1);
-        let time = data.time_s[to] - data.time_s[from];
-        let speed = (data.counts[to] - data.counts[from]).abs() / time.max(f64::MIN_POSITIVE);
-        most.max(speed)
+        most.max(data.rate_of(&data.counts, k, AROUND).abs())
     })
 }
 

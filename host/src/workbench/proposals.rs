@@ -56,8 +56,6 @@ fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
     json!({
         "effect": suggestion.effect.name(),
         "title": description.title,
-        "equation": description.equation,
-        "signature_said": description.signature,
         "evidence": suggestion.evidence,
         "believed": suggestion.believed,
         "little": little,
@@ -68,9 +66,7 @@ fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
         "foreseen_rms_counts": finite(model.predicted_rms_counts),
         "rms_counts": finite(model.rms_counts),
         "held_out_rms_counts": finite(model.validate_rms_counts),
-        "chance": finite(suggestion.p_value),
         "looks_like": description.look_alikes,
-        "exposed_by": description.exposed_by,
         "signature": suggestion.signature.as_ref().map(drawn),
     })
 }

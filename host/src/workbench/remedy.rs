@@ -3,9 +3,7 @@
 use super::state::Bench;
 use crate::error::Error;
 use serde_json::{Value, json};
-use servoid_results::export::{Side, Subject};
 use servoid_results::remedy::remedy;
-use servoid_results::schema::Identified;
 
 /// The loop in numbers, and its speeds.
 ///
@@ -14,16 +12,9 @@ use servoid_results::schema::Identified;
 pub(super) fn of(bench: &Bench) -> Result<Value, Error> {
     let (recordings, model) = {
         let state = bench.state();
-        let id = state
-            .chosen
-            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
-        (state.recordings()?, state.model(id)?.clone())
+        (state.recordings()?, state.chosen_model()?.clone())
     };
-    let failed = |error: &dyn std::fmt::Display| Error::Failed(error.to_string());
-    let text = model.json(&recordings)?.to_string();
-    let result = Identified::parse(&text).map_err(|error| failed(&error))?;
-    let subject =
-        Subject::new(&result, "the workbench", Side::Motor).map_err(|error| failed(&error))?;
+    let subject = model.subject(&recordings)?;
     let found = remedy(&subject, &model.fit.candidate, recordings.shown().units)?;
     let forward = &found.feed_forward;
     let [kp, ki] = found.gains;

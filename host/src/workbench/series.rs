@@ -11,7 +11,6 @@ use axum::http::HeaderName;
 use axum::http::header::CONTENT_TYPE;
 use serde::Deserialize;
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::HeldOut;
 use servoid_results::report::html::Model as Drawn;
 use shared::effects::Kind;
 
@@ -43,12 +42,9 @@ impl Which {
         if !self.held_out {
             return Ok(recordings.shown());
         }
-        match recordings.kind() {
-            HeldOut::Recording(_) => Ok(recordings.parts().1),
-            HeldOut::End { .. } | HeldOut::Nothing => Err(Error::Usage(
-                "no recording of its own is held out on the bench".to_owned(),
-            )),
-        }
+        recordings.judge().ok_or_else(|| {
+            Error::Usage("no recording of its own is held out on the bench".to_owned())
+        })
     }
 }
 

@@ -95,6 +95,7 @@ fn sources(recordings: &Recordings) -> Vec<Value> {
 
 fn entry(state: &State, model: &Model) -> Value {
     let fit = &model.fit;
+    let chosen = state.chosen == Some(model.id);
     json!({
         "id": model.id,
         "name": model.name(),
@@ -108,13 +109,12 @@ fn entry(state: &State, model: &Model) -> Value {
         "white": model.white,
         "explained": model.explains(),
         "parent": model.parent.filter(|parent| state.model(*parent).is_ok()),
-        "signatures": model.signatures.iter().map(|(kind, signature)| {
+        "signatures": chosen.then(|| model.signatures.iter().map(|(kind, signature)| {
             (kind.name().to_owned(), proposals::drawn(signature))
-        }).collect::<Map<_, _>>(),
+        }).collect::<Map<_, _>>()),
         "stamp": model.stamp,
         "notes": fit.notes.iter().map(|note| on_the_page(note)).collect::<Vec<_>>(),
         "parameters": fit.parameters.iter().map(Estimate::from).collect::<Vec<_>>(),
-        "free_parameters": fit.parameters.iter().filter(|p| p.std.is_some()).count(),
-        "sliders": (state.chosen == Some(model.id)).then(|| sliders(&fit.candidate)),
+        "sliders": chosen.then(|| sliders(&fit.candidate)),
     })
 }

@@ -166,6 +166,27 @@ impl State {
             .ok_or_else(|| Error::Usage(format!("there is no model {id} on the bench")))
     }
 
+    /// The model that is looked at.
+    ///
+    /// # Errors
+    /// A bench without one.
+    pub(super) fn chosen_model(&self) -> Result<&Model, Error> {
+        let chosen = self
+            .chosen
+            .ok_or_else(|| Error::Usage("nothing is fitted yet; fit first".to_owned()))?;
+        self.model(chosen)
+    }
+
+    /// The model that is looked at, and the one that it is compared with, as far as there are any.
+    pub(super) fn both(&self) -> Vec<Model> {
+        let ids = [self.chosen, self.against];
+        let models = ids
+            .into_iter()
+            .flatten()
+            .filter_map(|id| self.model(id).ok());
+        models.cloned().collect()
+    }
+
     /// Takes a model away; what was made from it hangs on what it was made from.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::solve::{self, Objective};
-use servoid_identify::diagnose::{self, Budget, Diagnosis, HeldOut, Suggestion};
+use servoid_identify::diagnose::{self, Budget, Diagnosis, Suggestion};
 use servoid_identify::fit::{Fit, Options};
 use servoid_identify::{Diagnosed, Progress, bounded_problem, diagnose_data, identify_data};
 use servoid_results::report::diagnosis::DiagnosisReport;
@@ -180,14 +180,8 @@ pub(super) fn twins(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         let state = bench.state();
         (state.recordings()?, state.model(id)?.fit.candidate)
     };
-    let (fitted, held_out) = match recordings.kind() {
-        HeldOut::Recording(_) => {
-            let (fitted, held_out) = recordings.parts();
-            (fitted, Some(held_out))
-        }
-        HeldOut::End { .. } | HeldOut::Nothing => (recordings.shown(), None),
-    };
-    let twin = Twin::of(&candidate, fitted, held_out)?;
+    let fitted = recordings.shown();
+    let twin = Twin::of(&candidate, fitted, recordings.judge())?;
     let watched = Watched::new(bench, fitted.len());
     twin.diagnosed(TWINS, 1, &watched, |found| {
         bench.change(|state| {

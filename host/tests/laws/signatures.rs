@@ -3,27 +3,19 @@
 
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
-use servoid_identify::diagnose::residual_analysis::{cumulative, signature, without};
+use servoid_identify::diagnose::residual_analysis::{cumulative, signature};
 use servoid_identify::truth;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
-use shared::effects::{EffectSet, Kind};
+use shared::effects::Kind;
 
 /// The bench's recording with an effect hidden in it, and the model that is true of it.
 fn recorded(hidden: &Hidden, seed: u64) -> (Data, Candidate, Kind) {
     let machine = showcase::machine();
     let recording = showcase::record(hidden, seed, "bench").expect("a recording");
     let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
-    let mut effects = EffectSet::default();
-    effects
-        .push(kind, &hidden.truth(&machine, showcase::COUNTS_PER_REV))
-        .expect("a valid effect");
-    let candidate = Candidate {
-        machine: truth::physical(&machine).machine(),
-        effects,
-        start_speed: 0.0,
-        start_offset: 0.0,
-    };
+    let candidate =
+        truth::model(&machine, kind, hidden, showcase::COUNTS_PER_REV).expect("a valid effect");
     (Data::new(&recording).expect("data"), candidate, kind)
 }
 
@@ -95,7 +87,7 @@ fn a_right_model_stays_within_the_band_and_a_wrong_one_leaves_it() {
             })
         };
         let right = leaves(&candidate);
-        let wrong = leaves(&without(&candidate, kind));
+        let wrong = leaves(&candidate.without(kind));
         println!("seed {seed}: right {right:?}, wrong {wrong:?}");
         outside += usize::from(right.iter().any(|beyond| *beyond > 0.01));
         assert!(

@@ -244,6 +244,12 @@ impl Kind {
             .is_some_and(|special| special.whole)
     }
 
+    /// Cycles a revolution of an effect that is a torque which repeats with the angle.
+    pub fn periodic_torque(self) -> Option<Order> {
+        let periodic = self.facts().periodic;
+        periodic.filter(|_| self.description().place == Place::Torque)
+    }
+
     /// Whether one of the two is declared to look like the other.
     pub fn looks_like(self, other: Kind) -> bool {
         let declares = |a: Kind, b: Kind| a.description().look_alikes.contains(&b.name());

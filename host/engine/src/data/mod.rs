@@ -252,6 +252,14 @@ impl Data {
         self.measured_state(k).1 / self.units.counts_per_rev * core::f64::consts::TAU
     }
 
+    /// Change of a signal per second at sample `k`: over as many as `half` samples to both sides, fewer at the ends.
+    pub fn rate_of(&self, signal: &[f64], k: usize, half: usize) -> f64 {
+        let near = self.recordings.around(k, half);
+        let (from, to) = (near.start, near.end - 1);
+        let time = self.time_s[to] - self.time_s[from];
+        (signal[to] - signal[from]) / time.max(f64::MIN_POSITIVE)
+    }
+
     /// Speed at sample `k` in counts per second: slope of a parabola through its neighbourhood of
     /// `2·half + 1` samples, fewer at the ends.
     pub fn speed_counts_s(&self, k: usize, half: usize) -> f64 {

@@ -1,7 +1,7 @@
 //! A model with all its numbers, and how it is stepped.
 
 use shared::discretise::Discretisation;
-use shared::effects::EffectSet;
+use shared::effects::{EffectSet, Kind};
 use shared::motor::Machine;
 
 /// A model with all its numbers, in SI.
@@ -19,6 +19,21 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// The model with those of its effects that `keep` keeps.
+    pub fn keeping(&self, keep: impl Fn(Kind) -> bool) -> Self {
+        let mut effects = EffectSet::default();
+        for (kind, values) in self.effects.iter().filter(|(kind, _)| keep(*kind)) {
+            // They fitted in before.
+            let _ = effects.push(kind, values);
+        }
+        Candidate { effects, ..*self }
+    }
+
+    /// The model less one effect.
+    pub fn without(&self, kind: Kind) -> Self {
+        self.keeping(|own| own != kind)
+    }
+
     /// Whether an effect depends on the absolute angle.
     pub fn needs_angle(&self) -> bool {
         self.effects.iter().any(|(kind, _)| kind.needs().angle)

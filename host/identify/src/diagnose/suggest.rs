@@ -7,7 +7,7 @@ use super::context::{Budget, Context};
 use super::explain::evidence;
 use super::models::FittedModel;
 use super::outcome::Verdict;
-use super::residual_analysis::{Signature, analyse_residual, signature, without};
+use super::residual_analysis::{Signature, analyse_residual, signature};
 use super::selection::{extensions, judge};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
@@ -71,7 +71,7 @@ pub fn suggest(
         let Some(&effect) = model.effects.last() else {
             continue;
         };
-        let bare = without(&model.candidate, effect);
+        let bare = model.candidate.without(effect);
         let missing = analyse_residual(data, &bare, &model.candidate, model.method)?;
         let values = model.values_of(effect);
         list.push(Suggestion {

@@ -107,23 +107,10 @@ pub struct EquationResidual {
     pub acceleration: f64,
 }
 
-/// The first and the last sample that the speed at one is taken from.
-fn around(data: &Data, k: usize) -> (usize, usize) {
-    let near = data.recordings.around(k, SPEED_HALF_WIDTH);
-    (near.start, near.end - 1)
-}
-
-/// Speed at a sample, counts/s, over as many samples to both sides as the restart of a window takes.
-fn speed(data: &Data, k: usize) -> f64 {
-    let (from, to) = around(data, k);
-    let time = data.time_s[to] - data.time_s[from];
-    (data.counts[to] - data.counts[from]) / time.max(f64::MIN_POSITIVE)
-}
-
 /// Direction in which the shaft slides at a sample; zero where it may rest.
 fn sliding(data: &Data, k: usize) -> f64 {
-    let (from, to) = around(data, k);
-    let travel = data.counts[to] - data.counts[from];
+    let near = data.recordings.around(k, SPEED_HALF_WIDTH);
+    let travel = data.counts[near.end - 1] - data.counts[near.start];
     // On the edge of a cell the reading of a shaft at rest may change by one.
     if travel.abs() > 1.0 {
         travel.signum()
@@ -160,7 +147,7 @@ fn each_equation_residual(
     let net = |k: usize| {
         let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
         // As it is now: what passes the filter below must not be late before.
-        let speed = speed(data, k) * radians;
+        let speed = data.rate_of(&data.counts, k, SPEED_HALF_WIDTH) * radians;
         let drive = lowered.drive(data.command[k]);
         let current = drive - candidate.machine.kb * speed / data.units.volts;
         let mut shaft = Shaft::at(turns, speed / data.units.speed, current);

@@ -4,9 +4,7 @@
 
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{
-    self, Against, Bin, Line, Map, ResidualAnalysis, without,
-};
+use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis};
 use crate::error::Error;
 use servoid_engine::problem::Data;
 use shared::effects::{Evidence, Kind};
@@ -54,7 +52,7 @@ pub fn asked_for(
     let Some(after) = step.candidates.first() else {
         return Ok(None);
     };
-    let without = without(&after.candidate, step.added);
+    let without = after.candidate.without(step.added);
     residual_analysis::analyse_residual(data, &without, &after.candidate, after.method).map(Some)
 }
 

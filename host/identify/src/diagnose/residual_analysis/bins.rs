@@ -129,7 +129,8 @@ impl Map {
         // The mean itself is missing voltage too.
         let explained = between / n + mean * mean;
         let used = sums.iter().filter(|sum| sum.0 > 0).count() as f64;
-        let effective = independent(&points).max(used + 2.0);
+        let left: Vec<f64> = points.iter().map(|p| p.volts).collect();
+        let effective = independent(&left).max(used + 2.0);
         let by_chance = used * within / n / (effective - used);
         let beyond = (explained + within / n - noise)
             .max(explained)
@@ -312,13 +313,7 @@ fn quantiles(sorted: &[f64], bins: usize) -> Vec<f64> {
 
 /// Samples divided by the sum of their autocorrelation as far as it is positive (Geyer, *Statistical Science*
 /// 7(4), 1992).
-fn independent(points: &[Point]) -> f64 {
-    let volts: Vec<f64> = points.iter().map(|p| p.volts).collect();
-    independent_of(&volts)
-}
-
-/// The same of volts alone.
-pub(super) fn independent_of(volts: &[f64]) -> f64 {
+pub(super) fn independent(volts: &[f64]) -> f64 {
     let stride = volts.len().div_ceil(PICKED).max(1);
     let picked: Vec<f64> = volts.iter().copied().step_by(stride).collect();
     let n = picked.len();

@@ -42,7 +42,10 @@ pub fn cumulative(
         .map(|k| data.counts[k] + centre + errors[k])
         .collect();
     let by_time: Vec<usize> = (0..data.len()).collect();
-    let speeds: Vec<f64> = (0..data.len()).map(|k| speed(data, &run, k)).collect();
+    let radians = core::f64::consts::TAU / data.units.counts_per_rev;
+    let speeds: Vec<f64> = (0..data.len())
+        .map(|k| data.rate_of(&run, k, AROUND) * radians)
+        .collect();
     let mut by_speed = by_time.clone();
     by_speed.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
     let squares: Vec<f64> = errors.iter().map(|e| e * e).collect();
@@ -66,15 +69,6 @@ pub fn cumulative(
         }
     };
     Ok([summed(&by_time, &data.time_s), summed(&by_speed, &speeds)])
-}
-
-/// Speed of the model's run at a sample, rad/s.
-fn speed(data: &Data, run: &[f64], k: usize) -> f64 {
-    let near = data.recordings.around(k, AROUND);
-    let (from, to) = (near.start, near.end - 1);
-    let time = data.time_s[to] - data.time_s[from];
-    let counts = run[to] - run[from];
-    counts / data.units.counts_per_rev * core::f64::consts::TAU / time.max(f64::MIN_POSITIVE)
 }
 
 /// Places in an order of so many samples that are drawn, the last among them.

@@ -10,7 +10,7 @@ pub mod whiteness;
 
 pub use bins::{Against, Bin, Map};
 pub use cumulative::{Cumulative, cumulative};
-pub use own_volts::{OwnVolts, without};
+pub use own_volts::own_volts;
 pub use signature::{Axis, Signature, signature};
 pub use spectrum::{Line, Spectrum};
 pub use whiteness::{Correlations, Whiteness, correlations, whiteness};
@@ -24,6 +24,11 @@ use servoid_engine::simulation::{Mode, segments};
 /// Filter time of the residual, sample intervals: long enough that the encoder's steps do not drown it, short
 /// against a motor's time constants.
 const FILTER_SAMPLES: f64 = 5.0;
+/// The same, s.
+fn filter_time(data: &Data) -> f64 {
+    FILTER_SAMPLES * data.units.interval
+}
+
 /// Shares that differ by less than one part in so many are equal.
 const ALIKE: f64 = 40.0;
 /// Parts of the recording in which the free run's error is reported.
@@ -69,7 +74,7 @@ pub fn analyse_residual(
     complete: &Candidate,
     method: Method,
 ) -> Result<ResidualAnalysis, Error> {
-    let time = FILTER_SAMPLES * data.units.interval;
+    let time = filter_time(data);
     let residuals = equation_residuals(data, candidate, time);
     let perfect_volts_rms = perfect_volts(data, complete, method, time)?;
     let noise = perfect_volts_rms * perfect_volts_rms;

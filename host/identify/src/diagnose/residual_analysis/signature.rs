@@ -1,16 +1,14 @@
 //! The signature of an effect: the volts that the motor asked for without it, against the quantity with which the effect goes, and those
 //! that the model with the effect asks for over its own run under the same commands: the catalogue's own equation, states and all.
 
-use super::bins::{Against, Bin, Map, independent_of, points};
-use super::own_volts::OwnVolts;
-use crate::fit::scores::EquationResidual;
+use super::bins::{Against, Bin, Map, independent, points};
+use super::{filter_time, own_volts};
+use crate::fit::scores::{EquationResidual, equation_residuals};
 use core::f64::consts::TAU;
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
 use shared::effects::Kind;
 
-/// Filter time of the volts, sample intervals: as of the residual's maps.
-const FILTER_SAMPLES: f64 = super::FILTER_SAMPLES;
 /// Share of an effect's volts that its quantity must explain, or it is not drawn.
 const TOLD: f64 = 0.3;
 /// What is told against the motion counts for this part.
@@ -55,8 +53,9 @@ pub fn signature(
     if kind.facts().by_chance {
         return None;
     }
-    let time = FILTER_SAMPLES * data.units.interval;
-    let volts = OwnVolts::of(data, candidate, kind, method, time).ok()?;
+    let time = filter_time(data);
+    let missing = equation_residuals(data, &candidate.without(kind), time);
+    let own = own_volts(data, candidate, kind, method).ok()?;
     let machine = &candidate.machine;
     let values = candidate
         .effects
@@ -70,12 +69,12 @@ pub fn signature(
     {
         return Some(Signature {
             axis: Axis::Wave(waves),
-            bins: wave_bins(&folded(&volts.missing, waves, time)),
-            curve: curve(folded(&volts.own, waves, time), WAVE_POINTS),
+            bins: wave_bins(&folded(&missing, waves, time)),
+            curve: curve(folded(&own, waves, time), WAVE_POINTS),
         });
     }
     let told = |against: Against| {
-        let map = Map::new(against, data, machine, &volts.own, 0.0)?;
+        let map = Map::new(against, data, machine, &own, 0.0)?;
         // Against the motion everything that brakes is level: that is looked at where nothing else tells.
         let share = map.share * if against.turned() { TURNED } else { 1.0 };
         // A quantity is as good as the first of the list that tells about as much.
@@ -88,10 +87,10 @@ pub fn signature(
     if share < TOLD * 20.0 {
         return None;
     }
-    let own = points(against, data, machine, &volts.own);
+    let own = points(against, data, machine, &own);
     Some(Signature {
         axis: Axis::Map(against),
-        bins: Map::new(against, data, machine, &volts.missing, 0.0)?.bins,
+        bins: Map::new(against, data, machine, &missing, 0.0)?.bins,
         curve: curve(own.into_iter().map(|p| (p.x, p.volts)).collect(), POINTS),
     })
 }
@@ -121,7 +120,7 @@ fn wave_bins(points: &[(f64, f64)]) -> Vec<Bin> {
     };
     let left: Vec<f64> = points.iter().map(|&(x, volts)| volts - level(x)).collect();
     let per_sample = (left.iter().map(|e| e * e).sum::<f64>() / n).sqrt();
-    let effective = independent_of(&left);
+    let effective = independent(&left);
     let used = sums.iter().enumerate().filter(|(_, sum)| sum.0 > 0);
     used.map(|(k, &(samples, sum))| Bin {
         low: k as f64 / WAVE_BINS as f64,

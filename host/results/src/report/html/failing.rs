@@ -10,7 +10,7 @@ use servoid_engine::simulation::Method;
 use servoid_identify::diagnose::residual_analysis::{
     Correlations, ResidualAnalysis, analyse_residual, correlations,
 };
-use shared::effects::{EffectSet, Kind, Order, Place};
+use shared::effects::Kind;
 
 /// A model with its name.
 pub struct Model {
@@ -45,18 +45,25 @@ impl Model {
 /// # Errors
 /// Where a model cannot run.
 pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, Error> {
+    let fails = missing_drive(id, data, models)?;
+    Ok(fails
+        .into_iter()
+        .chain(whether_noise(id, data, models)?)
+        .collect())
+}
+
+/// What is missing against everything that could tell why; nothing without a model.
+///
+/// # Errors
+/// Where a model cannot run.
+pub fn missing_drive(id: &str, data: &Data, models: &[Model]) -> Result<Option<Section>, Error> {
     let Some(best) = models.last() else {
-        return Ok(Vec::new());
+        return Ok(None);
     };
     let mut found: Vec<(&str, ResidualAnalysis)> = Vec::new();
-    let mut related: Vec<(&str, Correlations)> = Vec::new();
     for model in models {
         let at = analyse_residual(data, &model.candidate, &best.candidate, best.method)?;
         found.push((&model.name, at));
-        let run = model.run(data)?;
-        if let Some(correlations) = correlations(data, &run.residual) {
-            related.push((&model.name, correlations));
-        }
     }
     let mut fails = Section::new(&format!("{id}-where"), "Where it fails");
     let maps: Vec<(&str, &ResidualAnalysis)> = found.iter().map(|(n, w)| (*n, w)).collect();
@@ -79,7 +86,24 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
         &named,
     ));
     fails.blocks.push(Block::Pictures(pictures));
+    Ok(Some(fails))
+}
 
+/// Whether anything is left but the encoder; nothing without a model.
+///
+/// # Errors
+/// Where a model cannot run.
+pub fn whether_noise(id: &str, data: &Data, models: &[Model]) -> Result<Option<Section>, Error> {
+    if models.is_empty() {
+        return Ok(None);
+    }
+    let mut related: Vec<(&str, Correlations)> = Vec::new();
+    for model in models {
+        let run = model.run(data)?;
+        if let Some(correlations) = correlations(data, &run.residual) {
+            related.push((&model.name, correlations));
+        }
+    }
     let mut noise = Section::new(&format!("{id}-noise"), "Is the rest noise?");
     let related: Vec<(&str, &Correlations)> = related.iter().map(|(n, c)| (*n, c)).collect();
     if !related.is_empty() {
@@ -88,24 +112,14 @@ pub fn failing(id: &str, data: &Data, models: &[Model]) -> Result<Vec<Section>, 
     }
     let drawn = picture::intervals(&format!("{id}-intervals"), data);
     noise.blocks.extend(drawn.map(Block::Picture));
-    Ok(vec![fails, noise])
+    Ok(Some(noise))
 }
 
 /// The model without its effects of the angle; `None` if it has none.
 fn without_waves(candidate: &Candidate) -> Option<Candidate> {
-    let waves = |kind: Kind| periodic_torque(kind).is_some();
-    if !candidate.effects.iter().any(|(kind, _)| waves(kind)) {
-        return None;
-    }
-    let mut effects = EffectSet::default();
-    for (kind, values) in candidate.effects.iter().filter(|(kind, _)| !waves(*kind)) {
-        // They fitted in before.
-        let _ = effects.push(kind, values);
-    }
-    Some(Candidate {
-        effects,
-        ..*candidate
-    })
+    let waves = |kind: Kind| kind.periodic_torque().is_some();
+    let any = candidate.effects.iter().any(|(kind, _)| waves(kind));
+    any.then(|| candidate.keeping(|kind| !waves(kind)))
 }
 
 /// Orders of the waves that a model names.
@@ -113,14 +127,8 @@ fn orders_of(candidate: &Candidate) -> Vec<usize> {
     let orders = candidate
         .effects
         .iter()
-        .filter_map(|(kind, values)| periodic_torque(kind)?.of(values));
+        .filter_map(|(kind, values)| kind.periodic_torque()?.of(values));
     orders.collect()
-}
-
-/// Cycles a revolution of an effect that is a torque which repeats with the angle.
-fn periodic_torque(kind: Kind) -> Option<Order> {
-    let periodic = kind.facts().periodic;
-    periodic.filter(|_| kind.description().place == Place::Torque)
 }
 
 fn missing(found: &[(&str, ResidualAnalysis)]) -> String {

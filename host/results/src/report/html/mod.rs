@@ -22,7 +22,7 @@ mod steady;
 mod waves;
 
 pub use belongs::doubts;
-pub use failing::{Model, failing};
+pub use failing::{Model, failing, missing_drive, whether_noise};
 
 use crate::error::Error;
 use crate::number_text::{rough, short};

@@ -1,7 +1,7 @@
 // The tabs beneath the lanes.
 
 import { ask } from "./ask.js";
-import { value, variable } from "./colours.js";
+import { value, variable } from "./names.js";
 import { at, button, el } from "./elements.js";
 import * as failing from "./failing.js";
 import * as remedy from "./remedy.js";
@@ -90,7 +90,7 @@ let loading = null;
 function plotly() {
   loading ??= ["plotly.js", "plots.js"].reduce((before, source) => before.then(() => new Promise((done, failed) => {
     document.head.append(el("script", { src: source, onload: done, onerror: () => failed(new Error(`${source} does not load`)) }));
-  })), Promise.resolve()).then(() => servoid.theme(document.documentElement.dataset.theme));
+  })), Promise.resolve());
   const theme = document.documentElement.dataset.theme;
   return loading.then(() => servoid.theme(theme));
 }

@@ -28,6 +28,13 @@ export function button(text, does, attributes = {}) {
   return el("button", { type: "button", class: "btn", onclick: does, ...attributes }, text);
 }
 
+/** Gives a file to the user. */
+export function save(name, blob) {
+  const link = el("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 /** A path along points `[x, y]`; `null` begins a new part. */
 export function path(points) {
   let down = false;

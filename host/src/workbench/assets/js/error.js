@@ -1,6 +1,6 @@
 // The number that counts: the held-out error of the model that is looked at.
 
-import { colour } from "./colours.js";
+import { colour } from "./names.js";
 import { at } from "./elements.js";
 import { counts, times } from "./numbers.js";
 

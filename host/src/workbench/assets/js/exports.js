@@ -1,6 +1,6 @@
 // The result as a file.
 
-import { at, el } from "./elements.js";
+import { at, el, save } from "./elements.js";
 
 const SAID = {
   report: ["Report", "one page to read and to print"],
@@ -24,9 +24,7 @@ async function take(format) {
   const answer = await fetch(`export?format=${format}`);
   if (!answer.ok) throw new Error((await answer.json()).error);
   const name = /filename="([^"]+)"/.exec(answer.headers.get("content-disposition"))[1];
-  const link = el("a", { href: URL.createObjectURL(await answer.blob()), download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  save(name, await answer.blob());
 }
 
 at("export-close").addEventListener("click", () => at("export-dialog").close());

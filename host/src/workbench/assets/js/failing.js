@@ -1,7 +1,7 @@
 // Where the models fail: cumulative squared error over time and speed, with the band that a right model keeps, and the orders of the angle.
 
 import { ask } from "./ask.js";
-import { colour, letter } from "./colours.js";
+import { colour, letter, spoken } from "./names.js";
 import { el, path, svg } from "./elements.js";
 import { digits } from "./numbers.js";
 
@@ -19,7 +19,7 @@ export async function show(place) {
     el("p", { class: "quiet s12" }, `Share of the squared error of ${models.map((one) => letter(one.id)).join(" and ")} as samples are counted in order. `
       + "The grey band is what a right model would leave: where a line leaves it, the model fails."),
     el("div", { class: "curves" },
-      shares("Time", "s", models, "time"), shares("Speed", "rad/s, sorted", models, "speed"), cumulatedOrders(models), orders(models)),
+      samples("Time", "s", models, "time"), samples("Speed", "rad/s, sorted", models, "speed"), cumulatedOrders(models), orders(models)),
     taken(best) ?? "");
 }
 
@@ -37,50 +37,51 @@ function grid() {
     svg("text", { x: LEFT - 6, y: Y(share) + 4, "text-anchor": "end" }, String(100 * share))]);
 }
 
-// The abscissa is the order of the samples, with the quantity written beneath.
-function shares(title, unit, models, what) {
-  const [best] = models;
-  const n = best[what].share.length;
-  const part = (k) => (k + 1) / n;
-  const band = best[what].band;
+// Cumulative shares, evenly along the abscissa, over the band `[low, high]` of a right model; ticks are `[part, text]`.
+function cumulated(title, unit, curves, band, ticks) {
+  const along = (shares) => shares.map((share, k) => [X((k + 1) / shares.length), Y(share)]);
   const parts = grid();
   if (band.length) {
-    const there = band.map(([low], k) => [X(part(k)), Y(low)]);
-    const back = band.map(([, high], k) => [X(part(k)), Y(high)]).reverse();
-    parts.push(svg("path", { d: `${path([[X(0), Y(0)], ...there, ...back])}Z`, fill: "var(--band)" }));
+    const [there, back] = [0, 1].map((side) => along(band.map((edges) => edges[side])));
+    parts.push(svg("path", { d: `${path([[X(0), Y(0)], ...there, ...back.reverse()])}Z`, fill: "var(--band)" }));
   }
-  for (const model of [...models].reverse()) {
-    const points = [[X(0), Y(0)], ...model[what].share.map((share, k) => [X((k + 1) / model[what].share.length), Y(share)])];
-    parts.push(svg("path", { d: path(points), fill: "none", stroke: colour(model.id), "stroke-width": 1.75 }));
+  for (const { id, shares } of [...curves].reverse()) {
+    parts.push(svg("path", { d: path([[X(0), Y(0)], ...along(shares)]), fill: "none", stroke: colour(id), "stroke-width": 1.75 }));
   }
-  for (const k of [0, n >> 1, n - 1]) {
-    parts.push(svg("text", { x: X(k === 0 ? 0 : part(k)), y: HIGH - 4, "text-anchor": k === 0 ? "start" : k === n - 1 ? "end" : "middle" }, k === 0 && what === "time" ? "0" : digits(best[what].x[k], 2)));
+  for (const [part, text] of ticks) {
+    parts.push(svg("text", { x: X(part), y: HIGH - 4, "text-anchor": part === 0 ? "start" : part === 1 ? "end" : "middle" }, text));
   }
   return frame(title, unit, parts);
 }
 
+// Samples in their order, with the quantity written beneath.
+function samples(title, unit, models, what) {
+  const { x, band } = models[0][what];
+  const middle = x.length >> 1;
+  const ticks = [[0, what === "time" ? "0" : digits(x[0], 2)], [(middle + 1) / x.length, digits(x[middle], 2)], [1, digits(x.at(-1), 2)]];
+  return cumulated(title, unit, models.map((model) => ({ id: model.id, shares: model[what].share })), band, ticks);
+}
+
+// Orders of the angle, with Kolmogorov's bound of 95 % for powers that are as white noise would have them.
 function cumulatedOrders(models) {
-  const parts = grid();
   const n = models[0].orders_v.length;
-  // Kolmogorov's bound of 95 % for powers that are as white noise would have them.
-  const bound = (k) => 1.36 * Math.sqrt(((k / n) * (1 - k / n)) / n) * 2;
-  const ks = Array.from({ length: n + 1 }, (_, k) => k);
   const limited = (share) => Math.max(0, Math.min(1, share));
-  parts.push(svg("path", {
-    d: `${path([...ks.map((k) => [X(k / n), Y(limited(k / n - bound(k)))]), ...ks.map((k) => [X(k / n), Y(limited(k / n + bound(k)))]).reverse()])}Z`, fill: "var(--band)",
-  }));
-  for (const model of [...models].reverse()) {
+  const band = Array.from({ length: n }, (_, k) => {
+    const part = (k + 1) / n;
+    const bound = 1.36 * Math.sqrt((part * (1 - part)) / n) * 2;
+    return [limited(part - bound), limited(part + bound)];
+  });
+  const curves = models.map((model) => {
     const powers = model.orders_v.map((v) => v * v);
     const total = powers.reduce((a, b) => a + b, 0) || 1;
     let sum = 0;
-    const points = [[X(0), Y(0)], ...powers.map((p, k) => {
+    const shares = powers.map((p) => {
       sum += p;
-      return [X((k + 1) / n), Y(sum / total)];
-    })];
-    parts.push(svg("path", { d: path(points), fill: "none", stroke: colour(model.id), "stroke-width": 1.75 }));
-  }
-  for (const k of [1, n / 2, n]) parts.push(svg("text", { x: X(k / n), y: HIGH - 4, "text-anchor": k === n ? "end" : "middle" }, String(k)));
-  return frame("Angle order", "cycles per revolution", parts);
+      return sum / total;
+    });
+    return { id: model.id, shares };
+  });
+  return cumulated("Angle order", "cycles per revolution", curves, band, [[1 / n, "1"], [0.5, String(n / 2)], [1, String(n)]]);
 }
 
 function orders(models) {
@@ -120,7 +121,7 @@ function taken(model) {
     });
   });
   parts.push(svg("text", { x: LEFT, y: high - 4 }, "0"), svg("text", { x: wide - 6, y: high - 4, "text-anchor": "end" }, `${digits(model.taken[0].seconds, 3)} s`));
-  const said = model.taken.map((one) => `${one.effect.replace(/_/g, " ")} ${digits(one.rms_v, 2)} V`).join(", ");
+  const said = model.taken.map((one) => `${spoken(one.effect)} ${digits(one.rms_v, 2)} V`).join(", ");
   return el("figure", { style: "margin-top:16px" }, el("figcaption", {}, el("strong", {}, "What each effect takes of the drive"), " ",
     el("span", { class: "quiet" }, `RMS over the recording, from below: ${said}`)),
   svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: "100%", class: "taken", role: "img", "aria-label": `What each effect takes of the drive: ${said}` }, ...parts));

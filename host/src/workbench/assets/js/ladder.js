@@ -1,6 +1,6 @@
 // The error ladder: one step down for each effect on the way to the model that is looked at.
 
-import { colour, letter, step } from "./colours.js";
+import { colour, letter, step } from "./names.js";
 import { at, svg } from "./elements.js";
 import { judged } from "./error.js";
 import { counts, times } from "./numbers.js";

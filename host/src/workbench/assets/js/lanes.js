@@ -1,7 +1,7 @@
 // Measured and models over time: angle, residual and drive share one time axis and one cursor. Every view is thinned from whole series.
 
 import { keptNumbers, numbers } from "./ask.js";
-import { colour, letter, value, variable } from "./colours.js";
+import { colour, letter, value, variable } from "./names.js";
 import { at, button, el, path, svg } from "./elements.js";
 import { counts, digits } from "./numbers.js";
 import { Pyramid, parts } from "./pyramid.js";
@@ -24,10 +24,6 @@ let span = null;
 let cursor = null;
 let held = false;
 const plots = {};
-const listeners = [];
-
-/** Calls `does` with the time window whenever it changes. */
-export const onWindow = (does) => listeners.push(does);
 
 // ---- what is shown
 
@@ -194,7 +190,6 @@ function draw() {
   readout();
   Object.assign(at("lanes").dataset, { from: span[0], to: span[1], points: made.angle.data[0].length });
   document.body.dataset.lanes = shown.map((model) => `${model.id}${model.dashed ? "p" : ""}`).join(" ");
-  for (const does of listeners) does(between());
 }
 
 function heightsNow() {

@@ -1,7 +1,7 @@
 // The page of the workbench: shows what lies on the bench, and asks for work. The bench itself is kept by the program.
 
 import { ask } from "./ask.js";
-import { letter, step } from "./colours.js";
+import { letter, spoken, step } from "./names.js";
 import * as details from "./details.js";
 import { at, el } from "./elements.js";
 import * as error from "./error.js";
@@ -52,8 +52,10 @@ function fit(effects, algorithm = "lm") {
   comparing = false;
   // It is on the bench already.
   if (same && same.id !== bench.chosen) return act("choose", { chosen: same.id, against: bench.chosen });
-  return work({ what: "fit", effects, algorithm });
+  return fitNow(effects, algorithm);
 }
+
+const fitNow = (effects, algorithm = "lm") => work({ what: "fit", effects, algorithm });
 
 // Whether something else may take the place of what is on the bench. It is asked where models would go.
 function putAway() {
@@ -108,7 +110,7 @@ const does = {
     const effects = model(bench.chosen)?.effects ?? [];
     try {
       await ask("roles", { roles });
-      await work({ what: "fit", effects, algorithm: "lm" });
+      await fitNow(effects);
     } catch (fault) {
       say(fault);
     }
@@ -136,7 +138,7 @@ function foreseen() {
   const effect = proposals.preview();
   if (!effect || comparing || before || !bench.proposed) return null;
   const found = bench.proposed.list.find((one) => one.effect === effect);
-  return found && { effect: effect.replace(/_/g, " "), id: effect, error: found.held_out_rms_counts ?? found.rms_counts };
+  return found && { effect: spoken(effect), id: effect, error: found.held_out_rms_counts ?? found.rms_counts };
 }
 
 function show() {
@@ -181,9 +183,8 @@ function draw() {
   if (comparing && beside) drawn.push(of(beside));
   if (before && parent) drawn.push(of(parent));
   else if (chosen) drawn.push(of(chosen));
-  if (seen && !heldOut) drawn.push({ id: bench.next, stamp: `p${chosen.stamp}/${seen.id}`, source: `series/proposal/${chosen.id}/${seen.id}`, dashed: true });
   if (byHand && chosen) drawn.push({ id: chosen.id, stamp: `hand${performance.now()}`, values: byHand, dashed: true });
-  if (seen && heldOut) drawn.push({ id: bench.next, stamp: `p${chosen.stamp}/${seen.id}`, source: `series/proposal/${chosen.id}/${seen.id}`, dashed: true });
+  if (seen) drawn.push({ id: bench.next, stamp: `p${chosen.stamp}/${seen.id}`, source: `series/proposal/${chosen.id}/${seen.id}`, dashed: true });
   const roots = ladder.wayTo(bench.models, bench.chosen);
   lanes.compareScale(before || comparing ? null : roots[0]);
   lanes.legend(drawn, (one) => (one.values ? "moved by hand" : one.dashed ? `+ ${seen.effect}, foreseen` : nameOf(model(one.id))));
@@ -289,7 +290,7 @@ events.addEventListener("error", () => refresh());
 
 // ---- files
 
-const take = (files) => mapping.take(Array.from(files), { bench: () => bench, say, putAway, fit: (effects) => work({ what: "fit", effects, algorithm: "lm" }) }).catch(say);
+const take = (files) => mapping.take(Array.from(files), { bench: () => bench, say, putAway, fit: fitNow }).catch(say);
 
 at("file").addEventListener("change", (event) => {
   take(event.target.files).finally(() => {
@@ -313,7 +314,7 @@ at("demo").addEventListener("click", async () => {
   if (!await putAway()) return;
   try {
     await ask("demo", {});
-    await work({ what: "fit", effects: [], algorithm: "lm" });
+    await fitNow([]);
   } catch (fault) {
     say(fault);
   }

@@ -1,7 +1,7 @@
 // A file that was dropped: what it is, which column is what, and what that means.
 
 import { ask } from "./ask.js";
-import { at, el, path, svg } from "./elements.js";
+import { at, el, path, save, svg } from "./elements.js";
 import { digits } from "./numbers.js";
 
 const QUANTITIES = [
@@ -191,9 +191,7 @@ at("load").addEventListener("click", async () => {
 at("save-motor").addEventListener("click", async () => {
   try {
     const { text } = await ask("motor", mapping());
-    const link = el("a", { href: URL.createObjectURL(new Blob([text])), download: "motor.toml" });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    save("motor.toml", new Blob([text]));
   } catch (error) {
     show(error.message);
   }

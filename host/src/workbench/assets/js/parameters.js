@@ -1,6 +1,6 @@
 // The parameters of the model that is looked at, with intervals and units.
 
-import { colour, letter } from "./colours.js";
+import { colour, letter, spoken } from "./names.js";
 import { at, el, svg } from "./elements.js";
 import { digits, estimate, times, usual } from "./numbers.js";
 import { judged } from "./error.js";
@@ -19,7 +19,7 @@ function name(one, all) {
   if (NAMES[one.name]) return NAMES[one.name];
   const [effect, own] = one.name.split(".");
   const alone = all.filter((other) => other.name.startsWith(`${effect}.`)).length === 1;
-  return (own && !alone ? `${effect} ${own}` : effect).replace(/_/g, " ");
+  return spoken(own && !alone ? `${effect} ${own}` : effect);
 }
 
 /** The parameters that are shown: a wave by amplitude and phase, not by cosine and sine as well. */

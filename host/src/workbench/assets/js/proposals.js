@@ -1,6 +1,6 @@
 // What is missing: the proposals beside the model that is looked at, the explained model, or two models compared.
 
-import { colour, letter } from "./colours.js";
+import { colour, letter, spoken } from "./names.js";
 import { at, button, el } from "./elements.js";
 import { counts, digits, estimate, usual } from "./numbers.js";
 import { shownOf } from "./parameters.js";
@@ -45,13 +45,12 @@ function missing(bench, chosen, does) {
     return el("div", { class: "sec" }, el("h2", {}, "What is missing?"),
       el("p", { class: "acts" }, button("Look for it", does.suggest, { class: "btn pri", id: "suggest" })));
   }
-  const free = proposed.list.filter((one) => !one.locked);
-  const rows = free.filter((one, k) => k === 0 || !one.little);
-  const rest = [...free.slice(1).filter((one) => one.little), ...proposed.list.filter((one) => one.locked)];
+  const rows = rowsOf(proposed);
+  const rest = [...proposed.list.filter((one) => !one.locked && !rows.includes(one)), ...proposed.list.filter((one) => one.locked)];
   open = Math.min(open, Math.max(0, rows.length - 1));
   const head = el("div", { class: "sec head" }, el("h2", {}, "What is missing?"), el("span", { class: "space" }),
     el("span", { class: "dim s12" }, `${proposed.tried} tested, ${proposed.seconds.toFixed(1)} s`));
-  if (!free.length) {
+  if (!rows.length) {
     return el("div", {}, head, el("div", { class: "sec" }, el("p", {}, chosen.at_floor
       ? "The error is the encoder's own, yet it is not noise: a longer recording would tell more."
       : "Nothing in the catalogue explains more. Something else is missing.")), little(rest, bench, does));
@@ -62,13 +61,17 @@ function missing(bench, chosen, does) {
   return el("div", {}, head, list, little(rest, bench, does));
 }
 
+// Those that are shown with their signatures: the first in any case, others where they explain much.
+function rowsOf(proposed) {
+  return proposed.list.filter((one) => !one.locked).filter((one, k) => k === 0 || !one.little);
+}
+
 const thead = () => el("div", { class: "thead", "aria-hidden": "true" }, el("span", {}, "Effect"), el("span", {}, "foreseen"), el("span", {}, "held out"));
 
 const title = (one) => {
   const short = one.title.replace(/ \(.*\)$/, "");
   return short[0].toUpperCase() + short.slice(1);
 };
-const spoken = (name) => name.replace(/_/g, " ");
 const parameters = (one) => (one.parameters === 1 ? "1 parameter" : `${one.parameters} parameters`);
 
 function opened(one, rows, chosen, bench, does) {
@@ -127,10 +130,7 @@ function hover(one, does) {
 
 function choose(k, bench, does) {
   open = k;
-  const { list } = bench.proposed;
-  const free = list.filter((one) => !one.locked);
-  const rows = free.filter((one, place) => place === 0 || !one.little);
-  previewed = rows[open]?.effect ?? null;
+  previewed = rowsOf(bench.proposed)[open]?.effect ?? null;
   show(bench, does);
   document.querySelector("#proposals .open")?.scrollIntoView({ block: "nearest" });
   does.preview();

@@ -1,7 +1,7 @@
 // From answer to remedy: the speed loop of the fitted motor, before and after what is known of its effects.
 
 import { ask } from "./ask.js";
-import { colour } from "./colours.js";
+import { colour, spoken } from "./names.js";
 import { button, el, path, svg } from "./elements.js";
 import { digits, times } from "./numbers.js";
 
@@ -11,12 +11,12 @@ const [WIDE, HIGH, LEFT, BOTTOM] = [760, 190, 44, 20];
 export async function show(place, bench, does) {
   const found = await ask("remedy");
   const fall = found.rms_before / found.rms_after;
-  const row = (name, value, unit, from) => el("tr", {}, el("th", {}, name, from ? el("span", { class: "dim" }, ` ${from.replace(/_/g, " ")}`) : null),
+  const row = (name, value, unit, from) => el("tr", {}, el("th", {}, name, from ? el("span", { class: "dim" }, ` ${spoken(from)}`) : null),
     el("td", {}, digits(value, 4)), el("td", { class: "dim" }, unit));
   const rows = [row("kp", found.kp, "V·s/rad"), row("ki", found.ki, "V/rad"), row("kV", found.k_v, "V·s/rad"), row("kA", found.k_a, "V·s²/rad")];
   if (found.k_s !== null) rows.push(row("kS", found.k_s, "V", found.k_s_from));
   if (found.k_g !== null) rows.push(row("kG", found.k_g, "V", found.k_g_from));
-  const knows = [found.k_s_from, found.k_g_from, ...found.by_angle.map((name) => `${name} by a table of the angle`)].filter(Boolean).join(", ").replace(/_/g, " ");
+  const knows = spoken([found.k_s_from, found.k_g_from, ...found.by_angle.map((name) => `${name} by a table of the angle`)].filter(Boolean).join(", "));
   place.replaceChildren(el("div", { class: "remedy" },
     el("div", {}, el("h2", {}, "Speed error in closed loop, on the fitted motor"),
       el("p", { class: "falls" }, el("span", { class: "quiet" }, `${digits(found.rms_before, 3)}`), "→",

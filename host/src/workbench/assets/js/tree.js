@@ -1,6 +1,6 @@
 // A tree of models: each a node, an edge for what was added or removed, with its held-out error.
 
-import { colour, letter, step } from "./colours.js";
+import { colour, letter, step } from "./names.js";
 import { at, svg } from "./elements.js";
 import { judged } from "./error.js";
 import { counts } from "./numbers.js";

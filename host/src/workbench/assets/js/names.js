@@ -1,4 +1,4 @@
-// One colour and one letter a model, over the whole page, in the order in which models were made.
+// What a model is called and drawn in: one colour and one letter over the whole page, in the order in which models were made.
 
 const NAMES = ["a", "b", "c", "d", "e"];
 
@@ -16,6 +16,9 @@ export const colour = (id) => `var(${variable(id)})`;
 
 /** The value of a variable of the style, for a canvas. */
 export const value = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** The name of an effect or a parameter as it is said. */
+export const spoken = (name) => name.replace(/_/g, " ");
 
 /** What a model has that the one from which it was made has not: `+ Coulomb`, `− cogging`; of the first, its own name. */
 export function step(model, parent) {
