@@ -107,6 +107,14 @@ impl Recording {
         Some((before, after))
     }
 
+    /// The samples from `from` to `to`, s after the first one; `None` where there are fewer than two.
+    pub fn between(&self, from: f64, to: f64) -> Option<Recording> {
+        let start = *self.time_s.first()?;
+        let at = |seconds: f64| self.time_s.partition_point(|time| time - start < seconds);
+        let (from, to) = (at(from), at(to));
+        (to >= from + 2).then(|| self.rows(from..to, self.source.clone()))
+    }
+
     /// Whether it holds the same samples as `other`: then it tells nothing that the other does not.
     pub fn is_copy_of(&self, other: &Recording) -> bool {
         self.counts == other.counts && self.command == other.command

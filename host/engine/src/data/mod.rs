@@ -171,12 +171,16 @@ impl Data {
 
     /// Best estimate of the angle in counts from the reading of sample `k`: the centre of its cell.
     pub fn centre(&self, k: usize) -> f64 {
-        self.counts[k]
-            + if self.quantised {
-                shared::encoder::FLOOR_OFFSET_COUNTS
-            } else {
-                0.0
-            }
+        self.counts[k] + self.half_cell()
+    }
+
+    /// How far a reading lies below the centre of its cell, counts: nothing where angles are not floored.
+    pub fn half_cell(&self) -> f64 {
+        if self.quantised {
+            shared::encoder::FLOOR_OFFSET_COUNTS
+        } else {
+            0.0
+        }
     }
 
     /// Whether the bridge is open after sample `k`.

@@ -151,7 +151,7 @@ impl FitProblem<'_> {
             Cost::Absolute {
                 model_floored: false,
             } => 0.0,
-            _ => self.data.centre(0) - self.data.counts[0],
+            _ => self.data.half_cell(),
         };
         for error in &mut errors {
             *error -= zero;

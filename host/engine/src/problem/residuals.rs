@@ -59,7 +59,7 @@ pub(super) fn centre(
     if *horizon != Horizon::Whole || start_angle != StartAngle::Free {
         return;
     }
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     // Only the first recording's start angle can be an unknown of the model.
     let known = usize::from(!is_centred(data, candidate, horizon, start_angle));
     let ranges = data.recordings.ranges().skip(known);

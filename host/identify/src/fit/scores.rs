@@ -61,7 +61,7 @@ pub fn windowed(data: &Data, candidate: &Candidate, options: &Options) -> Option
         Cost::Squared,
     )
     .ok()?;
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let (mut wrong, mut moved) = (0.0, 0.0);
     for window in list {
         let first = data.counts[window.range.start];

@@ -83,7 +83,7 @@ pub fn uncertainty(
 /// Where the model cannot run.
 pub(super) fn residuals(problem: &FitProblem<'_>, values: &[f64]) -> Result<Vec<f64>, ModelError> {
     let mut residuals = problem.errors(&problem.structure.candidate(values))?;
-    let centre = problem.data.centre(0) - problem.data.counts[0];
+    let centre = problem.data.half_cell();
     for residual in &mut residuals {
         *residual -= centre;
     }

@@ -28,7 +28,7 @@ const STALLED: usize = 3;
 
 /// The first sample at which a run has departed from the readings; their number if it has not.
 pub fn departure(data: &Data, errors: &[f64]) -> usize {
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     errors
         .iter()
         .position(|error| (error - centre).abs() > DEPARTED_COUNTS)
@@ -162,7 +162,7 @@ fn refined_offset(
     mut offset: f64,
     run: &dyn Fn(f64) -> Result<Vec<f64>, Error>,
 ) -> Result<Option<Vec<f64>>, Error> {
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let length = |errors: &[f64]| errors.iter().map(|e| (e - centre).powi(2)).sum::<f64>();
     let (mut reached, mut stalled) = (0, 0);
     let mut step = OFFSET_STEP;
@@ -224,7 +224,7 @@ fn moving_starts(
         * core::f64::consts::TAU;
     let step = SPEED_STEP * data.units.speed;
     let (here, ahead) = (run(now)?, run(now + step)?);
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let better = now + slope_step(&here, &ahead, step, centre);
     Ok(vec![now, better])
 }

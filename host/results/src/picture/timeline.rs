@@ -56,7 +56,7 @@ impl Run {
     }
 
     fn new(name: &str, data: &Data, errors: &[f64]) -> Self {
-        let centre = data.centre(0) - data.counts[0];
+        let centre = data.half_cell();
         Run {
             name: name.to_owned(),
             residual: errors.iter().map(|error| error - centre).collect(),

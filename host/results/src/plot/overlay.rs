@@ -18,7 +18,7 @@ const POINTS: usize = 3000;
 /// [`Error::Model`] where the model cannot run; [`Error::Failed`] where nothing can be drawn.
 pub fn overlay(data: &Data, candidate: &Candidate, method: Method) -> Result<String, Error> {
     let errors = scores::whole(data, candidate, method)?;
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let turns = |counts: f64| counts / data.units.counts_per_rev;
     let index: Vec<usize> = thinned(data.len(), POINTS).collect();
     let measured: Vec<(f64, f64)> = index

@@ -251,7 +251,7 @@ fn surprise(errors: &[f64], noise: f64) -> f64 {
 impl Point {
     /// Of the unknowns alone; shifts and noise are estimated with them.
     fn uncertainty(&self, problem: &FitProblem<'_>, information: &Information) -> Uncertainty {
-        let centre = problem.data.centre(0) - problem.data.counts[0];
+        let centre = problem.data.half_cell();
         let residuals: Vec<f64> = self.errors.iter().map(|error| error - centre).collect();
         let effective = uncertainty::effective_samples(problem.data, &residuals);
         let all = information.uncertainty(effective);
