@@ -4,9 +4,12 @@ import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test as plain } from "node:test";
+import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 export const SERVOID = process.env.SERVOID;
+// The firmware as a program of this machine.
+export const EMULATED = process.env.EMULATED ?? fileURLToPath(new URL("../../target/firmware/emulated", import.meta.url));
 const BROWSER = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
 
 // A test that fails if it waits for what never comes; the slowest takes half a minute.
@@ -30,8 +33,17 @@ export class Desk {
   }
 
   // `servoid bench`, and the address that it prints.
-  async bench(line) {
-    const args = ["bench", ...line.split(" ").filter(Boolean), "--no-open", "--json", "-", "--quiet"];
+  bench(line) {
+    return this.served(`bench ${line}`);
+  }
+
+  // `servoid device bench` with an emulated device, likewise.
+  device(line) {
+    return this.served(`device bench --emulate --image ${EMULATED} ${line}`);
+  }
+
+  async served(line) {
+    const args = [...line.split(" ").filter(Boolean), "--no-open", "--json", "-", "--quiet"];
     const program = spawn(SERVOID, args, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
     this.programs.push(program);
     let text = "";
@@ -40,7 +52,7 @@ export class Desk {
         text += part;
         if (text.trimEnd().endsWith("}")) resolve(JSON.parse(text).url);
       });
-      program.on("exit", (code) => reject(new Error(`servoid bench ended with ${code}`)));
+      program.on("exit", (code) => reject(new Error(`servoid ${line} ended with ${code}`)));
     });
     const ended = new Promise((done) => program.on("exit", done));
     return { url, program, end: () => (program.kill("SIGINT"), ended) };
@@ -123,6 +135,15 @@ export async function settled(page, models) {
     if (Date.now() - begun > 120_000) throw new Error(`the page does not settle: ${await page.textContent("#fault")}`);
     await page.waitForTimeout(50);
   }
+}
+
+// Drags across the lanes, from one part of their width to another.
+export async function drag(page, from, to) {
+  const box = await page.locator("#lane-angle .u-over").boundingBox();
+  await page.mouse.move(box.x + from * box.width, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + to * box.width, box.y + 20, { steps: 5 });
+  await page.mouse.up();
 }
 
 // What the program says of the bench.

@@ -1,6 +1,6 @@
 // The loop of the workbench in a real browser: measured against model, where it fails, what is missing, add, the error falls.
 import assert from "node:assert/strict";
-import { add, close, error, open, opened, outside, settled, state, tab, test, turnAndResize, workplace } from "./bench.mjs";
+import { add, close, drag, error, open, opened, outside, settled, state, tab, test, turnAndResize, workplace } from "./bench.mjs";
 
 const at = workplace(
   "simulate --hide coulomb --out rec.csv --seed 1",
@@ -224,14 +224,7 @@ test("a recording of twenty minutes is thinned for drawing, never for what is ne
   const lanes = () => page.evaluate(() => ({ ...document.getElementById("lanes").dataset }));
   const whole = await lanes();
   assert.ok(whole.to - whole.from >= 1_200_000 && whole.points < 4000, JSON.stringify(whole));
-  const box = await page.locator("#lane-angle .u-over").boundingBox();
-  const drag = async (from, to) => {
-    await page.mouse.move(box.x + from * box.width, box.y + 20);
-    await page.mouse.down();
-    await page.mouse.move(box.x + to * box.width, box.y + 20, { steps: 5 });
-    await page.mouse.up();
-  };
-  for (let k = 0; k < 3; k += 1) await drag(0.45, 0.52);
+  for (let k = 0; k < 3; k += 1) await drag(page, 0.45, 0.52);
   const near = await lanes();
   assert.equal(Number(near.points), near.to - near.from, `every sample is drawn: ${JSON.stringify(near)}`);
   await page.locator("#lane-angle .u-over").dblclick();

@@ -33,6 +33,24 @@ try {
   await page.waitForSelector("#dock .curves");
   await take(join(images, "bench-fails.png"));
   await bench.end();
+  // A motor under way: an experiment that decides, with both models running along.
+  const device = await desk.device("--hide coulomb --no-coast --counts-per-rev 64 --amplitude 0.3 --pace 1");
+  const live = await open(chrome, device.url, { viewport: { width: 1280, height: 800 }, colorScheme: "light" });
+  const start = async (id) => {
+    await live.click("#arm");
+    await live.click(`#${id}:enabled`);
+    await live.waitForSelector("#live:not([hidden])");
+  };
+  await start("record");
+  await live.waitForSelector("#live", { state: "hidden", timeout: 60_000 });
+  await settled(live, 1);
+  await live.click("#plan");
+  await live.waitForSelector("#play", { timeout: 120_000 });
+  await live.screenshot({ path: join(images, "bench-plan.png") });
+  await start("play");
+  await live.waitForFunction(() => Number.parseFloat(document.getElementById("live-time").textContent) > 10);
+  await live.screenshot({ path: join(images, "bench-live.png") });
+  await device.end();
 } finally {
   await chrome.close();
   desk.clear();

@@ -1,7 +1,7 @@
 // Recordings and sessions of the workbench in a real browser.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import { add, close, drop, error, open, opened, settled, state, tab, test, workplace } from "./bench.mjs";
+import { add, close, drag, drop, error, open, opened, settled, state, tab, test, workplace } from "./bench.mjs";
 
 const at = workplace(
   "simulate --hide coulomb --out rec.csv --seed 1",
@@ -143,6 +143,32 @@ test("recordings change their roles, and undo and a session know of it", async (
   const [again, second] = await opened(at, "roles.json");
   assert.deepEqual(await roles(second), ["rec.csv fitted", "other.csv held out"]);
   assert.ok(Math.abs((await error(second)) / held - 1) < 0.01);
+  await close(second, again);
+});
+
+test("a span of a recording is chosen by dragging, is kept in a session, and is taken back", async () => {
+  const [bench, page] = await opened(at, "rec.csv --validate other.csv --session span.json");
+  const spans = async () => (await state(page)).recording.sources.map((one) => one.span_s);
+  assert.equal(await page.isVisible("#use-span"), false, "all of it is used");
+  await drag(page, 0.25, 0.75);
+  await page.click("#use-span");
+  await page.click("#put-away-yes");
+  await page.waitForSelector(".rec .whole");
+  await settled(page, 1);
+  const [[from, to], other] = await spans();
+  const whole = 20;
+  assert.ok(Math.abs(from - 0.25 * whole) < 0.3 && Math.abs(to - 0.75 * whole) < 0.3 && other === null, `${from} to ${to} s`);
+  assert.ok(Math.abs((await state(page)).recording.seconds - (to - from)) < 0.01);
+  await close(page, bench);
+  const [again, second] = await opened(at, "span.json");
+  assert.deepEqual((await state(second)).recording.sources[0].span_s, [from, to]);
+  await second.click(".rec .whole");
+  await second.click("#put-away-yes");
+  await second.waitForFunction(() => !document.querySelector(".rec .whole"));
+  await settled(second, 1);
+  assert.equal((await state(second)).recording.sources[0].span_s, null);
+  await second.click("#undo");
+  await second.waitForSelector(".rec .whole");
   await close(second, again);
 });
 

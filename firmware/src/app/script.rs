@@ -4,13 +4,10 @@ use shared::excite::{
     self, COMMISSIONING, COMMISSIONING_COAST, Commands, Experiment, Shape, narrowed,
 };
 use shared::trace::OPEN;
-use shared::wire::{PlanStore, Segment};
-
-/// Most segments of a plan that the device holds.
-pub const PLAN: usize = 256;
+use shared::wire::{PLAN_SEGMENTS, PlanStore, Segment};
 
 /// A plan to play.
-pub type Plan = PlanStore<PLAN>;
+pub type Plan = PlanStore<PLAN_SEGMENTS>;
 
 /// The short excitation that is fitted: levels of both signs for the time constants, a slow triangle for friction. Two
 /// seconds; longer or shorter recordings stretch it.

@@ -18,6 +18,7 @@ const EXAMPLES: &str = "Examples:
   servoid device commission --port /dev/ttyACM0 --supply-v 24 --counts-per-rev 2000 --out bench3
   servoid device commission --emulate --hide cogging --out trial
   servoid device verify trial
+  servoid device bench --port /dev/ttyACM0 --supply-v 24 --counts-per-rev 2000 --max-current 4 --resistance 1.1
 
 Ctrl-C stops the motor and keeps what was recorded. A device whose host falls silent stops by itself.";
 
@@ -38,6 +39,8 @@ pub enum DeviceVerb {
     Run(RunArgs),
     /// Repeats the device's fit bit for bit, fits with stronger methods, diagnoses, and says whether its answer stands
     Verify(VerifyArgs),
+    /// Opens the workbench with a device: its motor is recorded, watched and commissioned from the page
+    Bench(DeviceBenchArgs),
     /// Stops whatever a device is doing
     Stop(OnDevice),
     /// Starts an emulated device and keeps it running, for other programs to talk to
@@ -128,6 +131,32 @@ pub struct LimitArgs {
     /// Armature resistance, ohm: lets a board without a current sensor guess the current
     #[arg(long, value_name = "OHM")]
     pub resistance: Option<f64>,
+}
+
+/// `servoid device bench`.
+#[derive(Clone, Debug, Args)]
+pub struct DeviceBenchArgs {
+    /// The device.
+    #[command(flatten)]
+    pub port: PortArgs,
+    /// The bench.
+    #[command(flatten)]
+    pub limits: LimitArgs,
+    /// Keep the files of each run in a folder of its own in this one; else they end with the program
+    #[arg(long, value_name = "FOLDER")]
+    pub runs: Option<PathBuf>,
+    /// Do not open the bridge in the pauses of excitations
+    #[arg(long)]
+    pub no_coast: bool,
+    /// Keep the bench in this file, and go on with what is in it
+    #[arg(long, value_name = "FILE")]
+    pub session: Option<PathBuf>,
+    /// Do not open a browser
+    #[arg(long)]
+    pub no_open: bool,
+    /// Port of the page on 127.0.0.1; a free one if zero
+    #[arg(long, default_value_t = 0, value_name = "PORT")]
+    pub page_port: u16,
 }
 
 /// Search methods on the device.

@@ -12,8 +12,8 @@ mod simulate;
 
 pub use bench::BenchArgs;
 pub use device::{
-    CommissionArgs, DeviceArgs, DeviceMethod, DeviceVerb, EmulateArgs, EmulationArgs, LimitArgs,
-    OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
+    CommissionArgs, DeviceArgs, DeviceBenchArgs, DeviceMethod, DeviceVerb, EmulateArgs,
+    EmulationArgs, LimitArgs, OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
 pub use export::{ExportArgs, GainsArgs, SideName};
 pub use prove::ProveArgs;

@@ -20,7 +20,15 @@ struct BenchJson {
 pub(super) fn run(session: &Session, args: &BenchArgs) -> Result<(), Error> {
     check_files(session, args)?;
     let opening = opening(session, args)?;
-    let server = Server::open(opening, args.port, args.session.clone())?;
+    serve(
+        session,
+        Server::open(opening, args.port, args.session.clone(), None)?,
+        args.no_open,
+    )
+}
+
+/// Says where the page is, opens it, and serves it until the user has enough.
+pub(super) fn serve(session: &Session, server: Server, no_open: bool) -> Result<(), Error> {
     let url = server.url();
     let text = format!("workbench: {url}\nCtrl-C ends it\n");
     let json = BenchJson {
@@ -28,7 +36,7 @@ pub(super) fn run(session: &Session, args: &BenchArgs) -> Result<(), Error> {
         url: url.clone(),
     };
     session.deliver(&text, &json)?;
-    let opened = (!args.no_open).then(|| browser(&url)).transpose();
+    let opened = (!no_open).then(|| browser(&url)).transpose();
     if let Err(error) = &opened {
         session.remark(&format!(
             "no browser could be opened ({error}): open the address above yourself"
@@ -92,10 +100,7 @@ fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
     let all = || args.fitted().iter().chain(args.held_out());
     let Some(first) = args.fitted().first() else {
         // A session that is kept goes on where it was.
-        return match &args.session {
-            Some(path) if path.exists() => saved(path),
-            _ => Ok(Opening::Empty),
-        };
+        return resumed(args.session.as_deref());
     };
     if let Some(file) = all().find(|path| is_session(path)) {
         if all().count() > 1 {
@@ -125,6 +130,14 @@ fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
     Ok(Opening::Recording(Box::new(fitted), held_out.map(Box::new)))
 }
 
+/// What was kept in a session, if there is any.
+pub(super) fn resumed(session: Option<&Path>) -> Result<Opening, Error> {
+    match session {
+        Some(path) if path.exists() => saved(path),
+        _ => Ok(Opening::Empty),
+    }
+}
+
 fn saved(path: &Path) -> Result<Opening, Error> {
     let text = text(path)?;
     let file = SessionFile::parse(&text, &path.display().to_string())?;
@@ -151,6 +164,7 @@ fn loaded(args: &BenchArgs, paths: &[PathBuf]) -> Result<Loaded, Error> {
             name: path.display().to_string(),
             csv: text(path)?,
             motor: motor.to_toml(),
+            span_s: None,
         })
     };
     Loaded::read(paths.iter().map(source).collect::<Result<_, _>>()?)

@@ -136,6 +136,7 @@ fn limits(args: &PlanArgs) -> Result<Limits, Error> {
         voltage_v,
         current_v,
         travel_rev: checked("--travel", args.travel)?,
+        commands: None,
     })
 }
 

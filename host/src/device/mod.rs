@@ -11,7 +11,9 @@
 //! | `conversation` | request and response, arming and starting |
 //! | `order` | a job in SI and in the device's units |
 //! | `expected` | what a run can bring by its job: time, rows, numbers |
+//! | `reached` | a device that can be talked to, real or emulated |
 //! | `run` | one run: the device's messages assembled; progress; stop |
+//! | `kept` | a run from its order to its files |
 //! | `report` | the report of a run that `servoid_results::device_run` writes |
 //! | `replay` | the device's fit repeated on the host |
 //! | `emulation` | the firmware without hardware |
@@ -21,9 +23,11 @@ mod conversation;
 mod emulation;
 mod error;
 mod expected;
+mod kept;
 mod lockstep;
 mod order;
 mod port;
+mod reached;
 mod replay;
 mod report;
 mod run;
@@ -32,9 +36,11 @@ pub use conversation::{Clock, Conversation};
 pub use emulation::{Emulation, Image};
 pub use error::DeviceError;
 pub use expected::Expected;
+pub use kept::{Kept, drive, keep};
 pub use lockstep::plant;
 pub use order::{Order, segments};
 pub use port::{Link, Port, serial_ports};
+pub use reached::Reached;
 pub use replay::{Replayed, replay};
 pub use report::{broken, report};
 pub use run::{Progress, Run, follow};

@@ -1,8 +1,9 @@
 //! Work that a page asks for, checked before it begins.
 
 use super::answer::{Answer, done};
+use super::opened::Role;
 use super::routes::Shared;
-use super::{job, work};
+use super::{driven, job, work};
 use crate::error::Error;
 use axum::Json;
 use axum::extract::State;
@@ -27,6 +28,22 @@ pub(super) enum Work {
     Twins {
         model: usize,
     },
+    /// Excites the motor of the device.
+    Record {
+        seconds: f64,
+        #[serde(default)]
+        role: Role,
+    },
+    /// Plans the experiment that decides.
+    Plan {
+        seconds: f64,
+    },
+    /// Records it.
+    Play,
+    /// Lets the device identify its motor.
+    Commission {
+        seconds: f64,
+    },
     Race {
         #[serde(default)]
         effects: Vec<String>,
@@ -40,6 +57,8 @@ pub(super) enum Work {
 /// Most evaluations and seeds of a race on the page; `servoid compare` has no such limit.
 const MOST_BUDGET: f64 = 20_000.0;
 const MOST_SEEDS: f64 = 100.0;
+/// Longest run of a motor from the page, s.
+const MOST_SECONDS: f64 = 600.0;
 
 pub(super) async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answer {
     match asked {
@@ -55,6 +74,28 @@ pub(super) async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answ
         }
         Work::Twins { model } => {
             job::start(&bench, "twins", move |bench| work::twins(bench, model))?;
+        }
+        Work::Record { seconds, role } => {
+            let seconds = within_minutes(seconds)?;
+            driven::armed(&bench)?;
+            job::start(&bench, "record", move |bench| {
+                driven::record(bench, seconds, role)
+            })?;
+        }
+        Work::Plan { seconds } => {
+            let seconds = within_minutes(seconds)?;
+            job::start(&bench, "plan", move |bench| driven::plan(bench, seconds))?;
+        }
+        Work::Play => {
+            driven::armed(&bench)?;
+            job::start(&bench, "experiment", driven::play)?;
+        }
+        Work::Commission { seconds } => {
+            let seconds = within_minutes(seconds)?;
+            driven::armed(&bench)?;
+            job::start(&bench, "commission", move |bench| {
+                driven::commission(bench, seconds)
+            })?;
         }
         Work::Diagnose => job::start(&bench, "diagnose", work::diagnose)?,
         Work::Race {
@@ -84,6 +125,16 @@ pub(super) async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answ
         }
     }
     done()
+}
+
+/// A length of a run, s.
+fn within_minutes(seconds: f64) -> Result<f64, Error> {
+    if (1.0..=MOST_SECONDS).contains(&seconds) {
+        return Ok(seconds);
+    }
+    Err(Error::Usage(format!(
+        "{seconds} s does not do; a run from the page lasts 1 to {MOST_SECONDS} s (`servoid device record` has no such limit)"
+    )))
 }
 
 fn kinds(names: &[String]) -> Result<Vec<Kind>, Error> {

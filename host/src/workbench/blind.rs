@@ -41,5 +41,6 @@ pub(super) fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loa
             showcase::COUNTS_PER_REV,
             showcase::machine().supply_v
         ),
+        span_s: None,
     }])?))
 }

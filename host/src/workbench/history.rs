@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn undo_and_redo_go_along_everything_that_lay_on_the_bench() {
         for seed in 0..30u64 {
-            let bench = Bench::new(None);
+            let bench = Bench::new(None, None);
             let mut lay = vec![None];
             let mut here = 0;
             let mut random = seed;

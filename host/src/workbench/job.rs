@@ -32,6 +32,11 @@ impl Job {
         self.stop.store(true, Ordering::Relaxed);
     }
 
+    /// What was asked to stop has stopped; what comes after it goes on.
+    pub(super) fn go_on(&self) {
+        self.stop.store(false, Ordering::Relaxed);
+    }
+
     /// The flag that searches look at.
     pub(super) fn flag(&self) -> &AtomicBool {
         &self.stop

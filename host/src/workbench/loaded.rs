@@ -18,6 +18,9 @@ pub struct Source {
     /// A `motor.toml`.
     #[serde(default)]
     pub motor: String,
+    /// The part of it that is used, s after its first sample; the whole if none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub span_s: Option<[f64; 2]>,
 }
 
 /// What messages call the motor file, whether it was a file or fields of the page.
@@ -56,7 +59,16 @@ impl Loaded {
         let mut recordings = Vec::new();
         for source in &sources {
             let motor = MotorFile::parse(&source.motor, MOTOR)?;
-            let recording = read_recording_from(source.csv.as_bytes(), &source.name, &motor)?;
+            let whole = read_recording_from(source.csv.as_bytes(), &source.name, &motor)?;
+            let recording = match source.span_s {
+                None => whole,
+                Some([from, to]) => whole.between(from, to).ok_or_else(|| {
+                    Error::Usage(format!(
+                        "{}: from {from} to {to} s there are fewer than two samples; choose a longer span",
+                        source.name
+                    ))
+                })?,
+            };
             recording.check_excited()?;
             known.get_or_insert(motor.known);
             recordings.push(recording);

@@ -9,6 +9,9 @@
 //! | `state` | the bench's state, and its change notifications to the page |
 //! | `job` | one piece of work at a time, which stops when nobody watches |
 //! | `work` | the pieces of work: fit, suggest, diagnose, race |
+//! | `device` | a device that is connected, its limits, and its run that is under way |
+//! | `driven`, `planned` | work that drives its motor, and the experiment that decides |
+//! | `live` | what the page draws of a run |
 //! | `preview` | the first rows of a file, and which column may be what |
 //! | `shown`, `proposals`, `sliders` | what the page says |
 //! | `series`, `failing`, `details`, `drawings` | what it draws: lanes, where models fail, tabs, each made once |
@@ -29,17 +32,21 @@ mod begun;
 mod blind;
 mod catalogue;
 mod details;
+mod device;
 mod download;
 mod drawings;
+mod driven;
 mod failing;
 mod files;
 mod guard;
 mod history;
 mod job;
+mod live;
 mod loaded;
 mod lock;
 mod model;
 mod opened;
+mod planned;
 mod preview;
 mod proposals;
 mod remedy;
@@ -53,6 +60,7 @@ mod state;
 mod words;
 mod work;
 
+pub use device::Device;
 pub use loaded::{Loaded, Source};
 pub use server::{Opening, Server};
 pub use session_file::{FAMILY, SessionFile};

@@ -7,16 +7,16 @@ use serde_json::Value;
 use servoid_engine::problem::Data;
 use servoid_engine::problem::rms_counts;
 use servoid_engine::solve::Found;
-use servoid_identify::diagnose::HeldOut;
 use servoid_identify::diagnose::residual_analysis::{Signature, signature, whiteness};
+use servoid_identify::diagnose::{Budget, Criterion, Errors, HeldOut};
 use servoid_identify::fit::scores::whole;
 use servoid_identify::fit::{self, Fit, Options, validation_errors};
 use servoid_results::export::{Side, Subject};
 use servoid_results::schema::{self, Identified};
 use shared::effects::Kind;
-use shared::encoder::FLOOR_RMS_COUNTS;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// The search method that is meant where none is named.
 pub(super) const USUAL: &str = "lm";
@@ -32,9 +32,12 @@ pub(super) struct Model {
     pub(super) fit: Arc<Fit>,
     /// RMS error that was foreseen before the fit, counts.
     pub(super) predicted: Option<f64>,
+    /// The errors by which it is judged: of whole runs, or in windows.
+    pub(super) judged: Errors,
     /// The model from which it was made by adding or removing effects.
     pub(super) parent: Option<usize>,
-    /// Whether nothing is left in the error of the free run but the encoder's steps; `None` where the motor moved too little to tell.
+    /// Whether nothing is left in the error of the free run but the encoder's steps; `None` where the motor moved too little to tell,
+    /// and where models are judged in windows: there the readings' noise at the start of each carries on.
     pub(super) white: Option<bool>,
     /// What each of its effects takes of the drive, of those that a quantity tells.
     pub(super) signatures: Arc<Vec<(Kind, Signature)>>,
@@ -51,6 +54,8 @@ pub(super) struct Recordings {
     pub(super) held_out: Option<Arc<Loaded>>,
     /// Others that are neither fitted nor judge.
     pub(super) ignored: Option<Arc<Loaded>>,
+    /// By which errors models are judged, found when first asked for.
+    criterion: Arc<OnceLock<Criterion>>,
     /// Differs from that of all other recordings.
     pub(super) stamp: u64,
 }
@@ -81,8 +86,14 @@ impl Recordings {
             fitted,
             held_out,
             ignored: None,
+            criterion: Arc::default(),
             stamp: stamp(),
         }
+    }
+
+    /// With others that are neither fitted nor judge.
+    pub(super) fn ignoring(self, ignored: Option<Arc<Loaded>>) -> Self {
+        Recordings { ignored, ..self }
     }
 
     /// The same recordings in other roles, in the order fitted, held out, ignored in which they stand now.
@@ -119,10 +130,61 @@ impl Recordings {
                 "one recording at least must be fitted; give another that role first".to_owned(),
             )
         })?;
-        Ok(Recordings {
-            ignored: of(Role::Ignored)?,
-            ..Recordings::new(fitted, of(Role::HeldOut)?)
-        })
+        Ok(Recordings::new(fitted, of(Role::HeldOut)?).ignoring(of(Role::Ignored)?))
+    }
+
+    /// The same with another span of recording `k`, s after its own first sample, in the order fitted, held out, ignored; the whole of it
+    /// for none.
+    ///
+    /// # Errors
+    /// No such recording; a span that leaves nothing to fit, in words.
+    pub(super) fn spanned(&self, k: usize, span_s: Option<[f64; 2]>) -> Result<Self, Error> {
+        let mut first = 0;
+        let mut changed = |loaded: &Arc<Loaded>| -> Result<Arc<Loaded>, Error> {
+            let range = first..first + loaded.sources.len();
+            first = range.end;
+            if !range.contains(&k) {
+                return Ok(Arc::clone(loaded));
+            }
+            let mut sources = loaded.sources.clone();
+            sources[k - range.start].span_s = span_s;
+            Ok(Arc::new(Loaded::read(sources)?))
+        };
+        let fitted = changed(&self.fitted)?;
+        let held_out = self.held_out.as_ref().map(&mut changed).transpose()?;
+        let ignored = self.ignored.as_ref().map(&mut changed).transpose()?;
+        if k >= first {
+            return Err(Error::Usage(format!("there is no recording {k}")));
+        }
+        Ok(Recordings::new(fitted, held_out).ignoring(ignored))
+    }
+
+    /// The recording in which samples of what is drawn lie, as [`spanned`](Self::spanned) counts, and the span that they are of it; they end
+    /// with that recording.
+    pub(super) fn span_of(
+        &self,
+        samples: &Range<usize>,
+        held_out: bool,
+    ) -> Option<(usize, [f64; 2])> {
+        let last = self.fitted.sources.len() - 1;
+        let (loaded, data, first, before) = match (held_out, &self.held_out) {
+            (true, Some(other)) => (other, &*other.data, 0, last + 1),
+            // Of several the last judges, where no other one does.
+            (true, None) => (&self.fitted, self.judge()?, last, 0),
+            (false, _) => (&self.fitted, self.shown(), 0, 0),
+        };
+        let mut ranges = data.recordings.ranges().enumerate();
+        let (place, range) = ranges.find(|(_, range)| range.contains(&samples.start))?;
+        let place = first + place;
+        // What is drawn may be a span already.
+        let begin = loaded
+            .sources
+            .get(place)?
+            .span_s
+            .map_or(0.0, |span| span[0]);
+        let since = |k: usize| begin + data.time_s[k] - data.time_s[range.start];
+        let end = samples.end.clamp(samples.start + 1, range.end) - 1;
+        Some((before + place, [since(samples.start), since(end)]))
     }
 
     /// Whether they are the same ones, in the same roles.
@@ -138,6 +200,29 @@ impl Recordings {
         match self.fitted.cut() {
             Some(cut) => (&cut.fitted, &cut.held_out),
             None => (&self.fitted.data, &self.fitted.data),
+        }
+    }
+
+    /// By which errors models are judged. Finding it takes about as long as a fit of the linear motor.
+    pub(super) fn criterion(&self) -> &Criterion {
+        self.criterion.get_or_init(|| {
+            let (data, held_out) = self.parts();
+            let never = AtomicBool::new(false);
+            let options = options(&self.fitted, &[]);
+            Criterion::of(data, held_out, &options, &Budget::usual(&never))
+        })
+    }
+
+    /// The same, if it is known already.
+    pub(super) fn criterion_if_known(&self) -> Option<&Criterion> {
+        self.criterion.get()
+    }
+
+    /// Options of a fit of a model with these effects, over the span in which it will be judged.
+    pub(super) fn options(&self, effects: &[Kind]) -> Options {
+        Options {
+            window_s: self.criterion().span.window_s,
+            ..options(&self.fitted, effects)
         }
     }
 
@@ -184,22 +269,27 @@ impl Model {
         predicted: Option<f64>,
         parent: Option<usize>,
         recordings: &Recordings,
-    ) -> Self {
-        let (data, _) = recordings.parts();
-        let errors = whole(data, &fit.candidate, fit.method).ok();
-        let white = errors.and_then(|errors| whiteness(data, &errors));
+    ) -> Result<Self, Error> {
+        let (data, held_out) = recordings.parts();
+        let criterion = recordings.criterion();
+        let judged = criterion.errors(data, held_out, &fit)?;
+        let white = match criterion.span.window_s {
+            Some(_) => None,
+            None => whiteness(data, &whole(data, &fit.candidate, fit.method)?),
+        };
         let drawn = |&kind: &Kind| Some((kind, signature(data, &fit.candidate, kind, fit.method)?));
         let signatures = Arc::new(effects.iter().filter_map(drawn).collect());
-        Model {
+        Ok(Model {
             id: 0,
             effects,
             fit: Arc::new(fit),
             predicted,
+            judged,
             parent,
             white: white.map(|found| found.is_white()),
             signatures,
             stamp: stamp(),
-        }
+        })
     }
 
     /// A model that was kept, with its errors and intervals found again.
@@ -216,7 +306,7 @@ impl Model {
         let effects: Vec<Kind> = candidate.effects.iter().map(|(kind, _)| kind).collect();
         let options = Options {
             method: saved.method(),
-            ..options(&recordings.fitted, &effects, 1)
+            ..recordings.options(&effects)
         };
         let (data, held_out) = recordings.parts();
         let mut problem = fit::problem(data, &options)?;
@@ -244,7 +334,7 @@ impl Model {
         fit.validate_rms_counts = Some(rms_counts(held_out, &other));
         Ok(Model {
             id,
-            ..Model::new(effects, fit, None, None, recordings)
+            ..Model::new(effects, fit, None, None, recordings)?
         })
     }
 
@@ -277,25 +367,27 @@ impl Model {
         }
     }
 
-    /// Whether it leaves more than the encoder's own error.
+    /// Whether it leaves more than the readings' own error.
     pub(super) fn leaves_something(&self) -> bool {
-        let most = 1.15 * FLOOR_RMS_COUNTS;
-        let held_out = self.fit.validate_rms_counts.unwrap_or(0.0);
-        self.fit.rms_counts.max(held_out) > most
+        !self.judged.at_floor()
     }
 
-    /// Whether it explains the recordings: at the encoder's floor, and with an error that is noise.
+    /// The error on what was not fitted, if anything was not, counts.
+    pub(super) fn held_out_rms_counts(&self) -> Option<f64> {
+        self.fit.validate_rms_counts.map(|_| self.judged.held_out)
+    }
+
+    /// Whether it explains the recordings: at the floor of the readings, and with an error that is noise.
     pub(super) fn explains(&self) -> bool {
         !self.leaves_something() && self.white != Some(false)
     }
 }
 
-/// Options of a fit on the bench.
-pub(super) fn options(loaded: &Loaded, effects: &[Kind], seed: u64) -> Options {
+/// Options of work on the bench, of which nothing but the effects and what is known of the motor is said.
+pub(super) fn options(loaded: &Loaded, effects: &[Kind]) -> Options {
     Options {
         effects: effects.to_vec(),
         known: loaded.known.clone(),
-        seed,
         ..Options::default()
     }
 }

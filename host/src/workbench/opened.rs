@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// What a recording is taken as.
 #[derive(Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Role {
+pub(super) enum Role {
     /// The one to fit, on a bench of its own.
     #[default]
     Fitted,
@@ -52,6 +52,7 @@ pub(super) async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> A
             name: sent.name,
             csv: sent.csv,
             motor,
+            span_s: None,
         }])?;
         if sent.check {
             return Ok(meaning(&loaded.data));
@@ -106,7 +107,11 @@ pub(super) async fn motor(Json(mapping): Json<Mapping>) -> Answer {
 }
 
 /// The recordings of the bench with one more.
-fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Recordings, Error> {
+pub(super) fn placed(
+    loaded: Loaded,
+    role: Role,
+    before: Option<Recordings>,
+) -> Result<Recordings, Error> {
     let Some(before) = before.filter(|_| role != Role::Fitted) else {
         return Ok(Recordings::new(Arc::new(loaded), None));
     };
@@ -122,10 +127,8 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
         )));
     }
     if role == Role::Beside {
-        return Ok(Recordings {
-            ignored: before.ignored,
-            ..Recordings::new(together(&before.fitted)?, before.held_out)
-        });
+        let fitted = together(&before.fitted)?;
+        return Ok(Recordings::new(fitted, before.held_out).ignoring(before.ignored));
     }
     // Another encoder or another drive would judge nothing.
     together(&before.fitted)?;
@@ -133,10 +136,7 @@ fn placed(loaded: Loaded, role: Role, before: Option<Recordings>) -> Result<Reco
         Some(others) => together(others)?,
         None => Arc::new(loaded),
     };
-    Ok(Recordings {
-        ignored: before.ignored,
-        ..Recordings::new(before.fitted, Some(held_out))
-    })
+    Ok(Recordings::new(before.fitted, Some(held_out)).ignoring(before.ignored))
 }
 
 /// What lies on the bench is not exchanged under work that is going on.
@@ -207,6 +207,43 @@ pub(super) struct Roles {
 pub(super) async fn roles(State(bench): Shared, Json(asked): Json<Roles>) -> Answer {
     aside(move || {
         let recordings = bench.state().recordings()?.in_roles(&asked.roles)?;
+        free(&bench)?;
+        bench.change(|state| state.begin(recordings));
+        Ok(())
+    })
+    .await?;
+    done()
+}
+
+/// A span of a recording: samples of what is drawn, or a recording that is to be whole again.
+#[derive(Deserialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+pub(super) enum Span {
+    Samples {
+        from: usize,
+        to: usize,
+        #[serde(default)]
+        held_out: bool,
+    },
+    Whole {
+        recording: usize,
+    },
+}
+
+pub(super) async fn span(State(bench): Shared, Json(asked): Json<Span>) -> Answer {
+    aside(move || {
+        let recordings = bench.state().recordings()?;
+        let (k, span_s) = match asked {
+            Span::Whole { recording } => (recording, None),
+            Span::Samples { from, to, held_out } => {
+                let found = recordings.span_of(&(from..to), held_out);
+                let (k, span) = found.ok_or_else(|| {
+                    Error::Usage("there are no such samples in what is drawn".to_owned())
+                })?;
+                (k, Some(span))
+            }
+        };
+        let recordings = recordings.spanned(k, span_s)?;
         free(&bench)?;
         bench.change(|state| state.begin(recordings));
         Ok(())

@@ -1,10 +1,11 @@
 //! What would explain more than a model, as the page shows it.
 
+use super::model::Model;
 use super::state::{Proposed, State};
 use serde_json::{Value, json};
 use servoid_identify::diagnose::Suggestion;
 use servoid_identify::diagnose::residual_analysis::{Axis, Signature};
-use shared::encoder::FLOOR_RMS_COUNTS;
+use servoid_identify::plan::Hypothesis;
 use std::cmp::Ordering;
 
 /// Effects explain about equally if the logarithms of what they divide the held-out error by are within this part of the best one's.
@@ -17,26 +18,63 @@ const LITTLE: f64 = 0.7;
 /// The proposals beside model `id`; `None` before anybody looked for them.
 pub(super) fn view(state: &State, id: usize) -> Option<Value> {
     let proposed = state.proposed.get(&id)?;
-    let before = state.model(id).ok()?.fit.validate_rms_counts;
+    let before = state.model(id).ok()?.held_out_rms_counts();
     let list: Vec<Value> = ordered(proposed, before)
         .into_iter()
         .map(|suggestion| entry(state, suggestion, before))
         .collect();
-    Some(json!({ "of": id, "tried": proposed.tried, "seconds": proposed.seconds, "list": list }))
+    let rivals: Vec<&str> = (rivals(state, id).iter())
+        .map(|one| one.effect.name())
+        .collect();
+    Some(json!({
+        "of": id, "tried": proposed.tried, "seconds": proposed.seconds, "list": list, "rivals": rivals,
+    }))
 }
 
-/// Those that explain about as much as the best come first, the fewest parameters before all; the rest by what they leave.
-fn ordered(proposed: &Proposed, before: Option<f64>) -> Vec<&Suggestion> {
-    let held_out = |one: &Suggestion| one.model.validate_rms_counts;
+/// The proposals beside model `id` that explain about as much as the best one, simplest first. What can become a simpler one of them is no rival
+/// of that: where the simpler one is true, both are.
+pub(super) fn rivals(state: &State, id: usize) -> Vec<&Suggestion> {
+    let Some(proposed) = state.proposed.get(&id) else {
+        return Vec::new();
+    };
+    let before = state.model(id).ok().and_then(Model::held_out_rms_counts);
+    let near = near(proposed, before);
+    let free = |one: &&Suggestion| near(one) && !state.locked.contains(&one.effect);
+    let mut rivals: Vec<&Suggestion> = Vec::new();
+    for one in ordered(proposed, before).into_iter().filter(free) {
+        let model = Hypothesis::of(&one.model.candidate);
+        let known = |other: &&Suggestion| model.contains(&Hypothesis::of(&other.model.candidate));
+        if !rivals.iter().any(known) {
+            rivals.push(one);
+        }
+    }
+    rivals
+}
+
+/// Whether a proposal explains about as much as the best.
+fn near(proposed: &Proposed, before: Option<f64>) -> impl Fn(&Suggestion) -> bool {
     let best = (proposed.list.iter().map(held_out)).fold(f64::INFINITY, f64::min);
     let before = before.unwrap_or(best).max(best);
-    let near = |one: &Suggestion| {
-        if best <= ABOUT_FLOOR * FLOOR_RMS_COUNTS {
+    let floor = proposed
+        .list
+        .first()
+        .map_or(0.0, |one| one.model.ran().floor);
+    move |one| {
+        if best <= ABOUT_FLOOR * floor {
             held_out(one) <= ABOUT_FLOOR * best
         } else {
             (before / held_out(one)).ln() >= ABOUT * (before / best).ln()
         }
-    };
+    }
+}
+
+fn held_out(one: &Suggestion) -> f64 {
+    one.model.ran().held_out
+}
+
+/// Those that explain about as much as the best come first, the fewest parameters before all; the rest by what they leave.
+fn ordered(proposed: &Proposed, before: Option<f64>) -> Vec<&Suggestion> {
+    let near = near(proposed, before);
     let rank = |one: &Suggestion| {
         let near = near(one);
         (!near, if near { one.model.freedom() } else { 0 })
@@ -52,20 +90,20 @@ fn ordered(proposed: &Proposed, before: Option<f64>) -> Vec<&Suggestion> {
 fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
     let description = suggestion.effect.description();
     let model = &suggestion.model;
-    let little = before.is_some_and(|before| model.validate_rms_counts > LITTLE * before);
+    let errors = model.ran();
+    let little = before.is_some_and(|before| errors.held_out > LITTLE * before);
     json!({
         "effect": suggestion.effect.name(),
         "title": description.title,
         "evidence": suggestion.evidence,
         "believed": suggestion.believed,
         "little": little,
-        "worse": before.is_some_and(|before| model.validate_rms_counts > before),
+        "worse": before.is_some_and(|before| errors.held_out > before),
         "locked": state.locked.contains(&suggestion.effect),
-        "in_windows": model.windowed.is_some(),
         "parameters": model.freedom(),
         "foreseen_rms_counts": finite(model.predicted_rms_counts),
-        "rms_counts": finite(model.rms_counts),
-        "held_out_rms_counts": finite(model.validate_rms_counts),
+        "rms_counts": finite(errors.fitted),
+        "held_out_rms_counts": finite(errors.held_out),
         "looks_like": description.look_alikes,
         "signature": suggestion.signature.as_ref().map(drawn),
     })

@@ -5,10 +5,10 @@ use super::begun::begin;
 use super::details::Tab;
 use super::files::files;
 use super::job::Watch;
-use super::opened::{demo, free, motor, recording, roles, session};
+use super::opened::{demo, free, motor, recording, roles, session, span};
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
-use super::{catalogue, details, download, failing, guard, remedy, series, shown, sliders};
+use super::{catalogue, details, download, failing, guard, live, remedy, series, shown, sliders};
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Path, Query, State};
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -49,12 +49,15 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/preview", post(previewed))
         .route("/motor", post(motor))
         .route("/roles", post(roles))
+        .route("/span", post(span))
         .route("/recording", post(recording))
         .route("/session", post(session))
         .route("/demo", post(demo))
         .route("/reveal", post(reveal))
         .route("/work", post(begin))
         .route("/stop", post(stop))
+        .route("/arm", post(arm))
+        .route("/live", get(under_way))
         .route("/undo", post(undo))
         .route("/redo", post(redo))
         .route("/choose", post(choose))
@@ -155,6 +158,19 @@ async fn stop(State(bench): Shared) -> Answer {
     done()
 }
 
+/// Lets the motor be started within the next seconds.
+async fn arm(State(bench): Shared) -> Answer {
+    free(&bench)?;
+    bench.device()?.arm();
+    bench.tell(Telling::Changed);
+    done()
+}
+
+/// The run that is under way.
+async fn under_way(State(bench): Shared) -> Answer {
+    Ok(Json(aside(move || live::view(&bench)).await?))
+}
+
 async fn undo(State(bench): Shared) -> Answer {
     go(&bench, Way::Undo)
 }
@@ -233,7 +249,9 @@ async fn trial(State(bench): Shared, Json(trial): Json<Trial>) -> Result<series:
         };
         let mut by_hand = details::drawn("moved by hand", &model);
         by_hand.candidate = sliders::moved(&by_hand.candidate, &trial.values)?;
-        Ok(series::packed(&by_hand.run(recordings.shown())?.residual))
+        let (criterion, data) = (recordings.criterion(), recordings.shown());
+        let residual = criterion.residual(data, &by_hand.candidate, by_hand.method)?;
+        Ok(series::packed(&residual))
     })
     .await?;
     Ok(answer)

@@ -78,7 +78,7 @@ pub(super) async fn of_recording(
     .await
 }
 
-/// Model minus measured of a model on the bench, counts.
+/// Model minus measured of a model on the bench over the span in which models are judged, counts.
 pub(super) async fn of_model(
     State(bench): Shared,
     Path(id): Path<usize>,
@@ -126,12 +126,13 @@ async fn residual(
         let recordings = bench.state().recordings()?;
         let model = model(&bench)?;
         let data = which.of(&recordings)?;
-        let run = if which.held_out {
-            model.run_unseen(data)?
-        } else {
-            model.run(data)?
-        };
-        Ok(packed(&run.residual))
+        let criterion = recordings.criterion();
+        // A whole run along what it has not seen starts where that agrees with it best.
+        if which.held_out && criterion.span.window_s.is_none() {
+            return Ok(packed(&model.run_unseen(data)?.residual));
+        }
+        let residual = criterion.residual(data, &model.candidate, model.method);
+        Ok(packed(&residual?))
     })
     .await
 }

@@ -1,5 +1,6 @@
 //! Listening on the loopback address, until the user has enough.
 
+use super::device::Device;
 use super::guard;
 use super::job::{self, ALONE};
 use super::loaded::Loaded;
@@ -52,16 +53,21 @@ pub struct Server {
 
 impl Server {
     /// Lays `opening` on the bench and listens on `port`, or on any free one for zero. The bench is kept in `file` after
-    /// every change.
+    /// every change; a device that is connected can be driven from the page.
     ///
     /// # Errors
     /// A recording that cannot be fitted, a port that is taken, a system without randomness.
-    pub fn open(opening: Opening, port: u16, file: Option<PathBuf>) -> Result<Self, Error> {
+    pub fn open(
+        opening: Opening,
+        port: u16,
+        file: Option<PathBuf>,
+        device: Option<Device>,
+    ) -> Result<Self, Error> {
         let failed = |what: &str, error: &dyn std::fmt::Display| {
             Error::Failed(format!("the workbench cannot {what}: {error}"))
         };
         let lock = file.as_deref().map(Lock::take).transpose()?;
-        let bench = Bench::new(file);
+        let bench = Bench::new(file, device);
         let mut first_fit = false;
         match opening {
             Opening::Empty => {}

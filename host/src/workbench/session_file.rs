@@ -163,10 +163,8 @@ impl SessionFile {
         let held_out = self.held_out.map(|first| read(first, others)).transpose()?;
         let fitted = Arc::new(read(fitted, self.fitted_with)?);
         let ignored = (!self.ignored.is_empty()).then(|| Loaded::read(self.ignored));
-        let recordings = Recordings {
-            ignored: ignored.transpose()?.map(Arc::new),
-            ..Recordings::new(fitted, held_out.map(Arc::new))
-        };
+        let recordings = Recordings::new(fitted, held_out.map(Arc::new))
+            .ignoring(ignored.transpose()?.map(Arc::new));
         state.begin(recordings.clone());
         state.locked = self
             .locked

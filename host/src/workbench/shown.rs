@@ -1,5 +1,6 @@
 //! What the page shows: the bench in words and numbers.
 
+use super::device::Device;
 use super::model::{Model, Recordings};
 use super::proposals;
 use super::sliders::sliders;
@@ -11,7 +12,6 @@ use servoid_io::recording::Drive;
 use servoid_results::export::FORMATS;
 use servoid_results::schema::Estimate;
 use shared::effects::Kind;
-use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// The bench in words and numbers.
 pub(super) fn view(bench: &Bench) -> Value {
@@ -22,7 +22,7 @@ pub(super) fn view(bench: &Bench) -> Value {
         "undo": undo,
         "redo": redo,
         "next": state.next_number(),
-        "floor_counts": FLOOR_RMS_COUNTS,
+        "floor_counts": state.floor_counts(),
         "recording": state.recordings.as_ref().map(recording),
         "models": state.models.iter().map(|model| entry(&state, model)).collect::<Vec<_>>(),
         "chosen": state.chosen,
@@ -37,22 +37,29 @@ pub(super) fn view(bench: &Bench) -> Value {
         })),
         "race": state.race.is_some(),
         "job": bench.job.running(),
+        "device": bench.device().ok().map(Device::view),
         "fault": state.fault.as_deref().map(on_the_page),
         "secret": state.secret.as_ref().map(|secret| json!({
             "seed": secret.seed,
             "told": secret.revealed.then(|| secret.hidden.described()),
         })),
-        "effects": Kind::ALL.iter().map(|kind| json!({
-            "name": kind.name(), "title": kind.description().title,
-        })).collect::<Vec<_>>(),
+        "effects": Kind::ALL.iter().map(described).collect::<Vec<_>>(),
         "algorithms": servoid_engine::solve::names(),
         "formats": FORMATS.iter().map(|format| format.name).collect::<Vec<_>>(),
         "version": env!("CARGO_PKG_VERSION"),
     })
 }
 
+fn described(kind: &Kind) -> Value {
+    let own = kind.description();
+    json!({
+        "name": own.name, "title": own.title, "equation": own.equation, "sign": own.signature, "exposed_by": own.exposed_by, "source": own.source,
+    })
+}
+
 fn recording(recordings: &Recordings) -> Value {
     let data = recordings.shown();
+    let span = recordings.criterion_if_known().map(|found| &found.span);
     json!({
         "name": data.source,
         "samples": data.len(),
@@ -64,6 +71,8 @@ fn recording(recordings: &Recordings) -> Value {
         "stamp": recordings.stamp,
         "drive_unit": match data.drive { Drive::Current => "A", _ => "V" },
         "quantised": data.quantised,
+        "window_s": span.and_then(|span| span.window_s),
+        "window_reason": span.map(|span| &span.reason),
         "sources": sources(recordings),
     })
 }
@@ -84,11 +93,19 @@ fn sources(recordings: &Recordings) -> Vec<Value> {
         .ignored
         .iter()
         .flat_map(|ignored| ignored.recordings());
+    let all = [
+        Some(&recordings.fitted),
+        recordings.held_out.as_ref(),
+        recordings.ignored.as_ref(),
+    ];
+    let spans = (all.into_iter().flatten())
+        .flat_map(|loaded| loaded.sources.iter().map(|source| source.span_s));
     fitted
         .chain(held_out.map(|own| (own, "held out")))
         .chain(ignored.map(|own| (own, "ignored")))
-        .map(|((name, seconds, samples), role)| {
-            json!({ "name": name, "seconds": seconds, "samples": samples, "role": role })
+        .zip(spans)
+        .map(|(((name, seconds, samples), role), span)| {
+            json!({ "name": name, "seconds": seconds, "samples": samples, "role": role, "span_s": span })
         })
         .collect()
 }
@@ -102,8 +119,9 @@ fn entry(state: &State, model: &Model) -> Value {
         "effects": model.effects.iter().map(|kind| kind.name()).collect::<Vec<_>>(),
         "algorithm": fit.algorithm,
         "evaluations": fit.evaluations,
-        "rms_counts": fit.rms_counts,
-        "held_out_rms_counts": fit.validate_rms_counts,
+        "rms_counts": model.judged.fitted,
+        "held_out_rms_counts": model.held_out_rms_counts(),
+        "whole_rms_counts": fit.validate_rms_counts.unwrap_or(fit.rms_counts),
         "foreseen_rms_counts": model.predicted,
         "at_floor": !model.leaves_something(),
         "white": model.white,

@@ -1,5 +1,6 @@
 //! The bench's state, and its change notifications to the page.
 
+use super::device::Device;
 use super::drawings::Drawings;
 use super::history::History;
 use super::job::Job;
@@ -10,6 +11,7 @@ use serde_json::Value;
 use servoid_identify::diagnose::Suggestion;
 use servoid_plant::Hidden;
 use shared::effects::Kind;
+use shared::encoder::FLOOR_RMS_COUNTS;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -30,6 +32,7 @@ pub(super) struct Bench {
     history: Mutex<History>,
     /// Drawings of what is looked at.
     pub(super) drawings: Drawings,
+    device: Option<Device>,
 }
 
 /// Which way through the history.
@@ -119,6 +122,12 @@ impl State {
         self.revision = before.revision;
         self.next = self.next.max(before.next);
         self.fault = None;
+    }
+
+    /// RMS error of a right model of what lies on the bench, counts.
+    pub(super) fn floor_counts(&self) -> f64 {
+        let criterion = (self.recordings.as_ref()).and_then(Recordings::criterion_if_known);
+        criterion.map_or(FLOOR_RMS_COUNTS, |criterion| criterion.floor)
     }
 
     /// A number for the next model.
@@ -242,14 +251,28 @@ impl State {
 }
 
 impl Bench {
-    pub(super) fn new(file: Option<PathBuf>) -> Arc<Self> {
+    pub(super) fn new(file: Option<PathBuf>, device: Option<Device>) -> Arc<Self> {
         Arc::new(Bench {
+            device,
             state: Mutex::default(),
             tellings: broadcast::channel(TELLINGS).0,
             job: Job::default(),
             file,
             history: Mutex::default(),
             drawings: Drawings::default(),
+        })
+    }
+
+    /// The device that is connected.
+    ///
+    /// # Errors
+    /// A bench without one.
+    pub(super) fn device(&self) -> Result<&Device, Error> {
+        self.device.as_ref().ok_or_else(|| {
+            Error::Usage(
+                "no device is connected; open the bench with one: servoid device bench --port ADDRESS"
+                    .to_owned(),
+            )
         })
     }
 

@@ -21,6 +21,20 @@ use std::time::Instant;
 
 /// Fits a model with these effects, puts it on the bench, and looks for what would explain more.
 pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<(), Error> {
+    let id = fitted_alone(bench, effects, algorithm)?;
+    let more = bench.state().model(id)?.leaves_something();
+    if more && !bench.job.flag().load(Ordering::Relaxed) {
+        suggest(bench, id)?;
+    }
+    Ok(())
+}
+
+/// Fits a model with these effects and puts it on the bench.
+pub(super) fn fit_alone(bench: &Arc<Bench>, effects: &[Kind]) -> Result<(), Error> {
+    fitted_alone(bench, effects, USUAL).map(|_| ())
+}
+
+fn fitted_alone(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<usize, Error> {
     let (recordings, parent, suggestion) = {
         let state = bench.state();
         let proposals = state.proposed.values().flat_map(|proposed| &proposed.list);
@@ -32,13 +46,8 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
     };
     let fit = fitted(bench, &recordings, effects, algorithm, suggestion.as_ref())?;
     let predicted = suggestion.map(|s| s.model.predicted_rms_counts);
-    let model = Model::new(effects.to_vec(), fit, predicted, parent, &recordings);
-    let more = model.leaves_something();
-    let id = bench.change(|state| state.put(model));
-    if more && !bench.job.flag().load(Ordering::Relaxed) {
-        suggest(bench, id)?;
-    }
-    Ok(())
+    let model = Model::new(effects.to_vec(), fit, predicted, parent, &recordings)?;
+    Ok(bench.change(|state| state.put(model)))
 }
 
 fn fitted(
@@ -51,7 +60,7 @@ fn fitted(
     let options = Options {
         algorithm: algorithm.to_owned(),
         start: suggestion.map(|suggestion| suggestion.model.candidate),
-        ..options(&recordings.fitted, effects, 1)
+        ..recordings.options(effects)
     };
     let (data, held_out) = recordings.parts();
     let watched = Watched::new(bench, data.len());
@@ -59,7 +68,7 @@ fn fitted(
 }
 
 /// Tells the page how the work goes on; stopped by the page.
-struct Watched<'a> {
+pub(super) struct Watched<'a> {
     bench: &'a Bench,
     teller: Teller<'a>,
     samples: f64,
@@ -68,7 +77,7 @@ struct Watched<'a> {
 
 impl<'a> Watched<'a> {
     /// Work on a recording of so many samples.
-    fn new(bench: &'a Bench, samples: usize) -> Self {
+    pub(super) fn new(bench: &'a Bench, samples: usize) -> Self {
         Watched {
             bench,
             teller: Teller::new(bench),
@@ -102,7 +111,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         (state.recordings()?, state.model(id)?.fit.candidate)
     };
     let (data, held_out) = recordings.parts();
-    let options = options(&recordings.fitted, &[], 1);
+    let options = recordings.options(&[]);
     let watched = Watched::new(bench, data.len());
     let done = || watched.tried();
     let began = Instant::now();
@@ -110,6 +119,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
         data,
         held_out,
         &candidate,
+        recordings.criterion(),
         &options,
         &Budget::usual(bench.job.flag()),
         &done,
@@ -132,7 +142,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
 pub(super) fn diagnose(bench: &Arc<Bench>) -> Result<(), Error> {
     let recordings = bench.state().recordings()?;
     let (data, held_out) = recordings.parts();
-    let options = options(&recordings.fitted, &[], 1);
+    let options = options(&recordings.fitted, &[]);
     let kind = recordings.kind();
     let watched = Watched::new(bench, data.len());
     let budget = Budget::usual(bench.job.flag());
@@ -201,7 +211,7 @@ fn on_the_way(
     last: Fit,
 ) -> Result<Vec<Model>, Error> {
     let first = fitted(bench, recordings, &[], USUAL, None)?;
-    let mut models = vec![Model::new(Vec::new(), first, None, None, recordings)];
+    let mut models = vec![Model::new(Vec::new(), first, None, None, recordings)?];
     let mut effects = Vec::new();
     for (depth, step) in found.steps.iter().enumerate() {
         effects.push(step.added);
@@ -222,7 +232,13 @@ fn on_the_way(
             fitted(bench, recordings, &effects, USUAL, Some(&suggestion))?
         };
         let foreseen = Some(after.predicted_rms_counts);
-        models.push(Model::new(effects.clone(), fit, foreseen, None, recordings));
+        models.push(Model::new(
+            effects.clone(),
+            fit,
+            foreseen,
+            None,
+            recordings,
+        )?);
     }
     Ok(models)
 }
@@ -239,7 +255,7 @@ fn as_found(recordings: &Recordings, found: &Diagnosis, last: Fit) -> Result<Vec
         .map(|(kind, _)| kind)
         .collect();
     if !effects.is_empty() {
-        models.push(Model::new(effects, last, None, None, recordings));
+        models.push(Model::new(effects, last, None, None, recordings)?);
     }
     Ok(models)
 }
@@ -253,7 +269,7 @@ pub(super) fn race(
     seeds: u64,
 ) -> Result<(), Error> {
     let recordings = bench.state().recordings()?;
-    let mut options = options(&recordings.fitted, effects, 1);
+    let mut options = recordings.options(effects);
     options.budget = budget;
     let (data, _) = recordings.parts();
     let problem = bounded_problem(data, &options)?;
@@ -318,7 +334,7 @@ mod tests {
             let [first, second] = [(1, "a.csv"), (2, "b.csv")]
                 .map(|(seed, name)| recorded(&hidden, seed, name).expect("a recording"));
             let recordings = Recordings::new(first, Some(second));
-            let bench = Bench::new(None);
+            let bench = Bench::new(None, None);
             let shown = fitted(&bench, &recordings, &effects, USUAL, None).expect("a fit");
             let asked = Options {
                 effects: effects.clone(),

@@ -154,6 +154,7 @@ fn a_plan_keeps_its_limits_on_the_bench_whichever_effect_is_true() {
                 voltage_v,
                 current_v,
                 travel_rev,
+                commands: None,
             };
             let best = desk.plan(limits, 0.8);
             let drive = best.excitation.drive(SAMPLE_S, SEED);
@@ -166,6 +167,30 @@ fn a_plan_keeps_its_limits_on_the_bench_whichever_effect_is_true() {
                 keeps(&desk, hypothesis, &drive, &limits, &what);
             }
         }
+    }
+}
+
+#[test]
+fn a_device_can_hold_a_plan_that_is_made_for_one() {
+    let desk = Desk::new("gearmotor", &[Kind::Coulomb, Kind::BrushDrop]);
+    for most in [16, 256] {
+        let limits = Limits {
+            commands: Some(most),
+            ..Limits::default()
+        };
+        let best = desk.plan(limits, 4.0);
+        let drive = best.excitation.drive(SAMPLE_S, SEED);
+        let commands = 1 + drive.windows(2).filter(|two| two[0] != two[1]).count();
+        assert!(
+            commands <= most,
+            "{commands} of {most}: {}",
+            best.excitation
+        );
+        assert!(
+            best.least() > 10.0,
+            "{most} commands separate: {}",
+            best.least()
+        );
     }
 }
 

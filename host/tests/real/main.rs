@@ -5,6 +5,7 @@
 //! are missing, their tests say so and pass.
 #![forbid(unsafe_code)]
 
+mod criterion;
 mod diagnoses;
 mod fits;
 mod likelihood;

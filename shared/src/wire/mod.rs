@@ -23,7 +23,7 @@ pub use message::{
     About, Details, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows,
     Stage, ToDevice, ToHost, Verified,
 };
-pub use plan::{MOST_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
+pub use plan::{MOST_SEGMENTS, PLAN_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
 pub use reset::Reset;
 
 /// Version of the messages.

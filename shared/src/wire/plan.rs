@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 /// Most segments of a plan in one message.
 pub const MOST_SEGMENTS: usize = 16;
 
+/// Most segments of a plan that the firmware's applications hold.
+pub const PLAN_SEGMENTS: usize = 256;
+
 /// A stretch of a plan: one duty ([`OPEN`](crate::trace::OPEN) for an open bridge) for so many periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Segment {

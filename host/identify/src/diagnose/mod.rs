@@ -32,7 +32,7 @@
 //! | `lost_counts` | jumps of the reading by whole counts |
 //! | `residual_analysis` | where a model fails: volts against speed, voltage, angle, time |
 //!
-//! Beside the pipeline stand [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
+//! Beside the pipeline stand [`Criterion`] (over which span models are judged), [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
 //! [`settle()`] (the last model with intervals), [`steady`] (a curve of steady speeds), and `explain`: what is said of a
 //! diagnosis ([`evidence`], [`advice`], [`findings()`], [`pair`]).
 
@@ -42,6 +42,7 @@ mod candidate;
 mod conclude;
 mod confirmation;
 mod context;
+mod criterion;
 mod explain;
 mod hypotheses;
 mod linear;
@@ -62,6 +63,7 @@ mod suggest;
 pub use baseline::{Baseline, Prediction};
 pub use built_up::{built_up, is_lost};
 pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways, together_move_both_ways};
+pub use criterion::Criterion;
 pub use explain::{Findings, advice, evidence, findings, pair};
 pub use hypotheses::ProbableSet;
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};

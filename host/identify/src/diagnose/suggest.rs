@@ -4,6 +4,7 @@ use super::candidate::descent::Descent;
 use super::candidate::score::score_candidate;
 use super::candidate::search::fit_problem;
 use super::context::{Budget, Context};
+use super::criterion::Criterion;
 use super::explain::evidence;
 use super::models::FittedModel;
 use super::outcome::Verdict;
@@ -41,7 +42,7 @@ pub struct Suggestions {
     pub list: Vec<Suggestion>,
 }
 
-/// Looks for effects beside those of `candidate`, judged by `held_out`, which is never fitted.
+/// Looks for effects beside those of `candidate`, judged by `held_out`, which is never fitted, over the span of `criterion`.
 ///
 /// # Errors
 /// Where the model cannot run.
@@ -49,11 +50,12 @@ pub fn suggest(
     data: &Data,
     held_out: &Data,
     candidate: &Candidate,
+    criterion: &Criterion,
     options: &Options,
     budget: &Budget<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Suggestions, Error> {
-    let context = Context::new(data, held_out, options, budget);
+    let context = criterion.context(data, held_out, options, budget);
     let parent = standing(&context, candidate)?;
     if parent.judged().at_floor() {
         let verdict = if parent.effects.is_empty() {

@@ -18,6 +18,8 @@ pub struct Limits {
     pub current_v: Option<f64>,
     /// Travel of the shaft from end to end, revolutions.
     pub travel_rev: Option<f64>,
+    /// Most commands in a row, each held until the next: what a device that plays them can hold.
+    pub commands: Option<usize>,
 }
 
 /// Peak values of an excitation, the largest over all hypotheses.
@@ -68,6 +70,11 @@ impl Limits {
         setup: &Setup,
         seed: u64,
     ) -> Result<Option<(Excitation, Usage)>, ModelError> {
+        let drive = candidate.drive(setup.sample_s, seed);
+        let commands = 1 + drive.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        if self.commands.is_some_and(|most| commands > most) {
+            return Ok(None);
+        }
         let mut factor = 1.0;
         while factor >= SMALLEST {
             let excitation = candidate.scaled(factor);

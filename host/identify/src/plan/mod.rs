@@ -29,6 +29,7 @@ mod separation;
 pub use excitation::Excitation;
 pub use hypothesis::{Hypothesis, Setup};
 pub use limits::{Limits, Usage};
+pub use playback::{Moment, play};
 pub use ranking::{PlanTask, Ranked, candidate_count, rank};
 pub use reasons::{remedy, why};
 pub use separation::{RefitBudget, SEPARABLE_COUNTS, Separation, Trial};

@@ -1,7 +1,7 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
 use super::live::left_in;
-use super::{FolderError, Recorded};
+use super::{DutyScale, FolderError, Recorded};
 use crate::schema::DeviceRun;
 use crate::schema::device::FILE as DEVICE;
 use servoid_io::input::{MotorFile, read_recording};
@@ -105,7 +105,13 @@ impl Folder {
             if whole.len() < part.rows.len() || saved.partial {
                 provenance.push(format!("partial: {} periods without a gap", whole.len()));
             }
-            let recording = recording(part.count, &whole, saved, current);
+            let recording = recording(
+                part,
+                saved.period_us,
+                saved.scale(),
+                saved.counts_per_rev,
+                current,
+            );
             write_recording(&self.path.join(name), &recording, &provenance)?;
             written.push(name);
         }
@@ -170,13 +176,20 @@ pub(super) fn motor_file(supply_v: f64, counts_per_rev: f64) -> String {
     .to_toml()
 }
 
-/// Rows as a recording; the reading after the last period is a row of its own, with no drive.
-fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Recording {
-    let period_s = f64::from(saved.period_us) * 1e-6;
+/// The rows of a stage before the first gap as a recording; the reading after the last period is a row of its own, with no drive.
+pub fn recording(
+    part: &Recorded,
+    period_us: u32,
+    scale: DutyScale,
+    counts_per_rev: f64,
+    current: bool,
+) -> Recording {
+    let rows: Vec<Row> = part.whole().collect();
+    let period_s = f64::from(period_us) * 1e-6;
     let coasts = rows.iter().any(|row| row.duty == OPEN);
-    let mut counts = vec![f64::from(count)];
-    let mut at = f64::from(count);
-    for row in rows {
+    let mut at = f64::from(part.count);
+    let mut counts = vec![at];
+    for row in &rows {
         at += f64::from(row.step);
         counts.push(at);
     }
@@ -187,7 +200,7 @@ fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Reco
         time_s: (0..counts.len()).map(|k| k as f64 * period_s).collect(),
         command: rows
             .iter()
-            .map(|row| saved.scale().recorded(row.duty))
+            .map(|row| scale.recorded(row.duty))
             .chain([0.0])
             .collect(),
         counts,
@@ -198,9 +211,9 @@ fn recording(count: i32, rows: &[Row], saved: &DeviceRun, current: bool) -> Reco
                 .chain([true])
                 .collect()
         }),
-        counts_per_rev: saved.counts_per_rev,
+        counts_per_rev,
         quantised: true,
-        supply_v: Some(saved.supply_v),
+        supply_v: Some(scale.supply_v),
         drive: Drive::Voltage,
         position: None,
     }

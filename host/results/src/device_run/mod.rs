@@ -17,7 +17,7 @@ mod recorded;
 
 pub use duty::DutyScale;
 pub use error::FolderError;
-pub use folder::Folder;
+pub use folder::{Folder, recording};
 pub use lines::{COLUMNS, Lines};
 pub use live::Live;
 pub use recorded::Recorded;

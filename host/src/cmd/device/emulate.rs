@@ -2,7 +2,7 @@
 
 use super::super::simulate::bench_of;
 use crate::cli::{EmulateArgs, EmulationArgs, LimitArgs, PortArgs};
-use crate::device::{DeviceError, Emulation, Image, Port};
+use crate::device::{DeviceError, Emulation, Image, Port, Reached};
 use crate::error::Error;
 use crate::session::Session;
 use std::path::PathBuf;
@@ -11,14 +11,6 @@ use std::time::Duration;
 
 /// Counts of an emulated encoder.
 pub(super) const COUNTS_PER_REV: u32 = 2000;
-
-/// An open device; dropping it ends an emulated one.
-pub(super) struct Reached {
-    pub(super) port: Port,
-    /// Supply and counts of an emulated bench.
-    pub(super) bench: Option<(f64, u32)>,
-    _emulation: Option<Emulation>,
-}
 
 /// Where `scripts/emulated` puts its images, the microcontroller's first.
 const BUILT: [&str; 2] = [
@@ -63,21 +55,13 @@ pub(super) fn reach(
     seed: u64,
 ) -> Result<Reached, Error> {
     if let Some(address) = &args.port {
-        return Ok(Reached {
-            port: Port::parse(address)?,
-            bench: None,
-            _emulation: None,
-        });
+        return Ok(Reached::at(Port::parse(address)?));
     }
     let counts = limits
         .and_then(|limits| limits.counts_per_rev)
         .unwrap_or(COUNTS_PER_REV);
     let (emulation, supply) = start(&args.emulation, counts, seed)?;
-    Ok(Reached {
-        port: emulation.port().clone(),
-        bench: Some((supply, counts)),
-        _emulation: Some(emulation),
-    })
+    Ok(Reached::emulated(emulation, supply, counts))
 }
 
 /// `servoid device emulate`.

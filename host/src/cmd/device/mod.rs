@@ -1,5 +1,6 @@
 //! `servoid device`: talks to the firmware.
 
+mod bench;
 mod emulate;
 mod record;
 mod verify;
@@ -20,6 +21,7 @@ pub(super) fn run(session: &Session, args: &DeviceArgs) -> Result<(), Error> {
         DeviceVerb::Stream(args) => record::stream(session, args),
         DeviceVerb::Run(args) => record::play(session, args),
         DeviceVerb::Verify(args) => verify::run(session, args),
+        DeviceVerb::Bench(args) => bench::run(session, args),
         DeviceVerb::Stop(args) => stop(session, args),
         DeviceVerb::Emulate(args) => emulate::run(session, args),
     }

@@ -1,24 +1,22 @@
 //! Verbs that drive the motor: commission, record, stream, run.
 
-use super::emulate::{self, Reached};
+use super::emulate;
 use crate::cli::{
     CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
 };
-use crate::device::{
-    Conversation, DeviceError, Expected, Order, Progress, Run, broken, follow, report, segments,
-};
+use crate::device::{Conversation, Kept, Order, Progress, Reached, Run, drive, keep, segments};
 use crate::error::Error;
 use crate::session::{Session, print};
 use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
-use servoid_results::device_run::{COLUMNS, Folder, Lines, Live, Recorded};
+use servoid_results::device_run::{COLUMNS, Folder, Lines};
 use servoid_results::schema::DeviceRun;
 use shared::fit::{Method, Settings};
 use shared::wire::{About, Fault, Kind, Segment, Stage};
 use std::path::Path;
 
 /// The common part of an order, without the settings of a commissioning.
-fn order(
+pub(super) fn order(
     session: &Session,
     reached: &Reached,
     limits: &LimitArgs,
@@ -69,13 +67,13 @@ fn order(
 }
 
 /// An open device with its identification.
-struct Bench {
-    reached: Reached,
+pub(super) struct Bench {
+    pub(super) reached: Reached,
     conversation: Conversation,
-    about: About,
+    pub(super) about: About,
 }
 
-fn open(session: &Session, port: &PortArgs, limits: &LimitArgs) -> Result<Bench, Error> {
+pub(super) fn open(session: &Session, port: &PortArgs, limits: &LimitArgs) -> Result<Bench, Error> {
     let reached = emulate::reach(port, Some(limits), session.seed)?;
     let mut conversation = Conversation::open(&reached.port)?;
     let about = conversation.about()?;
@@ -85,40 +83,6 @@ fn open(session: &Session, port: &PortArgs, limits: &LimitArgs) -> Result<Bench,
         conversation,
         about,
     })
-}
-
-impl Bench {
-    /// Runs an order, shows its progress, and keeps the received data even if the link breaks.
-    fn run(
-        &mut self,
-        session: &Session,
-        order: &Order,
-        plan: &[Segment],
-        recorded: &mut Vec<Recorded>,
-        mut also: impl FnMut(Progress<'_>) -> Result<(), DeviceError>,
-    ) -> Result<Run, Error> {
-        let job = order.job(&self.about, plan)?;
-        let expected = Expected::of(&job, plan, &self.about);
-        self.conversation.start(job, plan)?;
-        let bar = session.progress(0, "device");
-        let run = follow(
-            &mut self.conversation,
-            &self.about,
-            &expected,
-            session.stop(),
-            recorded,
-            |progress| {
-                show(&bar, progress);
-                also(progress)
-            },
-        );
-        bar.finish_and_clear();
-        if run.is_ok() {
-            // It has nothing more to report: let it go back to idle.
-            let _ = self.conversation.about();
-        }
-        Ok(run?)
-    }
 }
 
 fn show(bar: &ProgressBar, progress: Progress<'_>) {
@@ -137,7 +101,7 @@ fn show(bar: &ProgressBar, progress: Progress<'_>) {
     }
 }
 
-/// Runs an order into a folder, and saves partial data if the link breaks.
+/// Runs an order into a folder and says what came.
 fn into_folder(
     session: &Session,
     bench: &mut Bench,
@@ -146,44 +110,23 @@ fn into_folder(
     folder: &Folder,
     path: &Path,
 ) -> Result<(), Error> {
-    let mut recorded = Vec::new();
-    let mut live = Live::begin(
-        folder.path(),
-        bench.about.period_us,
-        order.scale(&bench.about),
-        order.counts_per_rev,
-    )?;
-    let run = bench.run(
-        session,
+    let bar = session.progress(0, "device");
+    let (about, stop) = (&bench.about, session.stop());
+    let kept = keep(
+        &mut bench.conversation,
+        about,
         order,
         plan,
-        &mut recorded,
-        |progress| match progress {
-            Progress::Rows(rows) => Ok(live.take(rows)?),
-            _ => Ok(()),
-        },
+        folder,
+        stop,
+        |told| show(&bar, told),
     );
-    let current = bench.about.senses_current;
-    let run = match run {
-        Ok(run) => run,
-        Err(error) => {
-            let partial = if recorded.is_empty() {
-                String::new()
-            } else {
-                let saved = broken(&bench.about, order, &recorded);
-                folder.write(&saved, &recorded, current)?;
-                live.finish()?;
-                format!(
-                    "\nwhat had arrived is in {}, and says that it is partial",
-                    path.display()
-                )
-            };
-            return Err(Error::Failed(format!("{error}{partial}")));
-        }
-    };
-    let saved = report(&run, order);
-    let written = folder.write(&saved, &run.recorded, current)?;
-    live.finish()?;
+    bar.finish_and_clear();
+    let Kept {
+        saved,
+        run,
+        written,
+    } = kept?;
     let text = summary(&saved, &run, path, &written);
     let unverified = matches!(&run.outcome, Err(failure) if failure.fault == Fault::NotVerified);
     match &saved.failure {
@@ -348,7 +291,10 @@ pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> 
     // Set once stdout is closed.
     let mut closed = false;
     print(COLUMNS.as_bytes())?;
-    let run = bench.run(session, &order, &[], &mut Vec::new(), |progress| {
+    let bar = session.progress(0, "device");
+    let (about, stop) = (&bench.about, session.stop());
+    let each = |progress: Progress<'_>| {
+        show(&bar, progress);
         if let Progress::Rows(rows) = progress
             && rows.stage == Stage::Excite
             && !closed
@@ -356,8 +302,19 @@ pub(super) fn stream(session: &Session, args: &StreamArgs) -> Result<(), Error> 
             closed = print(lines.of(rows).as_bytes()).is_err();
         }
         Ok(())
-    })?;
-    match run.outcome {
+    };
+    let mut recorded = Vec::new();
+    let run = drive(
+        &mut bench.conversation,
+        about,
+        &order,
+        &[],
+        stop,
+        &mut recorded,
+        each,
+    );
+    bar.finish_and_clear();
+    match run?.outcome {
         Ok(_) => Ok(()),
         Err(failure) => Err(Error::Failed(format!(
             "the device gave up: {}",

@@ -39,7 +39,7 @@ pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<F
     let look = |refit: &FittedModel| {
         analyse_residual(data, &refit.candidate, complete, diagnosis.last.method)
     };
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let errors = |refit: &FittedModel| -> Result<Vec<f64>, Error> {
         let errors = scores::whole(data, &refit.candidate, refit.method)?;
         Ok(errors.into_iter().map(|error| error - centre).collect())

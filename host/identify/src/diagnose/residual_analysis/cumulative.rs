@@ -35,7 +35,7 @@ pub fn cumulative(
     method: Method,
 ) -> Result<[Cumulative; 2], Error> {
     let errors = whole(data, candidate, method)?;
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let errors: Vec<f64> = errors.iter().map(|e| e - centre).collect();
     // Where the shaft is, if the model is right.
     let run: Vec<f64> = (0..data.len())

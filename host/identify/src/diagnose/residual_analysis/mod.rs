@@ -150,7 +150,7 @@ fn simulated(data: &Data, candidate: &Candidate, method: Method) -> Result<Data,
 
 fn free_run(data: &Data, candidate: &Candidate, method: Method) -> Result<Vec<Part>, Error> {
     let errors = whole(data, candidate, method)?;
-    let centre = data.centre(0) - data.counts[0];
+    let centre = data.half_cell();
     let length = errors.len().div_ceil(PARTS).max(1);
     let parts = errors.chunks(length).enumerate();
     Ok(parts

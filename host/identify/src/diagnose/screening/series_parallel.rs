@@ -60,7 +60,7 @@ impl SeriesParallel<'_> {
     /// Takes the best start angle of a whole run; in windows the measured one stands.
     fn centre(&self, errors: &mut [f64]) {
         let middle = match self.horizon {
-            Horizon::Windows(_) => self.data.centre(0) - self.data.counts[0],
+            Horizon::Windows(_) => self.data.half_cell(),
             _ => errors.iter().sum::<f64>() / errors.len().max(1) as f64,
         };
         for error in errors {

@@ -2,7 +2,7 @@
 
 import { colour } from "./names.js";
 import { at } from "./elements.js";
-import { counts, times } from "./numbers.js";
+import { counts, digits, times } from "./numbers.js";
 
 const STEP_MS = 480;
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -26,12 +26,15 @@ export function show(bench, model, beside) {
     shown = null;
     return;
   }
+  const { window_s: windows, window_reason: reason } = bench.recording;
   const parts = [`fitted ${counts(model.rms_counts)}`, `floor ${counts(bench.floor_counts)}`];
+  if (windows) parts.unshift(`in windows of ${digits(windows, 2)} s`);
   if (beside) {
     const fall = judged(beside) / judged(model);
     if (fall > 1.05) parts.push(`÷ ${times(fall)}`);
   }
   at("error-more").textContent = parts.join("\u2003");
+  at("error-more").title = windows ? `Each window starts from the measured state: ${reason}. Over the whole run: ${counts(model.whole_rms_counts)} counts.` : "";
   countTo(judged(model));
 }
 

@@ -23,6 +23,7 @@ let shown = [];
 let span = null;
 let cursor = null;
 let held = false;
+let windowed = null;
 const plots = {};
 
 // ---- what is shown
@@ -188,6 +189,7 @@ function draw() {
   strip();
   inset();
   readout();
+  windowed?.();
   Object.assign(at("lanes").dataset, { from: span[0], to: span[1], points: made.angle.data[0].length });
   document.body.dataset.lanes = shown.map((model) => `${model.id}${model.dashed ? "p" : ""}`).join(" ");
 }
@@ -420,6 +422,14 @@ export function scale(factor) {
   span = [from, from + length];
   draw();
 }
+
+/** The window as samples, where it is a part of what is drawn; else nothing. */
+export const part = () => (recording && span[1] - span[0] < recording.time.length ? { from: span[0], to: span[1], held_out: held } : null);
+
+/** Calls `does` whenever the window has changed. */
+export const onWindow = (does) => {
+  windowed = does;
+};
 
 /** Whether the bridge is ever open. */
 export const hasOpen = () => Boolean(recording?.open.length);

@@ -3,6 +3,7 @@
 import { ask } from "./ask.js";
 import { letter, spoken, step } from "./names.js";
 import * as details from "./details.js";
+import * as device from "./device.js";
 import { at, el } from "./elements.js";
 import * as error from "./error.js";
 import * as exports from "./exports.js";
@@ -10,8 +11,9 @@ import * as gallery from "./gallery.js";
 import * as keyboard from "./keyboard.js";
 import * as ladder from "./ladder.js";
 import * as lanes from "./lanes.js";
+import * as live from "./live.js";
 import * as mapping from "./mapping.js";
-import { counts, times } from "./numbers.js";
+import { counts, digits, times } from "./numbers.js";
 import * as parameters from "./parameters.js";
 import * as proposals from "./proposals.js";
 import * as recordings from "./recordings.js";
@@ -70,6 +72,25 @@ function putAway() {
   });
 }
 
+// A first recording is fitted; the next one judges, and any further one is fitted with the first.
+function record(seconds) {
+  const { recording } = bench;
+  const judged = recording?.sources.some((one) => one.role === "held out");
+  return work({ what: "record", seconds, role: recording === null ? "fitted" : judged ? "beside" : "held_out" });
+}
+
+// Other recordings, or other parts of them: the model that is looked at is fitted to these.
+async function others(path, body) {
+  if (!await putAway()) return;
+  const effects = model(bench.chosen)?.effects ?? [];
+  try {
+    await ask(path, body);
+    await fitNow(effects);
+  } catch (fault) {
+    say(fault);
+  }
+}
+
 // ---- what buttons and keys do
 
 const does = {
@@ -81,6 +102,13 @@ const does = {
   suggest: () => work({ what: "suggest", model: bench.chosen }),
   diagnose: () => work({ what: "diagnose" }),
   twins: (id) => work({ what: "twins", model: id }),
+  arm: () => act("arm", {}),
+  record,
+  plan: (seconds) => work({ what: "plan", seconds }),
+  play: () => work({ what: "play" }),
+  commission: async (seconds) => {
+    if (await putAway()) work({ what: "commission", seconds });
+  },
   reveal: () => act("reveal", {}),
   race: (algorithms, effects, budget, seeds) => work({ what: "race", algorithms, effects, budget, seeds }),
   preview: () => {
@@ -104,17 +132,8 @@ const does = {
   },
   remove: (id) => act("remove", { model: id }),
   exports: () => exports.show(bench, say),
-  role: async (k, role, of) => {
-    const roles = of.recording.sources.map((one, place) => (place === k ? role : one.role));
-    if (!await putAway()) return;
-    const effects = model(bench.chosen)?.effects ?? [];
-    try {
-      await ask("roles", { roles });
-      await fitNow(effects);
-    } catch (fault) {
-      say(fault);
-    }
-  },
+  role: (k, role, of) => others("roles", { roles: of.recording.sources.map((one, place) => (place === k ? role : one.role)) }),
+  span: (asked) => others("span", asked),
   view: (held) => {
     heldOut = held;
     show();
@@ -153,6 +172,8 @@ function show() {
   if (wrong.startsWith(SILENT)) wrong = "";
   showFault();
   showWork();
+  device.show(bench, does);
+  live.show(bench);
   if (recording && !recording.sources.some((one) => one.role === "held out")) heldOut = false;
   recordings.show(bench, heldOut, does);
   if (!recording) {
@@ -165,6 +186,7 @@ function show() {
   const parent = chosen && model(chosen.parent);
   parameters.show(bench, chosen, comparing ? model(bench.against) : parent);
   error.show(bench, chosen, comparing ? model(bench.against) : parent);
+  at("residual-name").textContent = `Residual${recording.window_s ? ` in windows of ${digits(recording.window_s, 2)} s` : ""}, counts`;
   details.show(bench, does);
   draw();
 }
@@ -232,11 +254,11 @@ function showWork() {
   }
   if (!began || at("work-what").dataset.job !== job) began = performance.now();
   at("work-what").dataset.job = job;
-  const titles = { fit: "Fitting", suggest: "Testing what is missing", diagnose: "Finding everything that is missing", race: "Racing searches", twins: "Trying motors like yours" };
+  const titles = { fit: "Fitting", suggest: "Testing what is missing", diagnose: "Finding everything that is missing", race: "Racing searches", twins: "Trying motors like yours", plan: "Looking for the experiment that decides", record: "Fitting what was recorded", experiment: "Fitting what was recorded", commission: "Fitting what was recorded" };
   at("work-what").textContent = job === "fit" && tried !== null ? titles.suggest : titles[job] ?? job;
   const bar = at("work-bar");
   if (job === "twins" && bench.twins) bar.value = bench.twins.tried / bench.twins.of;
-  else if (tried !== null && job !== "diagnose" && job !== "twins") bar.value = Math.min(0.98, tried / USUALLY_TRIED);
+  else if (tried !== null && ["fit", "suggest"].includes(job)) bar.value = Math.min(0.98, tried / USUALLY_TRIED);
   else bar.removeAttribute("value");
   const seconds = ((performance.now() - began) / 1000).toFixed(0);
   at("progress").textContent = `${lastSaid ? `${lastSaid} · ` : ""}${seconds} s`;
@@ -246,7 +268,7 @@ setInterval(() => bench?.job && showWork(), 500);
 function progress(what) {
   if (what.tried !== undefined) {
     ({ tried } = what);
-    lastSaid = ["diagnose", "twins"].includes(what.job) ? `${tried} models tried` : `${tried} of about ${Math.max(USUALLY_TRIED, tried)} models`;
+    lastSaid = ["diagnose", "twins", "plan"].includes(what.job) ? `${tried} models tried` : `${tried} of about ${Math.max(USUALLY_TRIED, tried)} models`;
   } else {
     tried = null;
     const name = what.algorithm ? `${what.algorithm}: ` : "";
@@ -326,6 +348,7 @@ at("redo").addEventListener("click", () => act("redo", {}));
 at("export").addEventListener("click", does.exports);
 at("theme").addEventListener("click", turnTheme);
 at("stop").addEventListener("click", stop);
+at("live-stop").addEventListener("click", stop);
 
 function stop() {
   at("stop").disabled = true;
@@ -361,4 +384,9 @@ keyboard.listen({
     else details.close();
   },
 });
+lanes.onWindow(() => {
+  at("use-span").hidden = lanes.part() === null;
+  at("use-span").disabled = Boolean(bench?.job);
+});
+at("use-span").addEventListener("click", () => does.span({ what: "samples", ...lanes.part() }));
 details.begin();

@@ -88,9 +88,10 @@ function opened(one, rows, chosen, bench, does) {
   if (!one.believed) facts.unshift(["Doubt", "removes too little of the held-out error to be believed"]);
   const made = el("article", { class: "open", style: `--pc:${stroke}`, "data-effect": one.effect, tabindex: "-1" },
     el("h3", { class: "ttl" }, title(one), el("small", {}, parameters(one) + (fewest && rows.length > 1 ? " · simplest" : ""))),
+    about(bench.effects.find((own) => own.name === one.effect)),
     el("p", { class: "falls" }, el("span", { class: "quiet" }, counts(chosen.held_out_rms_counts)), "→",
       el("span", { class: "to", style: `color:${stroke}` }, counts(one.held_out_rms_counts)),
-      el("span", { class: worse ? "warned s12" : "quiet s12" }, worse ? "held out: fits better, predicts worse" : one.in_windows ? "held out, as fitted in windows" : "counts held out, verified")),
+      el("span", { class: worse ? "warned s12" : "quiet s12" }, worse ? "held out: fits better, predicts worse" : "counts held out, verified")),
     signature(one.signature, { width: WIDE, height: 130, stroke, labels: true }),
     el("dl", { class: "kv" }, ...facts.filter(([, text]) => text).flatMap(([name, text]) => [el("dt", {}, name), el("dd", {}, text)])),
     el("p", { class: "acts" },
@@ -99,6 +100,16 @@ function opened(one, rows, chosen, bench, does) {
       button("Lock out", () => does.lock(one.effect, true), { id: "lock", title: "Propose this effect no more (L)" })));
   made.addEventListener("pointerenter", () => hover(one, does));
   return made;
+}
+
+// What the catalogue says of an effect; it stays open from one to the next.
+let reading = false;
+function about(effect) {
+  const lines = [["Equation", effect.equation], ["Sign", effect.sign], ["Exposed by", effect.exposed_by], ["Source", effect.source]];
+  return el("details", { class: "told", open: reading, ontoggle: (event) => {
+    reading = event.target.open;
+  } }, el("summary", { title: "The effect's equation, and what exposes it", "aria-label": `About ${spoken(effect.name)}` }, "?"),
+  el("dl", { class: "kv" }, ...lines.flatMap(([name, text]) => [el("dt", {}, name), el("dd", {}, text)])));
 }
 
 function closed(one, k, bench, does) {
@@ -160,12 +171,12 @@ function explained(bench, chosen, does) {
   const own = el("div", { class: "sec" }, el("h2", {}, "The model"), ...chosen.effects.map((effect) => owned(bench, chosen, effect, does)));
   return el("div", {},
     el("div", { class: "sec done explained", id: "explained", style: `--tint:${tint}` }, el("span", { class: "check", "aria-hidden": "true" }, "✓"), el("h2", {}, "Explained"),
-      el("p", { class: "quiet" }, `${said[0].toUpperCase()}${said.slice(1)} ${bench.recording.held_out ? "On the held-out recording" : "Also in what was not fitted"} only the encoder's own error is left.`)),
+      el("p", { class: "quiet" }, `${said[0].toUpperCase()}${said.slice(1)} ${bench.recording.held_out ? "On the held-out recording" : "Also in what was not fitted"} only the ${bench.recording.window_s ? "readings'" : "encoder's"} own error is left.`)),
     chosen.effects.length ? own : null,
     el("div", { class: "sec" }, el("h2", {}, "Is anything left?"), el("table", { class: "facts" },
       row("Fitted, counts", counts(chosen.rms_counts)), row("Held out, counts", counts(chosen.held_out_rms_counts)),
-      row("The encoder's own, counts", counts(bench.floor_counts)),
-      row("Residual is noise", chosen.white === null ? "too little motion to tell" : chosen.white ? "yes" : "no")),
+      row(bench.recording.window_s ? "The readings' own, counts" : "The encoder's own, counts", counts(bench.floor_counts)),
+      bench.recording.window_s ? null : row("Residual is noise", chosen.white === null ? "too little motion to tell" : chosen.white ? "yes" : "no")),
     el("p", { class: "acts" }, button("Export the model", does.exports, { class: "btn pri" }))));
 }
 

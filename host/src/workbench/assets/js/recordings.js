@@ -21,7 +21,9 @@ export function show(bench, heldOut, does) {
       el("button", {
         type: "button", "aria-pressed": String(held === heldOut && one.role !== "ignored"), title: `Show ${one.name} along the models`,
         disabled: one.role === "ignored", onclick: () => does.view(held),
-      }, el("b", {}, name), el("span", { class: "quiet s12 len" }, `${digits(one.seconds, 3)} s · ${rate(one)}`)),
+      }, el("b", {}, name), el("span", { class: "quiet s12 len" }, one.span_s ? `${one.span_s.map((t) => digits(t, 3)).join("–")} s` : `${digits(one.seconds, 3)} s · ${rate(one)}`)),
+      one.span_s ? el("button", { type: "button", class: "whole", title: "Use the whole recording again", "aria-label": `Use the whole of ${name}`, disabled: Boolean(bench.job),
+        onclick: () => does.span({ what: "whole", recording: k }) }, "×") : null,
       el("select", { class: `role ${one.role.replace(" ", "_")}`, "aria-label": `Role of ${name}`, disabled: Boolean(bench.job), onchange: (event) => {
         does.role(k, event.target.value, bench).finally(() => {
           event.target.value = one.role;
