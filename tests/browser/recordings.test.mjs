@@ -146,6 +146,27 @@ test("recordings change their roles, and undo and a session know of it", async (
   await close(second, again);
 });
 
+test("a log of fifty megabytes is dropped, previewed and read", async () => {
+  at.desk.run("simulate --hide coulomb --seconds 2000 --out huge.csv --seed 3 --no-motor");
+  const text = readFileSync(at.desk.path("huge.csv"), "utf8");
+  assert.ok(text.length > 50e6, `${text.length} bytes`);
+  const bench = await at.desk.bench("");
+  const page = await open(at.chrome, bench.url);
+  await drop(page, [["huge.csv", text]]);
+  await page.waitForSelector("#columns[open]", { timeout: 60_000 });
+  await page.fill("#map-counts_per_rev", "2000");
+  await page.fill("#map-supply_v", "12");
+  await page.click("#load");
+  await page.waitForSelector(".rec", { timeout: 120_000 });
+  assert.equal((await state(page)).recording.samples, 2_000_000);
+  // Nobody waits for the fit of half an hour.
+  const begun = Date.now();
+  await page.keyboard.press("Escape");
+  await page.waitForSelector("#work", { state: "hidden", timeout: 60_000 });
+  assert.ok(Date.now() - begun < 10_000, "it stops");
+  await close(page, bench);
+});
+
 test("a span of a recording is chosen by dragging, is kept in a session, and is taken back", async () => {
   const [bench, page] = await opened(at, "rec.csv --validate other.csv --session span.json");
   const spans = async () => (await state(page)).recording.sources.map((one) => one.span_s);
@@ -167,7 +188,10 @@ test("a span of a recording is chosen by dragging, is kept in a session, and is 
   await second.waitForFunction(() => !document.querySelector(".rec .whole"));
   await settled(second, 1);
   assert.equal((await state(second)).recording.sources[0].span_s, null);
+  // The fit is undone first, then what it was fitted to.
   await second.click("#undo");
+  await second.waitForFunction(() => document.querySelectorAll("#tree .node").length === 0);
+  await second.click("#undo:enabled");
   await second.waitForSelector(".rec .whole");
   await close(second, again);
 });

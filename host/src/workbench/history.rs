@@ -82,28 +82,117 @@ impl State {
 
 #[cfg(test)]
 mod tests {
-    use super::super::state::{Bench, Way};
-    use serde_json::json;
+    use super::super::blind::recorded;
+    use super::super::model::{Model, Recordings, options};
+    use super::super::state::{Bench, State, Way};
+    use super::MOST;
+    use serde_json::{Value, json};
+    use servoid_identify::{Silent, identify_data};
+    use servoid_io::showcase;
+    use servoid_plant::Hidden;
+    use shared::effects::Kind;
+
+    /// Actions of a walk.
+    const ACTIONS: u64 = 200;
+
+    /// Recordings of two motors, each with a fitted model.
+    fn prepared() -> Vec<(Recordings, Model)> {
+        let with = |name: &str| {
+            let hidden = Hidden::typical(name, &showcase::machine()).expect("an effect");
+            let [fitted, other] =
+                [1, 2].map(|seed| recorded(&hidden, seed, name).expect("recorded"));
+            let recordings = Recordings::new(fitted, Some(other));
+            let (data, held_out) = recordings.parts();
+            let asked = options(&recordings.fitted, &[]);
+            let fit =
+                identify_data(data, Some(held_out), &asked, &Silent::default()).expect("a fit");
+            let model = Model::new(Vec::new(), fit, None, None, &recordings).expect("a model");
+            (recordings, model)
+        };
+        ["coulomb", "dead_zone"].map(with).into()
+    }
+
+    /// The work that lies on the bench.
+    #[derive(Clone, Debug, PartialEq)]
+    struct Lay {
+        recordings: Option<u64>,
+        models: Vec<(usize, u64)>,
+        locked: Vec<&'static str>,
+        race: Option<Value>,
+    }
+
+    impl Lay {
+        fn of(state: &State) -> Self {
+            Lay {
+                recordings: state.recordings.as_ref().map(|one| one.stamp),
+                models: (state.models.iter())
+                    .map(|model| (model.id, model.stamp))
+                    .collect(),
+                locked: state.locked.iter().map(|kind| kind.name()).collect(),
+                race: state.race.clone(),
+            }
+        }
+    }
+
+    /// Something that a user does to the bench.
+    fn act(state: &mut State, prepared: &[(Recordings, Model)], random: u64) {
+        let pick = (random >> 32) as usize;
+        match random >> 61 {
+            0 | 1 => state.race = Some(json!(random)),
+            2 | 3 => {
+                let kind = Kind::ALL[pick % Kind::ALL.len()];
+                let had = state.locked.len();
+                state.locked.retain(|other| *other != kind);
+                if state.locked.len() == had {
+                    state.locked.push(kind);
+                }
+            }
+            4 => state.begin(prepared[pick % prepared.len()].0.clone()),
+            5 | 6 => {
+                let here = state.recordings.as_ref().map(|one| one.stamp);
+                let own = (prepared.iter()).find(|(one, _)| Some(one.stamp) == here);
+                if let Some((_, model)) = own {
+                    let effects = vec![Kind::ALL[pick % Kind::ALL.len()]];
+                    state.put(Model {
+                        effects,
+                        ..model.clone()
+                    });
+                }
+            }
+            _ => {
+                if let Some(id) = state.models.first().map(|model| model.id) {
+                    state.remove(id).expect("it is there");
+                }
+            }
+        }
+    }
 
     /// Random walks against a list of what lay on the bench and a place in it.
     #[test]
     fn undo_and_redo_go_along_everything_that_lay_on_the_bench() {
+        let prepared = prepared();
         for seed in 0..30u64 {
             let bench = Bench::new(None, None);
-            let mut lay = vec![None];
+            let mut lay = vec![Lay::of(&bench.state())];
             let mut here = 0;
             let mut random = seed;
-            for action in 0..90u64 {
+            for action in 0..ACTIONS {
                 random = random
                     .wrapping_mul(6364136223846793005)
                     .wrapping_add(1442695040888963407);
                 match random >> 62 {
                     0 | 1 => {
-                        let race = Some(json!(action));
-                        bench.change(|state| state.race = race.clone());
-                        lay.truncate(here + 1);
-                        lay.push(race);
-                        here += 1;
+                        bench.change(|state| act(state, &prepared, random << 1));
+                        let now = Lay::of(&bench.state());
+                        if now != lay[here] {
+                            lay.truncate(here + 1);
+                            lay.push(now);
+                            here += 1;
+                        }
+                        if here > MOST {
+                            lay.remove(0);
+                            here -= 1;
+                        }
                     }
                     2 => {
                         assert_eq!(bench.go(Way::Undo).is_ok(), here > 0, "seed {seed}");
@@ -115,11 +204,8 @@ mod tests {
                         here += usize::from(more);
                     }
                 }
-                assert_eq!(
-                    bench.state().race,
-                    lay[here],
-                    "seed {seed}, action {action}"
-                );
+                let now = Lay::of(&bench.state());
+                assert_eq!(now, lay[here], "seed {seed}, action {action}");
                 let has = bench.history().has();
                 assert_eq!(has, (here > 0, here + 1 < lay.len()), "seed {seed}");
                 // Looking at something is no work.

@@ -28,10 +28,10 @@ export function show(bench, model, beside) {
   }
   const { window_s: windows, window_reason: reason } = bench.recording;
   const parts = [`fitted ${counts(model.rms_counts)}`, `floor ${counts(bench.floor_counts)}`];
-  if (windows) parts.unshift(`in windows of ${digits(windows, 2)} s`);
+  if (windows) parts.unshift(`windows of ${digits(windows, 1)}\u00a0s`);
   if (beside) {
     const fall = judged(beside) / judged(model);
-    if (fall > 1.05) parts.push(`÷ ${times(fall)}`);
+    if (fall > 1.05) parts.push(`÷\u00a0${times(fall)}`);
   }
   at("error-more").textContent = parts.join("\u2003");
   at("error-more").title = windows ? `Each window starts from the measured state: ${reason}. Over the whole run: ${counts(model.whole_rms_counts)} counts.` : "";

@@ -74,7 +74,7 @@ export function show(bench, foreseen) {
     group.append(full(svg("text", { x: middle, y: high - 4, "text-anchor": "middle" }, fitted(one.name, right - x))));
     place.append(group);
   });
-  place.append(full(svg("text", { x: left + 4, y: floor + 13 }, `encoder floor ${counts(bench.floor_counts)}`)));
+  place.append(full(svg("text", { x: left + 4, y: floor + 13 }, `${bench.recording.window_s ? "readings'" : "encoder"} floor ${counts(bench.floor_counts)}`)));
   known = new Set(bench.models.map((model) => model.id));
 }
 

@@ -100,6 +100,7 @@ function nowLine(plot) {
   ctx.save();
   ctx.strokeStyle = value("--ink");
   ctx.setLineDash([]);
+  ctx.lineWidth = devicePixelRatio;
   ctx.beginPath();
   ctx.moveTo(x, bbox.top);
   ctx.lineTo(x, bbox.top + bbox.height);

@@ -186,7 +186,7 @@ function show() {
   const parent = chosen && model(chosen.parent);
   parameters.show(bench, chosen, comparing ? model(bench.against) : parent);
   error.show(bench, chosen, comparing ? model(bench.against) : parent);
-  at("residual-name").textContent = `Residual${recording.window_s ? ` in windows of ${digits(recording.window_s, 2)} s` : ""}, counts`;
+  at("residual-name").textContent = `Residual${recording.window_s ? ` in windows of ${digits(recording.window_s, 1)} s` : ""}, counts`;
   details.show(bench, does);
   draw();
 }

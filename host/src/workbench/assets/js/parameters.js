@@ -38,7 +38,7 @@ export function show(bench, model, parent) {
   at("parameters-key").textContent = parent ? "± 95 %, ○ before" : "± 95 %";
   const over = model ? judged(model) / bench.floor_counts : 1;
   at("trust").hidden = over < 1.5;
-  at("trust").textContent = `Not to be trusted yet: the error is ${times(over)} times the encoder's own.`;
+  at("trust").textContent = `Not to be trusted yet: the error is ${times(over)} times the ${bench.recording.window_s ? "readings'" : "encoder's"} own.`;
 }
 
 function row(one, parent, id, all) {
