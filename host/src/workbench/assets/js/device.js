@@ -25,11 +25,11 @@ export function show(bench, does) {
   found(device);
 }
 
-function limits({ limits: most, senses_current: senses }) {
-  const parts = [["voltage_v", "V"], ["current_a", "A"], ["travel_rev", "rev"], ["speed_rad_s", "rad/s"]]
-    .filter(([name]) => most[name] !== null).map(([name, unit]) => `${digits(most[name], 3)} ${unit}`);
-  const said = parts.length ? [`at most ${parts.join(", ")}`] : ["no limits but the supply"];
-  return senses ? said : [...said, "no current sensor"];
+function limits({ limits: most, supply_v: supply, senses_current: senses }) {
+  const volts = Math.min(most.voltage_v ?? supply, most.amplitude * supply);
+  const parts = [[volts, "V"], [most.current_a, "A"], [most.travel_rev, "rev"], [most.speed_rad_s, "rad/s"]]
+    .filter(([value]) => value !== null).map(([value, unit]) => `${digits(value, 3)} ${unit}`);
+  return [`at most ${parts.join(", ")}`, ...(senses ? [] : ["no current sensor"])];
 }
 
 const armedFor = () => Math.max(0, left - (performance.now() - since) / 1000);

@@ -77,7 +77,8 @@ function build(models, aheads, bench) {
     [{}, ...models.flatMap((one) => [line(one.id), line(one.id, { width: 1, alpha: 0.4 })])],
     [{}, quiet, { ...quiet, dash: [3, 3] }],
   ];
-  const room = at("live-lanes").clientHeight - LANES.length * 24;
+  // Less titles and padding.
+  const room = at("live-lanes").clientHeight - LANES.length * 24 - 40;
   return LANES.map(([id, share], lane) => new uPlot({
     width: at("live-lanes").clientWidth - 32, height: Math.max(80, room * share), legend: { show: false }, cursor: { show: false }, series: series[lane],
     padding: [8, 0, lane === LANES.length - 1 ? 0 : 8, 0],
