@@ -55,10 +55,7 @@ pub(super) fn rivals(state: &State, id: usize) -> Vec<&Suggestion> {
 fn near(proposed: &Proposed, before: Option<f64>) -> impl Fn(&Suggestion) -> bool {
     let best = (proposed.list.iter().map(held_out)).fold(f64::INFINITY, f64::min);
     let before = before.unwrap_or(best).max(best);
-    let floor = proposed
-        .list
-        .first()
-        .map_or(0.0, |one| one.model.ran().floor);
+    let floor = proposed.list.first().map_or(0.0, |one| one.errors.floor);
     move |one| {
         if best <= ABOUT_FLOOR * floor {
             held_out(one) <= ABOUT_FLOOR * best
@@ -69,7 +66,7 @@ fn near(proposed: &Proposed, before: Option<f64>) -> impl Fn(&Suggestion) -> boo
 }
 
 fn held_out(one: &Suggestion) -> f64 {
-    one.model.ran().held_out
+    one.errors.held_out
 }
 
 /// Those that explain about as much as the best come first, the fewest parameters before all; the rest by what they leave.
@@ -90,7 +87,7 @@ fn ordered(proposed: &Proposed, before: Option<f64>) -> Vec<&Suggestion> {
 fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
     let description = suggestion.effect.description();
     let model = &suggestion.model;
-    let errors = model.ran();
+    let errors = suggestion.errors;
     let little = before.is_some_and(|before| errors.held_out > LITTLE * before);
     json!({
         "effect": suggestion.effect.name(),

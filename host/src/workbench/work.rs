@@ -224,6 +224,7 @@ fn on_the_way(
             let suggestion = Suggestion {
                 effect: step.added,
                 model: after.clone(),
+                errors: after.ran(),
                 evidence: None,
                 signature: None,
                 p_value: 0.0,

@@ -3,7 +3,7 @@
 
 use super::context::{Budget, Context, Span};
 use super::linear::fit_linear_motor;
-use super::models::Errors;
+use super::models::{Errors, FittedModel};
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle, errors, rms_counts};
@@ -50,9 +50,31 @@ impl Criterion {
                 floor: self.floor,
             });
         }
+        self.in_windows(data, held_out, &fit.candidate, fit.method)
+    }
+
+    /// The same of a model of a search, which may have run over some of the windows only.
+    pub(super) fn errors_of(
+        &self,
+        data: &Data,
+        held_out: &Data,
+        model: &FittedModel,
+    ) -> Result<Errors, Error> {
+        if self.span.window_s.is_none() {
+            return Ok(model.ran());
+        }
+        self.in_windows(data, held_out, &model.candidate, model.method)
+    }
+
+    fn in_windows(
+        &self,
+        data: &Data,
+        held_out: &Data,
+        candidate: &Candidate,
+        method: Method,
+    ) -> Result<Errors, Error> {
         let rms = |data: &Data| -> Result<f64, Error> {
-            let errors = self.run(data, &fit.candidate, fit.method)?;
-            Ok(rms_counts(data, &errors))
+            Ok(rms_counts(data, &self.run(data, candidate, method)?))
         };
         Ok(Errors {
             fitted: rms(data)?,

@@ -6,7 +6,7 @@ use super::candidate::search::fit_problem;
 use super::context::{Budget, Context};
 use super::criterion::Criterion;
 use super::explain::evidence;
-use super::models::FittedModel;
+use super::models::{Errors, FittedModel};
 use super::outcome::Verdict;
 use super::residual_analysis::{Signature, analyse_residual, signature};
 use super::selection::{extensions, judge};
@@ -23,6 +23,8 @@ pub struct Suggestion {
     pub effect: Kind,
     /// The model with it, fitted.
     pub model: FittedModel,
+    /// The errors by which it is judged, as those of a fit are.
+    pub errors: Errors,
     /// What was measured that speaks for it, if the recording shows it.
     pub evidence: Option<String>,
     /// Its volts along the motion, and those that the motor asked for; nothing where no quantity tells them.
@@ -82,6 +84,7 @@ pub fn suggest(
             signature: signature(data, &model.candidate, effect, model.method),
             p_value: judge::p_value(data, &parent, &model),
             believed: judge::removes(&parent, &model),
+            errors: criterion.errors_of(data, held_out, &model)?,
             model,
         });
     }
