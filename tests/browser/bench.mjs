@@ -137,6 +137,13 @@ export async function settled(page, models) {
   }
 }
 
+// Arms the device, and clicks what starts its motor; then the run is on the screen.
+export async function start(page, id) {
+  await page.click("#arm");
+  await page.click(`#${id}:enabled`);
+  await page.waitForSelector("#live:not([hidden])");
+}
+
 // Drags across the lanes, from one part of their width to another.
 export async function drag(page, from, to) {
   const box = await page.locator("#lane-angle .u-over").boundingBox();

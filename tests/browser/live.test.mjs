@@ -1,16 +1,9 @@
 // A device on the workbench, in a real browser: the motor is armed, recorded, watched, stopped and commissioned from the page.
 import assert from "node:assert/strict";
 import { existsSync, readdirSync } from "node:fs";
-import { close, open, settled, state, test, workplace } from "./bench.mjs";
+import { close, open, settled, start, state, test, workplace } from "./bench.mjs";
 
 const at = workplace();
-
-// Arms, and clicks what starts the motor; then the run is on the screen.
-async function start(page, id) {
-  await page.click("#arm");
-  await page.click(`#${id}:enabled`);
-  await page.waitForSelector("#live:not([hidden])");
-}
 
 const over = (page) => page.waitForSelector("#live", { state: "hidden", timeout: 60_000 });
 

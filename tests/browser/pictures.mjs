@@ -2,7 +2,7 @@
 import { mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { Desk, browser, error, open, settled, tab } from "./bench.mjs";
+import { Desk, browser, error, open, settled, start, tab } from "./bench.mjs";
 
 const docs = join(dirname(fileURLToPath(import.meta.url)), "../../docs");
 const images = join(docs, "book/src/images");
@@ -36,18 +36,13 @@ try {
   // A motor under way: an experiment that decides, with both models running along.
   const device = await desk.device("--hide coulomb --no-coast --counts-per-rev 64 --amplitude 0.3 --pace 1");
   const live = await open(chrome, device.url, { viewport: { width: 1280, height: 800 }, colorScheme: "light" });
-  const start = async (id) => {
-    await live.click("#arm");
-    await live.click(`#${id}:enabled`);
-    await live.waitForSelector("#live:not([hidden])");
-  };
-  await start("record");
+  await start(live, "record");
   await live.waitForSelector("#live", { state: "hidden", timeout: 60_000 });
   await settled(live, 1);
   await live.click("#plan");
   await live.waitForSelector("#play", { timeout: 120_000 });
   await live.screenshot({ path: join(images, "bench-plan.png") });
-  await start("play");
+  await start(live, "play");
   await live.waitForFunction(() => Number.parseFloat(document.getElementById("live-time").textContent) > 10);
   await live.screenshot({ path: join(images, "bench-live.png") });
   await device.end();

@@ -4,7 +4,7 @@ use crate::cli::{PlanArgs, SimulateArgs};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_identify::plan::{Hypothesis, Limits, PlanTask, Setup, candidate_count, rank};
-use servoid_io::output::{CommandSequence, write_commands};
+use servoid_io::output::write_commands;
 use servoid_plant::Machine;
 use servoid_results::report::plan::Plan;
 use servoid_results::schema::hypotheses;
@@ -59,24 +59,10 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         out,
     };
     if plan.separable() {
-        let commands = commands(&plan);
+        let commands = plan.best().excitation.commands(&setup, session.seed);
         write_commands(out, &commands, &plan.provenance())?;
     }
     session.deliver(&plan.text(), &plan.document())
-}
-
-/// The best excitation, sample by sample.
-fn commands(plan: &Plan<'_>) -> CommandSequence {
-    let setup = &plan.work.setup;
-    let drive = plan.best().excitation.drive(setup.sample_s, plan.work.seed);
-    let coasts = drive.iter().any(|command| !command.enabled);
-    CommandSequence {
-        time_s: (0..drive.len())
-            .map(|k| k as f64 * setup.sample_s)
-            .collect(),
-        voltage_v: drive.iter().map(|c| c.drive * setup.supply_v).collect(),
-        enabled: coasts.then(|| drive.iter().map(|command| command.enabled).collect()),
-    }
 }
 
 fn diagnosed(path: &Path) -> Result<(Vec<Hypothesis>, Setup), Error> {

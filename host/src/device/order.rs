@@ -55,6 +55,12 @@ impl Order {
         (self.counts_per_rev / 4096.0).max(1.0)
     }
 
+    /// Largest voltage of an excitation, V.
+    pub fn largest_voltage(&self) -> f64 {
+        let asked = self.amplitude * self.supply_v;
+        self.max_voltage.map_or(asked, |most| most.min(asked))
+    }
+
     /// Volts per duty of the device.
     pub fn scale(&self, about: &About) -> DutyScale {
         DutyScale {

@@ -77,7 +77,7 @@ pub(super) async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answ
         }
         Work::Record { seconds, role } => {
             let seconds = within_minutes(seconds)?;
-            driven::armed(&bench)?;
+            bench.device()?.disarm()?;
             job::start(&bench, "record", move |bench| {
                 driven::record(bench, seconds, role)
             })?;
@@ -87,12 +87,12 @@ pub(super) async fn begin(State(bench): Shared, Json(asked): Json<Work>) -> Answ
             job::start(&bench, "plan", move |bench| driven::plan(bench, seconds))?;
         }
         Work::Play => {
-            driven::armed(&bench)?;
+            bench.device()?.disarm()?;
             job::start(&bench, "experiment", driven::play)?;
         }
         Work::Commission { seconds } => {
             let seconds = within_minutes(seconds)?;
-            driven::armed(&bench)?;
+            bench.device()?.disarm()?;
             job::start(&bench, "commission", move |bench| {
                 driven::commission(bench, seconds)
             })?;

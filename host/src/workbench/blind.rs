@@ -1,7 +1,7 @@
 //! A blind demonstration: recordings of a motor in which something is hidden.
 
 use super::loaded::{Loaded, Source};
-use super::model::Recordings;
+use super::recordings::Recordings;
 use super::state::Secret;
 use crate::error::Error;
 use crate::prove::surprise;

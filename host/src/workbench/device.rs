@@ -252,7 +252,7 @@ impl Device {
             "supply_v": order.supply_v,
             "counts_per_rev": order.counts_per_rev,
             "limits": {
-                "amplitude": order.amplitude, "voltage_v": order.max_voltage, "current_a": order.max_current,
+                "voltage_v": order.largest_voltage(), "current_a": order.max_current,
                 "travel_rev": order.max_travel, "speed_rad_s": order.max_speed,
             },
             "armed_s": self.armed_s(),

@@ -1,6 +1,7 @@
 //! What may be taken away from the bench as a file.
 
-use super::model::{Model, Recordings};
+use super::model::Model;
+use super::recordings::Recordings;
 use super::session_file::SessionFile;
 use super::state::Bench;
 use crate::error::Error;

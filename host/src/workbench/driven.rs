@@ -1,6 +1,5 @@
 //! Work that drives the motor: a recording, the experiment that decides, commissioning. What is recorded comes onto the bench.
 
-use super::device::Device;
 use super::loaded::{Loaded, Source};
 use super::opened::{Role, placed};
 use super::planned::{self, Planned};
@@ -79,20 +78,21 @@ pub(super) fn play(bench: &Arc<Bench>) -> Result<(), Error> {
     let loaded = loaded(&folder, &kept, "recording.csv")?;
     place(bench, vec![(loaded, Role::Beside)])?;
     unfailed(&kept)?;
-    // The worse rival first: the better one is looked at then.
-    let mut errors = Vec::new();
-    for rival in planned.rivals.iter().rev() {
-        work::fit_alone(bench, &rival.effects)?;
-        let held_out = bench.state().chosen_model()?.held_out_rms_counts();
-        errors.push((held_out.unwrap_or(f64::INFINITY), &rival.effects));
+    // In the order in which they ran along: each keeps its letter.
+    let mut judged = Vec::new();
+    for rival in &planned.rivals {
+        let id = work::fit_alone(bench, &rival.effects, LEAST_SQUARES)?;
+        let held_out = bench.state().model(id)?.held_out_rms_counts();
+        judged.push((held_out.unwrap_or(f64::INFINITY), id));
         if bench.job.flag().load(Ordering::Relaxed) {
             return Ok(());
         }
     }
-    match errors.iter().min_by(|a, b| a.0.total_cmp(&b.0)) {
-        Some((_, effects)) => work::fit(bench, effects, LEAST_SQUARES),
-        None => Ok(()),
-    }
+    let Some(&(_, best)) = judged.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return Ok(());
+    };
+    bench.change(|state| state.choose(best));
+    work::further(bench, best)
 }
 
 /// Lets the device identify its motor itself; what it recorded is fitted here, too, and its verification judges.
@@ -187,8 +187,7 @@ fn unfailed(kept: &Kept) -> Result<(), Error> {
     let told = matches!(&kept.run.outcome, Err(failure) if failure.fault == wire::Fault::Stopped);
     match &kept.saved.failure {
         Some(failure) if !told => Err(Error::Failed(format!(
-            "the device gave up while it was to {} after {:.2} s: {}; what it had recorded is on the bench",
-            failure.stage, failure.at_s, failure.message
+            "{failure}; what it had recorded is on the bench"
         ))),
         _ => Ok(()),
     }
@@ -198,11 +197,4 @@ fn chosen_effects(bench: &Bench) -> Vec<Kind> {
     let state = bench.state();
     let chosen = state.chosen_model().ok();
     chosen.map_or(Vec::new(), |model| model.effects.clone())
-}
-
-/// Lets a start be asked for only of a device that was armed just now.
-pub(super) fn armed(bench: &Bench) -> Result<&Device, Error> {
-    let device = bench.device()?;
-    device.disarm()?;
-    Ok(device)
 }

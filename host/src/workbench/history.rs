@@ -83,7 +83,8 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::super::blind::recorded;
-    use super::super::model::{Model, Recordings, options};
+    use super::super::model::Model;
+    use super::super::recordings::{Recordings, options};
     use super::super::state::{Bench, State, Way};
     use super::MOST;
     use serde_json::{Value, json};

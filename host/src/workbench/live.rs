@@ -3,6 +3,7 @@
 
 use super::device::UnderWay;
 use super::planned::Planned;
+use super::series::picked;
 use super::state::Bench;
 use crate::error::Error;
 use serde_json::{Value, json};
@@ -40,10 +41,8 @@ pub(super) fn view(bench: &Bench) -> Result<Value, Error> {
     let recording = device.so_far(&run);
     let samples = recording.len();
     let first = samples.saturating_sub((SECONDS / period) as usize);
-    let step = (samples - first).div_ceil(POINTS).max(1);
     let drawn = |values: &[f64], scale: f64| -> Vec<f64> {
-        let values = values.get(first..).unwrap_or_default();
-        values.iter().step_by(step).map(|x| x * scale).collect()
+        picked(values, first..samples, POINTS, |x| x * scale)
     };
     let turns = 1.0 / recording.counts_per_rev;
     let start = recording.counts.first().copied().unwrap_or(0.0);
@@ -96,10 +95,7 @@ pub(super) fn view(bench: &Bench) -> Result<Value, Error> {
         "time": drawn(&recording.time_s, 1.0),
         "angle": drawn(&counts, turns),
         "drive": drawn(&recording.command, 1.0),
-        "open": recording.enabled.as_ref().map(|on| {
-            let on = on.get(first..).unwrap_or_default();
-            on.iter().step_by(step).map(|on| u8::from(!on)).collect::<Vec<_>>()
-        }),
+        "open": recording.enabled.as_ref().map(|on| picked(on, first..samples, POINTS, |on| u8::from(!on))),
         "models": models,
         "ahead": run.planned.as_deref().filter(|_| drives).map(|planned| ahead(planned, samples, &reached, turns)),
         "current_a": recording.current_a.as_ref().and_then(|current| current.last()),
@@ -144,11 +140,8 @@ fn ahead(planned: &Planned, from: usize, reached: &[f64], turns: f64) -> Value {
     let period = time.get(1).copied().unwrap_or(1e-3);
     let to = (from + (AHEAD_S / period) as usize).min(time.len());
     let range = from.min(to)..to;
-    let step = range.len().div_ceil(POINTS / 4).max(1);
     let drawn = |values: &[f64], scale: f64, shift: f64| -> Vec<f64> {
-        let values = values.get(range.clone()).unwrap_or_default();
-        let picked = values.iter().step_by(step);
-        picked.map(|x| (x + shift) * scale).collect()
+        picked(values, range.clone(), POINTS / 4, |x| (x + shift) * scale)
     };
     let shift = |k: usize, counts: &[f64]| {
         let here = counts.get(range.start).or(counts.last());

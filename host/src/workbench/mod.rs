@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `loaded` | a recording as it came, and as it is fitted |
 //! | `blind` | recordings of a motor in which something is hidden |
+//! | `recordings` | which recordings are fitted, which judge, and over which span |
 //! | `model` | a fitted model on the bench |
 //! | `state` | the bench's state, and its change notifications to the page |
 //! | `job` | one piece of work at a time, which stops when nobody watches |
@@ -49,6 +50,7 @@ mod opened;
 mod planned;
 mod preview;
 mod proposals;
+mod recordings;
 mod remedy;
 mod routes;
 mod series;

@@ -3,8 +3,8 @@
 use super::answer::{Answer, aside, done};
 use super::blind;
 use super::loaded::{Loaded, Source};
-use super::model::{self, Recordings};
 use super::preview::Mapping;
+use super::recordings::{self, Recordings};
 use super::routes::Shared;
 use super::session_file::SessionFile;
 use super::state::Bench;
@@ -200,7 +200,7 @@ pub(super) async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answ
 
 #[derive(Deserialize)]
 pub(super) struct Roles {
-    roles: Vec<model::Role>,
+    roles: Vec<recordings::Role>,
 }
 
 /// Gives the recordings on the bench other roles.

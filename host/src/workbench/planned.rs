@@ -1,8 +1,9 @@
 //! The experiment that decides between effects which explain the recordings about equally.
 
 use super::device::Device;
-use super::model::Recordings;
 use super::proposals;
+use super::recordings::Recordings;
+use super::series::picked;
 use super::state::State;
 use crate::error::Error;
 use serde_json::{Value, json};
@@ -103,12 +104,7 @@ pub(super) fn plan(
     };
     let resistance = order.resistance_ohm;
     let limits = Limits {
-        voltage_v: Some(
-            order
-                .max_voltage
-                .unwrap_or(order.supply_v)
-                .min(order.amplitude * order.supply_v),
-        ),
+        voltage_v: Some(order.largest_voltage()),
         current_v: order.max_current.zip(resistance).map(|(a, ohm)| a * ohm),
         // The device counts from where the shaft stands, the plan from end to end.
         travel_rev: order.max_travel,
@@ -145,15 +141,8 @@ pub(super) fn plan(
             ControlFlow::Continue(())
         })?;
     }
-    let coasts = drive.iter().any(|command| !command.enabled);
     Ok(Planned {
-        commands: CommandSequence {
-            time_s: (0..drive.len())
-                .map(|k| k as f64 * setup.sample_s)
-                .collect(),
-            voltage_v: drive.iter().map(|c| c.drive * setup.supply_v).collect(),
-            enabled: coasts.then(|| drive.iter().map(|command| command.enabled).collect()),
-        },
+        commands: best.excitation.commands(&setup, seed),
         excitation: best.excitation.to_string(),
         reason: why(&best.excitation, &hypotheses),
         usage: best.usage,
@@ -167,10 +156,8 @@ pub(super) fn plan(
 impl Planned {
     /// What the page shows of it.
     pub(super) fn view(&self) -> Value {
-        let length = self.commands.time_s.len();
-        let step = length.div_ceil(DRAWN).max(1);
         let drawn = |values: &[f64], scale: f64| -> Vec<f64> {
-            values.iter().step_by(step).map(|x| x * scale).collect()
+            picked(values, 0..values.len(), DRAWN, |x| x * scale)
         };
         let turns = 1.0 / self.counts_per_rev;
         json!({

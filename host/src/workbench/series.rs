@@ -2,7 +2,7 @@
 
 use super::answer::{Refusal, aside};
 use super::details::drawn;
-use super::model::Recordings;
+use super::recordings::Recordings;
 use super::routes::Shared;
 use super::state::Bench;
 use crate::error::Error;
@@ -13,6 +13,7 @@ use serde::Deserialize;
 use servoid_engine::problem::Data;
 use servoid_results::report::html::Model as Drawn;
 use shared::effects::Kind;
+use std::ops::Range;
 
 /// Numbers as bytes, f32 each but for times.
 pub(super) type Packed = ([(HeaderName, &'static str); 1], Vec<u8>);
@@ -27,6 +28,22 @@ fn bytes(bytes: impl Iterator<Item = u8>) -> Packed {
         [(CONTENT_TYPE, "application/octet-stream")],
         bytes.collect(),
     )
+}
+
+/// Evenly picked values of a range, `most` at most, each as `of` makes it.
+pub(super) fn picked<T: Copy, U>(
+    values: &[T],
+    range: Range<usize>,
+    most: usize,
+    of: impl Fn(T) -> U,
+) -> Vec<U> {
+    let step = range.len().div_ceil(most).max(1);
+    let values = values.get(range).unwrap_or_default();
+    values
+        .iter()
+        .step_by(step)
+        .map(|value| of(*value))
+        .collect()
 }
 
 /// Which recordings.

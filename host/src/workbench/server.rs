@@ -5,7 +5,7 @@ use super::guard;
 use super::job::{self, ALONE};
 use super::loaded::Loaded;
 use super::lock::Lock;
-use super::model::Recordings;
+use super::recordings::Recordings;
 use super::routes::routes;
 use super::session_file::SessionFile;
 use super::state::Bench;

@@ -1,7 +1,8 @@
 //! The bench as a file that can be opened again, or sent to somebody: recordings, models, and what is looked at.
 
 use super::loaded::{Loaded, Source};
-use super::model::{Model, Recordings};
+use super::model::Model;
+use super::recordings::Recordings;
 use super::state::{Secret, State};
 use crate::error::Error;
 use crate::prove::surprise;

@@ -1,8 +1,9 @@
 //! What the page shows: the bench in words and numbers.
 
 use super::device::Device;
-use super::model::{Model, Recordings};
+use super::model::Model;
 use super::proposals;
+use super::recordings::Recordings;
 use super::sliders::sliders;
 use super::state::{Bench, State};
 use super::words::on_the_page;
@@ -93,13 +94,8 @@ fn sources(recordings: &Recordings) -> Vec<Value> {
         .ignored
         .iter()
         .flat_map(|ignored| ignored.recordings());
-    let all = [
-        Some(&recordings.fitted),
-        recordings.held_out.as_ref(),
-        recordings.ignored.as_ref(),
-    ];
-    let spans = (all.into_iter().flatten())
-        .flat_map(|loaded| loaded.sources.iter().map(|source| source.span_s));
+    let sources = recordings.all().flat_map(|loaded| &loaded.sources);
+    let spans = sources.map(|source| source.span_s);
     fitted
         .chain(held_out.map(|own| (own, "held out")))
         .chain(ignored.map(|own| (own, "ignored")))

@@ -1,7 +1,8 @@
 //! The pieces of work on the bench.
 
 use super::job::Teller;
-use super::model::{Model, Recordings, USUAL, options};
+use super::model::{Model, USUAL};
+use super::recordings::{Recordings, options};
 use super::state::{Bench, Proposed};
 use crate::error::Error;
 use crate::twins::Twin;
@@ -21,7 +22,12 @@ use std::time::Instant;
 
 /// Fits a model with these effects, puts it on the bench, and looks for what would explain more.
 pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<(), Error> {
-    let id = fitted_alone(bench, effects, algorithm)?;
+    let id = fit_alone(bench, effects, algorithm)?;
+    further(bench, id)
+}
+
+/// Looks for what would explain more than a model, if it leaves something and nobody has asked to stop.
+pub(super) fn further(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
     let more = bench.state().model(id)?.leaves_something();
     if more && !bench.job.flag().load(Ordering::Relaxed) {
         suggest(bench, id)?;
@@ -29,12 +35,12 @@ pub(super) fn fit(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Resu
     Ok(())
 }
 
-/// Fits a model with these effects and puts it on the bench.
-pub(super) fn fit_alone(bench: &Arc<Bench>, effects: &[Kind]) -> Result<(), Error> {
-    fitted_alone(bench, effects, USUAL).map(|_| ())
-}
-
-fn fitted_alone(bench: &Arc<Bench>, effects: &[Kind], algorithm: &str) -> Result<usize, Error> {
+/// Fits a model with these effects and puts it on the bench; its number there.
+pub(super) fn fit_alone(
+    bench: &Arc<Bench>,
+    effects: &[Kind],
+    algorithm: &str,
+) -> Result<usize, Error> {
     let (recordings, parent, suggestion) = {
         let state = bench.state();
         let proposals = state.proposed.values().flat_map(|proposed| &proposed.list);

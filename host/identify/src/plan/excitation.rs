@@ -1,5 +1,7 @@
 //! An excitation: its experiments, its name and its commands.
 
+use super::hypothesis::Setup;
+use servoid_io::output::CommandSequence;
 use shared::excite::{Command, Experiment, Shape, commands};
 use std::fmt;
 
@@ -28,6 +30,19 @@ impl Excitation {
     /// One command a sample. The seed matters to telegraphs only.
     pub fn drive(&self, sample_s: f64, seed: u64) -> Vec<Command<f64>> {
         commands(&self.parts, sample_s, seed).collect()
+    }
+
+    /// The commands in volts, sample by sample.
+    pub fn commands(&self, setup: &Setup, seed: u64) -> CommandSequence {
+        let drive = self.drive(setup.sample_s, seed);
+        let coasts = drive.iter().any(|command| !command.enabled);
+        CommandSequence {
+            time_s: (0..drive.len())
+                .map(|k| k as f64 * setup.sample_s)
+                .collect(),
+            voltage_v: drive.iter().map(|c| c.drive * setup.supply_v).collect(),
+            enabled: coasts.then(|| drive.iter().map(|command| command.enabled).collect()),
+        }
     }
 
     /// True if the bridge opens at any time.

@@ -70,9 +70,11 @@ impl Limits {
         setup: &Setup,
         seed: u64,
     ) -> Result<Option<(Excitation, Usage)>, ModelError> {
-        let drive = candidate.drive(setup.sample_s, seed);
-        let commands = 1 + drive.windows(2).filter(|pair| pair[0] != pair[1]).count();
-        if self.commands.is_some_and(|most| commands > most) {
+        let commands = || {
+            let drive = candidate.drive(setup.sample_s, seed);
+            1 + drive.windows(2).filter(|pair| pair[0] != pair[1]).count()
+        };
+        if self.commands.is_some_and(|most| commands() > most) {
             return Ok(None);
         }
         let mut factor = 1.0;

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use shared::fit::{Estimate, Settings, Stop};
+use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -100,6 +101,17 @@ pub struct Failure {
     /// That unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+}
+
+/// What a user is told first: when it gave up, and why.
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the device gave up while it was to {} after {:.2} s: {}",
+            self.stage, self.at_s, self.message
+        )
+    }
 }
 
 /// The keys of [`Settings`], which the firmware shares and which knows nothing of schemas.

@@ -144,10 +144,7 @@ fn into_folder(
         Some(failure) => {
             session.deliver(&text, &saved)?;
             Err(Error::Failed(format!(
-                "the device gave up while it was to {} after {:.2} s: {}{}",
-                failure.stage,
-                failure.at_s,
-                failure.message,
+                "{failure}{}",
                 if failure.limit != 0 {
                     let unit = failure.unit.as_deref().unwrap_or_default();
                     let number = |x: i32| format!("{x} {unit}").trim_end().to_owned();

@@ -1,6 +1,6 @@
 // The device that is connected: what it is, arming, and what its motor may be driven for.
 
-import { at, button, el, path, svg } from "./elements.js";
+import { at, button, el, path, row, svg } from "./elements.js";
 import { colour, letter, spoken } from "./names.js";
 import { counts, digits } from "./numbers.js";
 
@@ -25,9 +25,8 @@ export function show(bench, does) {
   found(device);
 }
 
-function limits({ limits: most, supply_v: supply, senses_current: senses }) {
-  const volts = Math.min(most.voltage_v ?? supply, most.amplitude * supply);
-  const parts = [[volts, "V"], [most.current_a, "A"], [most.travel_rev, "rev"], [most.speed_rad_s, "rad/s"]]
+function limits({ limits: most, senses_current: senses }) {
+  const parts = [[most.voltage_v, "V"], [most.current_a, "A"], [most.travel_rev, "rev"], [most.speed_rad_s, "rad/s"]]
     .filter(([value]) => value !== null).map(([value, unit]) => `${digits(value, 3)} ${unit}`);
   return [`at most ${parts.join(", ")}`, ...(senses ? [] : ["no current sensor"])];
 }
@@ -77,8 +76,6 @@ function experiment(bench, device, does) {
     el("p", { class: "quiet", style: "margin-top:4px" }, `${rivals.map(spoken).join(", ")} explain them about equally.`),
     el("p", { class: "acts" }, button("Plan the experiment that decides", () => does.plan(PLAN_S), { id: "plan" })))] : []));
 }
-
-const row = (name, text) => el("tr", {}, el("th", {}, name), el("td", {}, text));
 
 // What each rival foresees, over what is driven.
 function drawing(bench, planned) {

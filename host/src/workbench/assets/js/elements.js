@@ -28,6 +28,9 @@ export function button(text, does, attributes = {}) {
   return el("button", { type: "button", class: "btn", onclick: does, ...attributes }, text);
 }
 
+/** A row of a table of facts: its name, and what there is to say. */
+export const row = (...cells) => el("tr", {}, ...cells.map((text, k) => el(k ? "td" : "th", {}, text)));
+
 /** Gives a file to the user. */
 export function save(name, blob) {
   const link = el("a", { href: URL.createObjectURL(blob), download: name });

@@ -1,7 +1,7 @@
 // A run of the motor that is under way: what is measured, models that run along, and what they foresee.
 
 import { ask } from "./ask.js";
-import { at, el } from "./elements.js";
+import { at, el, row } from "./elements.js";
 import { colour, letter, spoken, value, variable } from "./names.js";
 import { counts, digits } from "./numbers.js";
 
@@ -126,5 +126,5 @@ function numbers(run, models) {
   const facts = [["Speed", run.speed_rad_s === null ? "–" : `${digits(run.speed_rad_s, 3)} rad/s`], ["Drive", run.drive.length ? `${digits(run.drive.at(-1), 3)} V` : "–"]];
   if (run.current_a !== null) facts.push(["Current", `${digits(run.current_a, 3)} A`]);
   facts.push(["Periods lost", String(run.missing)]);
-  at("live-facts").replaceChildren(...facts.map(([name, text]) => el("tr", {}, el("th", {}, name), el("td", {}, text))));
+  at("live-facts").replaceChildren(...facts.map((fact) => row(...fact)));
 }

@@ -1,7 +1,7 @@
 // What is missing: the proposals beside the model that is looked at, the explained model, or two models compared.
 
 import { colour, letter, spoken } from "./names.js";
-import { at, button, el } from "./elements.js";
+import { at, button, el, row } from "./elements.js";
 import { counts, digits, estimate, usual } from "./numbers.js";
 import { shownOf } from "./parameters.js";
 import { signature } from "./signature.js";
@@ -181,7 +181,6 @@ function explained(bench, chosen, does) {
 }
 
 const listed_of = (names) => (names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`);
-const row = (...cells) => el("tr", {}, ...cells.map((text, k) => el(k ? "td" : "th", {}, text)));
 
 function owned(bench, chosen, effect, does) {
   const found = (chosen.signatures ?? {})[effect];
