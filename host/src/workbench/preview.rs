@@ -1,6 +1,7 @@
 //! The first rows of a file that was dropped on the page, and which column may be what.
 
 use serde::{Deserialize, Serialize};
+use servoid_io::input::{self, DriveKind, Sought, guess};
 
 /// Rows that are shown.
 const SHOWN: usize = 6;
@@ -41,127 +42,61 @@ pub(super) struct Mapping {
     pub(super) resistance_ohm: Option<f64>,
 }
 
-/// Words by which a column is known, the likeliest first.
-const WORDS: [(&str, &[&str]); 5] = [
-    ("time", &["t_s", "time", "timestamp", "t", "sec"]),
-    (
-        "voltage",
-        &["voltage", "volt", "duty", "pwm", "command", "cmd", "u", "v"],
-    ),
-    (
-        "angle",
-        &[
-            "angle", "count", "encoder", "position", "enc", "pos", "theta", "q",
-        ],
-    ),
-    ("current", &["current", "amp", "i_a"]),
-    ("enabled", &["enabled", "enable"]),
-];
-
-/// Units that a column's name may end in.
-const UNITS: [(&str, &[&str]); 3] = [
-    ("time", &["s", "ms", "us"]),
-    ("voltage", &["V", "duty"]),
-    ("angle", &["counts", "deg", "rad", "rev"]),
-];
-
 /// Looks at the first lines of a file. What is no table of numbers gives no columns; the reader says why.
 pub(super) fn preview(csv: &str) -> Preview {
-    let mut lines = csv.lines().filter(|line| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let Some(first) = lines.next() else {
-        return Preview::default();
-    };
-    let divider = [',', ';', '\t']
-        .into_iter()
-        .max_by_key(|c| first.matches(*c).count())
-        .unwrap_or(',');
-    let cells = |line: &str| -> Vec<String> {
-        let cells = line.split(divider).take(COLUMNS);
-        cells
-            .map(|cell| cell.trim().trim_matches('"').to_owned())
+    let mut read = input::preview(csv.as_bytes(), usize::MAX, COLUMNS);
+    // The last line may be cut off.
+    read.rows.pop();
+    let step = read.rows.len().div_ceil(DRAWN).max(1);
+    let column = |k: usize| {
+        let picked = read.rows.iter().step_by(step);
+        picked
+            .map(|cells| cells.get(k).and_then(|cell| number(cell)))
             .collect()
     };
-    let header = cells(first);
-    let lines: Vec<&str> = lines.collect();
-    let rows = lines.iter().take(SHOWN).map(|line| cells(line)).collect();
-    // The last line may be cut off.
-    let whole = &lines[..lines.len().saturating_sub(1)];
-    let picked = whole.iter().step_by(whole.len().div_ceil(DRAWN).max(1));
-    let mut values = vec![Vec::new(); header.len()];
-    for line in picked {
-        let cells = cells(line);
-        for (k, values) in values.iter_mut().enumerate() {
-            values.push(cells.get(k).and_then(|cell| number(cell, divider)));
-        }
-    }
-    let guess = guess(&header);
     Preview {
-        header,
-        rows,
-        guess,
-        divider: Some(divider),
-        values,
+        values: (0..read.header.len()).map(column).collect(),
+        guess: Mapping::guessed(&read.header),
+        rows: read.rows.iter().take(SHOWN).cloned().collect(),
+        divider: Some(read.separator).filter(|_| !read.header.is_empty()),
+        header: read.header,
     }
 }
 
-/// A number, which has a decimal comma where commas do not separate.
-fn number(cell: &str, divider: char) -> Option<f64> {
-    let text = if divider == ',' {
-        cell.to_owned()
-    } else {
-        cell.replace(',', ".")
-    };
-    text.parse().ok().filter(|x: &f64| x.is_finite())
-}
-
-fn guess(header: &[String]) -> Mapping {
-    let mut free: Vec<&String> = header.iter().collect();
-    let mut found = Vec::new();
-    for (what, words) in WORDS {
-        let place = words.iter().find_map(|word| {
-            free.iter()
-                .position(|name| is_called(&name.to_lowercase(), word))
-        });
-        found.push((what, place.map(|place| free.remove(place).clone())));
-    }
-    let name = |what: &str| {
-        let found = found.iter().find(|(own, _)| *own == what);
-        found.and_then(|(_, name)| name.clone()).unwrap_or_default()
-    };
-    let unit = |what: &str| {
-        let name = name(what).to_lowercase();
-        let last = name.rsplit(['_', ' ', '[', '(']).next().unwrap_or_default();
-        let last = last.trim_end_matches([']', ')']).to_owned();
-        let units = UNITS.iter().find(|(own, _)| *own == what);
-        let units = units.map_or(&[] as &[&str], |(_, units)| units);
-        let unit = units.iter().find(|unit| unit.to_lowercase() == last);
-        (*unit.or(units.first()).unwrap_or(&"")).to_owned()
-    };
-    Mapping {
-        time_unit: unit("time"),
-        voltage_unit: unit("voltage"),
-        angle_unit: unit("angle"),
-        time: name("time"),
-        voltage: name("voltage"),
-        angle: name("angle"),
-        current: name("current"),
-        enabled: name("enabled"),
-        ..Mapping::default()
-    }
-}
-
-/// A short word must be the whole name or a part between marks, a long one may stand anywhere in it.
-fn is_called(name: &str, word: &str) -> bool {
-    if word.len() > 3 {
-        return name.contains(word);
-    }
-    name == word || name.split(['_', ' ', '[', '(', '.']).next() == Some(word)
+fn number(cell: &str) -> Option<f64> {
+    cell.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
 impl Mapping {
+    /// What the names of a header tell.
+    fn guessed(header: &[String]) -> Self {
+        let sought = ["time", "voltage", "angle", "current", "enabled"]
+            .map(|key| Sought { key, called: None });
+        let mut guesses = guess(header, &sought, DriveKind::Voltage, &[]).into_iter();
+        let mut next = || {
+            let guess = guesses.next().flatten();
+            guess.map_or_else(Default::default, |guess| {
+                (guess.column, guess.unit.unwrap_or_default().to_owned())
+            })
+        };
+        let (time, time_unit) = next();
+        let (voltage, voltage_unit) = next();
+        let (angle, angle_unit) = next();
+        let (current, _) = next();
+        let (enabled, _) = next();
+        Mapping {
+            time,
+            voltage,
+            angle,
+            current,
+            enabled,
+            time_unit,
+            voltage_unit,
+            angle_unit,
+            ..Mapping::default()
+        }
+    }
+
     /// As a `motor.toml`.
     pub(super) fn motor(&self) -> String {
         let mut motor = toml::Table::new();
@@ -216,32 +151,24 @@ mod tests {
     use servoid_io::input::MotorFile;
 
     #[test]
-    fn columns_are_guessed_from_names_that_people_use() {
-        for (header, time, voltage, angle, unit) in [
-            (
-                "t_s,voltage_v,angle_counts",
-                "t_s",
-                "voltage_v",
-                "angle_counts",
-                "counts",
-            ),
-            ("time;u;theta_rad", "time", "u", "theta_rad", "rad"),
-            (
-                "Timestamp [ms]\tDuty\tPosition (deg)",
-                "Timestamp [ms]",
-                "Duty",
-                "Position (deg)",
-                "deg",
-            ),
-            ("t,qm,vir", "t", "", "", "counts"),
-        ] {
-            let Preview { guess, .. } = preview(&format!("# made by hand\n\n{header}\n1,2,3\n"));
-            assert_eq!(
-                [&guess.time, &guess.voltage, &guess.angle, &guess.angle_unit],
-                [time, voltage, angle, unit],
-                "{header}"
-            );
-        }
+    fn a_file_that_was_cut_off_is_guessed_and_drawn() {
+        let found = preview("# by hand\nclock_ms\tDuty\tPosition (deg)\n0\t0.5\t1\n1\tx\t2\n2\t0.");
+        let Mapping {
+            time,
+            voltage,
+            angle,
+            time_unit,
+            voltage_unit,
+            angle_unit,
+            ..
+        } = found.guess;
+        assert_eq!(
+            [time, voltage, angle],
+            ["clock_ms", "Duty", "Position (deg)"]
+        );
+        assert_eq!([time_unit, voltage_unit, angle_unit], ["ms", "duty", "deg"]);
+        assert_eq!(found.values[1], [Some(0.5), None]);
+        assert_eq!(found.divider, Some('\t'));
     }
 
     #[test]
@@ -258,21 +185,5 @@ mod tests {
         assert_eq!(motor.columns.angle.as_deref(), Some("a \"b\""));
         assert_eq!(motor.counts_per_rev, Some(2048.0));
         assert!(motor.known.resistance_ohm.is_some());
-    }
-
-    #[test]
-    fn whatever_is_dropped_gives_a_preview() {
-        for text in [
-            "",
-            "\n\n",
-            "#",
-            "\u{0}\u{1}",
-            ",,,,",
-            "{\"a\": 1}",
-            &"x,".repeat(5000),
-        ] {
-            let preview = preview(text);
-            assert!(preview.header.len() <= COLUMNS && preview.rows.len() <= SHOWN);
-        }
     }
 }

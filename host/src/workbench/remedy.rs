@@ -19,12 +19,16 @@ pub(super) fn of(bench: &Bench) -> Result<Value, Error> {
     let forward = &found.feed_forward;
     let [kp, ki] = found.gains;
     let [before, after] = found.rms;
+    let crossing = found.crossing.map(|crossing| {
+        let [before, after] = found.rms_angle;
+        json!({ "gap_rad": crossing.gap_rad, "time_s": crossing.time_s, "rms_before": before, "rms_after": after })
+    });
     Ok(json!({
         "kp": kp, "ki": ki,
         "k_s": forward.k_s, "k_s_from": forward.k_s_from,
         "k_g": forward.k_g, "k_g_from": forward.k_g_from,
         "k_v": forward.k_v, "k_a": forward.k_a,
-        "by_angle": found.by_angle,
+        "by_angle": found.by_angle, "crossing": crossing,
         "time_s": found.time_s, "wanted": found.wanted, "before": found.before, "after": found.after,
         "rms_before": before, "rms_after": after,
     }))

@@ -1,10 +1,8 @@
-//! Looks columns up in a header, and for those that are missing what the header has in their place.
+//! Looks columns up in a header by the contract's names, or by those that the user maps.
 
 use super::layout::Column;
-use super::missing::MissingColumn;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
-use super::suggest::nearest;
 
 /// What to look for.
 pub(super) struct Wanted<'m> {
@@ -14,20 +12,7 @@ pub(super) struct Wanted<'m> {
     pub(super) mapped: Option<&'m str>,
     /// Names where nothing is mapped, best first.
     pub(super) names: &'static [&'static str],
-    /// What other people call it, for suggestions only.
-    pub(super) aliases: &'static [&'static str],
 }
-
-/// Endings of a name that tell its unit.
-const ANGLE_ENDINGS: &[(&str, &str)] = &[
-    ("_rad", "rad"),
-    ("_deg", "deg"),
-    ("_degrees", "deg"),
-    ("_rev", "rev"),
-    ("_turns", "rev"),
-    ("_m", "m"),
-];
-const TIME_ENDINGS: &[(&str, &str)] = &[("_ms", "ms"), ("_us", "us")];
 
 /// A header with its place.
 pub(super) struct Finder<'h> {
@@ -68,50 +53,9 @@ impl Finder<'_> {
         Ok(None)
     }
 
-    /// What to say about a column that is missing. `taken` are names with a meaning already; the one
-    /// suggested here joins them.
-    pub(super) fn miss(&self, wanted: &Wanted<'_>, taken: &mut Vec<String>) -> MissingColumn {
-        let name = wanted.mapped.unwrap_or(wanted.names[0]);
-        let near = self.near(name, wanted.aliases, taken);
-        taken.extend(near.map(str::to_string));
-        MissingColumn {
-            key: wanted.key,
-            wanted: name.into(),
-            mapped: wanted.mapped.is_some(),
-            near: near.map(|near| (near.into(), unit_told_by(near, wanted.key))),
-        }
-    }
-
-    /// The name most like the one wanted, else an alias, else the name most like an alias.
-    fn near(&self, name: &str, aliases: &[&str], taken: &[String]) -> Option<&str> {
-        let names = self.header.iter().map(String::as_str);
-        let free: Vec<&str> = names
-            .filter(|name| !name.is_empty() && !taken.iter().any(|t| t == name))
-            .collect();
-        let is_alias = |name: &&str| aliases.iter().any(|alias| alias.eq_ignore_ascii_case(name));
-        nearest(name, free.iter().copied())
-            .or_else(|| free.iter().copied().find(is_alias))
-            .or_else(|| {
-                aliases
-                    .iter()
-                    .find_map(|alias| nearest(alias, free.iter().copied()))
-            })
-    }
-
     fn matches(&self, test: impl Fn(&str) -> bool) -> Vec<usize> {
         (0..self.header.len())
             .filter(|index| test(&self.header[*index]))
             .collect()
     }
-}
-
-fn unit_told_by(name: &str, key: &str) -> Option<&'static str> {
-    let endings = match key {
-        "angle" | "target" => ANGLE_ENDINGS,
-        "time" => TIME_ENDINGS,
-        _ => &[],
-    };
-    let name = name.to_ascii_lowercase();
-    let told = endings.iter().find(|(ending, _)| name.ends_with(ending));
-    told.map(|(_, unit)| *unit)
 }

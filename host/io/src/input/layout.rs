@@ -1,6 +1,8 @@
 //! Which column of the file is what: the contract's names, or those of `[columns]`.
 
 use super::finder::{Finder, Wanted};
+use super::guess::{Sought, guess};
+use super::missing::MissingColumn;
 use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
@@ -48,17 +50,30 @@ impl Layout {
         for column in &wanted {
             found.push(finder.find(column)?);
         }
-        let mut taken: Vec<String> = found
+        let is_missing =
+            |k: usize| found[k].is_none() && (k < REQUIRED || wanted[k].mapped.is_some());
+        let absent: Vec<usize> = (0..wanted.len()).filter(|k| is_missing(*k)).collect();
+        let taken: Vec<String> = found
             .iter()
             .flatten()
             .map(|column| column.cell.name.clone())
             .collect();
-        let mut missing = Vec::new();
-        for (k, column) in wanted.iter().enumerate() {
-            if found[k].is_none() && (k < REQUIRED || column.mapped.is_some()) {
-                missing.push(finder.miss(column, &mut taken));
-            }
-        }
+        let sought = absent.iter().map(|k| Sought {
+            key: wanted[*k].key,
+            called: wanted[*k].mapped,
+        });
+        let sought: Vec<Sought<'_>> = sought.collect();
+        let near = guess(&header, &sought, motor.drive_kind(), &taken);
+        let missing: Vec<MissingColumn> = absent
+            .iter()
+            .zip(near)
+            .map(|(k, near)| MissingColumn {
+                key: wanted[*k].key,
+                wanted: wanted[*k].mapped.unwrap_or(wanted[*k].names[0]).into(),
+                mapped: wanted[*k].mapped.is_some(),
+                near,
+            })
+            .collect();
         let found: Result<[Option<Column>; 5], _> = found.try_into();
         match found {
             Ok([Some(time), Some(command), Some(angle), current, enabled])
@@ -96,7 +111,6 @@ fn wanted(motor: &MotorFile) -> [Wanted<'_>; 5] {
             key: "time",
             mapped: columns.time.as_deref(),
             names: units.time.default_names(),
-            aliases: &["t", "time", "timestamp", "seconds"],
         },
         Wanted {
             key: motor.drive_kind().command_key(),
@@ -105,56 +119,23 @@ fn wanted(motor: &MotorFile) -> [Wanted<'_>; 5] {
                 DriveKind::Position => units.of_target().target_names(),
                 _ => units.voltage.default_names(),
             },
-            aliases: command_aliases(motor.drive_kind()),
         },
         Wanted {
             key: "angle",
             mapped: columns.angle.as_deref(),
             names: units.angle.default_names(),
-            aliases: &[
-                "angle", "position", "counts", "encoder", "ticks", "theta", "q",
-            ],
         },
         Wanted {
             key: "current",
             mapped: columns.current.as_deref(),
             names: units.current.default_names(),
-            aliases: &["current", "i"],
         },
         Wanted {
             key: "enabled",
             mapped: columns.enabled.as_deref(),
             names: &["enabled"],
-            aliases: &["enable", "torque_enabled"],
         },
     ]
-}
-
-fn command_aliases(kind: DriveKind) -> &'static [&'static str] {
-    match kind {
-        DriveKind::Voltage => &["voltage", "u", "v", "volts", "command", "pwm"],
-        DriveKind::Current => &[
-            "current",
-            "current_a",
-            "torque",
-            "command",
-            "i",
-            "voltage",
-            "u",
-        ],
-        DriveKind::Position => &[
-            "target",
-            "goal",
-            "target_position",
-            "goal_position",
-            "setpoint",
-            "reference",
-            "command",
-            "goal_rad",
-            "goal_deg",
-            "action",
-        ],
-    }
 }
 
 /// The names of the header, refused where they are numbers or no text.

@@ -1,5 +1,6 @@
 //! Columns that a recording must have and has not, and how to map them.
 
+use super::guess::Guess;
 use super::shown::quoted_list;
 
 /// A column that the recording must have and has not.
@@ -11,8 +12,8 @@ pub struct MissingColumn {
     pub wanted: String,
     /// Whether the user's `[columns]` asked for that name.
     pub mapped: bool,
-    /// The header's name that comes nearest, and the unit its ending tells.
-    pub near: Option<(String, Option<&'static str>)>,
+    /// What the header may have in its place.
+    pub near: Option<Guess>,
 }
 
 /// All missing columns in one message, and the lines that map what the header has.
@@ -37,7 +38,7 @@ pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: 
     text += &format!(". Say in {motor} which is which:\n    [columns]");
     for column in missing {
         text += &match &column.near {
-            Some((near, _)) => format!("\n    {} = {near:?}", column.key),
+            Some(near) => format!("\n    {} = {:?}", column.key, near.column),
             None => format!("\n    {} = \"...\"", column.key),
         };
     }
@@ -47,7 +48,7 @@ pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: 
             Some(format!(
                 "\n    {} = {:?}",
                 column.key,
-                column.near.as_ref()?.1?
+                column.near.as_ref()?.unit?
             ))
         })
         .collect();
@@ -58,12 +59,26 @@ pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: 
     text += "\nor give";
     for column in missing {
         text += &match &column.near {
-            Some((near, Some(unit))) => {
-                format!(" --column {0}={near} --unit {0}={unit}", column.key)
+            Some(Guess { column: near, unit }) => {
+                let unit = unit.map(|unit| format!(" --unit {}={unit}", column.key));
+                let named = format!("{}={near}", column.key);
+                format!(
+                    " --column {}{}",
+                    for_shell(&named),
+                    unit.unwrap_or_default()
+                )
             }
-            Some((near, None)) => format!(" --column {}={near}", column.key),
             None => format!(" --column {}=...", column.key),
         };
     }
     text
+}
+
+/// A word of a command line, quoted where a shell would take it apart.
+fn for_shell(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-=./".contains(c);
+    if word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
 }

@@ -9,6 +9,7 @@ use super::read_error::ReadFault;
 
 /// The cells of one row; the buffers are kept from row to row.
 pub(super) struct Row {
+    separator: u8,
     parser: Reader,
     text: Vec<u8>,
     ends: Vec<usize>,
@@ -16,13 +17,23 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// A splitter at commas, or at the semicolons or tabs that the header has instead.
+    /// A splitter at commas, semicolons or tabs: at what the header has most of, outside of quotes.
     pub(super) fn for_header(header: &[u8]) -> Self {
-        let separator = [b',', b';', b'\t']
-            .into_iter()
-            .find(|byte| header.contains(byte))
-            .unwrap_or(b',');
+        let mut quoted = false;
+        let mut times = [(b',', 0), (b';', 0), (b'\t', 0)];
+        for byte in header {
+            quoted ^= *byte == b'"';
+            for (separator, times) in &mut times {
+                *times += usize::from(!quoted && byte == separator);
+            }
+        }
+        // Of equals the last: a comma is part of a number or a text more often than the others are.
+        let most = times.into_iter().max_by_key(|(_, times)| *times);
+        let separator = most
+            .filter(|(_, times)| *times > 0)
+            .map_or(b',', |(byte, _)| byte);
         Row {
+            separator,
             parser: ReaderBuilder::new().delimiter(separator).build(),
             text: Vec::new(),
             ends: Vec::new(),
@@ -50,6 +61,11 @@ impl Row {
             ReadRecordResult::Record => Ok(()),
             _ => Err(ReadFault::OpenQuote),
         }
+    }
+
+    /// What separates the cells.
+    pub(super) fn separator(&self) -> u8 {
+        self.separator
     }
 
     /// Number of cells.

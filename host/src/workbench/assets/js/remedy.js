@@ -16,15 +16,23 @@ export async function show(place, bench, does) {
   const rows = [row("kp", found.kp, "V·s/rad"), row("ki", found.ki, "V/rad"), row("kV", found.k_v, "V·s/rad"), row("kA", found.k_a, "V·s²/rad")];
   if (found.k_s !== null) rows.push(row("kS", found.k_s, "V", found.k_s_from));
   if (found.k_g !== null) rows.push(row("kG", found.k_g, "V", found.k_g_from));
-  const knows = spoken([found.k_s_from, found.k_g_from, ...found.by_angle.map((name) => `${name} by a table of the angle`)].filter(Boolean).join(", "));
+  const knows = spoken([found.k_s_from, found.k_g_from, ...found.by_angle.map((name) => `${name} by a table of the angle`), found.crossing && "backlash"].filter(Boolean).join(", "));
   place.replaceChildren(el("div", { class: "remedy" },
-    el("div", {}, el("h2", {}, "Speed error in closed loop, on the fitted motor"),
+    el("div", {}, el("h2", {}, `Speed error ${found.crossing ? "of the load " : ""}in closed loop, on the fitted motor`),
       el("p", { class: "falls" }, el("span", { class: "quiet" }, `${digits(found.rms_before, 3)}`), "→",
         el("span", { class: "to", style: `color:${colour(bench.chosen)}` }, digits(found.rms_after, 3)), el("span", { class: "quiet s12" }, `rad/s RMS${fall > 1.05 ? `, ÷ ${times(fall)}` : ""}`)),
       el("p", { class: "quiet s12" }, knows ? `A PI controller with the feed-forward of a linear motor; then ${knows} as well.` : "This model has nothing that a feed-forward could compensate beyond a linear motor's."),
+      found.crossing ? crossed(found.crossing) : null,
       el("table", { class: "facts" }, ...rows),
       el("p", { class: "acts" }, button("Export the gains", does.exports, { class: "btn sm" }))),
     drawn(found, bench)));
+}
+
+// The encoder sits before the gap: what is won is the load's angle.
+function crossed({ gap_rad, time_s, rms_before, rms_after }) {
+  const [gap, time] = [`${digits(gap_rad * 1e3, 3)} mrad`, `${digits(time_s * 1e3, 2)} ms`];
+  return el("p", { class: "quiet s12" }, "Where the wanted acceleration reverses, the motor crosses the gap of ", gap, ` within ${time} ahead of its load. `,
+    "Load's angle error ", el("strong", {}, `${digits(rms_before * 1e3, 3)} → ${digits(rms_after * 1e3, 3)} mrad`), " RMS.");
 }
 
 function drawn(found, bench) {
