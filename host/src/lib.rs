@@ -12,5 +12,6 @@ pub mod error;
 mod interrupt;
 pub mod prove;
 pub mod session;
+mod titled;
 pub mod twins;
 pub mod workbench;

@@ -44,6 +44,6 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
         session.write_plot(path, &drawing)?;
     }
     let text = report::text::compare(&rows, contest.budget, contest.seeds.len());
-    page::write(session, &args.page, &json, Recordings::default())?;
+    page::write(session, &args.page, None, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }

@@ -35,6 +35,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         force: args.force,
         ..Options::default()
     };
+    let name = read.motor.name;
     let datasets = Datasets::of_several(read.fitted, read.held_out, &options)?;
     let budget = Budget::of(args.budget.saturating_mul(MILLION), session.stop());
     let watched = Watched::diagnosis(session);
@@ -47,7 +48,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         fitted: Some(datasets.whole.as_deref().unwrap_or(fitted)),
         held_out: kind.source().map(|_| &datasets.held_out),
     };
-    report::write(session, &args.page, &json, drawn)?;
+    report::write(session, &args.page, name.as_deref(), &json, drawn)?;
     session.deliver(&outcome.text(), &json)
 }
 
@@ -67,6 +68,12 @@ fn steady(session: &Session, args: &DiagnoseArgs, path: &Path) -> Result<(), Err
         seed: session.seed,
     };
     let json = Steady::from(&outcome);
-    report::write(session, &args.page, &json, html::Recordings::default())?;
+    report::write(
+        session,
+        &args.page,
+        None,
+        &json,
+        html::Recordings::default(),
+    )?;
     session.deliver(&outcome.text(), &json)
 }

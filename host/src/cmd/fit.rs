@@ -57,7 +57,13 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         fitted: Some(&data),
         held_out: validation.as_ref(),
     };
-    report::write(session, &args.page, &json, drawn)?;
+    report::write(
+        session,
+        &args.page,
+        read.motor.name.as_deref(),
+        &json,
+        drawn,
+    )?;
     session.deliver(&text::fit(&fit, &data), &json)
 }
 

@@ -90,7 +90,7 @@ pub(super) fn run(session: &Session, args: &PaperArgs) -> Result<(), Error> {
         draw(folder, &rounds, &json, session)?;
     }
     let text = report::paper::text(&rounds, &strong, &printed_costs(&data));
-    page::write(session, &args.page, &json, Recordings::default())?;
+    page::write(session, &args.page, None, &json, Recordings::default())?;
     session.deliver(&text, &json)
 }
 

@@ -4,6 +4,7 @@ use super::motor;
 use crate::cli::{PageArgs, ReportArgs};
 use crate::error::Error;
 use crate::session::Session;
+use crate::titled::titled;
 use serde::Serialize;
 use servoid_engine::problem::Data;
 use servoid_io::output::write_whole;
@@ -42,11 +43,15 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
         let outputs = [("--out", args.out.as_path())];
         motor::check_outputs(session, &outputs, &args.motor, path, None)?;
     }
-    let read = |path: Option<PathBuf>| -> Result<Option<Recording>, Error> {
-        let recording = path.map(|path| motor::recording(&args.motor, &path));
-        Ok(recording.transpose()?.map(|(recording, _)| recording))
+    let read = |path: Option<PathBuf>| {
+        path.map(|path| motor::recording(&args.motor, &path))
+            .transpose()
     };
-    let (fitted, held_out) = (read(fitted)?, read(held_out)?);
+    let (fitted, name) = read(fitted)?
+        .map(|(recording, motor)| (recording, motor.name))
+        .unzip();
+    let held_out = read(held_out)?.map(|(recording, _)| recording);
+    let name = name.flatten();
     let doubts = html::doubts(&document, fitted.as_ref(), held_out.as_ref())?;
     let data = |recording: Option<Recording>| recording.map(|r| Data::new(&r)).transpose();
     let (fitted, held_out) = (data(fitted)?, data(held_out)?);
@@ -54,7 +59,7 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
         fitted: fitted.as_ref(),
         held_out: held_out.as_ref(),
     };
-    let mut page = html::page(&document, recordings)?;
+    let mut page = titled(html::page(&document, recordings)?, name.as_deref());
     for doubt in doubts {
         session.remark(&folded(&doubt, "  "));
         page.lead.push(doubt);
@@ -81,17 +86,18 @@ pub(super) fn output(args: &PageArgs) -> Option<(&'static str, &Path)> {
     args.report.as_deref().map(|path| ("--report", path))
 }
 
-/// Writes the page of a verb's own result, if it is asked for.
+/// Writes the page of a verb's own result, if it is asked for; `motor` is the motor's name.
 pub(super) fn write(
     session: &Session,
     args: &PageArgs,
+    motor: Option<&str>,
     json: &impl Serialize,
     recordings: Recordings<'_>,
 ) -> Result<(), Error> {
     let Some(path) = &args.report else {
         return Ok(());
     };
-    let page = html::page(&document(json)?, recordings)?;
+    let page = titled(html::page(&document(json)?, recordings)?, motor);
     write_whole(path, |out| out.write_all(page.render().as_bytes()))?;
     session.remark(&format!("page: {}", path.display()));
     Ok(())

@@ -5,6 +5,7 @@ use super::recordings::Recordings;
 use super::session_file::SessionFile;
 use super::state::Bench;
 use crate::error::Error;
+use crate::titled::titled;
 use serde_json::Value;
 use servoid_results::export::{Format, Options};
 use servoid_results::report::html;
@@ -76,5 +77,6 @@ fn report(bench: &Bench) -> Result<String, Error> {
         fitted: Some(recordings.shown()),
         held_out: recordings.judge(),
     };
-    Ok(html::page(&document, drawn)?.render())
+    let page = html::page(&document, drawn)?;
+    Ok(titled(page, recordings.motor().as_deref()).render())
 }

@@ -6,8 +6,8 @@ use super::state::Bench;
 use crate::error::Error;
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::order_lines;
 use servoid_identify::diagnose::residual_analysis::{Cumulative, cumulative, own_volts};
+use servoid_identify::diagnose::{Criterion, order_lines};
 
 /// Orders that are shown.
 const ORDERS: usize = 30;
@@ -21,13 +21,16 @@ pub(super) fn of(bench: &Bench) -> Result<Value, Error> {
         (state.recordings()?, state.both())
     };
     let data = recordings.shown();
-    let of = |model: &Model| of_model(data, model);
+    let criterion = recordings.criterion();
+    let of = |model: &Model| of_model(data, criterion, model);
     let models = models.iter().map(of).collect::<Result<Vec<_>, Error>>()?;
     Ok(json!({ "models": models }))
 }
 
-fn of_model(data: &Data, model: &Model) -> Result<Value, Error> {
-    let [time, speed] = cumulative(data, &model.fit.candidate, model.fit.method)?;
+fn of_model(data: &Data, criterion: &Criterion, model: &Model) -> Result<Value, Error> {
+    let (candidate, method) = (&model.fit.candidate, model.fit.method);
+    let residual = criterion.residual(data, candidate, method)?;
+    let [time, speed] = cumulative(data, &residual, criterion.span.window_s.is_none());
     let curve =
         |summed: &Cumulative| json!({ "x": summed.x, "share": summed.share, "band": summed.band });
     let mut orders = vec![0.0; ORDERS];

@@ -1,11 +1,12 @@
 //! Recordings of one piece of work: which are fitted, which judge, and over which span.
 
-use super::loaded::Loaded;
+use super::loaded::{Loaded, MOTOR};
 use crate::error::Error;
 use serde::Deserialize;
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::{Budget, Criterion, HeldOut};
 use servoid_identify::fit::Options;
+use servoid_io::input::MotorFile;
 use shared::effects::Kind;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -66,6 +67,12 @@ impl Recordings {
     pub(super) fn all(&self) -> impl Iterator<Item = &Arc<Loaded>> {
         let others = self.held_out.iter().chain(&self.ignored);
         std::iter::once(&self.fitted).chain(others)
+    }
+
+    /// The motor's name, if the first recording's motor file gives one.
+    pub(super) fn motor(&self) -> Option<String> {
+        let first = self.fitted.sources.first()?;
+        MotorFile::parse(&first.motor, MOTOR).ok()?.name
     }
 
     /// The same recordings in other roles, in the order fitted, held out, ignored in which they stand now.

@@ -65,6 +65,7 @@ fn recording(recordings: &Recordings) -> Value {
         "name": data.source,
         "samples": data.len(),
         "seconds": data.time_s.last(),
+        "motor": recordings.motor(),
         "counts_per_rev": data.units.counts_per_rev,
         "supply_v": data.supply,
         "held_out": recordings.kind().source(),

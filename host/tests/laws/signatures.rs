@@ -4,6 +4,7 @@
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
 use servoid_identify::diagnose::residual_analysis::{cumulative, signature};
+use servoid_identify::fit::scores::whole;
 use servoid_identify::truth;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
@@ -79,7 +80,12 @@ fn a_right_model_stays_within_the_band_and_a_wrong_one_leaves_it() {
     for seed in 1..=30 {
         let (data, candidate, kind) = recorded(&hidden, seed);
         let leaves = |candidate: &Candidate| {
-            let found = cumulative(&data, candidate, Method::default()).expect("it runs");
+            let errors = whole(&data, candidate, Method::default()).expect("it runs");
+            let residual: Vec<f64> = errors
+                .iter()
+                .map(|error| error - data.half_cell())
+                .collect();
+            let found = cumulative(&data, &residual, true);
             found.map(|curve| {
                 let points = curve.share.iter().zip(&curve.band);
                 let beyond = points.map(|(share, [low, high])| (low - share).max(share - high));

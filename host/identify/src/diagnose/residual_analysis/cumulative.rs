@@ -1,10 +1,7 @@
-//! The squared error of a free run, summed up in the order of time and in the order of speed: where it rises above the band of a right
+//! The squared error of a model, summed up in the order of time and in the order of speed: where it rises above the band of a right
 //! model, the model fails (as the cumulative residuals by which X-ray spectra are judged).
 
-use crate::error::Error;
-use crate::fit::scores::whole;
-use servoid_engine::problem::{Candidate, Data};
-use servoid_engine::simulation::Method;
+use servoid_engine::problem::Data;
 
 /// Points of a curve.
 const POINTS: usize = 160;
@@ -21,22 +18,14 @@ pub struct Cumulative {
     /// Share of the squared error up to there.
     pub share: Vec<f64>,
     /// Least and greatest share that the model leaves there if it is right, and only the encoder's steps are not its own. Empty where
-    /// readings are not floored.
+    /// readings are not floored, or something else is not its own.
     pub band: Vec<[f64; 2]>,
 }
 
-/// Over time, and over the model's speed.
-///
-/// # Errors
-/// Where the model cannot run.
-pub fn cumulative(
-    data: &Data,
-    candidate: &Candidate,
-    method: Method,
-) -> Result<[Cumulative; 2], Error> {
-    let errors = whole(data, candidate, method)?;
+/// Of a residual (counts, one a sample), over time, and over the model's speed. `free` says that the model ran on its own, so that a
+/// right one leaves the encoder's steps only.
+pub fn cumulative(data: &Data, errors: &[f64], free: bool) -> [Cumulative; 2] {
     let centre = data.half_cell();
-    let errors: Vec<f64> = errors.iter().map(|e| e - centre).collect();
     // Where the shaft is, if the model is right.
     let run: Vec<f64> = (0..data.len())
         .map(|k| data.counts[k] + centre + errors[k])
@@ -52,7 +41,7 @@ pub fn cumulative(
     let summed = |order: &[usize], x: &[f64]| {
         let at = places(order.len());
         let mut band = Vec::new();
-        if data.quantised {
+        if data.quantised && free {
             for other in 0..OTHERS {
                 let shift = (other as f64 + 0.5) / OTHERS as f64;
                 let steps = |k: usize| {
@@ -68,7 +57,7 @@ pub fn cumulative(
             band,
         }
     };
-    Ok([summed(&by_time, &data.time_s), summed(&by_speed, &speeds)])
+    [summed(&by_time, &data.time_s), summed(&by_speed, &speeds)]
 }
 
 /// Places in an order of so many samples that are drawn, the last among them.

@@ -17,7 +17,8 @@ export async function show(place) {
   }
   place.replaceChildren(
     el("p", { class: "quiet s12" }, `Share of the squared error of ${models.map((one) => letter(one.id)).join(" and ")} as samples are counted in order. `
-      + "The grey band is what a right model would leave: where a line leaves it, the model fails."),
+      + (best.time.band.length ? "The grey band is what a right model would leave: where a line leaves it, the model fails."
+        : "Models run in windows, or readings are no counts: there no band is known that a right one would keep.")),
     el("div", { class: "curves" },
       samples("Time", "s", models, "time"), samples("Speed", "rad/s, sorted", models, "speed"), cumulatedOrders(models), orders(models)),
     taken(best) ?? "");

@@ -31,7 +31,8 @@ export function show(bench, heldOut, does) {
       } }, ...ROLES.map((role) => el("option", { value: role, selected: role === one.role }, role))));
   }));
   const end = recording.held_out_from_s === null || recording.held_out === null ? "" : ` · from ${digits(recording.held_out_from_s, 3)} s held out`;
-  at("about").textContent = `${digits(recording.supply_v, 3)} ${recording.drive_unit} · ${recording.counts_per_rev} counts/rev${end}`;
+  const motor = recording.motor ? `${recording.motor} · ` : "";
+  at("about").textContent = `${motor}${digits(recording.supply_v, 3)} ${recording.drive_unit} · ${recording.counts_per_rev} counts/rev${end}`;
   at("drive-name").textContent = `Drive, ${recording.drive_unit}`;
 }
 
