@@ -69,9 +69,17 @@ test("the experiment that decides is planned, recorded with both models running 
 test("a motor is commissioned from the page, and the host fits what it recorded", async () => {
   const bench = await at.desk.device("");
   const page = await open(at.chrome, bench.url);
+  await page.evaluate(() => {
+    const stage = document.getElementById("live-stage");
+    window.stages = new Set();
+    new MutationObserver(() => window.stages.add(stage.textContent)).observe(stage, { childList: true });
+  });
   await start(page, "commission");
-  await page.waitForFunction(() => /Exciting/.test(document.getElementById("live-stage").textContent), null, { timeout: 60_000 });
-  await page.waitForSelector("#live", { state: "hidden", timeout: 120_000 });
+  await page.waitForSelector("#live:not([hidden])");
+  await page.waitForSelector("#live", { state: "hidden", timeout: 180_000 });
+  // The bench runs faster than life: a short stage may pass between two looks of the page, all of them may not.
+  const stages = (await page.evaluate(() => [...window.stages])).filter((said) => /^(Probing|Exciting|Recording|The device is fitting|Verifying)/.test(said));
+  assert.ok(stages.length >= 3, stages.join("; "));
   await settled(page, 1);
   assert.match(await page.textContent("#found"), /The device found .*counts/);
   const after = await state(page);

@@ -45,6 +45,9 @@ impl Datasets {
         mut held_out: Vec<Recording>,
         options: &Options,
     ) -> Result<Self, Error> {
+        for recording in fitted.iter().chain(&held_out) {
+            recording.check_excited()?;
+        }
         if held_out.is_empty() && fitted.len() > 1 {
             held_out.extend(fitted.pop());
         }

@@ -28,3 +28,17 @@ pub enum Error {
     #[error(transparent)]
     Bench(#[from] BenchError),
 }
+
+impl Error {
+    /// The word by which programs tell errors apart.
+    pub fn cause(&self) -> &'static str {
+        match self {
+            Error::Usage(_) => "usage",
+            Error::Failed(_) => "failed",
+            Error::Model(_) => "model",
+            Error::Join(_) => "join",
+            Error::Read(_) => "recording",
+            Error::Bench(_) => "bench",
+        }
+    }
+}

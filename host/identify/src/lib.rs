@@ -1,6 +1,7 @@
 //! Identification: a model fitted to recordings, a diagnosis of what it lacks, and a plan of what to record next.
 //!
-//! The front door is [`identify()`] and [`diagnose()`]: recordings in, a fit or a diagnosis out.
+//! The front door is [`identify()`] and [`diagnose()`]: recordings in, a fit or a diagnosis out. For several recordings it is [`FitSets`]
+//! and [`Datasets`].
 //!
 //! | module | holds |
 //! |---|---|
@@ -20,6 +21,7 @@ pub mod diagnose;
 mod diagnosed;
 pub mod error;
 pub mod fit;
+mod fit_sets;
 mod identify;
 pub mod likelihood;
 pub mod paper;
@@ -30,5 +32,6 @@ pub mod truth;
 pub use datasets::Datasets;
 pub use diagnosed::{Diagnosed, diagnose, diagnose_data, diagnose_datasets};
 pub use error::Error;
+pub use fit_sets::FitSets;
 pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data};
 pub use progress::{Progress, Silent};

@@ -3,30 +3,20 @@
 use crate::cli::{CostName, Integrator, ModelArgs};
 use crate::error::Error;
 use servoid_engine::simulation::Method;
-use servoid_identify::fit::{Bound, Options};
+use servoid_identify::fit::{Bound, COSTS, Options, effects_by_name};
 use servoid_io::input::Known;
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
-use shared::effects::{Kind, MAX_EFFECTS};
-
-/// Noise before quantisation that the interval likelihood assumes, counts: below the floor of the
-/// quantiser, above zero, so that one glitch does not make a model impossible.
-const NOISE_COUNTS: f64 = 0.1;
 
 impl CostName {
     /// The cost itself.
     pub(crate) fn cost(self) -> Cost {
+        let [squared, iae, iae_floored, interval] = COSTS;
         match self {
-            CostName::Squared => Cost::Squared,
-            CostName::Iae => Cost::Absolute {
-                model_floored: false,
-            },
-            CostName::IaeFloored => Cost::Absolute {
-                model_floored: true,
-            },
-            CostName::Interval => Cost::Interval {
-                noise_counts: NOISE_COUNTS,
-            },
+            CostName::Squared => squared,
+            CostName::Iae => iae,
+            CostName::IaeFloored => iae_floored,
+            CostName::Interval => interval,
         }
     }
 }
@@ -38,21 +28,6 @@ pub(super) fn options(
     seed: u64,
     budget: u64,
 ) -> Result<Options, Error> {
-    let mut effects = Vec::new();
-    for name in &args.with {
-        // The flag's parser admits known names only.
-        let kind = Kind::by_name(name)
-            .ok_or_else(|| Error::Usage(format!("--with {name}: unknown effect")))?;
-        if effects.contains(&kind) {
-            return Err(Error::Usage(format!("--with {name}: named twice")));
-        }
-        effects.push(kind);
-    }
-    if effects.len() > MAX_EFFECTS {
-        return Err(Error::Usage(format!(
-            "--with: at most {MAX_EFFECTS} effects fit into one model"
-        )));
-    }
     if let Some(window) = args.window
         && !(window.is_finite() && window > 0.0)
     {
@@ -61,7 +36,7 @@ pub(super) fn options(
         )));
     }
     Ok(Options {
-        effects,
+        effects: effects_by_name("--with", &args.with)?,
         cost: args.cost.cost(),
         seed,
         budget: usize::try_from(budget).unwrap_or(usize::MAX),

@@ -70,8 +70,31 @@ impl Data {
         Data::of_recordings(recording, one)
     }
 
+    /// Converts commands without readings, along which a model is to run: the readings are of no account. `fastest_rad_s` is the
+    /// fastest motion to expect, rad/s.
+    ///
+    /// # Errors
+    /// Bases that are not positive.
+    pub fn driven(commands: Recording, fastest_rad_s: f64) -> Result<Self, ModelError> {
+        let one = Recordings::one(&commands.source, commands.len());
+        let turns = fastest_rad_s / core::f64::consts::TAU * median_interval(&commands.time_s);
+        let fastest = turns * commands.counts_per_rev;
+        Data::based_on(commands, one, fastest)
+    }
+
     /// Converts `recordings` that stand one after the other.
     fn of_recordings(recording: Recording, recordings: Recordings) -> Result<Self, ModelError> {
+        let steps = recordings.steps(&recording.counts);
+        let fastest = steps.map(f64::abs).fold(0.0, f64::max);
+        Data::based_on(recording, recordings, fastest)
+    }
+
+    /// The same, of which the fastest motion is known, counts a sample.
+    fn based_on(
+        recording: Recording,
+        recordings: Recordings,
+        fastest: f64,
+    ) -> Result<Self, ModelError> {
         let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let supply = recording
             .supply_v
@@ -83,8 +106,6 @@ impl Data {
             *time -= first;
         }
         let interval = median_interval(&time_s);
-        let steps = recordings.steps(&recording.counts);
-        let fastest = steps.map(f64::abs).fold(0.0, f64::max);
         let turns_per_s = fastest / recording.counts_per_rev / interval;
         let units = PerUnit::new(
             supply.max(largest),

@@ -8,11 +8,13 @@
 //! | `propagator` | the loop over the samples, for one number or for lanes |
 //! | `single` | one candidate |
 //! | `batch` | several candidates |
+//! | `response` | one candidate along commands that nobody measured the motion of |
 
 mod batch;
 mod candidate;
 mod horizon;
 mod propagator;
+mod response;
 mod segment;
 mod single;
 
@@ -20,5 +22,6 @@ pub use batch::Batch;
 pub use candidate::{Candidate, Method};
 pub use horizon::{Horizon, StartAngle, Window};
 pub use propagator::{Mode, Number, Propagator};
+pub use response::{Commands, ResponseError, response};
 pub use segment::{Segment, segments, whole};
 pub use single::Simulation;

@@ -60,7 +60,7 @@ pub use bound::Bound;
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use interval::{LEAST_NOISE, ReadingNoise};
-pub use options::{Options, cost_name};
+pub use options::{COSTS, Options, cost_by_name, cost_name, effects_by_name};
 pub use own_parameters::OwnParameter;
 pub use parameter::{Parameter, Usual};
 pub use plausibility::{Contradiction, contradictions};

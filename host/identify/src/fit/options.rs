@@ -1,12 +1,14 @@
 //! What to fit, and how.
 
 use super::Bound;
+use crate::error::Error;
 use crate::identify::LEAST_SQUARES;
 use servoid_engine::problem::Candidate;
 use servoid_engine::simulation::Method;
 use servoid_io::input::Known;
+use servoid_io::input::suggest::did_you_mean;
 use shared::cost::Cost;
-use shared::effects::Kind;
+use shared::effects::{Kind, MAX_EFFECTS};
 
 /// What to fit, and how.
 #[derive(Clone, Debug)]
@@ -62,6 +64,56 @@ pub fn cost_name(cost: Cost) -> &'static str {
         } => "iae_floored",
         Cost::Interval { .. } => "interval",
     }
+}
+
+/// Noise before quantisation that the interval likelihood assumes, counts: below the floor of the
+/// quantiser, above zero, so that one glitch does not make a model impossible.
+const NOISE_COUNTS: f64 = 0.1;
+
+/// Every cost.
+pub const COSTS: [Cost; 4] = [
+    Cost::Squared,
+    Cost::Absolute {
+        model_floored: false,
+    },
+    Cost::Absolute {
+        model_floored: true,
+    },
+    Cost::Interval {
+        noise_counts: NOISE_COUNTS,
+    },
+];
+
+/// The cost of this name.
+pub fn cost_by_name(name: &str) -> Option<Cost> {
+    COSTS.into_iter().find(|cost| cost_name(*cost) == name)
+}
+
+/// The effects of these names, which stand behind `flag`.
+///
+/// # Errors
+/// A name that is none, or stands twice; more than a model holds.
+pub fn effects_by_name(flag: &str, names: &[String]) -> Result<Vec<Kind>, Error> {
+    let mut effects = Vec::new();
+    for name in names {
+        let kind = Kind::by_name(name).ok_or_else(|| {
+            let known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
+            Error::Usage(format!(
+                "{flag} {name}: unknown effect; {}",
+                did_you_mean(name, &known)
+            ))
+        })?;
+        if effects.contains(&kind) {
+            return Err(Error::Usage(format!("{flag} {name}: named twice")));
+        }
+        effects.push(kind);
+    }
+    if effects.len() > MAX_EFFECTS {
+        return Err(Error::Usage(format!(
+            "{flag}: at most {MAX_EFFECTS} effects fit into one model"
+        )));
+    }
+    Ok(effects)
 }
 
 impl Default for Options {

@@ -2,8 +2,9 @@
 //! the remedy, and what is accepted keeps the promises of [`Recording`](crate::recording::Recording).
 //!
 //! `recording.csv → lines → row → layout (which column is what) → cells → counts → Recording`, with the
-//! facts of `motor.toml` beside it.
+//! facts of `motor.toml` beside it. Columns that are in memory already go the same way from their numbers on (`arrays`).
 
+mod arrays;
 mod cell;
 mod counts;
 mod csv_file;
@@ -24,6 +25,7 @@ mod preview;
 mod read_error;
 mod row;
 mod sample;
+mod samples;
 mod scale;
 mod section;
 mod shown;
@@ -31,6 +33,7 @@ mod spike;
 mod steady_curve;
 pub mod suggest;
 
+pub use arrays::{Arrays, recording_of};
 pub use csv_file::{MAX_ROWS, read_recording, read_recording_from};
 pub use excitation::MIN_TRAVEL_COUNTS;
 pub use guess::{Guess, Sought, guess};

@@ -183,6 +183,16 @@ pub enum ReadFault {
     /// Too short to be a recording.
     #[error("the recording has {} after the header; at least two samples are needed", samples(*.0))]
     TooFewSamples(usize),
+    /// Columns of different lengths.
+    #[error("{column} has {length} samples, time has {samples}; give as many of each")]
+    Uneven {
+        /// The other column.
+        column: &'static str,
+        /// Its samples.
+        length: usize,
+        /// Samples of the time.
+        samples: usize,
+    },
     /// The encoder is unknown.
     #[error(
         "counts_per_rev is not known; add `counts_per_rev = 2048` (your encoder's lines times 4) at the top of \

@@ -101,7 +101,7 @@ impl Cells<'_> {
     }
 }
 
-fn increasing(before: Option<f64>, now: f64) -> Result<f64, ReadFault> {
+pub(super) fn increasing(before: Option<f64>, now: f64) -> Result<f64, ReadFault> {
     match before {
         Some(before) if now < before => Err(ReadFault::TimeBack { before, now }),
         Some(before) if now == before => Err(ReadFault::TimeRepeats { now }),

@@ -1,0 +1,61 @@
+//! Long work: in a thread of its own while the interpreter goes on, so that Ctrl-C stops it with the best so far.
+
+use pyo3::prelude::*;
+use servoid_identify::Progress;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+/// How long Ctrl-C may wait.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Work that can be stopped.
+#[derive(Default)]
+pub(crate) struct Watched {
+    stop: AtomicBool,
+}
+
+impl Progress for Watched {
+    fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+}
+
+/// Does the work without the interpreter's lock. The first Ctrl-C stops it, and its best so far is the result; whoever asks for
+/// it again gets the exception as soon as the work has ended.
+pub(crate) fn watched<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Watched) -> T + Send,
+) -> PyResult<T> {
+    let watch = Watched::default();
+    let again = AtomicBool::new(false);
+    let result = py.detach(|| {
+        thread::scope(|scope| {
+            let (done, ended) = channel();
+            let own = &watch;
+            let work = scope.spawn(move || {
+                let result = work(own);
+                // Nobody listens any more only if the other side has panicked.
+                let _ = done.send(());
+                result
+            });
+            while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                let interrupted = Python::attach(|py| py.check_signals().is_err());
+                if interrupted && watch.stop.swap(true, Ordering::Relaxed) {
+                    again.store(true, Ordering::Relaxed);
+                }
+            }
+            work.join()
+        })
+    });
+    if again.into_inner() {
+        return Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(()));
+    }
+    result.map_err(|_| {
+        super::error::raised(
+            "internal",
+            "the work failed inside servoid; please report this",
+        )
+    })
+}
