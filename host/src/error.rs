@@ -36,6 +36,9 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A batch that cannot go on.
+    #[error(transparent)]
+    Batch(#[from] servoid_batch::Error),
     /// A file of finished cases cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -76,6 +79,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Usage(_)
+            | Error::Batch(servoid_batch::Error::Usage(_))
             | Error::Device(DeviceError::Address(_) | DeviceError::Order(_))
             | Error::Identify(servoid_identify::Error::Usage(_)) => 2,
             _ => 1,

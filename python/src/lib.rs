@@ -45,6 +45,9 @@ mod _servoid {
         module.add("EFFECTS", names)?;
         // Of exceptions that Python's part raises; those from here say their own.
         module.py().get_type::<Error>().setattr("cause", "failed")?;
-        module.py().get_type::<UsageError>().setattr("cause", "usage")
+        module
+            .py()
+            .get_type::<UsageError>()
+            .setattr("cause", "usage")
     }
 }

@@ -1,5 +1,6 @@
 //! The shape of the command line, and nothing else.
 
+mod batch;
 mod bench;
 mod device;
 mod export;
@@ -10,6 +11,7 @@ mod reference;
 mod report;
 mod simulate;
 
+pub use batch::{BatchArgs, BatchVerb, Retry};
 pub use bench::BenchArgs;
 pub use device::{
     CommissionArgs, DeviceArgs, DeviceBenchArgs, DeviceMethod, DeviceVerb, EmulateArgs,
@@ -84,6 +86,8 @@ pub enum Verb {
     Diagnose(DiagnoseArgs),
     /// Writes what was found for other programs: constants, simulators, controllers
     Export(ExportArgs),
+    /// Fits or diagnoses many recordings, one row of a table each; resumes, and splits over machines
+    Batch(BatchArgs),
     /// Compares search methods at an equal budget over many seeds
     Compare(CompareArgs),
     /// Reproduces the paper: its motor, its step, its bounds, its table beside ours

@@ -1,5 +1,6 @@
 //! One verb a file: read, call, write.
 
+mod batch;
 mod bench;
 mod check;
 mod compare;
@@ -39,6 +40,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Export(args) => export::run(&session, &args),
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
+        Verb::Batch(args) => batch::run(&session, &args),
         Verb::Bench(args) => bench::run(&session, &args),
         Verb::Report(args) => report::run(&session, &args),
         Verb::Prove(args) => prove::run(&session, &args),

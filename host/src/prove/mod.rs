@@ -12,7 +12,6 @@
 //! | `report` | the table as text |
 //! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
 //! | `store`, `header`, `content` | finished cases in a file: written, what they are, read and joined |
-//! | `shard` | a part of the cases, for one machine of several |
 //! | `tally`, `interval`, `confusion` | how often which |
 //! | `reliability` | whether probabilities are as often right as they say |
 //!
@@ -32,7 +31,6 @@ mod orders_law;
 mod outcome;
 mod reliability;
 pub mod report;
-mod shard;
 mod store;
 mod store_error;
 mod tally;
@@ -48,7 +46,7 @@ pub(crate) use interval::Count;
 pub use judge::COMPLETE_COUNTS;
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
-pub use shard::{BadShard, Shard};
+pub use servoid_batch::{BadShard, Shard};
 pub use store::Store;
 pub use store_error::{Fault, StoreError};
 pub use tally::tally;

@@ -6,6 +6,7 @@ mod accuracy;
 mod bad_flags;
 mod bad_outputs;
 mod bad_recordings;
+mod batch;
 mod bench;
 mod certificate;
 mod check;

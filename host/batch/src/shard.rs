@@ -1,4 +1,4 @@
-//! A part of the cases, for one machine of several.
+//! A part of the units or cases, for one machine of several.
 
 use std::fmt;
 use std::str::FromStr;
@@ -19,9 +19,14 @@ impl Shard {
     /// All cases.
     pub const WHOLE: Shard = Shard { index: 1, count: 1 };
 
+    /// Whether this number is one of its own.
+    pub fn has(self, number: u64) -> bool {
+        number % self.count == self.index - 1
+    }
+
     /// Its numbers below `cases`.
     pub fn numbers(self, cases: u64) -> impl Iterator<Item = u64> {
-        (0..cases).filter(move |number| number % self.count == self.index - 1)
+        (0..cases).filter(move |number| self.has(*number))
     }
 }
 

@@ -1,0 +1,45 @@
+//! The name of a result: whoever asks for the same thing gets the same name, on every machine.
+
+use crate::input::Content;
+use sha2::{Digest, Sha256};
+use std::path::Path;
+
+/// Changes when the same task would give other results though the version is the same.
+const EDITION: &str = "servoid.batch/1";
+
+/// Digest of content, task (with its seed) and version. What is said of a file's motor is part of the content.
+pub(crate) fn key(content: &Content, task: &str, version: &str) -> std::io::Result<String> {
+    let mut digest = Sha256::new();
+    let mut add = |bytes: &[u8]| {
+        digest.update((bytes.len() as u64).to_le_bytes());
+        digest.update(bytes);
+    };
+    for text in [EDITION, version, task] {
+        add(text.as_bytes());
+    }
+    match content {
+        Content::File(path) => {
+            add(&std::fs::read(path)?);
+            add(&beside(path)?);
+        }
+        Content::Columns(columns) => {
+            for column in columns.numbers() {
+                let bytes: Vec<u8> = column.iter().flat_map(|x| x.to_le_bytes()).collect();
+                add(&bytes);
+            }
+            add(columns.motor_text().as_bytes());
+        }
+    }
+    let found = digest.finalize();
+    Ok(found[..16]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect())
+}
+
+fn beside(path: &Path) -> std::io::Result<Vec<u8>> {
+    match std::fs::read(path.with_file_name("motor.toml")) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
+        found => found,
+    }
+}

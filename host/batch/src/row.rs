@@ -1,0 +1,62 @@
+//! One row of the table: what came of one recording.
+
+use serde::{Deserialize, Serialize};
+
+/// What came of one recording, or why nothing did.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Digest of content, task, version and seed.
+    pub key: String,
+    /// The recording: its path beneath the folder, or its name in the file.
+    pub unit: String,
+    /// The motor's name, if its owner gave one.
+    pub motor: Option<String>,
+    /// `ok` or `error`.
+    pub status: String,
+    /// The cause of an error, for programs.
+    pub cause: Option<String>,
+    /// The error in words.
+    pub message: Option<String>,
+    /// `fit` or `diagnose`.
+    pub verb: String,
+    /// The task with all its options, as JSON.
+    pub task: String,
+    /// The version of servoid.
+    pub version: String,
+    /// Verdict of a diagnosis.
+    pub verdict: Option<String>,
+    /// Effects of the last model.
+    pub effects: Vec<String>,
+    /// RMS error of the last model on what was fitted, counts.
+    pub rms_counts: Option<f64>,
+    /// The same on what was held out, counts.
+    pub validate_rms_counts: Option<f64>,
+    /// Parameters of the last model.
+    pub parameters: Vec<Parameter>,
+    /// The whole result as JSON: `servoid.fit/1` or `servoid.diagnosis/1`.
+    pub result: Option<String>,
+}
+
+/// A parameter of a model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its value; none where it is not determined.
+    pub value: Option<f64>,
+    /// Its standard error; none where it is not determined.
+    pub std: Option<f64>,
+    /// Its unit.
+    pub unit: String,
+}
+
+impl Row {
+    /// Whether there is a result.
+    pub fn is_ok(&self) -> bool {
+        self.status == OK
+    }
+}
+
+/// The status of a row with a result, and of one without.
+pub(crate) const OK: &str = "ok";
+pub(crate) const ERROR: &str = "error";

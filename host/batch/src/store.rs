@@ -1,0 +1,241 @@
+//! Rows on disk. A row is appended to a journal when its work ends, so that a killed run loses only what was under way; a full
+//! journal becomes a part, a Parquet file that is written whole. A row that stands in both, or was made twice, counts once.
+
+use crate::error::{Error, content, io};
+use crate::input::fields;
+use crate::row::Row;
+use crate::shard::Shard;
+use arrow_schema::{FieldRef, Schema};
+use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::basic::{Compression, ZstdLevel};
+use parquet::file::properties::WriterProperties;
+use servoid_io::output::write_whole;
+use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, HashMap};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Rows after which a journal becomes a part.
+const PART: usize = 1000;
+/// Folders and endings within the folder of results.
+const PARTS: &str = "parts";
+const ENDING: &str = "parquet";
+const DAMAGED: &str = "damaged";
+
+/// The results of one shard, to which rows are added.
+#[derive(Debug)]
+pub struct Store {
+    folder: PathBuf,
+    journal: File,
+    journal_path: PathBuf,
+    /// Held as long as the store is.
+    _lock: File,
+    waiting: Vec<Row>,
+    /// The status of each result that is there, and whether it is there for good.
+    done: HashMap<String, bool>,
+    /// What was found wrong in the folder and put aside.
+    pub remarks: Vec<String>,
+}
+
+impl Store {
+    /// Opens the folder, made if need be, for the work of one shard.
+    ///
+    /// # Errors
+    /// Another run at the same shard; what the system refuses.
+    pub fn open(folder: &Path, shard: Shard) -> Result<Self, Error> {
+        let parts = folder.join(PARTS);
+        fs::create_dir_all(&parts).map_err(io(&parts))?;
+        let named = shard.to_string().replace('/', "-of-");
+        let lock_path = folder.join(format!("lock-{named}"));
+        let lock = File::create(&lock_path).map_err(io(&lock_path))?;
+        // Where the system knows no locks, two runs at one folder are the user's care.
+        if let Err(TryLockError::WouldBlock) = lock.try_lock() {
+            return Err(Error::Busy { path: lock_path });
+        }
+        let mut remarks = Vec::new();
+        let mut done = HashMap::new();
+        for path in files(&parts)? {
+            match read_part(&path) {
+                Ok(rows) => done.extend(rows.into_iter().map(|row| (row.key.clone(), row.is_ok()))),
+                Err(why) => {
+                    let aside = path.with_extension(DAMAGED);
+                    fs::rename(&path, &aside).map_err(io(&path))?;
+                    remarks.push(format!(
+                        "{why}; it is put aside as {}, and its recordings are done again",
+                        aside.display()
+                    ));
+                }
+            }
+        }
+        let journal_path = folder.join(format!("journal-{named}.jsonl"));
+        let (waiting, whole) = read_journal(&journal_path)?;
+        done.extend(waiting.iter().map(|row| (row.key.clone(), row.is_ok())));
+        let journal = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(&journal_path);
+        let journal = journal.map_err(io(&journal_path))?;
+        // A line without its end is a row that was under way.
+        journal.set_len(whole).map_err(io(&journal_path))?;
+        Ok(Store {
+            folder: folder.to_owned(),
+            journal,
+            journal_path,
+            _lock: lock,
+            waiting,
+            done,
+            remarks,
+        })
+    }
+
+    /// Whether a result of this name is there; one that is an error counts unless errors are done again.
+    pub fn has(&self, key: &str, again: bool) -> bool {
+        self.done.get(key).is_some_and(|ok| *ok || !again)
+    }
+
+    /// Adds a row. When this returns, no kill can lose it.
+    ///
+    /// # Errors
+    /// What the system refuses; then the row is not there.
+    pub fn add(&mut self, row: Row) -> Result<(), Error> {
+        let line = serde_json::to_string(&row).map_err(content(&self.journal_path))?;
+        self.journal
+            .write_all(format!("{line}\n").as_bytes())
+            .map_err(io(&self.journal_path))?;
+        self.done.insert(row.key.clone(), row.is_ok());
+        self.waiting.push(row);
+        if self.waiting.len() >= PART {
+            self.close_part()?;
+        }
+        Ok(())
+    }
+
+    /// Makes a part of what waits in the journal.
+    ///
+    /// # Errors
+    /// What the system refuses; then the rows are still in the journal.
+    pub fn close_part(&mut self) -> Result<(), Error> {
+        if self.waiting.is_empty() {
+            return Ok(());
+        }
+        sort(&mut self.waiting);
+        let mut digest = Sha256::new();
+        for row in &self.waiting {
+            digest.update(row.key.as_bytes());
+            digest.update(row.status.as_bytes());
+        }
+        let name: String = digest.finalize()[..8]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        let path = self.folder.join(PARTS).join(format!("{name}.{ENDING}"));
+        write_rows(&path, &self.waiting)?;
+        self.journal.set_len(0).map_err(io(&self.journal_path))?;
+        self.waiting.clear();
+        Ok(())
+    }
+}
+
+/// All results of a folder, one row a name, ordered by recording and name: the same table whoever made it, in whatever order. A result
+/// stands before an error of the same name.
+///
+/// # Errors
+/// A part that cannot be read.
+pub fn table(folder: &Path) -> Result<Vec<Row>, Error> {
+    let mut rows: BTreeMap<(String, String), Row> = BTreeMap::new();
+    let mut add = |row: Row| {
+        let place = (row.unit.clone(), row.key.clone());
+        let better = rows.get(&place).is_none_or(|there| !there.is_ok());
+        if better {
+            rows.insert(place, row);
+        }
+    };
+    for path in files(&folder.join(PARTS))? {
+        read_part(&path)?.into_iter().for_each(&mut add);
+    }
+    for entry in fs::read_dir(folder).map_err(io(folder))? {
+        let path = entry.map_err(io(folder))?.path();
+        if path.extension().is_some_and(|end| end == "jsonl") {
+            read_journal(&path)?.0.into_iter().for_each(&mut add);
+        }
+    }
+    Ok(rows.into_values().collect())
+}
+
+/// Writes a table as one Parquet file.
+///
+/// # Errors
+/// What the system refuses.
+pub fn write_table(path: &Path, rows: &[Row]) -> Result<(), Error> {
+    write_rows(path, rows)
+}
+
+fn sort(rows: &mut [Row]) {
+    rows.sort_by(|a, b| (&a.unit, &a.key).cmp(&(&b.unit, &b.key)));
+}
+
+/// The parts of a folder, in the order of their names.
+fn files(parts: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(parts).map_err(io(parts))? {
+        let path = entry.map_err(io(parts))?.path();
+        if path.extension().is_some_and(|end| end == ENDING) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn read_part(path: &Path) -> Result<Vec<Row>, Error> {
+    let file = File::open(path).map_err(io(path))?;
+    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
+    let mut rows = Vec::new();
+    for batch in builder.build().map_err(content(path))? {
+        let batch = batch.map_err(content(path))?;
+        let own: Vec<Row> = serde_arrow::from_record_batch(&batch).map_err(content(path))?;
+        rows.extend(own);
+    }
+    Ok(rows)
+}
+
+fn write_rows(path: &Path, rows: &[Row]) -> Result<(), Error> {
+    let fields: Vec<FieldRef> = fields::<Row>().map_err(content(path))?;
+    let batch = serde_arrow::to_record_batch(&fields, &rows).map_err(content(path))?;
+    let schema = Arc::new(Schema::new(fields));
+    let small = WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::default()))
+        .build();
+    write_whole(path, |out| {
+        let mut bytes = Vec::new();
+        let failed = |error: parquet::errors::ParquetError| std::io::Error::other(error);
+        let mut writer = ArrowWriter::try_new(&mut bytes, schema, Some(small)).map_err(failed)?;
+        writer.write(&batch).map_err(failed)?;
+        writer.close().map_err(failed)?;
+        out.write_all(&bytes)
+    })?;
+    Ok(())
+}
+
+/// The rows of a journal, and how many bytes of it are whole lines.
+fn read_journal(path: &Path) -> Result<(Vec<Row>, u64), Error> {
+    let file = match File::open(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok((Vec::new(), 0)),
+        opened => opened.map_err(io(path))?,
+    };
+    let mut reader = BufReader::new(file);
+    let (mut rows, mut whole) = (Vec::new(), 0);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let read = reader.read_until(b'\n', &mut line).map_err(io(path))?;
+        if read == 0 || line.last() != Some(&b'\n') {
+            return Ok((rows, whole));
+        }
+        rows.push(serde_json::from_slice(&line).map_err(content(path))?);
+        whole += read as u64;
+    }
+}
