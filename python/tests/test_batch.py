@@ -57,7 +57,7 @@ def test_what_is_wrong_with_a_row_is_a_row(desk, tmp_path):
     assert [done["made"], done["errors"]] == [2, 1]
     found = pandas.read_parquet(tmp_path / "table.parquet").set_index("unit")
     assert found.loc["wrong", "cause"] == "motor"
-    assert "counts_per_rev" in found.loc["wrong", "message"]
+    assert "this is not TOML" in found.loc["wrong", "message"]
     assert found.loc["unit 0", "status"] == "ok"
 
 

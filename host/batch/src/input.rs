@@ -2,11 +2,14 @@
 
 use crate::columns::Columns;
 use crate::error::{Error, content, io};
-use arrow_schema::FieldRef;
+use arrow_array::RecordBatch;
+use arrow_cast::cast;
+use arrow_schema::{FieldRef, Schema};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use serde_arrow::schema::{SchemaLike, TracingOptions};
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use walkdir::WalkDir;
 
 /// Rows of a Parquet file that are in memory at a time.
@@ -130,6 +133,7 @@ fn rows(path: &Path, mut each: impl FnMut(usize, Unit) -> bool) -> Result<(), Er
     let mut number = 0;
     for batch in reader {
         let batch = batch.map_err(content(path))?;
+        let batch = in_doubles(&batch).map_err(content(path))?;
         let columns: Vec<Columns> =
             serde_arrow::from_record_batch(&batch).map_err(content(path))?;
         for columns in columns {
@@ -145,6 +149,35 @@ fn rows(path: &Path, mut each: impl FnMut(usize, Unit) -> bool) -> Result<(), Er
         }
     }
     Ok(())
+}
+
+/// The columns of a recording in the types in which they are used: other programs write counts as whole numbers, and texts in
+/// several ways.
+fn in_doubles(batch: &RecordBatch) -> Result<RecordBatch, String> {
+    let wanted = fields::<Columns>().map_err(|error| error.to_string())?;
+    let (mut kept, mut arrays) = (Vec::new(), Vec::new());
+    for field in wanted {
+        let Some(array) = batch.column_by_name(field.name()) else {
+            if field.is_nullable() {
+                continue;
+            }
+            let schema = batch.schema();
+            let has: Vec<&str> = schema
+                .fields()
+                .iter()
+                .map(|field| field.name().as_str())
+                .collect();
+            return Err(format!(
+                "there is no column {}; the file has {}",
+                field.name(),
+                has.join(", ")
+            ));
+        };
+        let array = cast(array, field.data_type());
+        arrays.push(array.map_err(|error| format!("column {}: {error}", field.name()))?);
+        kept.push(field);
+    }
+    RecordBatch::try_new(Arc::new(Schema::new(kept)), arrays).map_err(|error| error.to_string())
 }
 
 /// The schema of values of a type, as its fields say.

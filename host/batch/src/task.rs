@@ -111,6 +111,7 @@ impl Task {
             budget: self.evaluations,
             seed: self.seed,
             force: self.force,
+            error_ladder: true,
             known: motor.known,
             ..Options::default()
         })
