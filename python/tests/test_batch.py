@@ -27,15 +27,17 @@ def lot(recordings, **columns):
 @pytest.mark.parametrize("whole", [np.float64, np.int64, np.int32])
 def test_recordings_of_a_parquet_file_are_fitted_as_arrays_are(desk, tmp_path, whole):
     recordings = [sv.read("rec.csv"), sv.read("other.csv"), sv.read("rec.csv").between(1.0, 5.0)]
+    # The same samples under another name are a row of their own.
+    recordings.append(recordings[0])
     table = lot(recordings)
     table["angle_counts"] = [counts.astype(whole) for counts in table["angle_counts"]]
     table.to_parquet(tmp_path / "lot.parquet", row_group_size=2)
     command = f"batch {tmp_path}/lot.parquet --do fit --with coulomb --out {tmp_path}/out --table {tmp_path}/table.parquet"
     done = desk.json(command)
-    assert [done["recordings"], done["made"], done["errors"]] == [3, 3, 0]
+    assert [done["recordings"], done["made"], done["errors"]] == [4, 4, 0]
     assert desk.json(command)["made"] == 0
     found = pandas.read_parquet(tmp_path / "table.parquet")
-    assert list(found["unit"]) == ["unit 0", "unit 1", "unit 2"]
+    assert list(found["unit"]) == ["unit 0", "unit 1", "unit 2", "unit 3"]
     assert set(found["status"]) == {"ok"}
     for row, one in zip(found.itertuples(), recordings, strict=True):
         arrays = sv.Recording(

@@ -1,23 +1,24 @@
 //! The name of a result: whoever asks for the same thing gets the same name, on every machine.
 
-use crate::input::Content;
+use crate::input::{Content, Unit};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// Changes when the same task would give other results though the version is the same.
 const EDITION: &str = "servoid.batch/1";
 
-/// Digest of content, task (with its seed) and version. What is said of a file's motor is part of the content.
-pub(crate) fn key(content: &Content, task: &str, version: &str) -> std::io::Result<String> {
+/// Digest of name, content, task (with its seed) and version. What is said of a file's motor is part of the content; a result
+/// holds the recording's name.
+pub(crate) fn key(unit: &Unit, task: &str, version: &str) -> std::io::Result<String> {
     let mut digest = Sha256::new();
     let mut add = |bytes: &[u8]| {
         digest.update((bytes.len() as u64).to_le_bytes());
         digest.update(bytes);
     };
-    for text in [EDITION, version, task] {
+    for text in [EDITION, version, task, &unit.name] {
         add(text.as_bytes());
     }
-    match content {
+    match &unit.content {
         Content::File(path) => {
             add(&std::fs::read(path)?);
             add(&beside(path)?);

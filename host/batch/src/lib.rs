@@ -11,9 +11,10 @@
 //! |---|---|
 //! | `input`, `columns` | the units: files of a folder, or rows of a Parquet file |
 //! | `task` | what is done to each, and its result as a row |
-//! | `key` | the name of a result: a digest of content, task, version and seed |
+//! | `key` | the name of a result: a digest of name, content, task, version and seed |
 //! | `row` | one row, as results are written and read |
 //! | `store` | rows on disk: a journal that grows, and parts that are written whole |
+//! | `table` | all rows of a folder as one table |
 //! | `run` | the work, on all cores |
 //! | `shard` | a part of the units, for one machine of several |
 #![forbid(unsafe_code)]
@@ -26,6 +27,7 @@ mod row;
 mod run;
 mod shard;
 mod store;
+mod table;
 mod task;
 
 pub use error::Error;
@@ -33,5 +35,6 @@ pub use input::Input;
 pub use row::{Parameter, Row};
 pub use run::{Batch, Done, Watch, run};
 pub use shard::{BadShard, Shard};
-pub use store::{Store, table, write_table};
+pub use store::Store;
+pub use table::{counted, write_table};
 pub use task::{Task, Verb};

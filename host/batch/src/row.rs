@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// What came of one recording, or why nothing did.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Digest of content, task, version and seed.
+    /// Digest of name, content, task, version and seed.
     pub key: String,
     /// The recording: its path beneath the folder, or its name in the file.
     pub unit: String,
@@ -34,6 +34,7 @@ pub struct Row {
     /// Parameters of the last model.
     pub parameters: Vec<Parameter>,
     /// The whole result as JSON: `servoid.fit/1` or `servoid.diagnosis/1`.
+    #[serde(default)]
     pub result: Option<String>,
 }
 
@@ -51,6 +52,11 @@ pub struct Parameter {
 }
 
 impl Row {
+    /// Where it stands in a table.
+    pub(crate) fn place(&self) -> (String, String) {
+        (self.unit.clone(), self.key.clone())
+    }
+
     /// Whether there is a result.
     pub fn is_ok(&self) -> bool {
         self.status == OK

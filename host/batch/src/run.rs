@@ -108,6 +108,11 @@ fn work(
     loop {
         let next = take.lock().map(|take| take.recv());
         let Ok(Ok(unit)) = next else { return };
+        // What is still given is taken and left, or whoever gives would wait for ever.
+        let failed = collected.lock().is_ok_and(|c| c.failed.is_some());
+        if failed || watch.stop().load(Ordering::Relaxed) {
+            continue;
+        }
         let key = batch.task.key(&unit);
         let has = collected
             .lock()
@@ -126,7 +131,7 @@ fn work(
             return;
         };
         if collected.failed.is_some() {
-            return;
+            continue;
         }
         let ok = row.is_ok();
         match collected.store.add(row) {

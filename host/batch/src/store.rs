@@ -6,13 +6,13 @@ use crate::input::fields;
 use crate::row::Row;
 use crate::shard::Shard;
 use arrow_schema::{FieldRef, Schema};
-use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::arrow::{ArrowWriter, ProjectionMask};
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::properties::WriterProperties;
 use servoid_io::output::write_whole;
 use sha2::{Digest, Sha256};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -20,8 +20,10 @@ use std::sync::Arc;
 
 /// Rows after which a journal becomes a part.
 const PART: usize = 1000;
+/// Rows of a part that are in memory at a time.
+const AT_A_TIME: usize = 64;
 /// Folders and endings within the folder of results.
-const PARTS: &str = "parts";
+pub(crate) const PARTS: &str = "parts";
 const ENDING: &str = "parquet";
 const DAMAGED: &str = "damaged";
 
@@ -58,8 +60,8 @@ impl Store {
         let mut remarks = Vec::new();
         let mut done = HashMap::new();
         for path in files(&parts)? {
-            match read_part(&path) {
-                Ok(rows) => done.extend(rows.into_iter().map(|row| (row.key.clone(), row.is_ok()))),
+            match statuses(&path) {
+                Ok(own) => done.extend(own),
                 Err(why) => {
                     let aside = path.with_extension(DAMAGED);
                     fs::rename(&path, &aside).map_err(io(&path))?;
@@ -121,7 +123,7 @@ impl Store {
         if self.waiting.is_empty() {
             return Ok(());
         }
-        sort(&mut self.waiting);
+        self.waiting.sort_by_key(Row::place);
         let mut digest = Sha256::new();
         for row in &self.waiting {
             digest.update(row.key.as_bytes());
@@ -132,53 +134,15 @@ impl Store {
             .map(|byte| format!("{byte:02x}"))
             .collect();
         let path = self.folder.join(PARTS).join(format!("{name}.{ENDING}"));
-        write_rows(&path, &self.waiting)?;
+        write_rows(&path, self.waiting.iter().cloned().map(Ok))?;
         self.journal.set_len(0).map_err(io(&self.journal_path))?;
         self.waiting.clear();
         Ok(())
     }
 }
 
-/// All results of a folder, one row a name, ordered by recording and name: the same table whoever made it, in whatever order. A result
-/// stands before an error of the same name.
-///
-/// # Errors
-/// A part that cannot be read.
-pub fn table(folder: &Path) -> Result<Vec<Row>, Error> {
-    let mut rows: BTreeMap<(String, String), Row> = BTreeMap::new();
-    let mut add = |row: Row| {
-        let place = (row.unit.clone(), row.key.clone());
-        let better = rows.get(&place).is_none_or(|there| !there.is_ok());
-        if better {
-            rows.insert(place, row);
-        }
-    };
-    for path in files(&folder.join(PARTS))? {
-        read_part(&path)?.into_iter().for_each(&mut add);
-    }
-    for entry in fs::read_dir(folder).map_err(io(folder))? {
-        let path = entry.map_err(io(folder))?.path();
-        if path.extension().is_some_and(|end| end == "jsonl") {
-            read_journal(&path)?.0.into_iter().for_each(&mut add);
-        }
-    }
-    Ok(rows.into_values().collect())
-}
-
-/// Writes a table as one Parquet file.
-///
-/// # Errors
-/// What the system refuses.
-pub fn write_table(path: &Path, rows: &[Row]) -> Result<(), Error> {
-    write_rows(path, rows)
-}
-
-fn sort(rows: &mut [Row]) {
-    rows.sort_by(|a, b| (&a.unit, &a.key).cmp(&(&b.unit, &b.key)));
-}
-
 /// The parts of a folder, in the order of their names.
-fn files(parts: &Path) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn files(parts: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut found = Vec::new();
     for entry in fs::read_dir(parts).map_err(io(parts))? {
         let path = entry.map_err(io(parts))?.path();
@@ -190,38 +154,91 @@ fn files(parts: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(found)
 }
 
-fn read_part(path: &Path) -> Result<Vec<Row>, Error> {
-    let file = File::open(path).map_err(io(path))?;
-    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
-    let mut rows = Vec::new();
-    for batch in builder.build().map_err(content(path))? {
-        let batch = batch.map_err(content(path))?;
-        let own: Vec<Row> = serde_arrow::from_record_batch(&batch).map_err(content(path))?;
-        rows.extend(own);
+/// The journals of a folder, one a shard.
+pub(crate) fn journals(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(io(folder))? {
+        let path = entry.map_err(io(folder))?.path();
+        if path.extension().is_some_and(|end| end == "jsonl") {
+            found.push(path);
+        }
     }
-    Ok(rows)
+    found.sort();
+    Ok(found)
 }
 
-fn write_rows(path: &Path, rows: &[Row]) -> Result<(), Error> {
+/// Keys of a part, and whether they are results.
+fn statuses(path: &Path) -> Result<Vec<(String, bool)>, Error> {
+    let rows = read_part(path, false)?;
+    rows.map(|row| {
+        row.map(|row| (row.is_ok(), row.key))
+            .map(|(ok, key)| (key, ok))
+    })
+    .collect()
+}
+
+/// The rows of a part, a few at a time; without the results' JSON, which is most of it, where that is not `whole`.
+pub(crate) fn read_part(
+    path: &Path,
+    whole: bool,
+) -> Result<impl Iterator<Item = Result<Row, Error>> + use<>, Error> {
+    let file = File::open(path).map_err(io(path))?;
+    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
+    let wanted = ProjectionMask::columns(
+        builder.parquet_schema(),
+        builder
+            .schema()
+            .fields()
+            .iter()
+            .map(|field| field.name().as_str())
+            .filter(|name| whole || *name != "result"),
+    );
+    let builder = builder.with_projection(wanted).with_batch_size(AT_A_TIME);
+    let reader = builder.build().map_err(content(path))?;
+    let path = path.to_owned();
+    Ok(reader.flat_map(move |batch| {
+        let rows = batch.map_err(content(&path)).and_then(|batch| {
+            serde_arrow::from_record_batch::<Vec<Row>>(&batch).map_err(content(&path))
+        });
+        let (rows, error) = match rows {
+            Ok(rows) => (rows, None),
+            Err(error) => (Vec::new(), Some(Err(error))),
+        };
+        rows.into_iter().map(Ok).chain(error)
+    }))
+}
+
+/// Writes rows as one Parquet file, whole or not at all.
+pub(crate) fn write_rows(
+    path: &Path,
+    rows: impl Iterator<Item = Result<Row, Error>>,
+) -> Result<(), Error> {
     let fields: Vec<FieldRef> = fields::<Row>().map_err(content(path))?;
-    let batch = serde_arrow::to_record_batch(&fields, &rows).map_err(content(path))?;
-    let schema = Arc::new(Schema::new(fields));
+    let schema = Arc::new(Schema::new(fields.clone()));
     let small = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
         .build();
-    write_whole(path, |out| {
-        let mut bytes = Vec::new();
-        let failed = |error: parquet::errors::ParquetError| std::io::Error::other(error);
-        let mut writer = ArrowWriter::try_new(&mut bytes, schema, Some(small)).map_err(failed)?;
-        writer.write(&batch).map_err(failed)?;
-        writer.close().map_err(failed)?;
-        out.write_all(&bytes)
-    })?;
+    let mut bytes = Vec::new();
+    let mut writer =
+        ArrowWriter::try_new(&mut bytes, schema, Some(small)).map_err(content(path))?;
+    let mut some = Vec::new();
+    let mut rows = rows.peekable();
+    while let Some(row) = rows.next() {
+        some.push(row?);
+        if some.len() == PART || rows.peek().is_none() {
+            let batch = serde_arrow::to_record_batch(&fields, &some).map_err(content(path))?;
+            writer.write(&batch).map_err(content(path))?;
+            writer.flush().map_err(content(path))?;
+            some.clear();
+        }
+    }
+    writer.close().map_err(content(path))?;
+    write_whole(path, |out| out.write_all(&bytes))?;
     Ok(())
 }
 
 /// The rows of a journal, and how many bytes of it are whole lines.
-fn read_journal(path: &Path) -> Result<(Vec<Row>, u64), Error> {
+pub(crate) fn read_journal(path: &Path) -> Result<(Vec<Row>, u64), Error> {
     let file = match File::open(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok((Vec::new(), 0)),
         opened => opened.map_err(io(path))?,

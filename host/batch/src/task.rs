@@ -7,10 +7,12 @@ use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose::Budget;
 use servoid_identify::fit::{Options, cost_by_name, effects_by_name};
 use servoid_identify::{Datasets, FitSets, Progress, diagnose_datasets};
-use servoid_io::input::{MotorFile, read_recording};
+use servoid_io::input::{MotorFile, read_recording_from};
 use servoid_io::recording::Recording;
 use servoid_results::report::diagnosis::DiagnosisReport;
 use servoid_results::schema::{self, Estimate};
+use std::fs::File;
+use std::io::BufReader;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What is done.
@@ -119,7 +121,7 @@ impl Task {
 
     /// The name of its result on a unit; what cannot be read has a name of its own.
     pub(crate) fn key(&self, unit: &Unit) -> String {
-        let found = key(&unit.content, &self.text(), VERSION);
+        let found = key(unit, &self.text(), VERSION);
         found.unwrap_or_else(|_| format!("unread {}", unit.name))
     }
 
@@ -226,7 +228,11 @@ fn read(unit: &Unit) -> Result<(Recording, MotorFile), Fault> {
             let known = MotorFile::find_beside(path)
                 .map_err(motor)?
                 .unwrap_or_default();
-            Ok((read_recording(path, &known).map_err(recording)?, known))
+            // Under the unit's name: the result is the same wherever the folder lies.
+            let file = File::open(path)
+                .map_err(|why| Fault::of("recording", format!("{}: {why}", unit.name)))?;
+            let read = read_recording_from(BufReader::new(file), &unit.name, &known);
+            Ok((read.map_err(recording)?, known))
         }
         Content::Columns(columns) => {
             let known = columns.motor().map_err(motor)?;

@@ -5,7 +5,9 @@ use crate::error::Error;
 use crate::session::Session;
 use indicatif::ProgressBar;
 use serde::Serialize;
-use servoid_batch::{Batch, Input, Store, Task, Verb, Watch, run as run_batch, table, write_table};
+use servoid_batch::{
+    Batch, Input, Store, Task, Verb, Watch, counted, run as run_batch, write_table,
+};
 use servoid_identify::fit::cost_name;
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
@@ -74,17 +76,9 @@ pub(super) fn run(session: &Session, args: &BatchArgs) -> Result<(), Error> {
     };
     let done = run_batch(&input, &batch, &mut store, &watched)?;
     watched.bar.finish_and_clear();
-    let rows = table(&args.out)?;
+    let counted = counted(&args.out)?;
     if let Some(path) = &args.table {
-        write_table(path, &rows)?;
-    }
-    let mut counted = BTreeMap::new();
-    for row in &rows {
-        let said = (row.cause.as_ref()).map(|cause| format!("error: {cause}"));
-        let said = said
-            .or_else(|| row.verdict.clone())
-            .unwrap_or_else(|| row.status.clone());
-        *counted.entry(said).or_insert(0) += 1;
+        write_table(&args.out, path)?;
     }
     let mut text = format!(
         "{own} recordings: {} made now ({} errors), {} there before\n",
@@ -93,7 +87,11 @@ pub(super) fn run(session: &Session, args: &BatchArgs) -> Result<(), Error> {
     if done.interrupted {
         text += "stopped before the end; the same command goes on\n";
     }
-    text += &format!("{}: {} rows\n", args.out.display(), rows.len());
+    text += &format!(
+        "{}: {} rows\n",
+        args.out.display(),
+        counted.values().sum::<usize>()
+    );
     for (said, count) in &counted {
         text += &format!("  {:<18} {count}\n", said.replace('_', " "));
     }

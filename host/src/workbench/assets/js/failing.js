@@ -88,16 +88,18 @@ function cumulatedOrders(models) {
 function orders(models) {
   const n = models[0].orders_v.length;
   const most = Math.max(...models.flatMap((model) => model.orders_v)) || 1;
+  // Few digits, that they fit beside the axis.
+  const [unit, scale] = most < 0.1 ? ["mV", 1e3] : ["V", 1];
   const parts = [0.5, 1].flatMap((part) => [
     svg("path", { class: "grid", d: `M${LEFT} ${Y(part)}H${WIDE - 6}` }),
-    svg("text", { x: LEFT - 4, y: Y(part) + 4, "text-anchor": "end" }, digits(part * most, 2))]);
+    svg("text", { x: LEFT - 4, y: Y(part) + 4, "text-anchor": "end" }, digits(part * most * scale, 2))]);
   const wide = (WIDE - LEFT - 6) / n;
   models.forEach((model, m) => model.orders_v.forEach((v, k) => {
     const [x, bar] = [X(k / n) + (m * wide) / (models.length + 1), wide / (models.length + 1)];
     parts.push(svg("rect", { x, y: Y(v / most), width: bar, height: Math.max(0, Y(0) - Y(v / most)), fill: colour(model.id) }));
   }));
   for (const k of [1, n / 2, n]) parts.push(svg("text", { x: X((k - 0.5) / n), y: HIGH - 4, "text-anchor": "middle" }, String(k)));
-  return frame("Orders", "missing drive, V", parts);
+  return frame("Orders", `missing drive, ${unit}`, parts);
 }
 
 // What each effect of the model takes of the drive, stacked.

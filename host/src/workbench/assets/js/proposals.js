@@ -190,7 +190,8 @@ function owned(bench, chosen, effect, does) {
     const [text, half] = estimate(value, one.std === null ? NaN : 1.96 * one.std * factor);
     return `${spoken(one.name.split(".")[1])} ${text}${half ? ` ± ${half}` : ""} ${unit}`;
   });
-  return el("div", { class: "owned" }, signature(found, { width: 96, height: 64, stroke: colour(chosen.id) }),
+  // Some effects are told by no single quantity, and have no drawing.
+  return el("div", { class: "owned" }, found?.curve.length ? signature(found, { width: 96, height: 64, stroke: colour(chosen.id) }) : null,
     el("div", {}, el("h3", { class: "strong" }, spoken(effect)), ...values.slice(0, 3).map((text) => el("p", { class: "quiet" }, text)),
       button(`Remove ${spoken(effect)}`, () => does.fit(chosen.effects.filter((other) => other !== effect)), { class: "btn link", disabled: Boolean(bench.job) })));
 }
