@@ -1,13 +1,15 @@
 //! The recordings of a batch, one at a time: a folder may hold more than memory does.
 
 use crate::columns::Columns;
-use crate::error::{Error, content, io};
+use crate::error::{Error, content, io as refused};
 use arrow_array::RecordBatch;
 use arrow_cast::cast;
 use arrow_schema::{FieldRef, Schema};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use serde_arrow::schema::{SchemaLike, TracingOptions};
+use std::cell::OnceCell;
 use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use walkdir::WalkDir;
@@ -42,8 +44,28 @@ pub(crate) struct Unit {
 
 /// What it holds.
 pub(crate) enum Content {
-    File(PathBuf),
+    File(Log),
     Columns(Box<Columns>),
+}
+
+/// A file, read once by whoever works on it: its digest and its recording are of the same bytes.
+pub(crate) struct Log {
+    pub(crate) path: PathBuf,
+    bytes: OnceCell<io::Result<Vec<u8>>>,
+}
+
+impl Log {
+    fn at(path: &Path) -> Self {
+        Log {
+            path: path.to_owned(),
+            bytes: OnceCell::new(),
+        }
+    }
+
+    pub(crate) fn bytes(&self) -> Result<&[u8], &io::Error> {
+        let read = self.bytes.get_or_init(|| std::fs::read(&self.path));
+        read.as_deref()
+    }
 }
 
 impl Input {
@@ -55,7 +77,7 @@ impl Input {
         if path.is_dir() {
             return Self::folder(path);
         }
-        let file = File::open(path).map_err(io(path))?;
+        let file = File::open(path).map_err(refused(path))?;
         let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
         let rows = builder.metadata().file_metadata().num_rows();
         Ok(Input::Parquet {
@@ -110,7 +132,7 @@ impl Input {
                     let name = file.strip_prefix(path).unwrap_or(file);
                     let unit = Unit {
                         name: name.to_string_lossy().replace('\\', "/"),
-                        content: Content::File(file.clone()),
+                        content: Content::File(Log::at(file)),
                     };
                     if !each(number, unit) {
                         break;
@@ -124,7 +146,7 @@ impl Input {
 }
 
 fn rows(path: &Path, mut each: impl FnMut(usize, Unit) -> bool) -> Result<(), Error> {
-    let file = File::open(path).map_err(io(path))?;
+    let file = File::open(path).map_err(refused(path))?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
     let reader = builder
         .with_batch_size(ROWS)

@@ -8,8 +8,8 @@ use std::path::Path;
 const EDITION: &str = "servoid.batch/1";
 
 /// Digest of name, content, task (with its seed) and version. What is said of a file's motor is part of the content; a result
-/// holds the recording's name.
-pub(crate) fn key(unit: &Unit, task: &str, version: &str) -> std::io::Result<String> {
+/// holds the recording's name. None where the content cannot be read.
+pub(crate) fn key(unit: &Unit, task: &str, version: &str) -> Option<String> {
     let mut digest = Sha256::new();
     let mut add = |bytes: &[u8]| {
         digest.update((bytes.len() as u64).to_le_bytes());
@@ -19,9 +19,9 @@ pub(crate) fn key(unit: &Unit, task: &str, version: &str) -> std::io::Result<Str
         add(text.as_bytes());
     }
     match &unit.content {
-        Content::File(path) => {
-            add(&std::fs::read(path)?);
-            add(&beside(path)?);
+        Content::File(log) => {
+            add(log.bytes().ok()?);
+            add(&beside(&log.path).ok()?);
         }
         Content::Columns(columns) => {
             for column in columns.numbers() {
@@ -31,11 +31,12 @@ pub(crate) fn key(unit: &Unit, task: &str, version: &str) -> std::io::Result<Str
             add(columns.motor_text().as_bytes());
         }
     }
-    let found = digest.finalize();
-    Ok(found[..16]
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect())
+    Some(hex(&digest.finalize()[..16]))
+}
+
+/// Bytes as text.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn beside(path: &Path) -> std::io::Result<Vec<u8>> {

@@ -26,7 +26,7 @@ pub struct Batch<'a> {
 /// Who watches a batch.
 pub trait Watch: Sync {
     /// One more recording of the shard has a result: made now, or there before.
-    fn ended(&self, _made: bool, _ok: bool) {}
+    fn ended(&self) {}
 
     /// Set it to stop: what is under way is given up, and everything else is kept.
     fn stop(&self) -> &AtomicBool;
@@ -121,7 +121,7 @@ fn work(
             if let Ok(mut collected) = collected.lock() {
                 collected.done.there += 1;
             }
-            watch.ended(false, true);
+            watch.ended();
             continue;
         }
         let Some(row) = batch.task.row(&unit, key, &stopped) else {
@@ -142,7 +142,7 @@ fn work(
             Err(error) => collected.failed = Some(error),
         }
         drop(collected);
-        watch.ended(true, ok);
+        watch.ended();
     }
 }
 

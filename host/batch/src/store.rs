@@ -3,6 +3,7 @@
 
 use crate::error::{Error, content, io};
 use crate::input::fields;
+use crate::key::hex;
 use crate::row::Row;
 use crate::shard::Shard;
 use arrow_schema::{FieldRef, Schema};
@@ -36,7 +37,7 @@ pub struct Store {
     /// Held as long as the store is.
     _lock: File,
     waiting: Vec<Row>,
-    /// The status of each result that is there, and whether it is there for good.
+    /// The names that are there, and whether each is a result or an error.
     done: HashMap<String, bool>,
     /// What was found wrong in the folder and put aside.
     pub remarks: Vec<String>,
@@ -129,10 +130,7 @@ impl Store {
             digest.update(row.key.as_bytes());
             digest.update(row.status.as_bytes());
         }
-        let name: String = digest.finalize()[..8]
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
+        let name = hex(&digest.finalize()[..8]);
         let path = self.folder.join(PARTS).join(format!("{name}.{ENDING}"));
         write_rows(&path, self.waiting.iter().cloned().map(Ok))?;
         self.journal.set_len(0).map_err(io(&self.journal_path))?;
@@ -170,11 +168,11 @@ pub(crate) fn journals(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 /// Keys of a part, and whether they are results.
 fn statuses(path: &Path) -> Result<Vec<(String, bool)>, Error> {
     let rows = read_part(path, false)?;
-    rows.map(|row| {
-        row.map(|row| (row.is_ok(), row.key))
-            .map(|(ok, key)| (key, ok))
-    })
-    .collect()
+    let status = |row: Row| {
+        let ok = row.is_ok();
+        (row.key, ok)
+    };
+    rows.map(|row| row.map(status)).collect()
 }
 
 /// The rows of a part, a few at a time; without the results' JSON, which is most of it, where that is not `whole`.

@@ -11,8 +11,6 @@ use servoid_io::input::{MotorFile, read_recording_from};
 use servoid_io::recording::Recording;
 use servoid_results::report::diagnosis::DiagnosisReport;
 use servoid_results::schema::{self, Estimate};
-use std::fs::File;
-use std::io::BufReader;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What is done.
@@ -122,7 +120,7 @@ impl Task {
     /// The name of its result on a unit; what cannot be read has a name of its own.
     pub(crate) fn key(&self, unit: &Unit) -> String {
         let found = key(unit, &self.text(), VERSION);
-        found.unwrap_or_else(|_| format!("unread {}", unit.name))
+        found.unwrap_or_else(|| format!("unread {}", unit.name))
     }
 
     /// Does it. `None` where it was stopped before its end.
@@ -224,14 +222,13 @@ fn read(unit: &Unit) -> Result<(Recording, MotorFile), Fault> {
     let motor = |error| Fault::of("motor", error);
     let recording = |error| Fault::of("recording", error);
     match &unit.content {
-        Content::File(path) => {
-            let known = MotorFile::find_beside(path)
+        Content::File(log) => {
+            let known = MotorFile::find_beside(&log.path)
                 .map_err(motor)?
                 .unwrap_or_default();
+            let unread = |why| Fault::of("recording", format!("{}: {why}", unit.name));
             // Under the unit's name: the result is the same wherever the folder lies.
-            let file = File::open(path)
-                .map_err(|why| Fault::of("recording", format!("{}: {why}", unit.name)))?;
-            let read = read_recording_from(BufReader::new(file), &unit.name, &known);
+            let read = read_recording_from(log.bytes().map_err(unread)?, &unit.name, &known);
             Ok((read.map_err(recording)?, known))
         }
         Content::Columns(columns) => {

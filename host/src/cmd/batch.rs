@@ -67,9 +67,7 @@ pub(super) fn run(session: &Session, args: &BatchArgs) -> Result<(), Error> {
         retry_errors: args.retry == Some(Retry::Error),
         workers,
     };
-    let own = (0..input.len() as u64)
-        .filter(|number| args.shard.has(*number))
-        .count();
+    let own = args.shard.numbers(input.len() as u64).count();
     let watched = Watched {
         bar: session.progress(own as u64, "batch"),
         session,
@@ -118,7 +116,7 @@ struct Watched<'a> {
 }
 
 impl Watch for Watched<'_> {
-    fn ended(&self, _made: bool, _ok: bool) {
+    fn ended(&self) {
         self.bar.inc(1);
     }
 
