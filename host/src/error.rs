@@ -39,6 +39,9 @@ pub enum Error {
     /// A batch that cannot go on.
     #[error(transparent)]
     Batch(#[from] servoid_batch::Error),
+    /// A fleet of which nothing can be said.
+    #[error(transparent)]
+    Fleet(#[from] servoid_fleet::Error),
     /// A file of finished cases cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -80,6 +83,7 @@ impl Error {
         match self {
             Error::Usage(_)
             | Error::Batch(servoid_batch::Error::Usage(_))
+            | Error::Fleet(servoid_fleet::Error::Usage(_))
             | Error::Device(DeviceError::Address(_) | DeviceError::Order(_))
             | Error::Identify(servoid_identify::Error::Usage(_)) => 2,
             _ => 1,

@@ -6,23 +6,29 @@ A recording comes from arrays (`Recording`) or from a file (`read`); `fit` fits 
 """
 
 from ._servoid import EFFECTS, Error, UsageError, __version__
+from ._batch import Done, batch
 from ._diagnosis import Diagnosis, Step, diagnose
 from ._fit import Fit, Parameter, fit
 from ._model import Model
+from ._population import Population, population
 from ._recording import Recording, read
 
 __all__ = [
     "EFFECTS",
     "Diagnosis",
+    "Done",
     "Error",
     "Fit",
     "Model",
     "Parameter",
+    "Population",
     "Recording",
     "Step",
     "UsageError",
     "__version__",
+    "batch",
     "diagnose",
     "fit",
+    "population",
     "read",
 ]

@@ -1,5 +1,6 @@
 """A model fitted to recordings."""
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -59,6 +60,36 @@ class Fit(Result["_servoid.Fit"]):
     def residual(self) -> NDArray[np.float64]:
         """Model less reading over the fitted recordings, counts, one a sample."""
         return self._own.residual()
+
+    @property
+    def covariance(self) -> tuple[list[str], NDArray[np.float64]]:
+        """Names of the searched parameters that the recordings determine, and their covariance: torques in volts."""
+        joint = self._joint()
+        return list(joint["names"]), np.array(joint["covariance"])
+
+    def to_inference_data(self, draws: int = 1000, *, seed: int = 1) -> Any:
+        """The searched parameters as draws of the normal distribution around the fit, for arviz.
+
+        One chain: the draws are independent. Torques are in volts, as in `covariance`.
+        """
+        joint = self._joint()
+        random = np.random.default_rng(seed)
+        drawn = random.multivariate_normal(joint["values"], np.array(joint["covariance"]), draws)
+        posterior = {name: drawn[np.newaxis, :, k] for k, name in enumerate(joint["names"])}
+        try:
+            arviz = importlib.import_module("arviz")
+        except ImportError as missing:
+            raise ImportError("to_inference_data needs arviz: pip install arviz") from missing
+        # What groups are called changed with version 1.
+        if int(arviz.__version__.split(".")[0]) >= 1:
+            return arviz.from_dict({"posterior": posterior})
+        return arviz.from_dict(posterior=posterior)
+
+    def _joint(self) -> dict[str, Any]:
+        joint: dict[str, Any] | None = self._document.get("joint")
+        if joint is None:
+            raise _servoid.Error("this fit has no covariance: its search has not converged, or nothing is determined (see notes)")
+        return joint
 
     def plot(self) -> "Drawing":
         """Measured against model, as a drawing that a notebook shows."""

@@ -1,11 +1,16 @@
 """What is compiled. Use the package `servoid`; this is what it is made of."""
 
+from collections.abc import Callable
 from os import PathLike
+
+from typing import TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
 EFFECTS: list[str]
+#: Steps of a model that a diagnosis takes at most.
+USUAL_STEPS: int
 __version__: str
 
 class Error(Exception):
@@ -16,6 +21,14 @@ class Error(Exception):
 
 class UsageError(Error):
     """An argument that cannot be used."""
+
+class BatchDone(TypedDict):
+    recordings: int
+    there: int
+    made: int
+    errors: int
+    interrupted: bool
+    remarks: list[str]
 
 class Recording:
     def __init__(
@@ -116,3 +129,26 @@ def diagnose(
     steps: int | None,
     force: bool,
 ) -> Diagnosis: ...
+
+def batch(
+    input: str,
+    out: str,
+    *,
+    verb: str,
+    effects: list[str],
+    algorithm: str,
+    cost: str,
+    evaluations: int,
+    steps: int,
+    seed: int,
+    force: bool,
+    shard: str,
+    retry_errors: bool,
+    workers: int | None,
+    table: str | None,
+    progress: Callable[[int], object] | None,
+) -> BatchDone: ...
+def fleet(results: str, labels: str | None) -> tuple[str, str]: ...
+def population(results: str, labels: str | None) -> str: ...
+def draw_motors(population: str, count: int, seed: int) -> dict[str, NDArray[np.float64]]: ...
+def batch_table(out: str, table: str) -> None: ...

@@ -8,13 +8,17 @@
 //! | `recording` | a recording, from arrays or a file |
 //! | `fit` | a model fitted to recordings |
 //! | `diagnosis` | which effects recordings show |
+//! | `batch` | many recordings, one row each |
+//! | `fleet` | what a batch says of all motors together |
 //! | `model` | a model that runs again: simulation, export |
 //! | `watch` | the work in a thread of its own, stopped by Ctrl-C |
 //! | `error` | errors as Python's exceptions, with their cause |
 
+mod batch;
 mod diagnosis;
 mod error;
 mod fit;
+mod fleet;
 mod model;
 mod recording;
 mod watch;
@@ -25,11 +29,15 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _servoid {
     #[pymodule_export]
+    use super::batch::{batch, batch_table};
+    #[pymodule_export]
     use super::diagnosis::{Diagnosis, diagnose};
     #[pymodule_export]
     use super::error::{Error, UsageError};
     #[pymodule_export]
     use super::fit::{Fit, fit};
+    #[pymodule_export]
+    use super::fleet::{draw_motors, fleet, population};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
@@ -43,6 +51,7 @@ mod _servoid {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         let names: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
         module.add("EFFECTS", names)?;
+        module.add("USUAL_STEPS", servoid_identify::diagnose::USUAL_STEPS)?;
         // Of exceptions that Python's part raises; those from here say their own.
         module.py().get_type::<Error>().setattr("cause", "failed")?;
         module

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use servoid_identify::Progress;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
@@ -14,6 +14,14 @@ const LOOK: Duration = Duration::from_millis(50);
 #[derive(Default)]
 pub(crate) struct Watched {
     stop: AtomicBool,
+    ended: AtomicU64,
+}
+
+impl Watched {
+    /// One more piece of the work has ended.
+    pub(crate) fn count(&self) {
+        self.ended.fetch_add(1, Ordering::Relaxed);
+    }
 }
 
 impl Progress for Watched {
@@ -26,6 +34,15 @@ impl Progress for Watched {
 /// it again gets the exception as soon as the work has ended.
 pub(crate) fn watched<T: Send>(
     py: Python<'_>,
+    work: impl FnOnce(&Watched) -> T + Send,
+) -> PyResult<T> {
+    counted(py, None, work)
+}
+
+/// The same; `progress`, if any, is called with how many pieces of the work have ended, now and then.
+pub(crate) fn counted<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&Watched) -> T + Send,
 ) -> PyResult<T> {
     let watch = Watched::default();
@@ -41,7 +58,15 @@ pub(crate) fn watched<T: Send>(
                 result
             });
             while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-                let interrupted = Python::attach(|py| py.check_signals().is_err());
+                let ended = watch.ended.load(Ordering::Relaxed);
+                let interrupted = Python::attach(|py| {
+                    if let Some(Err(error)) = progress.map(|progress| progress.call1(py, (ended,)))
+                    {
+                        // It shows how far the work is, and must not end it.
+                        error.write_unraisable(py, None);
+                    }
+                    py.check_signals().is_err()
+                });
                 if interrupted && watch.stop.swap(true, Ordering::Relaxed) {
                     again.store(true, Ordering::Relaxed);
                 }

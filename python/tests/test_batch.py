@@ -67,3 +67,24 @@ def test_a_file_without_the_columns_says_which(desk, tmp_path):
     pandas.DataFrame({"time": [[0.0, 1.0]]}).to_parquet(tmp_path / "other.parquet")
     with pytest.raises(AssertionError, match="t_s"):
         desk.run(f"batch {tmp_path}/other.parquet --out {tmp_path}/out")
+
+
+def test_a_batch_in_python_goes_on_with_one_of_the_command_line(desk, tmp_path):
+    recordings = [sv.read("rec.csv"), sv.read("other.csv"), sv.read("rec.csv").between(1.0, 5.0)]
+    lot(recordings, serial="A7", station="3").to_parquet(tmp_path / "lot.parquet", row_group_size=1)
+    desk.json(f"batch {tmp_path}/lot.parquet --do fit --shard 1/3 --out {tmp_path}/out")
+    done = sv.batch(tmp_path / "lot.parquet", tmp_path / "out", do="fit", table=tmp_path / "table.parquet")
+    assert (done.recordings, done.there, done.made, done.errors, done.interrupted) == (3, 1, 2, 0, False)
+    found = pandas.read_parquet(tmp_path / "table.parquet")
+    assert [labels["serial"] for labels in found["labels"]] == ["A7"] * 3
+    runs = sorted((tmp_path / "out" / "runs").glob("*.json"))
+    runs = [json.loads(run.read_text()) for run in runs]
+    assert sum(part["rows"] for run in runs for part in run["parts"]) == 3
+    assert [run["done"]["made"] for run in runs] == [1, 2]
+
+
+def test_what_a_batch_cannot_do_says_why(tmp_path):
+    with pytest.raises(sv.UsageError, match="shard"):
+        sv.batch(tmp_path, tmp_path / "out", shard="3/2")
+    with pytest.raises(sv.Error, match="no CSV file"):
+        sv.batch(tmp_path, tmp_path / "out")

@@ -1,5 +1,6 @@
 //! One row of a Parquet file of recordings: lists for the series, and what is known of the motor.
 
+use crate::row::Labels;
 use serde::{Deserialize, Serialize};
 use servoid_io::input::{Arrays, MotorFile, MotorFileError, ReadError, recording_of};
 use servoid_io::recording::Recording;
@@ -24,6 +25,16 @@ pub(crate) struct Columns {
     /// What is known of the motor, as the text of a `motor.toml`.
     #[serde(default)]
     pub(crate) motor: Option<String>,
+    #[serde(default)]
+    pub(crate) serial: Option<String>,
+    #[serde(default)]
+    pub(crate) lot: Option<String>,
+    #[serde(default)]
+    pub(crate) station: Option<String>,
+    #[serde(default)]
+    pub(crate) operator: Option<String>,
+    #[serde(default)]
+    pub(crate) time: Option<String>,
 }
 
 impl Columns {
@@ -39,6 +50,18 @@ impl Columns {
             self.counts_per_rev.into_iter().collect(),
             self.supply_v.into_iter().collect(),
         ]
+    }
+
+    /// Which motor it is of, where and when it was made; none where nothing is said.
+    pub(crate) fn labels(&self) -> Option<Labels> {
+        let labels = Labels {
+            serial: self.serial.clone(),
+            lot: self.lot.clone(),
+            station: self.station.clone(),
+            operator: self.operator.clone(),
+            time: self.time.clone(),
+        };
+        (!labels.is_empty()).then_some(labels)
     }
 
     /// What is known of the motor, as text.

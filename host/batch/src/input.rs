@@ -2,10 +2,11 @@
 
 use crate::columns::Columns;
 use crate::error::{Error, content, io as refused};
+use crate::shard::Shard;
 use arrow_array::RecordBatch;
 use arrow_cast::cast;
 use arrow_schema::{FieldRef, Schema};
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::arrow::arrow_reader::{ParquetRecordBatchReaderBuilder, RowSelection};
 use serde_arrow::schema::{SchemaLike, TracingOptions};
 use std::cell::OnceCell;
 use std::fs::File;
@@ -31,8 +32,8 @@ pub enum Input {
     Parquet {
         /// The file.
         path: PathBuf,
-        /// Its rows.
-        rows: usize,
+        /// The rows of each of its row groups.
+        groups: Vec<usize>,
     },
 }
 
@@ -79,10 +80,12 @@ impl Input {
         }
         let file = File::open(path).map_err(refused(path))?;
         let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
-        let rows = builder.metadata().file_metadata().num_rows();
+        let groups = builder.metadata().row_groups().iter();
         Ok(Input::Parquet {
             path: path.to_owned(),
-            rows: usize::try_from(rows).unwrap_or(0),
+            groups: groups
+                .map(|group| usize::try_from(group.num_rows()).unwrap_or(0))
+                .collect(),
         })
     }
 
@@ -115,7 +118,7 @@ impl Input {
     pub fn len(&self) -> usize {
         match self {
             Input::Folder { files, .. } => files.len(),
-            Input::Parquet { rows, .. } => *rows,
+            Input::Parquet { groups, .. } => groups.iter().sum(),
         }
     }
 
@@ -124,53 +127,120 @@ impl Input {
         self.len() == 0
     }
 
-    /// Gives each recording with its number to `each`, in order, until that says that it wants no more.
-    pub(crate) fn each(&self, mut each: impl FnMut(usize, Unit) -> bool) -> Result<(), Error> {
+    /// The path that was opened.
+    pub fn path(&self) -> &Path {
+        match self {
+            Input::Folder { path, .. } | Input::Parquet { path, .. } => path,
+        }
+    }
+
+    /// How many recordings a shard has.
+    pub fn count(&self, shard: Shard) -> usize {
+        match self {
+            Input::Parquet { groups, .. } => {
+                let own = own_rows(groups, shard);
+                own.iter().map(|(_, rows)| rows.len()).sum()
+            }
+            Input::Folder { files, .. } => shard.numbers(files.len() as u64).count(),
+        }
+    }
+
+    /// Gives each recording of a shard to `each`, in order, until that says that it wants no more.
+    pub(crate) fn each(
+        &self,
+        shard: Shard,
+        mut each: impl FnMut(Unit) -> bool,
+    ) -> Result<(), Error> {
         match self {
             Input::Folder { path, files } => {
-                for (number, file) in files.iter().enumerate() {
+                let own = (0_u64..)
+                    .zip(files)
+                    .filter(|(number, _)| shard.has(*number));
+                for (_, file) in own {
                     let name = file.strip_prefix(path).unwrap_or(file);
                     let unit = Unit {
                         name: name.to_string_lossy().replace('\\', "/"),
                         content: Content::File(Log::at(file)),
                     };
-                    if !each(number, unit) {
+                    if !each(unit) {
                         break;
                     }
                 }
                 Ok(())
             }
-            Input::Parquet { path, .. } => rows(path, each),
+            Input::Parquet { path, groups } => {
+                for (group, own) in own_rows(groups, shard) {
+                    if !rows(path, group, &own, &mut each)? {
+                        break;
+                    }
+                }
+                Ok(())
+            }
         }
     }
 }
 
-fn rows(path: &Path, mut each: impl FnMut(usize, Unit) -> bool) -> Result<(), Error> {
+/// The row groups that a shard reads, each with the numbers of its rows within the file that are the shard's. What is read is
+/// whole groups where there are as many as shards, so that no machine decodes what others need.
+fn own_rows(groups: &[usize], shard: Shard) -> Vec<(usize, Vec<usize>)> {
+    let by_group = groups.len() as u64 >= shard.count();
+    let mut first = 0;
+    let mut own = Vec::new();
+    for (group, &rows) in groups.iter().enumerate() {
+        let mut numbers: Vec<usize> = (first..first + rows).collect();
+        first += rows;
+        if by_group && !shard.has(group as u64) {
+            continue;
+        }
+        if !by_group {
+            numbers.retain(|number| shard.has(*number as u64));
+        }
+        if !numbers.is_empty() {
+            own.push((group, numbers));
+        }
+    }
+    own
+}
+
+/// Gives the rows `own` of a row group, by their numbers in the file; whether more are wanted.
+fn rows(
+    path: &Path,
+    group: usize,
+    own: &[usize],
+    each: &mut impl FnMut(Unit) -> bool,
+) -> Result<bool, Error> {
     let file = File::open(path).map_err(refused(path))?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(content(path))?;
+    let before = builder.metadata().row_groups().iter().take(group);
+    let first: i64 = before.map(|group| group.num_rows()).sum();
+    let first = usize::try_from(first).unwrap_or(0);
+    let selected = own.iter().map(|number| number - first..number - first + 1);
+    let total = usize::try_from(builder.metadata().row_group(group).num_rows()).unwrap_or(0);
+    let selected = RowSelection::from_consecutive_ranges(selected, total);
     let reader = builder
+        .with_row_groups(vec![group])
+        .with_row_selection(selected)
         .with_batch_size(ROWS)
         .build()
         .map_err(content(path))?;
-    let mut number = 0;
+    let mut numbers = own.iter();
     for batch in reader {
         let batch = batch.map_err(content(path))?;
         let batch = in_doubles(&batch).map_err(content(path))?;
         let columns: Vec<Columns> =
             serde_arrow::from_record_batch(&batch).map_err(content(path))?;
-        for columns in columns {
+        for (columns, number) in columns.into_iter().zip(&mut numbers) {
             let name = (columns.unit.clone()).unwrap_or_else(|| format!("row {number}"));
             let unit = Unit {
                 name,
                 content: Content::Columns(Box::new(columns)),
             };
-            if !each(number, unit) {
-                return Ok(());
+            if !each(unit) {
+                return Ok(false);
             }
-            number += 1;
         }
     }
-    Ok(())
+    Ok(true)
 }
 
 /// The columns of a recording in the types in which they are used: other programs write counts as whole numbers, and texts in

@@ -29,6 +29,13 @@ pub(crate) fn key(unit: &Unit, task: &str, version: &str) -> Option<String> {
                 add(&bytes);
             }
             add(columns.motor_text().as_bytes());
+            // A label that was put right makes a row of its own; a file without labels keeps its names.
+            if let Some(labels) = columns.labels() {
+                for (name, said) in labels.named() {
+                    add(name.as_bytes());
+                    add(said.unwrap_or_default().as_bytes());
+                }
+            }
         }
     }
     Some(hex(&digest.finalize()[..16]))

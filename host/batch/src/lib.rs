@@ -13,6 +13,7 @@
 //! | `task` | what is done to each, and its result as a row |
 //! | `key` | the name of a result: a digest of name, content, task, version and seed |
 //! | `row` | one row, as results are written and read |
+//! | `manifest` | what each run was asked for, and which parts it wrote |
 //! | `store` | rows on disk: a journal that grows, and parts that are written whole |
 //! | `table` | all rows of a folder as one table |
 //! | `run` | the work, on all cores |
@@ -23,6 +24,7 @@ mod columns;
 mod error;
 mod input;
 mod key;
+mod manifest;
 mod row;
 mod run;
 mod shard;
@@ -32,9 +34,10 @@ mod task;
 
 pub use error::Error;
 pub use input::Input;
-pub use row::{Parameter, Row};
+pub use manifest::{Part, Run, runs};
+pub use row::{Labels, Parameter, Row};
 pub use run::{Batch, Done, Watch, run};
 pub use shard::{BadShard, Shard};
 pub use store::Store;
-pub use table::{counted, write_table};
+pub use table::{Merged, counted, write_table};
 pub use task::{Task, Verb};

@@ -11,6 +11,9 @@ pub struct Row {
     pub unit: String,
     /// The motor's name, if its owner gave one.
     pub motor: Option<String>,
+    /// Which motor it is of, where and when it was made; what a Parquet file of recordings says of each.
+    #[serde(default)]
+    pub labels: Option<Labels>,
     /// `ok` or `error`.
     pub status: String,
     /// The cause of an error, for programs.
@@ -38,6 +41,40 @@ pub struct Row {
     pub result: Option<String>,
 }
 
+/// Which motor a recording is of, and where, when and by whom it was made.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Labels {
+    /// The motor's serial number: recordings with the same one are of one motor.
+    pub serial: Option<String>,
+    /// The lot that the motor was made in.
+    pub lot: Option<String>,
+    /// The test station that recorded it.
+    pub station: Option<String>,
+    /// Who recorded it.
+    pub operator: Option<String>,
+    /// When it was recorded, ISO 8601.
+    pub time: Option<String>,
+}
+
+impl Labels {
+    /// Each with its name.
+    pub fn named(&self) -> [(&'static str, Option<&str>); 5] {
+        [
+            ("serial", self.serial.as_deref()),
+            ("lot", self.lot.as_deref()),
+            ("station", self.station.as_deref()),
+            ("operator", self.operator.as_deref()),
+            ("time", self.time.as_deref()),
+        ]
+    }
+
+    /// Whether nothing is said.
+    pub fn is_empty(&self) -> bool {
+        self.named().iter().all(|(_, said)| said.is_none())
+    }
+}
+
 /// A parameter of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
@@ -49,6 +86,9 @@ pub struct Parameter {
     pub std: Option<f64>,
     /// Its unit.
     pub unit: String,
+    /// Whether the recording, with what is known of the motor, determines it.
+    #[serde(default)]
+    pub identifiable: bool,
 }
 
 impl Row {

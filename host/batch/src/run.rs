@@ -5,6 +5,7 @@ use crate::input::{Input, Unit};
 use crate::shard::Shard;
 use crate::store::Store;
 use crate::task::Task;
+use serde::{Deserialize, Serialize};
 use servoid_identify::Progress;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -33,7 +34,7 @@ pub trait Watch: Sync {
 }
 
 /// What a run did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Done {
     /// Results that were there before.
     pub there: usize,
@@ -55,6 +56,7 @@ pub fn run(
     store: &mut Store,
     watch: &dyn Watch,
 ) -> Result<Done, Error> {
+    store.begin(input, batch.task, batch.shard)?;
     let (give, take) = sync_channel::<Unit>(batch.workers.max(1));
     let take = Mutex::new(take);
     let collected = Mutex::new(Collected {
@@ -66,10 +68,10 @@ pub fn run(
         for _ in 0..batch.workers.max(1) {
             scope.spawn(|| work(batch, &take, &collected, watch));
         }
-        let given = input.each(|number, unit| {
+        let given = input.each(batch.shard, |unit| {
             let goes_on = !watch.stop().load(Ordering::Relaxed)
                 && !collected.lock().is_ok_and(|c| c.failed.is_some());
-            goes_on && (!batch.shard.has(number as u64) || give.send(unit).is_ok())
+            goes_on && give.send(unit).is_ok()
         });
         drop(give);
         given
@@ -83,10 +85,10 @@ pub fn run(
         failed,
     } = collected;
     done.interrupted = watch.stop().load(Ordering::Relaxed);
-    let closed = store.close_part();
+    let ended = store.end(done);
     match failed {
         Some(error) => Err(error),
-        None => given.and(closed).map(|()| done),
+        None => given.and(ended).map(|()| done),
     }
 }
 

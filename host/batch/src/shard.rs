@@ -19,6 +19,11 @@ impl Shard {
     /// All cases.
     pub const WHOLE: Shard = Shard { index: 1, count: 1 };
 
+    /// How many shards there are.
+    pub fn count(self) -> u64 {
+        self.count
+    }
+
     /// Whether this number is one of its own.
     pub fn has(self, number: u64) -> bool {
         number % self.count == self.index - 1

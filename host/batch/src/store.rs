@@ -2,10 +2,13 @@
 //! journal becomes a part, a Parquet file that is written whole. A row that stands in both, or was made twice, counts once.
 
 use crate::error::{Error, content, io};
-use crate::input::fields;
+use crate::input::{Input, fields};
 use crate::key::hex;
+use crate::manifest::{Manifest, Part};
 use crate::row::Row;
+use crate::run::Done;
 use crate::shard::Shard;
+use crate::task::Task;
 use arrow_schema::{FieldRef, Schema};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::arrow::{ArrowWriter, ProjectionMask};
@@ -39,6 +42,8 @@ pub struct Store {
     waiting: Vec<Row>,
     /// The names that are there, and whether each is a result or an error.
     done: HashMap<String, bool>,
+    /// The record of this run, once it has begun.
+    manifest: Option<Manifest>,
     /// What was found wrong in the folder and put aside.
     pub remarks: Vec<String>,
 }
@@ -65,7 +70,11 @@ impl Store {
                 Ok(own) => done.extend(own),
                 Err(why) => {
                     let aside = path.with_extension(DAMAGED);
-                    fs::rename(&path, &aside).map_err(io(&path))?;
+                    match fs::rename(&path, &aside) {
+                        // Another run has put it aside meanwhile.
+                        Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
+                        moved => moved.map_err(io(&path))?,
+                    }
                     remarks.push(format!(
                         "{why}; it is put aside as {}, and its recordings are done again",
                         aside.display()
@@ -74,6 +83,14 @@ impl Store {
             }
         }
         let journal_path = folder.join(format!("journal-{named}.jsonl"));
+        // What waits in the journals of other shards is there, too.
+        for path in journals(folder)?
+            .iter()
+            .filter(|path| **path != journal_path)
+        {
+            let (rows, _) = read_journal(path)?;
+            done.extend(rows.into_iter().map(|row| (row.key.clone(), row.is_ok())));
+        }
         let (waiting, whole) = read_journal(&journal_path)?;
         done.extend(waiting.iter().map(|row| (row.key.clone(), row.is_ok())));
         let journal = OpenOptions::new()
@@ -90,8 +107,31 @@ impl Store {
             _lock: lock,
             waiting,
             done,
+            manifest: None,
             remarks,
         })
+    }
+
+    /// Begins the record of a run that adds to this store.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub(crate) fn begin(&mut self, input: &Input, task: &Task, shard: Shard) -> Result<(), Error> {
+        let (path, recordings) = (input.path(), input.count(shard));
+        let manifest = Manifest::begin(&self.folder, path, recordings, task, shard)?;
+        self.manifest = Some(manifest);
+        Ok(())
+    }
+
+    /// Ends a run: what waits becomes a part, and the record says what was done.
+    ///
+    /// # Errors
+    /// What the system refuses; the rows are in a part or in the journal.
+    pub(crate) fn end(&mut self, done: Done) -> Result<(), Error> {
+        self.close_part()?;
+        self.manifest
+            .take()
+            .map_or(Ok(()), |mut manifest| manifest.end(done))
     }
 
     /// Whether a result of this name is there; one that is an error counts unless errors are done again.
@@ -120,7 +160,7 @@ impl Store {
     ///
     /// # Errors
     /// What the system refuses; then the rows are still in the journal.
-    pub fn close_part(&mut self) -> Result<(), Error> {
+    fn close_part(&mut self) -> Result<(), Error> {
         if self.waiting.is_empty() {
             return Ok(());
         }
@@ -133,6 +173,13 @@ impl Store {
         let name = hex(&digest.finalize()[..8]);
         let path = self.folder.join(PARTS).join(format!("{name}.{ENDING}"));
         write_rows(&path, self.waiting.iter().cloned().map(Ok))?;
+        if let Some(manifest) = &mut self.manifest {
+            manifest
+                .run
+                .parts
+                .push(Part::of(&path, self.waiting.len())?);
+            manifest.write()?;
+        }
         self.journal.set_len(0).map_err(io(&self.journal_path))?;
         self.waiting.clear();
         Ok(())

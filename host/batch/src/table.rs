@@ -10,13 +10,16 @@ use std::path::Path;
 type Rows = Box<dyn Iterator<Item = Result<Row, Error>>>;
 
 /// Rows in the order of recording and key, each key once: a result stands before an error of the same key.
-struct Merged {
+pub struct Merged {
     sources: Vec<Peekable<Rows>>,
 }
 
 impl Merged {
     /// The rows of a folder; without the results' JSON where that is not `whole`.
-    fn of(folder: &Path, whole: bool) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// A part that cannot be read.
+    pub fn of(folder: &Path, whole: bool) -> Result<Self, Error> {
         let mut sources: Vec<Peekable<Rows>> = Vec::new();
         for path in files(&folder.join(PARTS))? {
             let rows: Rows = Box::new(read_part(&path, whole)?);

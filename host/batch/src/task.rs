@@ -151,6 +151,10 @@ impl Task {
             key,
             unit: unit.name.clone(),
             motor,
+            labels: match &unit.content {
+                Content::File(_) => None,
+                Content::Columns(columns) => columns.labels(),
+            },
             status: if fault.is_none() { OK } else { ERROR }.to_owned(),
             cause: fault.as_ref().map(|fault| fault.cause.to_owned()),
             message: fault.map(|fault| fault.message),
@@ -216,7 +220,7 @@ impl Task {
     }
 }
 
-const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 fn read(unit: &Unit) -> Result<(Recording, MotorFile), Fault> {
     let motor = |error| Fault::of("motor", error);
@@ -255,6 +259,7 @@ fn parameters(of: &[Estimate]) -> Vec<Parameter> {
         value: finite(estimate.value),
         std: estimate.std,
         unit: estimate.unit.clone(),
+        identifiable: estimate.identifiable,
     };
     of.iter().map(one).collect()
 }

@@ -4,6 +4,7 @@ mod batch;
 mod bench;
 mod device;
 mod export;
+mod fleet;
 mod prove;
 mod recordings;
 #[cfg(test)]
@@ -18,6 +19,7 @@ pub use device::{
     EmulationArgs, LimitArgs, OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, VerifyArgs,
 };
 pub use export::{ExportArgs, GainsArgs, SideName};
+pub use fleet::{DrawArgs, DrawFormat, FleetArgs, PopulationArgs, ResultsArgs};
 pub use prove::ProveArgs;
 pub use recordings::RecordingsArgs;
 pub use report::{PageArgs, ReportArgs};
@@ -88,6 +90,12 @@ pub enum Verb {
     Export(ExportArgs),
     /// Fits or diagnoses many recordings, one row of a table each; resumes, and splits over machines
     Batch(BatchArgs),
+    /// What a batch says of all motors together: distributions, odd ones, lots, stations, drift
+    Fleet(FleetArgs),
+    /// The population that the motors of a batch are a sample of: means, spreads, correlations
+    Population(PopulationArgs),
+    /// Draws motors from a population, for simulation
+    Draw(DrawArgs),
     /// Compares search methods at an equal budget over many seeds
     Compare(CompareArgs),
     /// Reproduces the paper: its motor, its step, its bounds, its table beside ours

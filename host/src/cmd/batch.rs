@@ -67,7 +67,7 @@ pub(super) fn run(session: &Session, args: &BatchArgs) -> Result<(), Error> {
         retry_errors: args.retry == Some(Retry::Error),
         workers,
     };
-    let own = args.shard.numbers(input.len() as u64).count();
+    let own = input.count(args.shard);
     let watched = Watched {
         bar: session.progress(own as u64, "batch"),
         session,

@@ -10,6 +10,7 @@ mod device;
 mod diagnose;
 mod export;
 mod fit;
+mod fleet;
 mod model;
 mod motor;
 mod motor_beside;
@@ -41,6 +42,9 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Compare(args) => compare::run(&session, &args),
         Verb::Paper(args) => paper::run(&session, &args),
         Verb::Batch(args) => batch::run(&session, &args),
+        Verb::Fleet(args) => fleet::fleet(&session, &args),
+        Verb::Population(args) => fleet::population(&session, &args),
+        Verb::Draw(args) => fleet::draw(&session, &args),
         Verb::Bench(args) => bench::run(&session, &args),
         Verb::Report(args) => report::run(&session, &args),
         Verb::Prove(args) => prove::run(&session, &args),

@@ -139,3 +139,71 @@ fn what_cannot_begin_says_why() {
     }
     assert!(!desk.path("results/parts").exists());
 }
+
+/// The examples for Slurm and GNU parallel, with stand-ins for what those say and do.
+#[test]
+fn a_cluster_does_what_one_machine_does() {
+    let desk = lot(5);
+    desk.done(&format!("{FIT} --out whole --table whole.parquet"));
+    let example = |name: &str| {
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/batch/{name}"))
+    };
+    let options = ["--do", "fit", "--with", "coulomb"];
+    let bash = |script: &str| {
+        let mut command = std::process::Command::new("bash");
+        command
+            .arg(example(script))
+            .current_dir(desk.path("."))
+            .env("SERVOID", env!("CARGO_BIN_EXE_servoid"));
+        command
+    };
+    // An array that begins with 3, in no order.
+    for task in [5, 3, 4] {
+        let status = bash("slurm.sh")
+            .args(["logs", "slurm"])
+            .args(options)
+            .env("SLURM_ARRAY_TASK_ID", task.to_string())
+            .env("SLURM_ARRAY_TASK_MIN", "3")
+            .env("SLURM_ARRAY_TASK_COUNT", "3")
+            .env("SLURM_CPUS_PER_TASK", "2")
+            .status();
+        assert!(status.expect("bash").success());
+    }
+    let outside = bash("slurm.sh")
+        .args(["logs", "slurm"])
+        .env_remove("SLURM_ARRAY_TASK_ID")
+        .output();
+    let outside = outside.expect("bash");
+    assert!(!outside.status.success());
+    assert!(String::from_utf8_lossy(&outside.stderr).contains("sbatch --array"));
+    // GNU parallel runs the command once a line, with the line for {}.
+    desk.write(
+        "bin/parallel",
+        "#!/usr/bin/env bash\nshift 2\nwhile read -r line; do \"${@//\\{\\}/$line}\"; done\n",
+    );
+    let path = format!(
+        "{}:{}",
+        desk.path("bin").display(),
+        std::env::var("PATH").expect("a PATH")
+    );
+    let made = std::process::Command::new("chmod")
+        .arg("+x")
+        .arg(desk.path("bin/parallel"))
+        .status();
+    assert!(made.expect("chmod").success());
+    let status = bash("parallel.sh")
+        .args(["4", "logs", "parallel"])
+        .args(options)
+        .env("PATH", path)
+        .status();
+    assert!(status.expect("bash").success());
+    for out in ["slurm", "parallel"] {
+        desk.done(&format!("{FIT} --out {out} --table {out}.parquet"));
+        assert_eq!(
+            table(&desk, &format!("{out}.parquet")),
+            table(&desk, "whole.parquet")
+        );
+        let again = desk.json(&format!("{FIT} --out {out}"));
+        assert_eq!(again["made"], 0);
+    }
+}

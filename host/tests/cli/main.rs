@@ -17,6 +17,7 @@ mod device_signals;
 mod diagnose;
 mod diagnose_pairs;
 mod export;
+mod fleet;
 mod foreign_logs;
 mod glitches;
 mod help_examples;

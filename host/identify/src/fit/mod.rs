@@ -13,6 +13,7 @@
 //! | `correlation_time` | for how long an error is correlated with itself |
 //! | `sensitivity` | sums over the Jacobian of the residuals |
 //! | `uncertainty` | the covariance of the unknowns |
+//! | `joint` | the unknowns with their covariance, for those who draw from it |
 //! | `armature_current` | what a measured current says of inertia and viscous friction |
 //! | `physical` | the six physical parameters from data and known facts |
 //! | `profile` | how much worse a fit becomes as one parameter is held elsewhere |
@@ -36,6 +37,7 @@ pub(crate) mod filter;
 pub(crate) mod forms;
 pub(crate) mod integration;
 pub(crate) mod interval;
+mod joint;
 pub mod margins;
 mod options;
 pub(crate) mod own_parameters;
@@ -60,6 +62,7 @@ pub use bound::Bound;
 pub use correlation_time::correlation_sum;
 pub use error_ladder::error_ladder;
 pub use interval::{LEAST_NOISE, ReadingNoise};
+pub use joint::Joint;
 pub use options::{COSTS, Options, cost_by_name, cost_name, effects_by_name};
 pub use own_parameters::OwnParameter;
 pub use parameter::{Parameter, Usual};

@@ -2,6 +2,7 @@
 
 use super::armature_current::current_evidence;
 use super::interval::ReadingNoise;
+use super::joint::Joint;
 use super::margins::{Loop, Margins};
 use super::options::Options;
 use super::parameter::{Parameter, parameters};
@@ -96,6 +97,8 @@ pub struct Fit {
     pub reading_noise: Option<ReadingNoise>,
     /// How much worse the fit becomes as one parameter is held elsewhere; empty where nobody asked.
     pub profiles: Vec<Profile>,
+    /// The unknowns with their covariance, where they have one.
+    pub joint: Option<Joint>,
 }
 
 /// Where a search ended.
@@ -242,6 +245,7 @@ impl Fit {
             certificate: None,
             reading_noise: *reading_noise,
             profiles: Vec::new(),
+            joint: Joint::of(problem, values, spread),
         })
     }
 }

@@ -15,11 +15,13 @@
 //! | `steady` | steady speeds against voltage, and what a straight line misses |
 //! | `profiles` | how much worse a fit becomes as one parameter is held elsewhere |
 //! | `refuted` | the readings that no model meets together |
+//! | `distribution` | a quantity over many motors |
 //! | `histogram` | counting values into bins |
 
 mod bode;
 mod correlations;
 mod curves;
+mod distribution;
 mod forest;
 mod histogram;
 mod intervals;
@@ -34,6 +36,7 @@ mod timeline;
 pub use bode::bode;
 pub use correlations::correlations;
 pub use curves::cost_curves;
+pub use distribution::{Distribution, distribution};
 pub use forest::{Estimates, forest};
 pub use intervals::intervals;
 pub use ladder::{LadderBar, ladder};

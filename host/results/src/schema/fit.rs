@@ -102,9 +102,36 @@ pub struct Fit {
     /// Its standard error, counts; absent where it stands at the least that is followed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sigma_std_counts: Option<f64>,
+    /// The unknowns of the search with their covariance; absent where they have none, and of results without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<Joint>,
     /// Version of the program.
     #[serde(default)]
     pub version: String,
+}
+
+/// Unknowns that the data determine, as the search has them: torques in volts at the winding, no physical parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Joint {
+    /// Their names.
+    pub names: Vec<String>,
+    /// Their units.
+    pub units: Vec<String>,
+    /// Their values.
+    pub values: Vec<f64>,
+    /// A row and a column for each, in the product of their units.
+    pub covariance: Vec<Vec<f64>>,
+}
+
+impl From<&fit::Joint> for Joint {
+    fn from(joint: &fit::Joint) -> Self {
+        Joint {
+            names: joint.names.clone(),
+            units: joint.units.iter().map(|&unit| unit.to_owned()).collect(),
+            values: joint.values.clone(),
+            covariance: joint.covariance.clone(),
+        }
+    }
 }
 
 /// Errors of free runs in windows.
@@ -224,6 +251,7 @@ impl Fit {
             profiles: fit.profiles.iter().map(Profile::from).collect(),
             sigma_counts: fit.reading_noise.map(|noise| noise.counts),
             sigma_std_counts: fit.reading_noise.and_then(|noise| noise.std),
+            joint: fit.joint.as_ref().map(Joint::from),
             version: VERSION.to_owned(),
         }
     }

@@ -1,0 +1,264 @@
+//! The fleet as a page.
+
+use crate::population::Population;
+use crate::quantity::Scale;
+use crate::summary::{Fleet, Summary};
+use crate::text::{effects, findings, lead};
+use servoid_results::number_text::short;
+use servoid_results::page::{Block, Page, Section};
+use servoid_results::picture::{Distribution, Table, distribution};
+
+/// Odd units that the page lists.
+const LISTED: usize = 200;
+
+/// The page of a fleet, with its population where there are motors enough for one.
+pub fn page(fleet: &Fleet, summary: &Summary, population: Option<&Population>) -> Page {
+    let mut sections = vec![distributions(fleet, population)];
+    sections.extend(odd(summary));
+    sections.extend(population.map(of_population));
+    sections.extend(named(summary));
+    sections.extend(compared(summary));
+    sections.extend(gauge(summary));
+    sections.extend(refused(summary));
+    let refused: usize = summary.refused.iter().map(|cause| cause.recordings).sum();
+    Page {
+        title: "Fleet".to_owned(),
+        lead: lead(summary),
+        facts: [
+            ("results", summary.results.clone()),
+            ("recordings with a result", summary.recordings.to_string()),
+            ("motors", summary.motors.to_string()),
+            ("odd", summary.odd.len().to_string()),
+            ("without a result", refused.to_string()),
+            ("servoid of the batch", summary.version.clone()),
+        ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .to_vec(),
+        sections,
+    }
+}
+
+fn distributions(fleet: &Fleet, population: Option<&Population>) -> Section {
+    let mut section = Section::new("parameters", "Parameters");
+    section.blocks.push(Block::Text(
+        "Each bar counts recordings. The line is the population with each recording's own uncertainty taken off; diamonds are \
+         recordings that are odd by this parameter."
+            .to_owned(),
+    ));
+    let table = fleet.table();
+    let mut drawn = Vec::new();
+    for (k, quantity) in table.quantities.iter().enumerate() {
+        let (mut usual, mut odd) = (Vec::new(), Vec::new());
+        for (unit, reading) in table.column(k) {
+            let value = quantity.scale.raise(reading.y);
+            if fleet.is_odd_by(unit, &quantity.name) {
+                odd.push((fleet.units()[unit].name.clone(), value));
+            } else {
+                usual.push(value);
+            }
+        }
+        let member = population.and_then(|population| {
+            let mut members = population.parameters.iter();
+            members.find(|member| member.name == quantity.name)
+        });
+        let shown = Distribution {
+            name: &quantity.name,
+            unit: &quantity.unit,
+            usual: &usual,
+            odd: &odd,
+            curve: member.map(|member| (member.centre, member.spread)),
+            logarithmic: quantity.scale == Scale::Log,
+        };
+        drawn.extend(distribution(&format!("distribution-{k}"), &shown));
+    }
+    section.blocks.push(Block::Pictures(drawn));
+    section
+}
+
+fn odd(summary: &Summary) -> Option<Section> {
+    if summary.odd.is_empty() {
+        return None;
+    }
+    let mut section = Section::new("odd", "Recordings that are not like the others");
+    section.blocks.push(Block::Text(format!(
+        "At most one in twenty of these is expected to be a usual one. A page of each: servoid fleet {} --unit NAME --report FILE",
+        summary.results
+    )));
+    let serials = summary.odd.iter().any(|odd| odd.serial.is_some());
+    let mut table = Table::new(&["recording", "p", "why"]);
+    if serials {
+        table.head.insert(1, "motor".to_owned());
+    }
+    for odd in summary.odd.iter().take(LISTED) {
+        let reasons = odd.reasons.iter().map(|reason| reason.text.as_str());
+        let mut row = vec![
+            odd.unit.clone(),
+            odd.p_value.map_or_else(String::new, |p| format!("{p:.0e}")),
+            reasons.collect::<Vec<_>>().join("; "),
+        ];
+        if serials {
+            row.insert(1, odd.serial.clone().unwrap_or_default());
+        }
+        table.row(row);
+    }
+    let caption = match summary.odd.len().checked_sub(LISTED) {
+        Some(more) if more > 0 => format!("The oddest {LISTED}; {more} more are in the JSON"),
+        _ => "The oddest first".to_owned(),
+    };
+    section.blocks.push(Block::Table(caption, table));
+    Some(section)
+}
+
+fn of_population(population: &Population) -> Section {
+    let mut section = Section::new("population", "Population");
+    section.blocks.push(Block::Text(format!(
+        "{} motors with {}. Means and standard deviations are between motors; intervals are of 95 %.",
+        population.motors,
+        effects(&population.effects)
+    )));
+    let mut table = Table::new(&["parameter", "unit", "mean", "interval", "std", "interval"]);
+    for member in &population.parameters {
+        table.row([
+            member.name.clone(),
+            member.unit.clone(),
+            short(member.mean.value),
+            format!("{} .. {}", short(member.mean.low), short(member.mean.high)),
+            short(member.std.value),
+            format!("{} .. {}", short(member.std.low), short(member.std.high)),
+        ]);
+    }
+    section
+        .blocks
+        .push(Block::Table("Parameters".to_owned(), table));
+    let names: Vec<&str> = population
+        .parameters
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    if names.len() > 1 {
+        let mut head = vec![""];
+        head.extend(&names);
+        let mut table = Table::new(&head);
+        for (name, row) in names.iter().zip(&population.correlation) {
+            let cells = row.iter().map(|r| format!("{r:.2}"));
+            table.row(std::iter::once((*name).to_owned()).chain(cells));
+        }
+        section
+            .blocks
+            .push(Block::Table("Correlations".to_owned(), table));
+    }
+    section
+}
+
+fn named(summary: &Summary) -> Option<Section> {
+    let mut section = Section::new("effects", "Effects");
+    let mut table = Table::new(&["effects", "recordings"]);
+    for set in &summary.effects {
+        table.row([effects(&set.effects), set.recordings.to_string()]);
+    }
+    section
+        .blocks
+        .push(Block::Table("Sets of effects".to_owned(), table));
+    for (what, groups) in [("lot", &summary.lots), ("station", &summary.stations)] {
+        if groups.is_empty() {
+            continue;
+        }
+        let mut table = Table::new(&[what, "recordings", "effects"]);
+        for group in groups {
+            let named: Vec<String> = group
+                .effects
+                .iter()
+                .map(|(name, count)| format!("{name} {count}"))
+                .collect();
+            table.row([
+                if group.name.is_empty() {
+                    "not said".to_owned()
+                } else {
+                    group.name.clone()
+                },
+                group.recordings.to_string(),
+                named.join(", "),
+            ]);
+        }
+        section
+            .blocks
+            .push(Block::Table(format!("By {what}"), table));
+    }
+    (!summary.effects.is_empty()).then_some(section)
+}
+
+fn compared(summary: &Summary) -> Option<Section> {
+    let tested =
+        summary.lot_differences.len() + summary.station_differences.len() + summary.drifts.len();
+    if tested == 0 {
+        return None;
+    }
+    let mut section = Section::new("compared", "Lots, stations and time");
+    let said = findings(summary);
+    section.blocks.push(if said.is_empty() {
+        Block::Text(format!(
+            "None of {tested} comparisons shows a difference (p below 0.01 for all together)."
+        ))
+    } else {
+        Block::List(said)
+    });
+    Some(section)
+}
+
+fn gauge(summary: &Summary) -> Option<Section> {
+    if summary.gauges.is_empty() {
+        return None;
+    }
+    let mut section = Section::new("gauge", "Repeatability and reproducibility");
+    section.blocks.push(Block::Text(
+        "Motors that were recorded more than once tell what part of all differences is the measurement's: below 10 % is good, \
+         above 30 % is not acceptable (AIAG). Standard deviations are in the parameter's scale, as in the population."
+            .to_owned(),
+    ));
+    let mut table = Table::new(&[
+        "parameter",
+        "motors",
+        "recordings",
+        "repeatability",
+        "reproducibility",
+        "between motors",
+        "part, %",
+    ]);
+    for gauge in &summary.gauges {
+        table.row([
+            gauge.quantity.clone(),
+            gauge.motors.to_string(),
+            gauge.recordings.to_string(),
+            short(gauge.repeatability),
+            gauge
+                .reproducibility
+                .map_or_else(|| "one station".to_owned(), short),
+            short(gauge.motor_to_motor),
+            format!("{:.1}", gauge.percent),
+        ]);
+    }
+    section
+        .blocks
+        .push(Block::Table("Standard deviations".to_owned(), table));
+    Some(section)
+}
+
+fn refused(summary: &Summary) -> Option<Section> {
+    if summary.refused.is_empty() {
+        return None;
+    }
+    let mut section = Section::new("refused", "Recordings without a result");
+    let mut table = Table::new(&["cause", "recordings", "one of them", "what was said of it"]);
+    for cause in &summary.refused {
+        table.row([
+            cause.cause.clone(),
+            cause.recordings.to_string(),
+            cause.example.clone(),
+            cause.message.clone(),
+        ]);
+    }
+    section
+        .blocks
+        .push(Block::Table("By cause".to_owned(), table));
+    Some(section)
+}

@@ -1,0 +1,79 @@
+"""How often the 95 % intervals of a population hold the truth: many simulated fleets through `servoid.batch` and `servoid.population`.
+
+    python population_coverage.py FOLDER [--fleets 200] [--motors 40] [--seed 1]
+
+The plant is numpy's (fleet_lot.py). The truth is the mean and covariance of a million drawn motors.
+"""
+
+import argparse
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import servoid as sv
+from fleet_lot import COUNTS_PER_REV, SUPPLY_V, drawn, recorded
+
+#: Odd units are left out of a population; of usual fleets nearly none.
+NAMES = ["gain", "a1", "electrical_time_constant", "coulomb.torque"]
+
+
+def told(p):
+    """What voltage and angle tell of motors, in the order of NAMES."""
+    total = p["k"] + p["viscous"] * p["resistance"] / p["k"]
+    inertia = p["inertia"] * p["resistance"] / p["k"]
+    electrical = p["inductance"] / p["resistance"]
+    damping = total - p["k"]
+    return np.array(
+        [1 / total, (inertia + electrical * damping) / total, electrical, p["friction"] * p["resistance"] / p["k"]]
+    )
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("folder", type=Path)
+    arguments.add_argument("--fleets", type=int, default=200)
+    arguments.add_argument("--motors", type=int, default=40)
+    arguments.add_argument("--seed", type=int, default=1)
+    asked = arguments.parse_args()
+    rng = np.random.default_rng(asked.seed)
+    truth = told(drawn(np.random.default_rng(0), 1_000_000))
+    mean, covariance = truth.mean(axis=1), np.cov(truth)
+    held = {"mean": [], "variance": [], "covariance": []}
+    for fleet in range(asked.fleets):
+        shutil.rmtree(asked.folder, ignore_errors=True)
+        asked.folder.mkdir(parents=True)
+        parameters = drawn(rng, asked.motors)
+        t, voltage, counts = recorded(rng, parameters, np.zeros(asked.motors))
+        rows = {
+            "unit": [str(k) for k in range(asked.motors)],
+            "t_s": [t] * asked.motors,
+            "voltage_v": list(voltage),
+            "angle_counts": list(counts.astype(float)),
+            "counts_per_rev": [float(COUNTS_PER_REV)] * asked.motors,
+            "supply_v": [SUPPLY_V] * asked.motors,
+        }
+        pq.write_table(pa.table(rows), asked.folder / "lot.parquet")
+        sv.batch(asked.folder / "lot.parquet", asked.folder / "out", do="fit", effects=["coulomb"])
+        found = json.loads(sv.population(asked.folder / "out").json)
+        place = {member["name"]: k for k, member in enumerate(found["parameters"])}
+        for j, name in enumerate(NAMES):
+            if name not in place:
+                continue
+            bounds = found["parameters"][place[name]]["mean"]
+            held["mean"].append(bounds["low"] <= mean[j] <= bounds["high"])
+            for k, other in enumerate(NAMES[: j + 1]):
+                if other in place:
+                    bounds = found["covariance"][place[name]][place[other]]
+                    kind = "variance" if j == k else "covariance"
+                    held[kind].append(bounds["low"] <= covariance[j, k] <= bounds["high"])
+        if (fleet + 1) % 20 == 0:
+            print(f"{fleet + 1} fleets:", {kind: f"{100 * np.mean(own):.1f} %" for kind, own in held.items()}, flush=True)
+    for kind, own in held.items():
+        print(f"{kind}: the truth is within {100 * np.mean(own):.1f} % of {len(own)} intervals of 95 %")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,14 @@
+"""A batch on the processes of one machine or of many: `python -m servoid.fleet run INPUT OUT --engine ray`.
+
+An engine (Ray, Dask) runs tasks. Each task is one shard of `servoid.batch`, in a process of its own. The engine decides where a
+task runs, and starts it again when a process or a machine is lost. The folder of results says what is done: a run that was killed
+goes on with the same command. Input and results must be on storage that every machine reaches under the same path.
+
+`run` does the batch, `summary` says what its results tell of all motors together.
+"""
+
+from .._batch import Done
+from ._run import run
+from ._summary import Summary, summary
+
+__all__ = ["Done", "Summary", "run", "summary"]

@@ -1,0 +1,81 @@
+"""Ray. It starts a task again, elsewhere if need be, when its process or its machine dies."""
+
+import contextlib
+import logging
+import os
+import signal
+import threading
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from .._servoid import UsageError
+from ._engine import ENDING, lost, package, unexpected
+from ._task import Order, Outcome, shard
+
+#: Memory for results of tasks, bytes: they are a few numbers.
+STORE = 100_000_000
+#: Times that a task is started again. A recording may kill its process each time.
+AGAIN = 20
+
+
+class Ray:
+    """The engine."""
+
+    def __init__(self, address: str | None, workers: int | None) -> None:
+        self._ray = ray = package("ray", "ray", "ray>=2.60")
+        self._under_way: dict[Any, str] = {}
+        self._own = not ray.is_initialized()
+        if self._own:
+            where = address or os.environ.get("RAY_ADDRESS") or "local"
+            settings: dict[str, Any] = {"log_to_driver": False, "logging_level": logging.ERROR}
+            if where == "local":
+                settings |= {"num_cpus": workers, "object_store_memory": STORE, "include_dashboard": False}
+            with _terminated_as_before():
+                try:
+                    ray.init(address=where, **settings)
+                except Exception as why:
+                    raise lost("ray", why) from why
+        elif address is not None:
+            raise UsageError("address: this process is connected to Ray already; leave the address out, or ray.shutdown() first")
+        self.cpus = max(1, int(ray.cluster_resources().get("CPU", 1)))
+
+    def outcomes(self, order: Order, shards: Sequence[str]) -> Iterator[Outcome]:
+        task = self._ray.remote(num_cpus=1, max_retries=AGAIN)(shard)
+        for name in shards:
+            self._under_way[task.options(name=f"servoid {name}").remote(order, name)] = name
+        while self._under_way:
+            ended, _ = self._ray.wait(list(self._under_way), num_returns=1)
+            for one in ended:
+                yield self._take(one)
+
+    def _take(self, one: Any) -> Outcome:
+        name = self._under_way.pop(one)
+        try:
+            outcome: Outcome = self._ray.get(one)
+            return outcome
+        except Exception as why:
+            return unexpected(name, getattr(why, "cause", None) or why)
+
+    def stop(self) -> Iterator[Outcome]:
+        for one in self._under_way:
+            self._ray.cancel(one)
+        under_way = list(self._under_way)
+        if under_way:
+            ended, _ = self._ray.wait(under_way, num_returns=len(under_way), timeout=ENDING)
+            for one in ended:
+                outcome = self._take(one)
+                if outcome.done is not None:
+                    yield outcome
+
+    def close(self) -> None:
+        if self._own:
+            self._ray.shutdown()
+
+
+@contextlib.contextmanager
+def _terminated_as_before() -> Iterator[None]:
+    """Puts back the handler of SIGTERM, which Ray replaces."""
+    before = signal.getsignal(signal.SIGTERM)
+    yield
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, before)
