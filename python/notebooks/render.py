@@ -13,6 +13,8 @@ from nbclient import NotebookClient
 from nbconvert import MarkdownExporter
 
 FOLDER = Path(__file__).parent
+#: Characters of an output that differs; a drawing has a hundred thousand.
+SHOWN = 300
 PAGES = FOLDER.parent.parent / "docs" / "book" / "src" / "tutorial"
 
 
@@ -63,7 +65,8 @@ def main() -> int:
         kept = outputs(nbformat.read(path, as_version=4))
         for number, (before, now) in enumerate(zip(kept, outputs(notebook), strict=True)):
             if before != now:
-                print(f"{path.name}, cell {number}: was {before}\n  and is {now}", file=sys.stderr)
+                shown = [str(text)[:SHOWN] for text in (before, now)]
+                print(f"{path.name}, cell {number}: was {shown[0]}\n  and is {shown[1]}", file=sys.stderr)
                 differ += 1
     return 1 if differ else 0
 

@@ -1,5 +1,6 @@
 //! Long work: in a thread of its own while the interpreter goes on, so that Ctrl-C stops it with the best so far.
 
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use servoid_identify::Progress;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -60,12 +61,17 @@ pub(crate) fn counted<T: Send>(
             while ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 let ended = watch.ended.load(Ordering::Relaxed);
                 let interrupted = Python::attach(|py| {
-                    if let Some(Err(error)) = progress.map(|progress| progress.call1(py, (ended,)))
-                    {
-                        // It shows how far the work is, and must not end it.
-                        error.write_unraisable(py, None);
+                    // First: Python's code that runs here would take the signal for itself.
+                    let stopped = py.check_signals().is_err();
+                    match progress.map(|progress| progress.call1(py, (ended,))) {
+                        Some(Err(error)) if error.is_instance_of::<PyKeyboardInterrupt>(py) => true,
+                        Some(Err(error)) => {
+                            // It shows how far the work is, and must not end it.
+                            error.write_unraisable(py, None);
+                            stopped
+                        }
+                        _ => stopped,
                     }
-                    py.check_signals().is_err()
                 });
                 if interrupted && watch.stop.swap(true, Ordering::Relaxed) {
                     again.store(true, Ordering::Relaxed);
@@ -75,7 +81,7 @@ pub(crate) fn counted<T: Send>(
         })
     });
     if again.into_inner() {
-        return Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(()));
+        return Err(PyKeyboardInterrupt::new_err(()));
     }
     result.map_err(|_| {
         super::error::raised(

@@ -36,8 +36,6 @@ def test_counts_what_was_there_and_what_is_made(lot, tmp_path, monkeypatch):
     assert terminal.getvalue().count("\n") == 1
 
 
-@pytest.mark.xfail(strict=True, reason="python/src/watch.rs: Python raises the interrupt inside of the callback, where it is dropped")
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_does_not_keep_ctrl_c(lot, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "stderr", Terminal())
     pressed = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))

@@ -65,6 +65,14 @@ impl Store {
         }
         let mut remarks = Vec::new();
         let mut done = HashMap::new();
+        let journal_path = folder.join(format!("journal-{named}.jsonl"));
+        // What waits in the journals of other shards is there, too. These come first: a row may become one of a part meanwhile.
+        for path in journals(folder)? {
+            if path != journal_path {
+                let (rows, _) = read_journal(&path)?;
+                done.extend(rows.into_iter().map(|row| (row.key.clone(), row.is_ok())));
+            }
+        }
         for path in files(&parts)? {
             match statuses(&path) {
                 Ok(own) => done.extend(own),
@@ -81,15 +89,6 @@ impl Store {
                     ));
                 }
             }
-        }
-        let journal_path = folder.join(format!("journal-{named}.jsonl"));
-        // What waits in the journals of other shards is there, too.
-        for path in journals(folder)?
-            .iter()
-            .filter(|path| **path != journal_path)
-        {
-            let (rows, _) = read_journal(path)?;
-            done.extend(rows.into_iter().map(|row| (row.key.clone(), row.is_ok())));
         }
         let (waiting, whole) = read_journal(&journal_path)?;
         done.extend(waiting.iter().map(|row| (row.key.clone(), row.is_ok())));

@@ -242,7 +242,7 @@ fn of_errors(units: &[Unit]) -> Vec<(usize, Reason)> {
         .collect()
 }
 
-/// Units with an effect that others lack and that matters to them, and units that lack what the others have.
+/// Units with an effect beside the usual ones that matters to them, and units that lack what the others have.
 fn of_effects(
     units: &[Unit],
     results: &dyn Fn(&BTreeSet<usize>) -> HashMap<usize, String>,
@@ -276,7 +276,9 @@ fn of_effects(
     for (number, unit) in units.iter().enumerate() {
         let own = set(unit);
         let part = |name: &str| format!("{:.1} %", 100.0 * with(name));
-        for name in own.iter().filter(|name| with(name) < RARE) {
+        // In the place of a usual effect a rare one is its look-alike, as which it may be named at any time.
+        let beside = usual.is_subset(&own);
+        for name in own.iter().filter(|name| beside && with(name) < RARE) {
             let lowers = texts.get(&number).and_then(|text| lowered(text, name));
             if let Some(times) = lowers.filter(|times| *times >= LOWERS) {
                 found.push((

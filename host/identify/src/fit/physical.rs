@@ -207,11 +207,10 @@ fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec
 pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     let machine = &evidence.machine;
     let total = machine.kb + machine.damping;
-    let part = if total > 0.0 {
-        machine.damping / total
-    } else {
-        0.0
-    };
+    // Where the data do not tell it, the part is where a search happened to end. A viscous friction and a resistance that are known
+    // leave two motors, one with little friction and one with little back-EMF: the first is what motors are.
+    let told = evidence.covariance.nrows() > 3 && total > 0.0;
+    let part = if told { machine.damping / total } else { 0.0 };
     let resistance = known
         .resistance_ohm
         .map(|f| f.value)
@@ -389,6 +388,53 @@ impl Solved {
 mod tests {
     use super::*;
     use servoid_io::input::Fact;
+
+    /// Resistance and viscous friction leave a motor with little friction and one with little back-EMF. A search ends anywhere
+    /// between them where the data do not tell the part.
+    #[test]
+    fn of_two_motors_the_one_with_little_friction_is_meant() {
+        let (r, k, inertia, viscous) = (2.3, 0.017, 3.2e-6, 1e-6);
+        let response = Machine {
+            kb: k,
+            damping: viscous * r / k,
+            inertia: inertia * r / k,
+            electrical: 2.6e-4,
+        }
+        .response();
+        let fact = |value| {
+            Some(Fact {
+                value,
+                tolerance: None,
+            })
+        };
+        let known = Known {
+            resistance_ohm: fact(r),
+            viscous_n_m_s: fact(viscous),
+            kt_equals_kb: true,
+            ..Known::default()
+        };
+        for part in [0.0, 0.1, 0.5, 0.9, 0.99] {
+            let machine = response.machine_with_damping(part / response.gain);
+            let values = determined_by_data(&machine);
+            let covariance = DMatrix::from_fn(3, 3, |i, k| {
+                if i == k {
+                    (1e-4 * values[i]).powi(2)
+                } else {
+                    0.0
+                }
+            });
+            let found = reconcile(
+                &Evidence {
+                    machine,
+                    covariance,
+                    current: None,
+                },
+                &known,
+            );
+            let kt = found.physical[2].expect("the facts tell it").value;
+            assert!((kt / k - 1.0).abs() < 1e-3, "from a part of {part}: {kt}");
+        }
+    }
 
     /// What is zero seems to lean on nothing; in ohms and newton metres its error is unknown all the same.
     #[test]
