@@ -2,7 +2,7 @@
 
 use crate::multiple::discoveries;
 use crate::quantity::{Quantity, Table};
-use crate::robust::{centre, distances, median, spread_columns};
+use crate::robust::{Distances, centre, median};
 use crate::unit::Unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,8 @@ const LEAST: usize = 20;
 const FALSE: f64 = 0.05;
 /// Spreads beyond which a quantity is named as a reason.
 const FAR: f64 = 3.0;
+/// How many times the variance of an estimate's own error units must vary to differ measurably.
+const MEASURABLE: f64 = 2.0;
 /// The least that logarithms of errors are taken to spread by, and the spreads beyond which one is odd.
 const ERROR_SPREAD: f64 = 0.05;
 const ERROR_FAR: f64 = 6.0;
@@ -110,56 +112,68 @@ pub(crate) fn odd(
     found
 }
 
-/// Readings as distances from the middle, in spreads of the fleet; a reading that is less certain than usual counts for less.
-fn standard(table: &Table) -> Vec<Vec<Option<f64>>> {
-    let mut standard = vec![Vec::new(); table.readings.len()];
+/// Readings as distances from the middle, in spreads of the fleet.
+struct Standard {
+    /// One row a unit, one distance a quantity.
+    rows: Vec<Vec<Option<f64>>>,
+    /// Whether units differ by more of the quantity than each estimate errs by.
+    differs: Vec<bool>,
+}
+
+/// A reading that is less certain than usual counts for less, and nothing counts for more than its own error lets it.
+fn standard(table: &Table) -> Standard {
+    let mut standard = Standard {
+        rows: vec![Vec::new(); table.readings.len()],
+        differs: Vec::new(),
+    };
     for k in 0..table.quantities.len() {
         let values: Vec<f64> = table.column(k).map(|(_, reading)| reading.y).collect();
         let errors: Vec<f64> = table.column(k).map(|(_, r)| r.std * r.std).collect();
         let ((middle, spread), usual) = (centre(&values), median(&errors));
-        for (row, readings) in standard.iter_mut().zip(&table.readings) {
-            row.push(readings[k].filter(|_| spread > 0.0).map(|reading| {
+        let variance = (spread * spread).max(usual);
+        standard.differs.push(spread * spread > MEASURABLE * usual);
+        for (row, readings) in standard.rows.iter_mut().zip(&table.readings) {
+            row.push(readings[k].filter(|_| variance > 0.0).map(|reading| {
                 let more = (reading.std * reading.std - usual).max(0.0);
-                (reading.y - middle) / (spread * spread + more).sqrt()
+                (reading.y - middle) / (variance + more).sqrt()
             }));
         }
     }
     standard
 }
 
-/// Probability that a usual unit is as far from the middle as each. Of what a unit lacks nothing is said.
-fn p_values(standard: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
-    let columns = standard.first().map_or(0, Vec::len);
-    let has_spread = |k: &usize| standard.iter().any(|row| row[*k].is_some());
-    let columns: Vec<usize> = (0..columns).filter(has_spread).collect();
-    let whole =
-        |row: &Vec<Option<f64>>| -> Option<Vec<f64>> { columns.iter().map(|k| row[*k]).collect() };
-    let rows: Vec<Option<Vec<f64>>> = standard.iter().map(whole).collect();
+/// Probability that a usual unit is as far from the middle as each: all quantities that units differ by together, and each of the
+/// others by itself. Of what a unit lacks nothing is said.
+fn p_values(standard: &Standard) -> Vec<Option<f64>> {
+    let differ = || (0..standard.differs.len()).filter(|k| standard.differs[*k]);
+    let whole = |row: &Vec<Option<f64>>| -> Option<Vec<f64>> { differ().map(|k| row[k]).collect() };
+    let rows: Vec<Option<Vec<f64>>> = standard.rows.iter().map(whole).collect();
     let complete: Vec<Vec<f64>> = rows.iter().flatten().cloned().collect();
-    let squares = distances(&complete);
-    let mut squares = squares.into_iter();
-    let freedom = spread_columns(&complete);
-    let law = |freedom: usize| ChiSquared::new(freedom as f64).ok();
-    let together = law(freedom);
-    standard
-        .iter()
-        .zip(rows)
-        .map(|(row, whole)| {
-            if whole.is_some() {
-                let square = squares.next()?;
-                return Some(together.as_ref()?.sf(square));
+    let together = Distances::of(&complete);
+    let one = ChiSquared::new(1.0);
+    let mut place = 0;
+    let mut all = Vec::new();
+    for (row, whole) in standard.rows.iter().zip(rows) {
+        let mut own: Vec<f64> = Vec::new();
+        if whole.is_some() {
+            own.extend(together.p_value(place));
+            place += 1;
+        }
+        for (k, z) in row.iter().enumerate() {
+            let alone = whole.is_none() || !standard.differs[k];
+            if let (true, Some(z), Ok(one)) = (alone, z, &one) {
+                own.push(one.sf(z * z));
             }
-            // Some are missing: each of the others by itself, and as many times as likely.
-            let own: Vec<f64> = row.iter().flatten().copied().collect();
-            let farthest = own.iter().map(|z| z * z).fold(0.0, f64::max);
-            let one = law(1)?;
-            (!own.is_empty()).then(|| (one.sf(farthest) * own.len() as f64).min(1.0))
-        })
-        .collect()
+        }
+        // As many tests, as many times as likely.
+        let least = own.iter().copied().fold(f64::INFINITY, f64::min);
+        all.push((!own.is_empty()).then(|| (least * own.len() as f64).min(1.0)));
+    }
+    all
 }
 
-fn of_parameters(table: &Table, standard: &[Vec<Option<f64>>], unit: usize) -> Vec<Reason> {
-    let mut far: Vec<(usize, f64)> = standard[unit]
+fn of_parameters(table: &Table, standard: &Standard, unit: usize) -> Vec<Reason> {
+    let mut far: Vec<(usize, f64)> = standard.rows[unit]
         .iter()
         .enumerate()
         .filter_map(|(k, z)| Some((k, (*z)?)))
