@@ -1,7 +1,7 @@
 //! Whether what a station measures changes with time: a straight line through its readings, and the test that it is level
 //! (p-values over all stations and quantities together by Holm).
 
-use crate::multiple::holm;
+use crate::multiple::adjust;
 use crate::quantity::Table;
 use crate::unit::Unit;
 use jiff::Timestamp;
@@ -74,10 +74,7 @@ pub(crate) fn drifts(units: &[Unit], table: &Table, odd: &[bool]) -> Vec<Drift> 
             }
         }
     }
-    let adjusted = holm(&found.iter().map(|one| one.p_value).collect::<Vec<_>>());
-    for (one, p_value) in found.iter_mut().zip(adjusted) {
-        one.p_value = p_value;
-    }
+    adjust(&mut found, |one| &mut one.p_value);
     found
 }
 

@@ -1,7 +1,7 @@
 //! Whether the motors of one lot, or those that one station recorded, differ from the others (one-way analysis of variance, Fisher,
 //! 1925; p-values over all quantities together by Holm).
 
-use crate::multiple::holm;
+use crate::multiple::adjust;
 use crate::quantity::Table;
 use crate::unit::Unit;
 use schemars::JsonSchema;
@@ -135,9 +135,6 @@ pub(crate) fn differences(
             by_unit,
         });
     }
-    let adjusted = holm(&found.iter().map(|one| one.p_value).collect::<Vec<_>>());
-    for (one, p_value) in found.iter_mut().zip(adjusted) {
-        one.p_value = p_value;
-    }
+    adjust(&mut found, |one| &mut one.p_value);
     found
 }

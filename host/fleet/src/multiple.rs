@@ -15,8 +15,16 @@ pub(crate) fn discoveries(p: &[f64], rate: f64) -> Vec<bool> {
     rejected
 }
 
+/// Makes the p-values of tests hold for all of them together.
+pub(crate) fn adjust<T>(tests: &mut [T], p_value: impl Fn(&mut T) -> &mut f64) {
+    let own: Vec<f64> = tests.iter_mut().map(|test| *p_value(test)).collect();
+    for (test, adjusted) in tests.iter_mut().zip(holm(&own)) {
+        *p_value(test) = adjusted;
+    }
+}
+
 /// p-values that hold for all tests together (Holm, 1979).
-pub(crate) fn holm(p: &[f64]) -> Vec<f64> {
+fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|a, b| p[*a].total_cmp(&p[*b]));
     let mut adjusted = vec![1.0; p.len()];

@@ -7,7 +7,7 @@ use crate::unit::Unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Fewer units have no usual one.
 const LEAST: usize = 20;
@@ -261,7 +261,7 @@ fn of_effects(
     units: &[Unit],
     results: &dyn Fn(&BTreeSet<usize>) -> HashMap<usize, String>,
 ) -> Vec<(usize, Reason)> {
-    let mut sets: HashMap<BTreeSet<&str>, usize> = HashMap::new();
+    let mut sets: BTreeMap<BTreeSet<&str>, usize> = BTreeMap::new();
     let set = |unit: &'_ Unit| -> BTreeSet<String> { unit.effects.iter().cloned().collect() };
     for unit in units {
         let effects = unit.effects.iter().map(String::as_str).collect();
@@ -271,11 +271,16 @@ fn of_effects(
         return Vec::new();
     };
     let usual: BTreeSet<String> = usual.iter().map(|name| (*name).to_owned()).collect();
+    let mut having: HashMap<&str, usize> = HashMap::new();
+    for (effects, count) in &sets {
+        for name in effects {
+            *having.entry(name).or_insert(0) += count;
+        }
+    }
     let with = |name: &str| {
-        let with = units
-            .iter()
-            .filter(|unit| unit.effects.iter().any(|own| own == name));
-        with.count() as f64 / units.len() as f64
+        having
+            .get(name)
+            .map_or(0.0, |have| *have as f64 / units.len() as f64)
     };
     let rare: BTreeSet<usize> = (units.iter().enumerate())
         .filter(|(_, unit)| unit.effects.iter().any(|name| with(name) < RARE))

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::labels::LabelFile;
 use servoid_batch::{Labels, Merged, Parameter, Row, runs};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 /// What a batch found of one recording.
@@ -96,7 +96,7 @@ pub fn read(folder: &Path, labels: Option<&LabelFile>) -> Result<Units, Error> {
         version,
         ..Units::default()
     };
-    let mut used = HashMap::new();
+    let mut used = HashSet::new();
     for row in Merged::of(folder, false)? {
         let row = row?;
         if row.task != units.task || row.version != units.version {
@@ -104,7 +104,7 @@ pub fn read(folder: &Path, labels: Option<&LabelFile>) -> Result<Units, Error> {
         }
         let said = labels.and_then(|labels| labels.of(&row.unit));
         if said.is_some() {
-            used.insert(row.unit.clone(), ());
+            used.insert(row.unit.clone());
         }
         if row.is_ok() {
             units.found.push(unit(row, said));
