@@ -12,7 +12,7 @@ from conftest import DIAGNOSE, FIT, SHARDS, UNITS, Folder
 from servoid import fleet
 from servoid.fleet._census import census, usual_tasks
 from servoid.fleet._command import main
-from servoid.fleet._task import Order, mark, shard
+from servoid.fleet._task import Order, mark
 
 
 def test_of_one_thread_and_of_all(lot, fitted, tmp_path):
@@ -103,7 +103,7 @@ def test_a_task_does_no_work_elsewhere(lot, tmp_path):
     order = Order(str(lot), str(tmp_path), mark(str(tmp_path)), sv.__version__, 0.0, {})
     assert mark(str(tmp_path)) == order.mark
     for other, why in (({"version": "0.0.0"}, "install one version"), ({"mark": "another"}, "another folder")):
-        outcome = shard(Order(**{**{name: getattr(order, name) for name in order.__slots__}, **other}), "1/2")
+        outcome = Order(**{**{name: getattr(order, name) for name in order.__slots__}, **other})("1/2")
         assert outcome.done is None and why in outcome.message
     assert not list(tmp_path.glob("lock-*"))
 

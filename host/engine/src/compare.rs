@@ -114,7 +114,7 @@ impl Row {
     /// Quantile `q` over the runs of the best cost after each of a list of evaluation counts.
     pub fn curve(&self, budget: usize, q: f64) -> Vec<(usize, f64)> {
         let points = CURVE_POINTS.min(budget);
-        let ratio = (budget as f64).powf(1.0 / points.max(1) as f64);
+        let ratio = libm::pow(budget as f64, 1.0 / points.max(1) as f64);
         let mut counts: Vec<usize> = (0..=points)
             .map(|k| ratio.powi(k as i32).round() as usize)
             .collect();

@@ -158,8 +158,8 @@ pub(crate) fn covariance(
     );
     let correlation = found / scale;
     let (sum, difference) = (2.0 * (1.0 + correlation), 2.0 * (1.0 - correlation));
-    let below = (sum * (1.0 - low)).hypot(difference * (high - 1.0));
-    let above = (sum * (high - 1.0)).hypot(difference * (1.0 - low));
+    let below = libm::hypot(sum * (1.0 - low), difference * (high - 1.0));
+    let above = libm::hypot(sum * (high - 1.0), difference * (1.0 - low));
     Some(Interval {
         value: found,
         low: 0.25 * (sum - difference - below) * scale,

@@ -194,8 +194,8 @@ impl Draws {
                 let part = |what: &str| value(&format!("{effect}.{what}"));
                 let (size, phase) = (part("amplitude")?, part("phase")?);
                 match parameter {
-                    _ if parameter.starts_with("cosine") => Some(size * phase.cos()),
-                    _ if parameter.starts_with("sine") => Some(size * phase.sin()),
+                    _ if parameter.starts_with("cosine") => Some(size * libm::cos(phase)),
+                    _ if parameter.starts_with("sine") => Some(size * libm::sin(phase)),
                     _ => None,
                 }
             };

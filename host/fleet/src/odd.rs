@@ -230,21 +230,21 @@ fn of_errors(units: &[Unit]) -> Vec<(usize, Reason)> {
         .filter_map(|(unit, found)| Some((unit, found.rms_counts?)))
         .filter(|(_, rms)| *rms > 0.0)
         .collect();
-    let logarithms: Vec<f64> = errors.iter().map(|(_, rms)| rms.ln()).collect();
+    let logarithms: Vec<f64> = errors.iter().map(|(_, rms)| libm::log(*rms)).collect();
     let (middle, spread) = centre(&logarithms);
     let spread = spread.max(ERROR_SPREAD);
     errors
         .into_iter()
-        .filter(|(_, rms)| (rms.ln() - middle) / spread > ERROR_FAR)
+        .filter(|(_, rms)| (libm::log(*rms) - middle) / spread > ERROR_FAR)
         .map(|(unit, rms)| {
             use servoid_results::number_text::short;
-            let usual = middle.exp();
+            let usual = libm::exp(middle);
             let reason = Reason {
                 kind: "error".to_owned(),
                 name: None,
                 value: Some(rms),
                 usual: Some(usual),
-                spreads: Some((rms.ln() - middle) / spread),
+                spreads: Some((libm::log(rms) - middle) / spread),
                 text: format!(
                     "its model errs by {} counts RMS, where {} are usual: it does something that the model lacks",
                     short(rms),

@@ -367,7 +367,7 @@ fn to_units(a: &Column, b: &Column, covariance: f64) -> f64 {
         |column: &Column| mean_in_units(&column.quantity, &column.level, column.level.mean.value);
     match (a.quantity.scale, b.quantity.scale) {
         (Scale::Linear, Scale::Linear) => covariance,
-        (Scale::Log, Scale::Log) => mean(a) * mean(b) * covariance.exp_m1(),
+        (Scale::Log, Scale::Log) => mean(a) * mean(b) * libm::expm1(covariance),
         (Scale::Log, Scale::Linear) => mean(a) * covariance,
         (Scale::Linear, Scale::Log) => mean(b) * covariance,
     }
@@ -376,7 +376,7 @@ fn to_units(a: &Column, b: &Column, covariance: f64) -> f64 {
 fn mean_in_units(quantity: &Quantity, level: &Level, centre: f64) -> f64 {
     match quantity.scale {
         Scale::Linear => centre,
-        Scale::Log => (centre + 0.5 * level.variance.value).exp(),
+        Scale::Log => libm::exp(centre + 0.5 * level.variance.value),
     }
 }
 

@@ -29,7 +29,7 @@ impl Scale {
     /// A value and its standard error in this scale.
     fn lower(self, value: f64, std: f64) -> (f64, f64) {
         match self {
-            Scale::Log => (value.ln(), std / value),
+            Scale::Log => (libm::log(value), std / value),
             Scale::Linear => (value, std),
         }
     }
@@ -37,7 +37,7 @@ impl Scale {
     /// A value from this scale.
     pub fn raise(self, y: f64) -> f64 {
         match self {
-            Scale::Log => y.exp(),
+            Scale::Log => libm::exp(y),
             Scale::Linear => y,
         }
     }

@@ -69,8 +69,11 @@ pub fn errors(kind: Kind, found: &[f64], truth: &[f64]) -> Vec<ParameterError> {
     let parameters = kind.parameters();
     let (mut errors, rest) = match (kind.facts().pair, found, truth) {
         (Some(Pair::CosineAndSine), [a, b, ..], [x, y, ..]) => {
-            let distance = (a - x).hypot(b - y);
-            (vec![error("amplitude", true, distance, x.hypot(*y))], 2)
+            let distance = libm::hypot(a - x, b - y);
+            (
+                vec![error("amplitude", true, distance, libm::hypot(*x, *y))],
+                2,
+            )
         }
         (Some(Pair::Difference), [a, b, ..], [x, y, ..]) => {
             let distance = ((a - b) - (x - y)).abs();

@@ -3,6 +3,8 @@
 use crate::export::Motor;
 use crate::schema::check::Check;
 use crate::schema::coverage::Coverage;
+use crate::schema::effects::Effects;
+use crate::schema::opened::Opened;
 use crate::schema::{Contest, Demo, DeviceRun, Diagnosis, Fit, Plan, Proof, Steady, Verification};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
@@ -18,6 +20,8 @@ pub struct Reference {
 /// The schemas of all results.
 pub fn all() -> Vec<Reference> {
     vec![
+        of::<Opened>("open"),
+        of::<Effects>("effects"),
         of::<Check>("check"),
         of::<Fit>("fit"),
         of::<Demo>("demo"),

@@ -2,9 +2,9 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
-use servoid_results::export::FORMATS;
 use servoid_results::export::gains::Loops;
 use servoid_results::export::gains::design::Method;
+use servoid_results::export::{FORMATS, Winding};
 use std::path::PathBuf;
 
 /// `servoid export`.
@@ -25,19 +25,34 @@ pub struct ExportArgs {
     /// Turns of the motor a turn of the output, for --side output
     #[arg(long, value_name = "N")]
     pub ratio: Option<f64>,
-    /// Period of the program that the export is for, s (c, rust, gains); the recording's if not given
+    /// Period of the program that the export is for, s (c, rust, gains, ros2-control, odrive); the recording's if not given
     #[arg(long, value_name = "S")]
     pub sample: Option<f64>,
     /// Controllers.
     #[command(flatten)]
     pub gains: GainsArgs,
+    /// Drives.
+    #[command(flatten)]
+    pub drive: DriveArgs,
 }
 
-/// What `--to gains` takes.
+/// What formats of brushless drives take.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Controllers (--to gains)")]
+#[command(next_help_heading = "Drives of brushless motors (--to odrive, vesc, moteus)")]
+pub struct DriveArgs {
+    /// What voltage and current of the recording were those of; line if not given
+    #[arg(long, value_enum)]
+    pub winding: Option<Winding>,
+    /// Pairs of poles of the motor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub pole_pairs: Option<u32>,
+}
+
+/// What formats with controllers take.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Controllers (--to gains, ros2-control, odrive)")]
 pub struct GainsArgs {
-    /// Where the current loop passes one, Hz; a twentieth of the sampling rate if not given
+    /// Where the current loop passes one, Hz (vesc and moteus too); a twentieth of the sampling rate if not given, 159 in a drive's own loop
     #[arg(long, value_name = "HZ")]
     pub current_bandwidth: Option<f64>,
     /// Where the speed loop passes one, Hz; as high as a good phase margin lets it if not given
@@ -46,7 +61,7 @@ pub struct GainsArgs {
     /// How the speed loop's zero is placed; on a speed loop that gives volts cancel, else symmetrical
     #[arg(long, value_enum)]
     pub method: Option<Method>,
-    /// Which loops; a cascade where the resistance is known
+    /// Which loops (gains); a cascade where the resistance is known
     #[arg(long, value_enum)]
     pub loops: Option<Loops>,
 }
@@ -65,7 +80,8 @@ const EXAMPLES: &str = "Example, first on a motor of the bench:
   servoid fit bench.csv --with coulomb --known resistance_ohm=2.3 --kt-equals-kb --json fit.json
   servoid export fit.json --to c --out motor.h
   servoid export fit.json --to mujoco --side output --ratio 30 --out motor.xml
-  servoid export fit.json --to gains --speed-bandwidth 10";
+  servoid export fit.json --to gains --speed-bandwidth 10
+  servoid export fit.json --to vesc --pole-pairs 7";
 
 fn formats() -> PossibleValuesParser {
     let formats = FORMATS.iter();

@@ -25,10 +25,11 @@ pub use recordings::RecordingsArgs;
 pub use report::{PageArgs, ReportArgs};
 pub use simulate::{PlanArgs, SimulateArgs};
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, Args, Parser, Subcommand, ValueEnum};
 use servoid_engine::solve;
 use servoid_identify::diagnose::USUAL_STEPS;
+use servoid_io::input::PRESETS;
 use shared::effects::Kind;
 use std::path::PathBuf;
 
@@ -51,6 +52,7 @@ const EXAMPLES: &str = "Examples:
   servoid demo
   servoid demo --hide cogging
   servoid simulate --machine gearmotor --hide coulomb --out bench.csv
+  servoid open log.mcap
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
   servoid fit bench.csv --with coulomb --json fit.json
   servoid export fit.json --to wpilib
@@ -80,6 +82,8 @@ pub enum Verb {
     Demo(DemoArgs),
     /// The virtual bench makes recordings
     Simulate(SimulateArgs),
+    /// What a log of any usual format holds, and how to fit it
+    Open(OpenArgs),
     /// What recordings can be trusted for, before anything is fitted to them
     Check(CheckArgs),
     /// Fits the model to a recording
@@ -108,6 +112,12 @@ pub enum Verb {
     Prove(ProveArgs),
     /// Talks to the firmware: commissions a motor on its own controller, and checks what it found
     Device(DeviceArgs),
+    /// The effects that can be told: equation, sign, experiment, remedy, look-alikes
+    Effects {
+        /// One of them; a list of all if not given
+        #[arg(value_parser = effect_names())]
+        name: Option<String>,
+    },
     /// Prints a completion script for a shell
     Completions {
         /// The shell
@@ -145,12 +155,34 @@ pub struct MotorArgs {
     /// Travel per revolution, m, for an angle logged in metres
     #[arg(long, value_name = "M")]
     pub metres_per_rev: Option<f64>,
-    /// Name of a column: time, voltage (target with --drive position), angle, current or enabled, as in angle=qm
+    /// The program that wrote the log: columns, units and drive are as it writes them
+    #[arg(long, value_name = "NAME", value_parser = preset_names())]
+    pub preset: Option<String>,
+    /// Name of a column: time, voltage (target with --drive position), angle, current, enabled or direction (0 or negative:
+    /// backwards), as in angle=qm; of a table without names its number, of columns of several tables TABLE:COLUMN
     #[arg(long, value_name = "WHAT=NAME")]
     pub column: Vec<String>,
-    /// Unit of a column, as in angle=rad
+    /// Unit of a column, as in angle=rad, voltage=percent or angle=rpm for a speed; with a minus where the sign is the other one
     #[arg(long, value_name = "WHAT=UNIT")]
     pub unit: Vec<String>,
+    /// The table of the log: a topic, a variable, an episode
+    #[arg(long, value_name = "NAME")]
+    pub table: Option<String>,
+    /// The rows with a value in a column, as in joint=2; may be repeated
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub select: Vec<String>,
+    /// Samples a second, of a log without times
+    #[arg(long, value_name = "HZ")]
+    pub rate: Option<f64>,
+    /// Begin so long after the first sample, s
+    #[arg(long, value_name = "S")]
+    pub from: Option<f64>,
+    /// End so long after the first sample, s
+    #[arg(long, value_name = "S")]
+    pub to: Option<f64>,
+    /// Keep all this in motor.toml beside the recording, unless there is one
+    #[arg(long)]
+    pub write_motor: bool,
     /// What the command sets; position: a target angle, behind which the drive closes a loop
     #[arg(long, value_name = "voltage|current|position")]
     pub drive: Option<String>,
@@ -163,6 +195,11 @@ pub struct MotorArgs {
     /// Torque and back-EMF constant are the same number (SI, no iron losses)
     #[arg(long)]
     pub kt_equals_kb: bool,
+}
+
+fn preset_names() -> PossibleValuesParser {
+    let presets = PRESETS.iter();
+    PossibleValuesParser::new(presets.map(|p| PossibleValue::new(p.name).help(p.about)))
 }
 
 /// What the model is made of and what is minimised.
@@ -186,6 +223,16 @@ pub struct ModelArgs {
     /// Search range of an unknown, as in gain=10:100; may be repeated
     #[arg(long, value_name = "NAME=LOW:HIGH", allow_hyphen_values = true)]
     pub bounds: Vec<String>,
+}
+
+/// `servoid open`.
+#[derive(Debug, Args)]
+pub struct OpenArgs {
+    /// The log: a file of any format that is read, or a folder of LeRobot
+    pub log: PathBuf,
+    /// The motor.
+    #[command(flatten)]
+    pub motor: MotorArgs,
 }
 
 /// `servoid check`.

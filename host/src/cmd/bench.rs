@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::session::Session;
 use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, Source};
 use serde::Serialize;
-use servoid_io::output::is_same_file;
+use servoid_io::output::{is_same_file, write_csv};
 use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -111,10 +111,10 @@ fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
         }
         return saved(first);
     }
-    let fitted = loaded(args, args.fitted())?;
+    let fitted = loaded(session, args, args.fitted())?;
     let mut held_out: Option<Loaded> = None;
     for path in args.held_out() {
-        let other = loaded(args, std::slice::from_ref(path))?;
+        let other = loaded(session, args, std::slice::from_ref(path))?;
         if other.has_copy_of(&fitted) {
             session.remark(&format!(
                 "--validate {}: is fitted, too, which is no test: it is not held out",
@@ -156,16 +156,32 @@ fn text(path: &Path) -> Result<String, Error> {
         .map_err(|error| Error::Failed(format!("{}: cannot be read: {error}", path.display())))
 }
 
-fn loaded(args: &BenchArgs, paths: &[PathBuf]) -> Result<Loaded, Error> {
-    let source = |path: &PathBuf| -> Result<Source, Error> {
+fn loaded(session: &Session, args: &BenchArgs, paths: &[PathBuf]) -> Result<Loaded, Error> {
+    let mut sources = Vec::new();
+    for path in paths {
         // Read once as every verb does, for its messages.
-        let (_, motor) = motor::recording(&args.motor, path)?;
-        Ok(Source {
-            name: path.display().to_string(),
-            csv: text(path)?,
-            motor: motor.to_toml(),
-            span_s: None,
-        })
-    };
-    Loaded::read(paths.iter().map(source).collect::<Result<_, _>>()?)
+        let (recordings, motor) = motor::all_of(session, &args.motor, path)?;
+        if let ([_], Ok(csv)) = (&recordings[..], text(path)) {
+            sources.push(Source {
+                name: path.display().to_string(),
+                csv,
+                motor: motor.to_toml(),
+                span_s: None,
+            });
+            continue;
+        }
+        // The page reads text in UTF-8, and one recording a file.
+        for recording in &recordings {
+            let mut csv = Vec::new();
+            let written = write_csv(&mut csv, recording, &[]);
+            written.map_err(|error| Error::Failed(format!("{}: {error}", recording.source)))?;
+            sources.push(Source {
+                name: recording.source.clone(),
+                csv: String::from_utf8_lossy(&csv).into_owned(),
+                motor: motor.for_written(recording).to_toml(),
+                span_s: None,
+            });
+        }
+    }
+    Loaded::read(sources)
 }

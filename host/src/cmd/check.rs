@@ -13,12 +13,14 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
     let mut refused = Vec::new();
     for path in &args.recordings {
         motor::check_outputs(session, &[], &args.motor, path, None)?;
-        let (recording, _) = motor::recording(&args.motor, path)?;
-        let findings = examine(&recording);
-        if findings.iter().any(|f| f.severity == Severity::Refusal) {
-            refused.push(recording.source.clone());
+        let (all, _) = motor::all_of(session, &args.motor, path)?;
+        for recording in &all {
+            let findings = examine(recording);
+            if findings.iter().any(|f| f.severity == Severity::Refusal) {
+                refused.push(recording.source.clone());
+            }
+            recordings.push(Checked::new(recording, &findings));
         }
-        recordings.push(Checked::new(&recording, &findings));
     }
     let json = Check::new(recordings);
     session.deliver(&check::text(&json), &json)?;

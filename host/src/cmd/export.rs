@@ -14,6 +14,15 @@ use servoid_results::schema::{Identified, ResultError, ResultFault};
 /// Ratios of gears, generously.
 const RATIOS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
+/// Formats that take a period.
+const SAMPLED: &[&str] = &["c", "rust", "gains", "ros2-control", "odrive"];
+/// Formats with a current loop.
+const CURRENT: &[&str] = &["gains", "odrive", "vesc", "moteus"];
+/// Formats with a speed loop.
+const SPEED: &[&str] = &["gains", "ros2-control", "odrive"];
+/// Formats of drives of brushless motors.
+const DRIVES: &[&str] = &["odrive", "vesc", "moteus"];
+
 /// `servoid.export/1`.
 #[derive(Serialize)]
 struct ExportJson<'a> {
@@ -113,24 +122,27 @@ fn side(args: &ExportArgs) -> Result<Side, Error> {
 
 fn options(args: &ExportArgs) -> Result<Options, Error> {
     let gains = &args.gains;
-    let given = [
-        ("--current-bandwidth", gains.current_bandwidth.is_some()),
-        ("--speed-bandwidth", gains.speed_bandwidth.is_some()),
-        ("--method", gains.method.is_some()),
-        ("--loops", gains.loops.is_some()),
-    ];
-    if let Some((flag, _)) = given.iter().find(|(_, given)| *given && args.to != "gains") {
-        return Err(Error::Usage(format!(
-            "{flag}: is for --to gains, not for --to {}",
-            args.to
-        )));
-    }
-    let sampled = ["c", "rust", "gains"];
-    if args.sample.is_some() && !sampled.contains(&args.to.as_str()) {
-        return Err(Error::Usage(format!(
-            "--sample: is for --to c, rust and gains, not for --to {}",
-            args.to
-        )));
+    let drive = &args.drive;
+    for (flag, given, formats) in [
+        (
+            "--current-bandwidth",
+            gains.current_bandwidth.is_some(),
+            CURRENT,
+        ),
+        ("--speed-bandwidth", gains.speed_bandwidth.is_some(), SPEED),
+        ("--method", gains.method.is_some(), SPEED),
+        ("--loops", gains.loops.is_some(), &["gains"]),
+        ("--sample", args.sample.is_some(), SAMPLED),
+        ("--winding", drive.winding.is_some(), DRIVES),
+        ("--pole-pairs", drive.pole_pairs.is_some(), DRIVES),
+    ] {
+        if given && !formats.contains(&args.to.as_str()) {
+            return Err(Error::Usage(format!(
+                "{flag}: is for --to {}, not for --to {}",
+                formats.join(", "),
+                args.to
+            )));
+        }
     }
     Ok(Options {
         sample_s: positive("--sample", args.sample)?,
@@ -140,6 +152,8 @@ fn options(args: &ExportArgs) -> Result<Options, Error> {
             method: gains.method,
             loops: gains.loops,
         },
+        winding: drive.winding.unwrap_or_default(),
+        pole_pairs: drive.pole_pairs,
     })
 }
 

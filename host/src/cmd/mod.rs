@@ -8,12 +8,14 @@ mod completions;
 mod demo;
 mod device;
 mod diagnose;
+mod effects;
 mod export;
 mod fit;
 mod fleet;
 mod model;
 mod motor;
 mod motor_beside;
+mod open;
 mod paper;
 mod plan;
 mod progress;
@@ -36,6 +38,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Demo(args) => demo::run(&session, &args),
         Verb::Simulate(args) => simulate::run(&session, &args),
         Verb::Diagnose(args) => diagnose::run(&session, &args),
+        Verb::Open(args) => open::run(&session, &args),
         Verb::Check(args) => check::run(&session, &args),
         Verb::Fit(args) => fit::run(&session, &args),
         Verb::Export(args) => export::run(&session, &args),
@@ -49,6 +52,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Report(args) => report::run(&session, &args),
         Verb::Prove(args) => prove::run(&session, &args),
         Verb::Device(args) => device::run(&session, &args),
+        Verb::Effects { name } => effects::run(&session, name.as_deref()),
         Verb::Completions { shell } => completions::run(shell),
     }
 }

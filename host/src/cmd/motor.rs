@@ -3,7 +3,9 @@
 use crate::cli::{MotorArgs, RecordingsArgs};
 use crate::error::Error;
 use crate::session::Session;
-use servoid_io::input::{DriveKind, MotorFile, read_recording};
+use servoid_io::input::{
+    Columns, DriveKind, MotorFile, Part, Preset, read_recording, read_recordings,
+};
 use servoid_io::position_loop::LoopSettings;
 use servoid_io::recording::Recording;
 use std::path::{Path, PathBuf};
@@ -29,13 +31,14 @@ fn check_outputs_of(
     validate: &[&Path],
 ) -> Result<(), Error> {
     let motors: Vec<PathBuf> = fitted.iter().map(|path| motor_path(args, path)).collect();
+    let files = |paths: &[&Path]| -> Vec<PathBuf> {
+        paths.iter().map(|path| Part::of(path).path).collect()
+    };
+    let (fitted, validate) = (files(fitted), files(validate));
     let mut inputs: Vec<(&str, &Path)> = Vec::new();
-    inputs.extend(fitted.iter().map(|path| ("the recording", *path)));
-    inputs.extend(
-        validate
-            .iter()
-            .map(|path| ("the --validate recording", *path)),
-    );
+    inputs.extend(fitted.iter().map(|path| ("the recording", path.as_path())));
+    let held_out = validate.iter();
+    inputs.extend(held_out.map(|path| ("the --validate recording", path.as_path())));
     inputs.extend(motors.iter().map(|path| ("the motor file", path.as_path())));
     session.check_outputs(outputs, &inputs)
 }
@@ -65,15 +68,24 @@ pub(super) fn read(
     };
     check_outputs_of(session, outputs, args, &fitted, &held_out)?;
     let all = |paths: &[&Path]| -> Result<Vec<Recording>, Error> {
-        paths
-            .iter()
-            .map(|path| Ok(recording(args, path)?.0))
-            .collect()
+        let read = paths.iter().map(|path| Ok(all_of(session, args, path)?.0));
+        let read: Vec<Vec<Recording>> = read.collect::<Result<_, Error>>()?;
+        Ok(read.into_iter().flatten().collect())
     };
+    let (mut fitted, held_out) = (all(&fitted)?, all(&held_out)?);
+    // Parts of a file that are named to be held out are not among those of the whole file.
+    fitted.retain(|own| held_out.iter().all(|other| other.source != own.source));
+    let motor = motor_file(args, first)?;
+    if args.write_motor {
+        let beside = first.with_file_name("motor.toml");
+        session.remark(
+            super::motor_beside::write_motor(session, &beside, &motor)?.trim_start_matches("; "),
+        );
+    }
     Ok(Read {
-        fitted: all(&fitted)?,
-        held_out: all(&held_out)?,
-        motor: motor_file(args, first)?,
+        fitted,
+        held_out,
+        motor,
     })
 }
 
@@ -87,7 +99,16 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         Some(path) => MotorFile::read(path)?,
         None => MotorFile::find_beside(recording)?.unwrap_or_default(),
     };
-    let flags = from_flags(args, motor.drive_kind())?;
+    let preset = args.preset.as_deref().and_then(Preset::by_name);
+    let usual = preset.map_or(motor.drive_kind(), |preset| preset.drive);
+    let flags = from_flags(args, usual)?;
+    if preset.is_some() {
+        // The log is as the preset says, whatever other logs of this motor are.
+        motor.columns = Columns::default();
+        motor.units = flags.units;
+        motor.drive = flags.drive;
+        motor.position = flags.position;
+    }
     if flags.drive_kind() != motor.drive_kind() {
         // The file's command is another one.
         motor.columns.voltage = None;
@@ -103,20 +124,40 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         (flags.columns.angle, &mut motor.columns.angle),
         (flags.columns.current, &mut motor.columns.current),
         (flags.columns.enabled, &mut motor.columns.enabled),
+        (flags.columns.direction, &mut motor.columns.direction),
     ] {
         if flag.is_some() {
             *column = flag;
         }
     }
+    let (units, new) = (&mut motor.units, flags.units);
     for unit in &args.unit {
         match unit.split('=').next() {
-            Some("time") => motor.units.time = flags.units.time,
-            Some("voltage") => motor.units.voltage = flags.units.voltage,
-            Some("target") => motor.units.target = flags.units.target,
-            Some("angle") => motor.units.angle = flags.units.angle,
-            _ => motor.units.current = flags.units.current,
+            Some("time") => units.time = new.time,
+            Some("voltage") => {
+                units.voltage = new.voltage;
+                units.reversed.voltage = new.reversed.voltage;
+            }
+            Some("target") => units.target = new.target,
+            Some("angle") => {
+                units.angle = new.angle;
+                units.reversed.angle = new.reversed.angle;
+            }
+            _ => {
+                units.current = new.current;
+                units.reversed.current = new.reversed.current;
+            }
         }
     }
+    let (log, new) = (&mut motor.log, flags.log);
+    log.preset = new.preset.or(log.preset);
+    log.table = new.table.or(log.table.take());
+    if !new.select.is_empty() {
+        log.select = new.select;
+    }
+    log.rate_hz = new.rate_hz.or(log.rate_hz);
+    log.from_s = new.from_s.or(log.from_s);
+    log.to_s = new.to_s.or(log.to_s);
     motor.drive = flags.drive;
     motor.position =
         (flags.position).map(|settings| motor.position.unwrap_or_default().under(&settings));
@@ -138,12 +179,29 @@ fn motor_path(args: &MotorArgs, recording: &Path) -> PathBuf {
         .unwrap_or_else(|| recording.with_file_name("motor.toml"))
 }
 
-/// Reads a recording and checks that there is something to fit in it.
+/// Reads the only recording of a file and checks that there is something to fit in it.
 pub(super) fn recording(args: &MotorArgs, path: &Path) -> Result<(Recording, MotorFile), Error> {
     let motor = motor_file(args, path)?;
     let recording = read_recording(path, &motor)?;
     recording.check_excited()?;
     Ok((recording, motor))
+}
+
+/// Reads all recordings of a file, checks that there is something to fit in each, and says what their reader has to say.
+pub(super) fn all_of(
+    session: &Session,
+    args: &MotorArgs,
+    path: &Path,
+) -> Result<(Vec<Recording>, MotorFile), Error> {
+    let motor = motor_file(args, path)?;
+    let reading = read_recordings(path, &motor)?;
+    for note in &reading.notes {
+        session.remark(note);
+    }
+    for recording in &reading.recordings {
+        recording.check_excited()?;
+    }
+    Ok((reading.recordings, motor))
 }
 
 /// What the flags say, read as lines of a motor file: its reader has all the checks and suggestions. Each
@@ -183,11 +241,25 @@ fn lines(args: &MotorArgs) -> Result<Vec<Line>, Error> {
         ("--counts-per-rev", "counts_per_rev", args.counts_per_rev),
         ("--supply-v", "supply_v", args.supply),
         ("--metres-per-rev", "metres_per_rev", args.metres_per_rev),
+        ("--rate", "log.rate_hz", args.rate),
+        ("--from", "log.from_s", args.from),
+        ("--to", "log.to_s", args.to),
     ] {
         lines.extend(value.map(|value| Line {
             flag: format!("{flag} {value}"),
             key: key.to_owned(),
             value: value.into(),
+        }));
+    }
+    for (flag, key, text) in [
+        ("--preset", "log.preset", args.preset.clone()),
+        ("--table", "log.table", args.table.clone()),
+        ("--select", "log.select", joined(&args.select)),
+    ] {
+        lines.extend(text.map(|text| Line {
+            flag: format!("{flag} {text}"),
+            key: key.to_owned(),
+            value: text.into(),
         }));
     }
     for (section, flag, pairs) in [
@@ -216,6 +288,11 @@ fn lines(args: &MotorArgs) -> Result<Vec<Line>, Error> {
         });
     }
     Ok(lines)
+}
+
+/// Several values of one flag as one text, `None` of none.
+fn joined(values: &[String]) -> Option<String> {
+    (!values.is_empty()).then(|| values.join(","))
 }
 
 /// One `--loop`.

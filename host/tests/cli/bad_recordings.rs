@@ -230,7 +230,7 @@ fn a_duty_in_percent_is_refused() {
     desk.refused(
         "fit rec.csv --counts-per-rev 2000 --supply-v 12 --unit voltage=duty",
         1,
-        &["rec.csv:3:2", "percent", "divide it by 100"],
+        &["rec.csv:3:2", "percent", "--unit voltage=percent"],
     );
 }
 

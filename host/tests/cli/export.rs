@@ -84,6 +84,32 @@ fn numbers_come_out_as_they_went_in_and_the_output_s_behind_its_gear() {
 }
 
 #[test]
+fn what_the_winding_was_and_how_many_poles_it_has_is_the_user_s_to_say() {
+    let desk = fitted();
+    let set = |line: &str| {
+        desk.done(&format!("export known.json --to vesc {line}"))
+            .stdout
+    };
+    assert!(
+        set("").contains("(conf-set 'foc-motor-r 1150.0)"),
+        "{}",
+        set("")
+    );
+    let phase = set("--winding phase --pole-pairs 7 --current-bandwidth 100");
+    for line in [
+        "(conf-set 'foc-motor-r 2300.0)",
+        "(conf-set 'si-motor-poles 14)",
+    ] {
+        assert!(phase.contains(line), "{phase}");
+    }
+    assert!(
+        phase.contains("(conf-set 'foc-motor-flux-linkage 2.42"),
+        "{phase}"
+    );
+    assert!(!set("").contains("flux-linkage "), "{}", set(""));
+}
+
+#[test]
 fn a_diagnosis_can_be_exported_too() {
     let desk = Desk::new();
     desk.done("simulate --hide load_torque --excite steps --out rec.csv");
@@ -98,10 +124,18 @@ fn a_diagnosis_can_be_exported_too() {
 #[test]
 fn what_the_data_do_not_determine_is_refused_with_the_remedy_or_left_out() {
     let desk = fitted();
-    for format in ["mujoco", "urdf"] {
+    for format in ["mujoco", "urdf", "bam", "mjlab", "simscape"] {
         let line = format!("export volts.json --to {format} --out out.xml");
         desk.refused(&line, 1, &[format, "N*m", "--known resistance_ohm"]);
     }
+    for format in ["odrive", "vesc", "moteus"] {
+        let line = format!("export volts.json --to {format} --out out.txt");
+        desk.refused(&line, 1, &[format, "ohm", "--known resistance_ohm"]);
+        let line = format!("export known.json --to {format} --side output --ratio 30");
+        desk.refused(&line, 1, &[format, "--side output"]);
+    }
+    let ros = desk.done("export volts.json --to ros2-control").stdout;
+    assert!(ros.contains("update_rate: 1000\n"), "{ros}");
     let csv = desk.done("export volts.json --to csv").stdout;
     assert!(
         csv.contains("coulomb.torque,") && csv.contains(",V,"),
@@ -138,6 +172,14 @@ fn wrong_use_is_refused_by_the_flag_s_name() {
         ("--to c --sample -1", &["--sample -1", "positive"]),
         ("--to csv --sample 1e-3", &["--sample", "gains"]),
         ("--to c --method cancel", &["--method", "--to gains"]),
+        (
+            "--to ros2-control --loops cascade",
+            &["--loops", "--to gains"],
+        ),
+        ("--to csv --winding phase", &["--winding", "vesc"]),
+        ("--to c --pole-pairs 7", &["--pole-pairs", "odrive"]),
+        ("--to vesc --pole-pairs 0", &["--pole-pairs", "0"]),
+        ("--to vesc --winding delta", &["--winding", "line"]),
         (
             "--to gains --speed-bandwidth inf",
             &["--speed-bandwidth", "positive"],

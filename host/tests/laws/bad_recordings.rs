@@ -246,7 +246,7 @@ const BAD_FILES: &[(&str, &str, &str, &[&str])] = &[
         "t_s,duty,angle_counts\n0,1e308,0\n",
         "counts_per_rev = 4\nsupply_v = 24\n[units]\nvoltage = \"duty\"",
         "rec.csv:2:2: column `duty`: a duty of 1e308 is more than all of the supply",
-        &["divide it by 100"],
+        &["--unit voltage=percent"],
     ),
 ];
 

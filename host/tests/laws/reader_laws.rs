@@ -3,7 +3,8 @@
 
 use proptest::prelude::*;
 use servoid_io::input::{
-    AngleUnit, CommandUnit, CurrentUnit, Fact, Known, MotorFile, TimeUnit, Units,
+    AngleUnit, CommandUnit, CurrentUnit, Fact, Known, LogPart, MotorFile, Reversed, Selection,
+    TimeUnit, Units,
 };
 use servoid_io::input::{Columns, read_recording_from};
 use servoid_io::output::{write_csv, write_recording};
@@ -44,7 +45,7 @@ fn check_promises(recording: &Recording) {
 
 /// Reads with every kind of unit and checks what is accepted.
 fn read_every_way(bytes: &[u8]) {
-    for (_, angle) in AngleUnit::ALL {
+    for (_, angle) in AngleUnit::ALL.iter().chain(AngleUnit::SPEEDS) {
         for (_, voltage) in CommandUnit::ALL {
             let motor = MotorFile {
                 counts_per_rev: Some(2048.0),
@@ -59,6 +60,8 @@ fn read_every_way(bytes: &[u8]) {
             };
             read_one_way(bytes, &motor);
         }
+    }
+    for (_, angle) in AngleUnit::ALL {
         for gain in [None, Some(3.0)] {
             let motor = MotorFile {
                 counts_per_rev: Some(2048.0),
@@ -218,7 +221,8 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                 voltage: trimmed(voltage),
                 angle: trimmed(angle),
                 current: trimmed(current),
-                enabled: trimmed(enabled),
+                enabled: trimmed(enabled.clone()),
+                direction: trimmed(enabled.map(|name| format!("{name}_direction"))),
             }
         },
     );
@@ -238,10 +242,30 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
         positive(),
         positive(),
     );
-    let units = (0..3usize, 0..4usize, 0..5usize, 0..2usize, 0..6usize);
+    let units = (
+        0..TimeUnit::ALL.len(),
+        0..CommandUnit::ALL.len(),
+        0..AngleUnit::ALL.len() + AngleUnit::SPEEDS.len(),
+        0..2usize,
+        0..6usize,
+        any::<[bool; 3]>(),
+    );
+    let log = (
+        prop::option::of("[a-z/]{1,8}"),
+        prop::option::of(positive()),
+        prop::collection::vec(("[a-z]{1,5}", "[a-z0-9.]{1,5}"), 0..3),
+        prop::option::of((1e-3f64..1e3, 1e-3f64..1e3)),
+    );
     let position = prop::option::of((positive(), positive(), positive(), positive(), positive()));
-    (numbers, columns, units, position, known).prop_map(
-        |((name, counts, supply, metres), columns, (t, v, a, i, target), position, known)| {
+    (numbers, columns, units, position, known, log).prop_map(
+        |(
+            (name, counts, supply, metres),
+            columns,
+            (t, v, a, i, target, [turned_v, turned_a, turned_i]),
+            position,
+            known,
+            (table, rate_hz, select, span),
+        )| {
             let position = position.map(|(gain, damping, limit, dead, rate)| LoopSettings {
                 gain_v_per_rad: gain,
                 damping_v_s_per_rad: damping,
@@ -254,7 +278,15 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                 Some(_) => CommandUnit::default(),
             };
             let target = position.and(AngleUnit::ALL.get(target));
-            let bridge = matches!(voltage, CommandUnit::Volts | CommandUnit::Duty);
+            let bridge = !matches!(
+                voltage,
+                CommandUnit::Amperes | CommandUnit::Milliamperes | CommandUnit::NewtonMetres
+            );
+            // A position loop needs the angle itself.
+            let angles = match position {
+                None => [AngleUnit::ALL, AngleUnit::SPEEDS].concat(),
+                Some(_) => AngleUnit::ALL.to_vec(),
+            };
             MotorFile {
                 source: Some("motor.toml".into()),
                 name,
@@ -266,8 +298,22 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                     time: TimeUnit::ALL[t].1,
                     voltage,
                     target: target.map(|(_, unit)| *unit),
-                    angle: AngleUnit::ALL[a].1,
+                    angle: angles[a % angles.len()].1,
                     current: CurrentUnit::ALL[i].1,
+                    reversed: Reversed {
+                        voltage: turned_v && position.is_none(),
+                        angle: turned_a,
+                        current: turned_i,
+                    },
+                },
+                log: LogPart {
+                    table,
+                    rate_hz,
+                    select: (select.into_iter())
+                        .map(|(column, value)| Selection { column, value })
+                        .collect(),
+                    from_s: span.map(|(from, _)| from),
+                    to_s: span.map(|(from, length)| from + length),
                 },
                 drive: if bridge {
                     Drive::Voltage

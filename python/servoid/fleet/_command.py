@@ -9,12 +9,13 @@ import sys
 import tempfile
 import time
 import warnings
-from collections.abc import Sequence
-from typing import get_args
+from collections.abc import Callable, Sequence
+from typing import Any, get_args
 
 from .._batch import Done
 from .._servoid import Error, UsageError
 from ._engine import Name
+from ._proof import Proven, prove
 from ._run import run
 
 EXAMPLES = """examples:
@@ -25,12 +26,18 @@ EXAMPLES = """examples:
 exit codes: 0 done, 1 the work failed or was stopped, 2 usage, 130 stopped by a second Ctrl-C"""
 
 
-def _arguments() -> argparse.ArgumentParser:
-    def positive(text: str) -> int:
-        if not text.isdecimal() or int(text) < 1:
-            raise argparse.ArgumentTypeError(f"{text!r} is no number from 1")
-        return int(text)
+PROOFS = """examples:
+  python -m servoid.fleet prove cases --cases 100000 --engine ray --hidden one --seed 7
+  python -m servoid.fleet prove cover --cases 1000 --coverage --engine dask --address tcp://head:8786"""
 
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number from 1")
+    return int(text)
+
+
+def _arguments() -> argparse.ArgumentParser:
     def names(text: str) -> list[str]:
         return [name.strip() for name in text.split(",") if name.strip()]
 
@@ -45,29 +52,50 @@ def _arguments() -> argparse.ArgumentParser:
     ).add_argument
     add("input", metavar="INPUT", help="a folder with CSV recordings, or a Parquet file with one row a recording")
     add("out", metavar="OUT", help="folder of the results")
-    add("--engine", choices=get_args(Name), default="local", help="who runs the work (default: this process)")
-    add("--address", metavar="ADDRESS", help="a cluster of the engine; else it starts one on this machine")
-    add("--tasks", type=positive, metavar="N", help="shards of the batch; a few for each CPU if not said")
-    add("--workers", type=positive, metavar="N", help="recordings done at a time on this machine; one a core if not said")
+    _engine(add)
+    add("--tasks", type=_positive, metavar="N", help="shards of the batch; a few for each CPU if not said")
     add("--do", choices=["fit", "diagnose"], default="diagnose", help="what is done to each recording (default: diagnose)")
     add("--with", dest="effects", type=names, default=[], metavar="EFFECT,…", help="effects of a fit beside the linear motor")
     add("--algorithm", default="lm", metavar="NAME", help="search method of a fit (default: lm)")
     add("--cost", default="squared", metavar="NAME", help="what a fit minimises (default: squared)")
-    add("--evaluations", type=positive, default=20_000, metavar="N", help="model evaluations of a fit at most (default: 20000)")
-    add("--budget", type=positive, metavar="MILLIONS", help="steps of a model that a diagnosis takes at most, in millions")
+    add("--evaluations", type=_positive, default=20_000, metavar="N", help="model evaluations of a fit at most (default: 20000)")
+    add("--budget", type=_positive, metavar="MILLIONS", help="steps of a model that a diagnosis takes at most, in millions")
     add("--seed", type=int, default=1, metavar="N", help="seed of whatever is drawn (default: 1)")
     add("--force", action="store_true", help="use recordings that `servoid check` refuses")
     add("--retry", choices=["error"], help="do again what gave an error")
     add("--patience", type=float, default=120.0, metavar="S", help="how long a task waits for a shard that is busy (default: 120)")
     add("--table", metavar="FILE", help="all results of the folder as one Parquet file, ordered by recording")
     add("--json", metavar="FILE", help="the totals as JSON; - for stdout")
-    add("--quiet", action="store_true", help="no progress")
+    add = verbs.add_parser(
+        "prove",
+        help="diagnoses random motors with hidden physics, or tells the coverage of standard errors",
+        description="Runs `servoid prove` in parts of some cases each. Arguments that this does not know go to it.",
+        epilog=PROOFS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    ).add_argument
+    add("out", metavar="OUT", help="folder of the finished cases")
+    _engine(add)
+    add("--cases", type=_positive, default=100, metavar="N", help="number of cases (default: 100)")
+    add("--coverage", action="store_true", help="how often the standard errors of fits hold the truth")
+    add("--program", metavar="FILE", help="the program servoid, at the same path everywhere; else the one on the path")
+    add("--json", metavar="FILE", help="the joint result as JSON; - for stdout")
     return parser
+
+
+def _engine(add: Callable[..., Any]) -> None:
+    """What every verb takes of an engine."""
+    add("--engine", choices=get_args(Name), default="local", help="who runs the work (default: this process)")
+    add("--address", metavar="ADDRESS", help="a cluster of the engine; else it starts one on this machine")
+    add("--workers", type=_positive, metavar="N", help="tasks at a time on this machine; one a core if not said")
+    add("--quiet", action="store_true", help="no progress")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; returns its exit code."""
-    asked = _arguments().parse_args(arguments)
+    parser = _arguments()
+    asked, further = parser.parse_known_args(arguments)
+    if further and asked.verb != "prove":
+        parser.error(f"unrecognized arguments: {' '.join(further)}")
     for name in ("SIGTERM", "SIGHUP"):
         # `nohup` ignores SIGHUP, and so does this then.
         number = getattr(signal, name, None)
@@ -79,26 +107,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with warnings.catch_warnings(), contextlib.redirect_stdout(sys.stderr):
             warnings.showwarning = lambda message, *_: print(f"servoid.fleet: {message}", file=sys.stderr)
             warnings.simplefilter("always", UserWarning)
-            done = run(
-                asked.input,
-                asked.out,
-                engine=asked.engine,
-                tasks=asked.tasks,
-                address=asked.address,
-                workers=asked.workers,
-                patience=asked.patience,
-                progress=not asked.quiet,
-                do=asked.do,
-                effects=asked.effects,
-                algorithm=asked.algorithm,
-                cost=asked.cost,
-                evaluations=asked.evaluations,
-                budget=asked.budget,
-                seed=asked.seed,
-                force=asked.force,
-                retry_errors=asked.retry == "error",
-                table=asked.table,
-            )
+            if asked.verb == "prove":
+                proven = _proven(asked, further)
+                done = None
+            else:
+                done = _batched(asked)
+        if done is None:
+            _deliver_proof(asked, proven)
+            return 0
         _deliver(asked, done, time.monotonic() - started)
     except (Error, OSError) as error:
         print(f"servoid.fleet: {error}", file=sys.stderr)
@@ -110,6 +126,53 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("servoid.fleet: stopped by the user before the end; the same command goes on", file=sys.stderr)
         return 1
     return 0
+
+
+def _batched(asked: argparse.Namespace) -> Done:
+    return run(
+        asked.input,
+        asked.out,
+        engine=asked.engine,
+        tasks=asked.tasks,
+        address=asked.address,
+        workers=asked.workers,
+        patience=asked.patience,
+        progress=not asked.quiet,
+        do=asked.do,
+        effects=asked.effects,
+        algorithm=asked.algorithm,
+        cost=asked.cost,
+        evaluations=asked.evaluations,
+        budget=asked.budget,
+        seed=asked.seed,
+        force=asked.force,
+        retry_errors=asked.retry == "error",
+        table=asked.table,
+    )
+
+
+def _proven(asked: argparse.Namespace, further: Sequence[str]) -> Proven:
+    return prove(
+        asked.out,
+        [argument for argument in further if argument != "--"],
+        cases=asked.cases,
+        coverage=asked.coverage,
+        engine=asked.engine,
+        address=asked.address,
+        workers=asked.workers,
+        program=asked.program,
+        progress=not asked.quiet,
+    )
+
+
+def _deliver_proof(asked: argparse.Namespace, proven: Proven) -> None:
+    """Prints the table, and writes the result as JSON if asked for."""
+    if asked.json == "-":
+        print(proven.json, end="")
+        return
+    print(proven.text, end="")
+    if asked.json is not None:
+        _write_whole(asked.json, proven.json)
 
 
 def _deliver(asked: argparse.Namespace, done: Done, took: float) -> None:
@@ -139,8 +202,12 @@ def _deliver(asked: argparse.Namespace, done: Done, took: float) -> None:
     if asked.json == "-":
         print(text)
         return
-    handle, own = tempfile.mkstemp(dir=os.path.dirname(os.path.abspath(asked.json)), prefix=".fleet")
+    _write_whole(asked.json, text + "\n")
+
+
+def _write_whole(path: str, text: str) -> None:
+    handle, own = tempfile.mkstemp(dir=os.path.dirname(os.path.abspath(path)), prefix=".fleet")
     with os.fdopen(handle, "w", encoding="utf-8") as file:
-        file.write(text + "\n")
+        file.write(text)
     os.chmod(own, 0o644)
-    os.replace(own, asked.json)
+    os.replace(own, path)

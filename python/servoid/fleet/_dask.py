@@ -10,7 +10,7 @@ from multiprocessing import resource_tracker
 from typing import Any
 
 from ._engine import ENDING, lost, package, unexpected
-from ._task import Order, Outcome, shard
+from ._task import Outcome, Work
 
 #: Workers that may die at a task before Dask gives the task up. The scheduler sets it, so it counts for one that starts here.
 LOST = 100
@@ -41,9 +41,9 @@ class Dask:
             raise lost("dask", why) from why
         self.cpus = max(1, sum(self._client.nthreads().values()))
 
-    def outcomes(self, order: Order, shards: Sequence[str]) -> Iterator[Outcome]:
+    def outcomes(self, work: Work, shards: Sequence[str]) -> Iterator[Outcome]:
         for name in shards:
-            self._under_way[self._client.submit(shard, order, name, pure=False, retries=AGAIN)] = name
+            self._under_way[self._client.submit(work, name, pure=False, retries=AGAIN)] = name
         for one in self._distributed.as_completed(list(self._under_way)):
             yield self._take(one)
 

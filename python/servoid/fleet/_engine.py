@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Literal, Protocol
 
 from .._servoid import Error, UsageError
-from ._task import Order, Outcome
+from ._task import Outcome, Work
 
 Name = Literal["local", "ray", "dask"]
 
@@ -21,7 +21,7 @@ class Engine(Protocol):
 
     def __init__(self, address: str | None, workers: int | None) -> None: ...
 
-    def outcomes(self, order: Order, shards: Sequence[str]) -> Iterator[Outcome]:
+    def outcomes(self, work: Work, shards: Sequence[str]) -> Iterator[Outcome]:
         """Does the shards; says how each ended, as it ends."""
 
     def stop(self) -> Iterator[Outcome]:

@@ -8,12 +8,17 @@ import time
 class Progress:
     """The line."""
 
-    def __init__(self, shown: bool, total: int | None, shards: int | None) -> None:
-        self._shown = shown
+    def __init__(self, shown: bool, total: int | None, shards: int | None, things: str = "recordings") -> None:
+        self._shown, self._things = shown, things
         self._drawn = shown and sys.stderr.isatty()
         self._total, self._shards = total, shards
         self._started = time.monotonic()
         self._recordings = self._ended = 0
+
+    def over(self, shards: int) -> "Progress":
+        """The same, of so many shards."""
+        self._shards = shards
+        return self
 
     def __enter__(self) -> "Progress":
         self._draw()
@@ -34,7 +39,7 @@ class Progress:
     def _so_far(self) -> str:
         total = "" if self._total is None else f" of {self._total}"
         shards = "" if self._shards is None else f" in {self._ended} of {self._shards} shards"
-        return f"{self._recordings}{total} recordings{shards}"
+        return f"{self._recordings}{total} {self._things}{shards}"
 
     def _draw(self) -> None:
         if not self._drawn:

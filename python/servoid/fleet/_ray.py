@@ -10,7 +10,7 @@ from typing import Any
 
 from .._servoid import UsageError
 from ._engine import ENDING, lost, package, unexpected
-from ._task import Order, Outcome, shard
+from ._task import Outcome, Work
 
 #: Memory for results of tasks, bytes: they are a few numbers.
 STORE = 100_000_000
@@ -39,10 +39,10 @@ class Ray:
             raise UsageError("address: this process is connected to Ray already; leave the address out, or ray.shutdown() first")
         self.cpus = max(1, int(ray.cluster_resources().get("CPU", 1)))
 
-    def outcomes(self, order: Order, shards: Sequence[str]) -> Iterator[Outcome]:
-        task = self._ray.remote(num_cpus=1, max_retries=AGAIN)(shard)
+    def outcomes(self, work: Work, shards: Sequence[str]) -> Iterator[Outcome]:
+        task = self._ray.remote(num_cpus=1, max_retries=AGAIN)(_do)
         for name in shards:
-            self._under_way[task.options(name=f"servoid {name}").remote(order, name)] = name
+            self._under_way[task.options(name=f"servoid {name}").remote(work, name)] = name
         while self._under_way:
             ended, _ = self._ray.wait(list(self._under_way), num_returns=1)
             for one in ended:
@@ -70,6 +70,10 @@ class Ray:
     def close(self) -> None:
         if self._own:
             self._ray.shutdown()
+
+
+def _do(work: Work, name: str) -> Outcome:
+    return work(name)
 
 
 @contextlib.contextmanager

@@ -1,30 +1,50 @@
-"""A batch as the tasks of an engine."""
+"""Work as the tasks of an engine."""
 
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from .._batch import Done
 from .._servoid import Error, UsageError
 from ._census import census, usual_tasks
 from ._engine import Name, lost, named
 from ._progress import Progress
-from ._task import Order, Outcome
+from ._task import Order, Outcome, Work
 
 
 def spread(order: Order, engine: Name, tasks: int | None, address: str | None, workers: int | None, progress: bool) -> Done:
-    """Does every shard with an engine."""
+    """Does every shard of a batch with an engine."""
     total, groups = census(order.input)
     damaged = _damaged(order.out)
+
+    def shards(cpus: int) -> list[str]:
+        count = tasks or usual_tasks(cpus, total, groups)
+        return [f"{index}/{count}" for index in range(1, count + 1)]
+
+    done = spread_shards(order, shards, engine, address, workers, Progress(progress, total, None))
+    for path in sorted(_damaged(order.out) - damaged):
+        warnings.warn(f"{path}: this part of the results was damaged and is put aside; its recordings are done again", stacklevel=3)
+    return done
+
+
+def spread_shards(
+    work: Work,
+    shards_of: Callable[[int], Sequence[str]],
+    engine: Name,
+    address: str | None,
+    workers: int | None,
+    progress: Progress,
+) -> Done:
+    """Does the shards, of which there may be more the more CPUs the engine has."""
     held = named(engine)(address, workers)
     ended: list[Outcome] = []
     interrupted = False
     try:
-        count = tasks or usual_tasks(held.cpus, total, groups)
-        shards = [f"{index}/{count}" for index in range(1, count + 1)]
-        with Progress(progress, total, count) as shown:
+        shards = shards_of(held.cpus)
+        count = len(shards)
+        with progress.over(count) as shown:
             try:
-                for outcome in held.outcomes(order, shards):
+                for outcome in held.outcomes(work, shards):
                     ended.append(outcome)
                     shown.at(sum(_recordings(one) for one in ended), len(ended))
             except KeyboardInterrupt:
@@ -36,8 +56,6 @@ def spread(order: Order, engine: Name, tasks: int | None, address: str | None, w
                 raise lost(engine, why) from why
     finally:
         held.close()
-    for path in sorted(_damaged(order.out) - damaged):
-        warnings.warn(f"{path}: this part of the results was damaged and is put aside; its recordings are done again", stacklevel=3)
     # Ctrl-C ends tasks, too; those did not fail.
     failed = [one for one in ended if one.done is None and not (interrupted and one.cause == "engine")]
     if failed and interrupted:

@@ -1,4 +1,4 @@
-"""A task: one shard of the batch, in a process of an engine."""
+"""A task: one shard of the work, in a process of an engine."""
 
 import contextlib
 import os
@@ -6,7 +6,7 @@ import tempfile
 import time
 import uuid
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from .._batch import Done, batch
 from .._servoid import Error, __version__
@@ -15,16 +15,15 @@ from .._servoid import Error, __version__
 MARK = "fleet-id"
 
 
-@dataclass(frozen=True, slots=True)
-class Order:
-    """What every task is told."""
+class Work(Protocol):
+    """Work that is cut into shards. It goes to the processes of an engine, and does one shard at a time there."""
 
-    input: str
-    out: str
-    mark: str
-    version: str
-    patience: float
-    options: dict[str, Any]
+    @property
+    def out(self) -> str:
+        """Folder of the results."""
+
+    def __call__(self, name: str) -> "Outcome":
+        """Does a shard."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,13 +36,24 @@ class Outcome:
     message: str = ""
 
 
-def shard(order: Order, name: str) -> Outcome:
-    """Does a shard."""
-    try:
-        _check(order)
-        return Outcome(name, _patiently(order, name))
-    except Error as error:
-        return Outcome(name, None, error.cause, str(error))
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A batch: what every task of it is told."""
+
+    input: str
+    out: str
+    mark: str
+    version: str
+    patience: float
+    options: dict[str, Any]
+
+    def __call__(self, name: str) -> Outcome:
+        """Does a shard."""
+        try:
+            check_place(self.out, self.mark, self.version)
+            return Outcome(name, _patiently(self, name))
+        except Error as error:
+            return Outcome(name, None, error.cause, str(error))
 
 
 def mark(out: str) -> str:
@@ -62,18 +72,18 @@ def mark(out: str) -> str:
         return file.read()
 
 
-def _check(order: Order) -> None:
+def check_place(out: str, mark: str, version: str) -> None:
     """This machine must have the version and the folder of whoever started the run. Results of other versions have other names."""
     node = os.uname().nodename if hasattr(os, "uname") else "this machine"
-    if order.version != __version__:
-        raise Error(f"{node} has servoid {__version__}, whoever started the run {order.version}; install one version everywhere")
+    if version != __version__:
+        raise Error(f"{node} has servoid {__version__}, whoever started the run {version}; install one version everywhere")
     try:
-        with open(os.path.join(order.out, MARK), encoding="ascii") as file:
+        with open(os.path.join(out, MARK), encoding="ascii") as file:
             found = file.read()
     except OSError:
         found = ""
-    if found != order.mark:
-        raise Error(f"{order.out}: {node} sees another folder here, or none; results must be on storage that all machines share")
+    if found != mark:
+        raise Error(f"{out}: {node} sees another folder here, or none; results must be on storage that all machines share")
 
 
 def _patiently(order: Order, name: str) -> Done:

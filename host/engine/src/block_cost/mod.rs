@@ -125,13 +125,13 @@ impl<'a> BlockCost<'a> {
         let sum = match problem.cost {
             Cost::Absolute { model_floored } => {
                 if model_floored {
-                    run.of(Floored)?[0]
+                    run.of(Floored)[0]
                 } else {
-                    run.of(Plain)?[0]
+                    run.of(Plain)[0]
                 }
             }
             _ => {
-                let [squares, errors] = run.of(Squares)?;
+                let [squares, errors] = run.of(Squares);
                 match problem.start_angle {
                     StartAngle::Known => squares,
                     // About their mean: the best start.

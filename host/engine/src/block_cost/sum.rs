@@ -74,8 +74,8 @@ pub(super) struct Sum<'s> {
 }
 
 impl Sum<'_> {
-    /// The sums; `None` where there are no lanes.
-    pub(super) fn of<C: Summand>(&self, cost: C) -> Option<[f64; 2]> {
+    /// The sums.
+    pub(super) fn of<C: Summand>(&self, cost: C) -> [f64; 2] {
         work(Summing(self, cost))
     }
 }

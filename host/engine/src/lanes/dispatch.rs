@@ -1,6 +1,9 @@
 //! Work given to the widest vector instructions that the processor at hand has, found out when the program runs.
 
-use super::token::{self, Token};
+#[cfg(target_arch = "x86_64")]
+use super::token;
+use super::token::Token;
+use super::transpose::LANES;
 use core::marker::PhantomData;
 
 /// A computation in lanes.
@@ -12,28 +15,25 @@ pub trait Work {
     fn run<T: Token, const M: usize>(self) -> Self::Output;
 }
 
-/// Runs `work` with the widest registers that the processor has; `None` where it has none.
-#[cfg(target_arch = "x86_64")]
-pub fn work<W: Work>(work: W) -> Option<W::Output> {
-    use pulp::Simd;
-    use pulp::x86::{Arch, V3, V4};
-    match Arch::new() {
-        Arch::V4(v4) => {
-            token::V4.get_or_init(|| v4);
-            Some(Simd::vectorize(v4, On::<W, V4, 1>(work, PhantomData)))
+/// Runs `work` with the widest registers that the processor has. Every processor gives the same bits.
+pub fn work<W: Work>(work: W) -> W::Output {
+    use pulp::{Scalar, Simd};
+    #[cfg(target_arch = "x86_64")]
+    {
+        use pulp::x86::{Arch, V3, V4};
+        match Arch::new() {
+            Arch::V4(v4) => {
+                token::V4.get_or_init(|| v4);
+                return Simd::vectorize(v4, On::<W, V4, 1>(work, PhantomData));
+            }
+            Arch::V3(v3) => {
+                token::V3.get_or_init(|| v3);
+                return Simd::vectorize(v3, On::<W, V3, 2>(work, PhantomData));
+            }
+            _ => {}
         }
-        Arch::V3(v3) => {
-            token::V3.get_or_init(|| v3);
-            Some(Simd::vectorize(v3, On::<W, V3, 2>(work, PhantomData)))
-        }
-        _ => None,
     }
-}
-
-/// Runs `work` with the widest registers that the processor has; `None` where it has none.
-#[cfg(not(target_arch = "x86_64"))]
-pub fn work<W: Work>(_work: W) -> Option<W::Output> {
-    None
+    Simd::vectorize(Scalar::new(), On::<W, Scalar, LANES>(work, PhantomData))
 }
 
 /// Work with the processor fixed by its type.

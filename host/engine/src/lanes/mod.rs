@@ -1,8 +1,8 @@
 //! Several candidates in the lanes of vector registers: a number that holds one value for each of them, with which
 //! `shared`'s equations are computed as with any other number.
 //!
-//! Which instructions the processor has is found out when the program runs. Where it has none, candidates are computed
-//! one by one.
+//! Which instructions the processor has is found out when the program runs. Where it has no vectors, lanes are computed
+//! number by number, with the same bits.
 //!
 //! | file | holds |
 //! |---|---|

@@ -2,15 +2,23 @@
 
 use super::transpose::Transpose;
 use pulp::Simd;
+#[cfg(target_arch = "x86_64")]
 use std::sync::OnceLock;
 
-/// Vector instructions of a processor that has them.
+/// Instructions with which lanes are computed: vectors of a processor that has them, or those that every processor has.
 pub trait Token: Simd + Transpose {
     /// The proof that it has them.
     ///
     /// # Panics
     /// On a processor without them. It cannot happen: only [`work`](super::work) starts work in lanes, once it found them.
     fn witness() -> Self;
+}
+
+impl Token for pulp::Scalar {
+    #[inline(always)]
+    fn witness() -> Self {
+        pulp::Scalar::new()
+    }
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -92,7 +92,7 @@ fn project_out_start_speed(times: &[f64], time_constant: f64, errors: &mut [f64]
     let course = |time: &f64| {
         let time = time - from;
         if decays {
-            -(-time / time_constant).exp_m1()
+            -libm::expm1(-time / time_constant)
         } else {
             time / span
         }

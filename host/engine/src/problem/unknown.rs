@@ -120,7 +120,7 @@ impl Unknown {
         let (low, high) = self.range;
         let value = match self.scale {
             Scale::Linear => low + (high - low) * x,
-            Scale::Log => low * (high / low).powf(x),
+            Scale::Log => low * libm::pow(high / low, x),
         };
         if self.whole { value.round() } else { value }
     }
@@ -130,7 +130,7 @@ impl Unknown {
         let (low, high) = self.range;
         let x = match self.scale {
             Scale::Linear => (value - low) / (high - low),
-            Scale::Log => (value.max(low) / low).ln() / (high / low).ln(),
+            Scale::Log => libm::log(value.max(low) / low) / libm::log(high / low),
         };
         if x.is_finite() {
             x.clamp(0.0, 1.0)

@@ -150,7 +150,7 @@ impl Batch<'_> {
             subtract: Subtract::OfFirst,
             sink: &mut sink,
         };
-        work(run).flatten().is_some()
+        work(run).is_some()
     }
 
     /// Whether so many candidates are faster in lanes.
@@ -176,7 +176,7 @@ impl Batch<'_> {
             subtract: Subtract::Reading,
             sink: &mut sink,
         };
-        work(run).flatten()?;
+        work(run)?;
         Some(errors)
     }
 }

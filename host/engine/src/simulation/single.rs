@@ -182,7 +182,7 @@ impl<'a> Simulation<'a> {
             let steady = self.data.command[j] - kb * speed / volts;
             let interval = self.data.time_s[j + 1] - self.data.time_s[j];
             current +=
-                (steady - current) * -(-interval / electrical.max(f64::MIN_POSITIVE)).exp_m1();
+                (steady - current) * -libm::expm1(-interval / electrical.max(f64::MIN_POSITIVE));
         }
         current
     }

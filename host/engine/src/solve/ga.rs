@@ -134,7 +134,7 @@ fn blend(a: &[f64], b: &[f64], rng: &mut Generator) -> Vec<f64> {
 
 /// A step whose size is log-uniform between 2^-(1 + PRECISION_BITS) and one half.
 fn mutation(rng: &mut Generator) -> f64 {
-    let step = 0.5 * (-PRECISION_BITS * rng::uniform::<f64>(rng)).exp2();
+    let step = 0.5 * libm::exp2(-PRECISION_BITS * rng::uniform::<f64>(rng));
     if rng::uniform::<f64>(rng) < 0.5 {
         step
     } else {

@@ -39,7 +39,7 @@ pub(super) const PROBLEMS: [Problem; 6] = [
         least: 0.0,
         smooth: true,
         residuals: |x| {
-            let weight = |k: usize| 1e3f64.powf(k as f64 / (x.len() - 1) as f64);
+            let weight = |k: usize| libm::pow(1e3f64, k as f64 / (x.len() - 1) as f64);
             Some(shifted(x).enumerate().map(|(k, e)| e * weight(k)).collect())
         },
     },

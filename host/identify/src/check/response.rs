@@ -177,7 +177,14 @@ fn blocks(driven: &Driven<'_>, block: usize) -> Option<Blocks> {
         let command = driven.command[from..to].iter().sum::<f64>() / (to - from) as f64;
         let (now, angle) = (0.5 * (before + after), counts[middle] * radians);
         if (begin..end).all(closed) && (before != 0.0 || after != 0.0) {
-            rows.push([command, now, sign(now), 1.0, angle.sin(), angle.cos()]);
+            rows.push([
+                command,
+                now,
+                sign(now),
+                1.0,
+                libm::sin(angle),
+                libm::cos(angle),
+            ]);
             accelerations.push((after - before) / apart);
         }
         begin = middle;

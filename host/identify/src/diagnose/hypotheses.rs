@@ -35,9 +35,7 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     let per_parameter = if chosen.ran().fitted_at_floor() {
         // What remains is the reading's own error: the price is that of the Bayesian information criterion (Schwarz, "Estimating
         // the dimension of a model", 1978).
-        0.5 * (INDEPENDENT * named.context.data.counts.len() as f64)
-            .ln()
-            .max(1.0)
+        0.5 * libm::log(INDEPENDENT * named.context.data.counts.len() as f64).max(1.0)
     } else {
         PER_PARAMETER
     };
@@ -86,7 +84,7 @@ fn sorted(effects: &[Kind]) -> Vec<Kind> {
 fn weight(model: &FittedModel, chosen: &FittedModel, per_parameter: f64) -> f64 {
     let behind = (model.judged().score() - chosen.judged().score()).max(0.0);
     let (parameters, effects) = (model.freedom() as f64, model.effects.len() as f64);
-    (-behind / TEMPERATURE - per_parameter * parameters - PER_EFFECT * effects).exp()
+    libm::exp(-behind / TEMPERATURE - per_parameter * parameters - PER_EFFECT * effects)
 }
 
 /// Probability that the catalogue holds what is missing. Above the floor it grows with what the model takes away of the
@@ -105,7 +103,7 @@ fn in_catalogue(chosen: &FittedModel, base: &FittedModel) -> f64 {
 /// How much of an error is taken away, from 0 to 1 at the floor.
 fn taken_away(before: f64, after: f64, floor: f64) -> f64 {
     let part = 1.0 - after / before;
-    let of_the_way = (before / after).ln() / (before / floor).ln();
+    let of_the_way = libm::log(before / after) / libm::log(before / floor);
     let both = part.clamp(0.0, 1.0) * of_the_way.clamp(0.0, 1.0);
     // No number where there was no error before.
     if both.is_finite() { both.sqrt() } else { 0.0 }

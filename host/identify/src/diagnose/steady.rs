@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_bent_curve_is_unexplained() {
-        let saturated = |k: i32| (f64::from(k), (0.4 * f64::from(k)).tanh());
+        let saturated = |k: i32| (f64::from(k), libm::tanh(0.4 * f64::from(k)));
         let curve = SteadyCurve {
             source: "test".to_owned(),
             points: (-9..10).map(saturated).collect(),

@@ -47,7 +47,7 @@ struct Interval<const L: usize> {
 impl<const L: usize> Interval<L> {
     /// So many filter times long.
     fn new(parts: [f64; L]) -> Self {
-        let mut decay = [parts.map(|x| (-x).exp()); STAGES];
+        let mut decay = [parts.map(|x| libm::exp(-x)); STAGES];
         for k in 1..STAGES {
             decay[k] = from_fn(|l| decay[k - 1][l] * parts[l] / k as f64);
         }

@@ -41,9 +41,9 @@ impl Loop {
         // The denominator at s = jω: −a2·ω² + j·(a1·ω − a3·ω³).
         let real = -self.a2 * omega * omega;
         let imaginary = self.a1 * omega - self.a3 * omega.powi(3);
-        let angle = imaginary.atan2(real).to_degrees();
+        let angle = libm::atan2(imaginary, real).to_degrees();
         let lag = if angle < 0.0 { angle + 360.0 } else { angle };
-        (1.0 / real.hypot(imaginary), -lag)
+        (1.0 / libm::hypot(real, imaginary), -lag)
     }
 
     /// The margins. `None` where a coefficient is not positive, so that there is no loop to judge.
@@ -52,7 +52,7 @@ impl Loop {
             return None;
         }
         let gain_db = if self.a3 > 0.0 {
-            20.0 * (self.a1 * self.a2 / self.a3).log10()
+            20.0 * libm::log10(self.a1 * self.a2 / self.a3)
         } else {
             f64::INFINITY
         };

@@ -174,7 +174,7 @@ fn wave(
         return Vec::new();
     };
     let (cosine, sine) = (values[first], values[second]);
-    let amplitude = cosine.hypot(sine);
+    let amplitude = libm::hypot(cosine, sine);
     if amplitude == 0.0 {
         return Vec::new();
     }
@@ -195,7 +195,7 @@ fn wave(
     let phase = Parameter {
         // A phase of nothing is none.
         identifiable: phase_std.is_some_and(|std| std < 0.5),
-        ..Parameter::new(name("phase"), sine.atan2(cosine), "rad", phase_std)
+        ..Parameter::new(name("phase"), libm::atan2(sine, cosine), "rad", phase_std)
     };
     vec![
         (
@@ -230,7 +230,7 @@ fn to_newton_metres(parameter: &mut Parameter, volts_per_torque: Estimate) {
     let relative = volts_per_torque.std / volts_per_torque.value;
     parameter.std = parameter
         .std
-        .map(|std| (std / volts_per_torque.value).hypot(torque * relative));
+        .map(|std| libm::hypot(std / volts_per_torque.value, torque * relative));
     parameter.value = torque;
     parameter.unit = "N*m";
 }

@@ -92,7 +92,7 @@ struct Statement {
 }
 
 fn physical(u: &Vector) -> [f64; N] {
-    let (r, kt, total, m, lag, part) = (u[0].exp(), u[1].exp(), u[2], u[3], u[4], u[5]);
+    let (r, kt, total, m, lag, part) = (libm::exp(u[0]), libm::exp(u[1]), u[2], u[3], u[4], u[5]);
     [
         r,
         r * lag,
@@ -145,7 +145,12 @@ fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec
     // A fact may be zero (no inductance, no viscous friction): then the size of what it is compared
     // with counts.
     let size = |value: f64, k: usize| {
-        let (r, kt, total, lag) = (start[0].exp(), start[1].exp(), start[2].abs(), start[4]);
+        let (r, kt, total, lag) = (
+            libm::exp(start[0]),
+            libm::exp(start[1]),
+            start[2].abs(),
+            start[4],
+        );
         let usual = [r, r * lag, kt, total, value, total * kt / r][k].abs();
         if value == 0.0 {
             usual.max(f64::MIN_POSITIVE)
@@ -168,13 +173,13 @@ fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec
             let exact = CONSTANT * inertia.value;
             // m/R and b/R, with the coordinates that they are made of.
             statements.push(Statement {
-                model: Box::new(|u| u[3] / u[0].exp()),
+                model: Box::new(|u| u[3] / libm::exp(u[0])),
                 value: inertia.value,
                 std: inertia.std.max(exact),
             });
             let per_time = start[2].abs() / start[3].abs().max(f64::MIN_POSITIVE);
             statements.push(Statement {
-                model: Box::new(|u| u[5] * u[2] / u[0].exp()),
+                model: Box::new(|u| u[5] * u[2] / libm::exp(u[0])),
                 value: friction.value,
                 std: friction.std.max(exact * per_time),
             });
@@ -194,7 +199,7 @@ fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec
         statements.push(Statement {
             model: Box::new(|u| {
                 let p = physical(u);
-                (p[2] / p[3].max(f64::MIN_POSITIVE)).ln()
+                libm::log(p[2] / p[3].max(f64::MIN_POSITIVE))
             }),
             value: 0.0,
             std: CONSTANT,
@@ -220,8 +225,8 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         }));
     let kt = known.kt_n_m_a.map_or(total, |f| f.value);
     let start = Vector::from([
-        resistance.unwrap_or(1.0).max(1e-12).ln(),
-        kt.abs().max(1e-12).ln(),
+        libm::log(resistance.unwrap_or(1.0).max(1e-12)),
+        libm::log(kt.abs().max(1e-12)),
         total,
         machine.inertia,
         machine.electrical,
@@ -290,10 +295,10 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
         };
     }
     let facts = known.facts();
-    let volts_per_torque = estimate(&|u| (u[0] - u[1]).exp());
+    let volts_per_torque = estimate(&|u| libm::exp(u[0] - u[1]));
     // A product that is zero leans on nothing, and its error is still known in the units of its other factor only.
     let factor = |k: usize| match NAMES[k].0 {
-        "inductance" => estimate(&|u| u[0].exp()),
+        "inductance" => estimate(&|u| libm::exp(u[0])),
         "viscous" => volts_per_torque,
         _ => Some(Estimate {
             value: 1.0,

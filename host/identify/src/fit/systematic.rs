@@ -282,7 +282,7 @@ fn edges(data: &Data) -> Vec<Vec<f64>> {
     let wave = |period: f64, rms: f64, phase: f64| -> Vec<f64> {
         // The wave of two edges takes but two values.
         let peak = if period > 2.0 { 2f64.sqrt() * rms } else { rms };
-        let at = |count: &f64| peak * (TAU * count / period + phase).cos();
+        let at = |count: &f64| peak * libm::cos(TAU * count / period + phase);
         data.counts.iter().map(at).collect()
     };
     let turn = data.units.counts_per_rev;

@@ -275,7 +275,7 @@ fn not_below(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let powered = |power: f64| {
         let values = sum.eigenvalues.map(|value| {
             if value > ROUNDED * largest {
-                value.powf(power)
+                libm::pow(value, power)
             } else {
                 0.0
             }

@@ -140,7 +140,7 @@ pub fn fit_from(
         terms,
         readings,
         log_likelihood: -best.cost,
-        bic: 2.0 * best.cost + coordinates.len() as f64 * (readings as f64).ln(),
+        bic: 2.0 * best.cost + coordinates.len() as f64 * libm::log(readings as f64),
         converged: converged && errors.is_some(),
         whiteness: whiteness(&best),
         coordinates,
@@ -216,7 +216,7 @@ impl Maximum {
         let at = self.place(c)?;
         let errors = self.errors.as_ref()?;
         let error = errors.of(&self.weights(&[(at, 1.0)]));
-        let error = error.hypot(self.timing_error_s(c));
+        let error = libm::hypot(error, self.timing_error_s(c));
         let p = &self.parameters;
         let most = match c {
             Coordinate::Inertia | Coordinate::Damping => UNDETERMINED * c.get(p),
@@ -264,7 +264,10 @@ impl Maximum {
         let own = [Coordinate::Delay(recording), Coordinate::CommonDelay];
         weights.extend(own.iter().find_map(|&c| self.place(c)).map(|at| (at, 1.0)));
         let std = self.errors.as_ref()?.of(&self.weights(&weights));
-        let std = std.hypot(self.timing_errors_s.get(recording).copied().unwrap_or(0.0));
+        let std = libm::hypot(
+            std,
+            self.timing_errors_s.get(recording).copied().unwrap_or(0.0),
+        );
         let lag = delay + p.time_constant();
         (lag.is_finite() && std.is_finite()).then_some((lag, std))
     }
@@ -277,7 +280,7 @@ impl Maximum {
                 let precision: f64 = (self.timing_errors_s.iter())
                     .map(|error| error.powi(-2))
                     .sum();
-                precision.powf(-0.5)
+                libm::pow(precision, -0.5)
             }
             _ => 0.0,
         }

@@ -114,7 +114,7 @@ fn minus_log_likelihood(innovations: &Innovations) -> f64 {
         } else {
             2.0 * HUBER * square.sqrt() - HUBER * HUBER
         };
-        0.5 * (loss + (std::f64::consts::TAU * variance).ln())
+        0.5 * (loss + libm::log(std::f64::consts::TAU * variance))
     })
     .sum()
 }

@@ -193,14 +193,14 @@ impl Scale {
     pub(super) fn moved(&self, c: Coordinate, p: &mut Parameters, units: f64) -> f64 {
         let was = c.get(p);
         let wanted = if c.is_logarithmic() {
-            was * (units * self.unit).exp()
+            was * libm::exp(units * self.unit)
         } else {
             was + units * self.unit
         };
         let is = wanted.clamp(self.least, self.most);
         c.set(p, is);
         if c.is_logarithmic() {
-            (is / was).ln() / self.unit
+            libm::log(is / was) / self.unit
         } else {
             (is - was) / self.unit
         }

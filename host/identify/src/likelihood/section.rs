@@ -220,7 +220,7 @@ fn is_separable(observed: &[Observed], usual: &Maximum, checked: Option<&Maximum
     let small = own <= SMALL * lag;
     let apart = edges || small && !(correlated(usual) || checked.is_some_and(correlated));
     let steady = checked.map(delay).is_none_or(|(other, other_error)| {
-        let both = error.hypot(other_error.unwrap_or(lag));
+        let both = libm::hypot(error, other_error.unwrap_or(lag));
         (own - other).abs() <= (UNSTEADY * lag).max(2.0 * both)
     });
     apart && steady && error < UNKNOWN * lag
@@ -262,7 +262,7 @@ fn disagreements(found: &Likelihood, free: &Fit) -> Vec<Disagreement> {
     let gain = relative("gain");
     let inertia = gain
         .zip(relative("a1"))
-        .map(|(g, a1)| (machine.inertia, machine.inertia * g.hypot(a1)));
+        .map(|(g, a1)| (machine.inertia, machine.inertia * libm::hypot(g, a1)));
     [
         ("inertia", found.inertia, inertia),
         (

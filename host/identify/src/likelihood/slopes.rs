@@ -130,6 +130,6 @@ fn slope(
     let pairs = || above.each().zip(below.each());
     Some(Slope {
         error: pairs().map(|(a, b)| (a.0 - b.0) / width).collect(),
-        log_variance: pairs().map(|(a, b)| (a.1 / b.1).ln() / width).collect(),
+        log_variance: pairs().map(|(a, b)| libm::log(a.1 / b.1) / width).collect(),
     })
 }

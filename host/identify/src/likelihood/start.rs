@@ -90,8 +90,8 @@ fn windows(observed: &Observed) -> Vec<Window> {
                 speed: after - before,
                 angle,
                 sign: angle.signum(),
-                sine: middle.sin() * elapsed,
-                cosine: middle.cos() * elapsed,
+                sine: libm::sin(middle) * elapsed,
+                cosine: libm::cos(middle) * elapsed,
             })
         })
         .collect()

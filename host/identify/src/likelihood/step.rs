@@ -90,7 +90,7 @@ impl Stepper {
         let (pull, slope) = match self.gravity {
             None => (0.0, 0.0),
             Some([sine, cosine]) => {
-                let (s, c) = (state.angle + 0.5 * length.seconds * state.speed).sin_cos();
+                let (s, c) = libm::sincos(state.angle + 0.5 * length.seconds * state.speed);
                 (sine * s + cosine * c, sine * c - cosine * s)
             }
         };
@@ -160,7 +160,7 @@ impl Stepper {
         let logarithm = if ratio < 1e-9 {
             1.0
         } else {
-            ratio.ln_1p() / ratio
+            libm::log1p(ratio) / ratio
         };
         let stop = (-speed / push * logarithm).clamp(0.0, seconds);
         let before = Decay::new(stop, rate);

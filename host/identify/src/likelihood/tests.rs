@@ -72,7 +72,7 @@ impl Motor {
         let parts = (SAMPLE_S / FINE_S).round() as usize;
         let late = (self.delay / FINE_S).round() as usize;
         let (mut angle, mut speed) = (0.37 * TAU / COUNTS_PER_REV, 0.0f64);
-        let decay = (-FINE_S * self.damping / self.inertia).exp();
+        let decay = libm::exp(-FINE_S * self.damping / self.inertia);
         let mut counts = Vec::with_capacity(samples);
         for k in 0..samples {
             counts.push((angle * COUNTS_PER_REV / TAU).floor());
@@ -84,7 +84,8 @@ impl Motor {
                     0.0
                 };
                 // Box and Muller's normal number.
-                let normal = (-2.0 * uniform().max(1e-300).ln()).sqrt() * (TAU * uniform()).cos();
+                let normal =
+                    (-2.0 * libm::log(uniform().max(1e-300))).sqrt() * libm::cos(TAU * uniform());
                 let drive = volts + self.offset + self.noise * normal / FINE_S.sqrt();
                 let friction = if speed != 0.0 {
                     self.coulomb * speed.signum()
@@ -203,7 +204,7 @@ fn intervals_cover_the_truth_under_torque_noise_and_free_runs_err_several_times_
             likelihood[k].push(values(&found)[k] - truth);
             windows[k].push(by_windows[k] - truth);
         }
-        noise.push((found.parameters.process_noise / motor.noise).ln());
+        noise.push(libm::log(found.parameters.process_noise / motor.noise));
     }
     println!("seeds 101 to {}: covered {covered:?}", 100 + SEEDS);
     for k in 0..5 {

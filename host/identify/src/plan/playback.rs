@@ -44,7 +44,7 @@ pub fn play(
         substeps: method.substeps,
     })?;
     let machine = candidate.machine;
-    let reached = 1.0 - (-setup.sample_s / machine.electrical.max(f64::MIN_POSITIVE)).exp();
+    let reached = 1.0 - libm::exp(-setup.sample_s / machine.electrical.max(f64::MIN_POSITIVE));
     let mut state = State::at(start_counts, 0.0);
     for command in drive {
         let current = state.motion.current * units.volts;

@@ -45,7 +45,18 @@ pub(super) fn switch(text: &str) -> Result<bool, ReadFault> {
 fn remedy(text: &str) -> &'static str {
     if text.contains(',') && text.replace(',', ".").parse::<f64>().is_ok() {
         "write a point for the decimal comma"
+    } else if has_thousands_marks(text) {
+        "write it without marks between the thousands"
     } else {
         "write a plain number such as 0.25 or 1e-3, without a unit"
     }
+}
+
+/// `1,234.5`, `1.234,5` or `1 234`.
+fn has_thousands_marks(text: &str) -> bool {
+    let bare: String = text
+        .chars()
+        .filter(|c| !",.' \u{a0}\u{202f}".contains(*c))
+        .collect();
+    bare.len() < text.len() && bare.parse::<f64>().is_ok()
 }

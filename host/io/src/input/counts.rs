@@ -41,15 +41,29 @@ pub(super) fn snap_to_whole(counts: &mut [f64]) -> Option<f64> {
     Some(fraction)
 }
 
+/// Rounds steps that are whole counts, as near as an angle must be to be taken for whole; false where they are not whole, and are
+/// left as they are.
+pub(super) fn whole_steps(steps: &mut [f64]) -> bool {
+    let off = |step: &f64| (step - step.round()).abs() > SNAP_COUNTS;
+    let moved = steps.iter().any(|step| step.round() != 0.0);
+    if !moved || steps.len() < SNAP_SAMPLES || steps.iter().any(off) {
+        return false;
+    }
+    for step in steps {
+        *step = step.round() + 0.0;
+    }
+    true
+}
+
 /// Circular mean of the fractions, −0.5 … 0.5 counts.
 fn common_fraction(counts: &[f64]) -> f64 {
     let (mut sine, mut cosine) = (0.0, 0.0);
     for x in counts {
-        let (s, c) = (TAU * x.fract()).sin_cos();
+        let (s, c) = libm::sincos(TAU * x.fract());
         sine += s;
         cosine += c;
     }
-    sine.atan2(cosine) / TAU
+    libm::atan2(sine, cosine) / TAU
 }
 
 #[cfg(test)]

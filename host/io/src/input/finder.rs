@@ -3,6 +3,8 @@
 use super::layout::Column;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
+use super::shown::shown;
+use super::suggest::did_you_mean;
 
 /// What to look for.
 pub(super) struct Wanted<'m> {
@@ -18,7 +20,7 @@ pub(super) struct Wanted<'m> {
 pub(super) struct Finder<'h> {
     pub(super) header: &'h [String],
     pub(super) source: &'h str,
-    pub(super) line: u64,
+    pub(super) line: Option<u64>,
 }
 
 impl Finder<'_> {
@@ -44,13 +46,38 @@ impl Finder<'_> {
                 name: self.header[index].clone(),
             };
             if found.len() > 1 {
-                let place = Place::cell(self.source, self.line, &cell);
+                let place = Place {
+                    line: self.line,
+                    ..Place::cell(self.source, 0, &cell)
+                };
                 let fault = ReadFault::RepeatedColumn { times: found.len() };
                 return Err(ReadError::new(place, fault));
             }
             return Ok(Some(Column { index, cell }));
         }
         Ok(None)
+    }
+
+    /// The column of this name.
+    ///
+    /// # Errors
+    /// The header has it not, or more than once.
+    pub(super) fn named(&self, name: &str) -> Result<Column, ReadError> {
+        let wanted = Wanted {
+            key: "select",
+            mapped: Some(name),
+            names: &[],
+        };
+        self.find(&wanted)?.ok_or_else(|| {
+            let names: Vec<&str> = self.header.iter().map(String::as_str).collect();
+            let hint = did_you_mean(name, &names);
+            let name = shown(name);
+            let place = Place {
+                line: self.line,
+                ..Place::file(self.source)
+            };
+            ReadError::new(place, ReadFault::NoSelectColumn { name, hint })
+        })
     }
 
     fn matches(&self, test: impl Fn(&str) -> bool) -> Vec<usize> {

@@ -236,6 +236,39 @@ pub fn guess(
     found
 }
 
+/// Units of a speed that names end with, longest first.
+const SPEED_UNITS: &[(&str, &str)] = &[
+    ("counts_per_sample", "counts/sample"),
+    ("counts_s", "counts/s"),
+    ("rad_s", "rad/s"),
+    ("rads", "rad/s"),
+    ("deg_s", "deg/s"),
+    ("dps", "deg/s"),
+    ("rev_s", "rev/s"),
+    ("rps", "rev/s"),
+    ("rpm", "rpm"),
+];
+/// What speeds are called, the likeliest first.
+const SPEED_WORDS: &[&str] = &[
+    "speed", "velocity", "omega", "vel", "rpm", "dtheta", "dq", "qd", "w",
+];
+
+/// The column that may hold a speed, where a log has no angle; its unit is radians a second if the name tells none.
+pub fn speed(header: &[String], taken: &[&str]) -> Option<Guess> {
+    let free = || header.iter().filter(|name| !taken.contains(&name.as_str()));
+    let own = |name: &&String| !parts(name).any(|part| WANTED.contains(&part.as_str()));
+    let called = SPEED_WORDS
+        .iter()
+        .find_map(|word| free().filter(own).find(|name| is_called(name, word)))?;
+    let plain: Vec<String> = parts(called).collect();
+    let plain = plain.join("_");
+    let told = SPEED_UNITS.iter().find(|(end, _)| plain.ends_with(end));
+    Some(Guess {
+        column: called.clone(),
+        unit: Some(told.map_or("rad/s", |(_, unit)| unit)),
+    })
+}
+
 fn quantity(key: &str, kind: DriveKind) -> Option<&'static Quantity> {
     match (key, kind) {
         ("voltage", DriveKind::Current) => Some(&COMMANDED_CURRENT),

@@ -2,10 +2,12 @@
 
 use super::finder::{Finder, Wanted};
 use super::guess::{Sought, guess};
+use super::log_part::Selection;
 use super::missing::MissingColumn;
 use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
+use super::preset::Preset;
 use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
 use super::shown::shown;
@@ -14,11 +16,15 @@ use super::shown::shown;
 pub(super) struct Layout {
     /// Cells in every row.
     pub(super) width: usize,
-    pub(super) time: Column,
+    /// None where the rate of the samples is told in place of their times.
+    pub(super) time: Option<Column>,
     pub(super) command: Column,
     pub(super) angle: Column,
     pub(super) current: Option<Column>,
     pub(super) enabled: Option<Column>,
+    pub(super) direction: Option<Column>,
+    /// The columns by which rows are selected, each with the value.
+    pub(super) select: Vec<(Column, Selection)>,
 }
 
 /// One column: its index from zero and its cell for messages.
@@ -28,18 +34,22 @@ pub(super) struct Column {
 }
 
 impl Layout {
-    /// Finds every column in the header, which is the row just split.
+    /// Finds every column among the names of the table at `line`.
     ///
     /// # Errors
     /// A header of numbers, columns that are missing (all in one message), or a name that stands twice.
     pub(super) fn find(
-        row: &Row,
+        header: Vec<String>,
         source: &str,
-        line: u64,
+        line: Option<u64>,
         motor: &MotorFile,
     ) -> Result<Self, ReadError> {
-        let at = |fault| ReadError::new(Place::line(source, line), fault);
-        let header = header_names(row).map_err(at)?;
+        let place = Place {
+            line,
+            ..Place::file(source)
+        };
+        let at = |fault| ReadError::new(place.clone(), fault);
+        let width = header.len();
         let finder = Finder {
             header: &header,
             source,
@@ -50,8 +60,8 @@ impl Layout {
         for column in &wanted {
             found.push(finder.find(column)?);
         }
-        let is_missing =
-            |k: usize| found[k].is_none() && (k < REQUIRED || wanted[k].mapped.is_some());
+        let needed = |k: usize| k < REQUIRED && !(k == 0 && motor.log.rate_hz.is_some());
+        let is_missing = |k: usize| found[k].is_none() && (needed(k) || wanted[k].mapped.is_some());
         let absent: Vec<usize> = (0..wanted.len()).filter(|k| is_missing(*k)).collect();
         let taken: Vec<String> = found
             .iter()
@@ -74,20 +84,32 @@ impl Layout {
                 near,
             })
             .collect();
-        let found: Result<[Option<Column>; 5], _> = found.try_into();
+        let mut select = Vec::new();
+        for selection in &motor.log.select {
+            let column = finder.named(&selection.column)?;
+            select.push((column, selection.clone()));
+        }
+        let found: Result<[Option<Column>; 6], _> = found.try_into();
         match found {
-            Ok([Some(time), Some(command), Some(angle), current, enabled])
-                if missing.is_empty() =>
-            {
-                Ok(Layout {
-                    width: row.len(),
+            Ok(
+                [
                     time,
-                    command,
-                    angle,
+                    Some(command),
+                    Some(angle),
                     current,
                     enabled,
-                })
-            }
+                    direction,
+                ],
+            ) if missing.is_empty() => Ok(Layout {
+                width,
+                time,
+                command,
+                angle,
+                current,
+                enabled,
+                direction,
+                select,
+            }),
             _ => {
                 let motor = motor.called().into();
                 Err(at(ReadFault::MissingColumns {
@@ -103,43 +125,55 @@ impl Layout {
 /// How many of the columns wanted, the first ones, must be there.
 const REQUIRED: usize = 3;
 
-/// Time, command, angle, current, enabled.
-fn wanted(motor: &MotorFile) -> [Wanted<'_>; 5] {
-    let (columns, units) = (&motor.columns, &motor.units);
+/// Time, command, angle, current, enabled, direction: under the user's names, the preset's, or the contract's.
+fn wanted(motor: &MotorFile) -> [Wanted<'_>; 6] {
+    let (columns, units, preset) = (&motor.columns, &motor.units, motor.log.preset);
+    let names = |of: fn(&'static Preset) -> &'static [&'static str], usual| {
+        preset
+            .map(of)
+            .filter(|names| !names.is_empty())
+            .unwrap_or(usual)
+    };
+    let command = match motor.drive_kind() {
+        DriveKind::Position => units.of_target().target_names(),
+        _ => units.voltage.default_names(),
+    };
     [
         Wanted {
             key: "time",
             mapped: columns.time.as_deref(),
-            names: units.time.default_names(),
+            names: names(|preset| preset.time.names, units.time.default_names()),
         },
         Wanted {
             key: motor.drive_kind().command_key(),
             mapped: columns.voltage.as_deref(),
-            names: match motor.drive_kind() {
-                DriveKind::Position => units.of_target().target_names(),
-                _ => units.voltage.default_names(),
-            },
+            names: names(|preset| preset.command.names, command),
         },
         Wanted {
             key: "angle",
             mapped: columns.angle.as_deref(),
-            names: units.angle.default_names(),
+            names: names(|preset| preset.angle.names, units.angle.default_names()),
         },
         Wanted {
             key: "current",
             mapped: columns.current.as_deref(),
-            names: units.current.default_names(),
+            names: names(|preset| preset.current.names, units.current.default_names()),
         },
         Wanted {
             key: "enabled",
             mapped: columns.enabled.as_deref(),
-            names: &["enabled"],
+            names: names(|preset| preset.enabled, &["enabled"]),
+        },
+        Wanted {
+            key: "direction",
+            mapped: columns.direction.as_deref(),
+            names: &[],
         },
     ]
 }
 
-/// The names of the header, refused where they are numbers or no text.
-fn header_names(row: &Row) -> Result<Vec<String>, ReadFault> {
+/// The names in a row, refused where they are numbers or no text.
+pub(super) fn header_names(row: &Row) -> Result<Vec<String>, ReadFault> {
     let mut names = Vec::with_capacity(row.len());
     for index in 0..row.len() {
         names.push(row.cell(index)?.to_string());

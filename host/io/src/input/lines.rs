@@ -14,6 +14,7 @@ pub(super) struct Lines<'s, R> {
     source: &'s str,
     number: u64,
     line: Vec<u8>,
+    ended: bool,
 }
 
 impl<'s, R: BufRead> Lines<'s, R> {
@@ -23,6 +24,7 @@ impl<'s, R: BufRead> Lines<'s, R> {
             source,
             number: 0,
             line: Vec::new(),
+            ended: true,
         }
     }
 
@@ -40,6 +42,11 @@ impl<'s, R: BufRead> Lines<'s, R> {
     /// The line read last, without its end.
     pub(super) fn bytes(&self) -> &[u8] {
         &self.line
+    }
+
+    /// Whether the line read last has an end: the last line of a file that was cut short has none.
+    pub(super) fn ended(&self) -> bool {
+        self.ended
     }
 
     /// Number of the line read last, from one.
@@ -72,7 +79,8 @@ impl<'s, R: BufRead> Lines<'s, R> {
 
     /// Removes the line's end and the byte order mark that Windows programs put first.
     fn strip(&mut self) -> Result<(), ReadError> {
-        if self.line.last() == Some(&b'\n') {
+        self.ended = self.line.last() == Some(&b'\n');
+        if self.ended {
             self.line.pop();
         }
         while self.line.last() == Some(&b'\r') {

@@ -75,7 +75,7 @@ pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: 
 }
 
 /// A word of a command line, quoted where a shell would take it apart.
-fn for_shell(word: &str) -> String {
+pub fn for_shell(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-=./".contains(c);
     if word.chars().all(plain) {
         return word.to_owned();

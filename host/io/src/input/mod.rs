@@ -1,18 +1,28 @@
 //! Readers of foreign data. Nothing here trusts its input: what is wrong is refused with its place and
 //! the remedy, and what is accepted keeps the promises of [`Recording`](crate::recording::Recording).
 //!
-//! `recording.csv → lines → row → layout (which column is what) → cells → counts → Recording`, with the
-//! facts of `motor.toml` beside it. Columns that are in memory already go the same way from their numbers on (`arrays`).
+//! `recording.csv → dialect → lines → row → layout (which column is what) → cells → counts → Recording`, with the
+//! facts of `motor.toml` beside it. Columns that are in memory already go the same way from their numbers on (`arrays`), and so
+//! do the tables of logs in other formats (`log_file`).
 
 mod arrays;
 mod cell;
+mod clock;
+mod collector;
 mod counts;
 mod csv_file;
+mod dialect;
 mod excitation;
 mod finder;
 mod guess;
+mod keyed;
 mod layout;
 mod lines;
+#[cfg(feature = "formats")]
+mod log_file;
+mod log_part;
+#[cfg(feature = "formats")]
+mod log_table;
 mod missing;
 mod motor_drive;
 mod motor_error;
@@ -20,30 +30,42 @@ mod motor_file;
 mod motor_parse;
 mod motor_units;
 mod motor_write;
+mod open;
+mod part;
 mod place;
+mod preset;
 mod preview;
 mod read_error;
+mod reading;
 mod row;
 mod sample;
 mod samples;
 mod scale;
 mod section;
 mod shown;
+mod speed;
 mod spike;
 mod steady_curve;
 pub mod suggest;
+mod survey;
 
 pub use arrays::{Arrays, recording_of};
-pub use csv_file::{MAX_ROWS, read_recording, read_recording_from};
+pub use csv_file::{MAX_ROWS, read_recording_from};
 pub use excitation::MIN_TRAVEL_COUNTS;
-pub use guess::{Guess, Sought, guess};
+pub use guess::{Guess, Sought, guess, speed};
 pub use lines::MAX_LINE_BYTES;
-pub use missing::MissingColumn;
+pub use log_part::{LogPart, Selection};
+pub use missing::{MissingColumn, for_shell};
 pub use motor_drive::DriveKind;
 pub use motor_error::{MotorFault, MotorFileError};
 pub use motor_file::{Columns, Fact, Known, MAX_FILE_BYTES, MotorFile};
-pub use motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
+pub use motor_units::{AngleUnit, CommandUnit, CurrentUnit, Reversed, SpeedUnit, TimeUnit, Units};
+pub use open::{read_recording, read_recordings};
+pub use part::Part;
 pub use place::{Cell, Place};
+pub use preset::{PRESETS, Preset};
 pub use preview::{Preview, preview};
 pub use read_error::{ReadError, ReadFault};
+pub use reading::Reading;
 pub use steady_curve::{CurveError, SteadyCurve};
+pub use survey::{Survey, SurveyColumn, SurveyTable, survey};

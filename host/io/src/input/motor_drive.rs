@@ -52,7 +52,7 @@ impl DriveKind {
     }
 
     /// The command's key under `[columns]` and `[units]`.
-    pub(super) fn command_key(self) -> &'static str {
+    pub fn command_key(self) -> &'static str {
         match self {
             DriveKind::Position => "target",
             _ => "voltage",
@@ -96,12 +96,13 @@ impl MotorFile {
     }
 }
 
-/// The kind, and with a position drive what is said of its loop.
+/// The kind, the `usual` one if not said, and with a position drive what is said of its loop.
 pub(super) fn drive(
     mut section: Section<'_>,
+    usual: DriveKind,
 ) -> Result<(DriveKind, Option<LoopSettings>), MotorFileError> {
     let kind = section.word("kind", DriveKind::ALL)?;
-    let kind = kind.map_or(DriveKind::Voltage, |found| found.value);
+    let kind = kind.map_or(usual, |found| found.value);
     let mut first = None;
     let mut number = |key: &'static str| -> Result<Option<f64>, MotorFileError> {
         let Some(Found { value, span }) = section.positive(key)? else {

@@ -135,6 +135,26 @@ pub enum MotorFault {
         /// What to do.
         remedy: &'static str,
     },
+    /// A position loop needs angles.
+    #[error(
+        "the angle is a speed here, but a position loop acts on the angle itself; log the angle, or the voltage that the \
+             drive gave"
+    )]
+    SpeedBehindLoop,
+    /// A selection of rows that is none.
+    #[error("`select` is \"{text}\"; write COLUMN=VALUE, as in \"joint=2\"")]
+    Selection {
+        /// As written.
+        text: String,
+    },
+    /// A span that holds nothing.
+    #[error("the span from {from} s to {to} s holds nothing; `to_s` must be greater than `from_s`")]
+    Span {
+        /// Its start, s.
+        from: f64,
+        /// Its end, s.
+        to: f64,
+    },
     /// `kt_equals_kb` contradicts the two values given.
     #[error(
         "kt_equals_kb says that kt and kb are one number, but kt_n_m_a is {kt} and kb_v_s_rad is {kb}; in SI units \

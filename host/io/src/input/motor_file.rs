@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
+use super::log_part::LogPart;
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_units::Units;
 use super::place::Place;
@@ -37,6 +38,8 @@ pub struct MotorFile {
     pub position: Option<LoopSettings>,
     /// Facts from a datasheet or a meter.
     pub known: Known,
+    /// Which part of the log is meant.
+    pub log: LogPart,
 }
 
 /// Names of the recording's columns; `None` where the contract's own name holds.
@@ -52,6 +55,8 @@ pub struct Columns {
     pub current: Option<String>,
     /// 0 while the bridge is open.
     pub enabled: Option<String>,
+    /// The command's direction, where the command itself has no sign: 0 or negative for backwards.
+    pub direction: Option<String>,
 }
 
 /// Facts about the motor, SI units.
@@ -82,6 +87,22 @@ pub struct Fact {
     pub tolerance: Option<f64>,
 }
 
+impl Columns {
+    /// Whether any is named by a number, as the columns of a table without names are.
+    pub(super) fn any_number(&self) -> bool {
+        let all = [
+            &self.time,
+            &self.voltage,
+            &self.angle,
+            &self.current,
+            &self.enabled,
+            &self.direction,
+        ];
+        let mut named = all.into_iter().flatten();
+        named.any(|name| name.parse::<usize>().is_ok())
+    }
+}
+
 impl Default for MotorFile {
     fn default() -> Self {
         MotorFile {
@@ -95,6 +116,7 @@ impl Default for MotorFile {
             drive: Drive::Voltage,
             position: None,
             known: Known::default(),
+            log: LogPart::default(),
         }
     }
 }
@@ -121,6 +143,12 @@ impl MotorFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             _ => MotorFile::read(&path).map(Some),
         }
+    }
+
+    /// Encoder counts per revolution: the user's, else those that all logs of the preset have.
+    pub fn encoder_counts(&self) -> Option<f64> {
+        let usual = self.log.preset.and_then(|preset| preset.counts_per_rev);
+        self.counts_per_rev.or(usual)
     }
 
     /// How messages speak of this file.

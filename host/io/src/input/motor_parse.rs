@@ -1,9 +1,11 @@
 //! The text of a `motor.toml` to a [`MotorFile`].
 
+use super::log_part::log_part;
 use super::motor_drive::{DRIVE_KEYS, DriveKind, drive};
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::{Columns, Fact, Known, MotorFile};
-use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
+use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, Reversed, TimeUnit, Units};
+use super::preset::Preset;
 use super::section::{Found, NumberOrTable, Section, Text};
 
 const FACTS: [&str; 7] = [
@@ -18,9 +20,10 @@ const FACTS: [&str; 7] = [
 const TOP: [&str; 4] = ["name", "counts_per_rev", "supply_v", "metres_per_rev"];
 
 /// Keys that stand in one section only, to tell where a lost one belongs.
-const HOMES: [(&str, &[&str]); 4] = [
+const HOMES: [(&str, &[&str]); 5] = [
     ("", &TOP),
-    ("columns", &["enabled"]),
+    ("columns", &["enabled", "direction"]),
+    ("log", &["preset", "table", "select", "from_s", "to_s"]),
     ("drive", &DRIVE_KEYS),
     ("known", &FACTS),
 ];
@@ -46,11 +49,16 @@ impl MotorFile {
         let column_section = top.section("columns")?;
         let unit_section = top.section("units")?;
         let drive_section = top.section("drive")?;
+        file.log = log_part(top.section("log")?)?;
+        let preset = file.log.preset;
         let kind;
-        (kind, file.position) = drive(drive_section)?;
+        (kind, file.position) = drive(
+            drive_section,
+            preset.map_or(DriveKind::Voltage, |preset| preset.drive),
+        )?;
         file.drive = kind.of_motor();
         file.columns = columns(column_section, kind)?;
-        file.units = units(unit_section, kind)?;
+        file.units = units(unit_section, kind, preset.map(Preset::units))?;
         file.known = known(top.section("known")?)?;
         top.finish(|key| home_of(key, ""))?;
         Ok(file)
@@ -70,55 +78,74 @@ fn columns(mut section: Section<'_>, kind: DriveKind) -> Result<Columns, MotorFi
         angle: section.column("angle")?,
         current: section.column("current")?,
         enabled: section.column("enabled")?,
+        direction: section.column("direction")?,
     };
     section.finish(|key| home_of(key, "columns"))?;
     Ok(columns)
 }
 
-fn units(mut section: Section<'_>, kind: DriveKind) -> Result<Units, MotorFileError> {
+/// The units; `usual` ones are a preset's.
+fn units(
+    mut section: Section<'_>,
+    kind: DriveKind,
+    usual: Option<Units>,
+) -> Result<Units, MotorFileError> {
+    let usual = usual.unwrap_or_default();
     kind.refuses_other_key(&section)?;
     let (voltage, target) = match kind {
         DriveKind::Position => (None, section.word("target", AngleUnit::ALL)?),
-        _ => (section.word("voltage", CommandUnit::ALL)?, None),
+        _ => (section.signed_word("voltage", &[CommandUnit::ALL])?, None),
     };
     if let Some(found) = &voltage {
-        fits_drive(found.value, kind).map_err(|fault| section.error(&found.span, fault))?;
+        fits_drive(found.value.1, kind).map_err(|fault| section.error(&found.span, fault))?;
     }
+    let time = section.word("time", TimeUnit::ALL)?;
+    let angle = section.signed_word("angle", &[AngleUnit::ALL, AngleUnit::SPEEDS])?;
+    let current = section.signed_word("current", &[CurrentUnit::ALL])?;
+    if let (Some(found), DriveKind::Position) = (&angle, kind)
+        && matches!(found.value.1, AngleUnit::Speed(_))
+    {
+        return Err(section.error(&found.span, MotorFault::SpeedBehindLoop));
+    }
+    let (voltage, angle, current) = (value(voltage), value(angle), value(current));
     let units = Units {
-        time: value(section.word("time", TimeUnit::ALL)?).unwrap_or_default(),
-        voltage: value(voltage).unwrap_or_default(),
+        time: value(time).unwrap_or(usual.time),
+        voltage: voltage.map_or(usual.voltage, |(_, unit)| unit),
         target: value(target),
-        angle: value(section.word("angle", AngleUnit::ALL)?).unwrap_or_default(),
-        current: value(section.word("current", CurrentUnit::ALL)?).unwrap_or_default(),
+        angle: angle.map_or(usual.angle, |(_, unit)| unit),
+        current: current.map_or(usual.current, |(_, unit)| unit),
+        reversed: Reversed {
+            voltage: voltage.is_some_and(|(reversed, _)| reversed),
+            angle: angle.is_some_and(|(reversed, _)| reversed),
+            current: current.is_some_and(|(reversed, _)| reversed),
+        },
     };
     section.finish(|key| home_of(key, "units"))?;
     Ok(units)
 }
 
-/// A current amplifier takes volts at its input or amperes; a bridge takes volts or a duty.
+/// A current amplifier takes volts at its input, amperes or a torque; a bridge takes volts or a share of the supply.
 fn fits_drive(unit: CommandUnit, kind: DriveKind) -> Result<(), MotorFault> {
-    match (unit, kind) {
-        (CommandUnit::Amperes | CommandUnit::Milliamperes, DriveKind::Voltage) => {
-            let unit = if unit == CommandUnit::Amperes {
-                "A"
-            } else {
-                "mA"
-            };
-            let remedy = "for an amplifier that closes a current loop write kind = \"current\" under [drive]";
-            Err(MotorFault::DriveUnit {
-                unit,
-                kind: "voltage",
-                remedy,
-            })
-        }
-        (CommandUnit::Duty, DriveKind::Current) => {
-            let remedy = "a duty is a voltage: write kind = \"voltage\" under [drive], or give the command in V or A";
-            Err(MotorFault::DriveUnit {
-                unit: "duty",
-                kind: "current",
-                remedy,
-            })
-        }
+    let of_current = matches!(
+        unit,
+        CommandUnit::Amperes | CommandUnit::Milliamperes | CommandUnit::NewtonMetres
+    );
+    let wrong = |kind, remedy| {
+        Err(MotorFault::DriveUnit {
+            unit: unit.name(),
+            kind,
+            remedy,
+        })
+    };
+    match kind {
+        DriveKind::Voltage if of_current => wrong(
+            "voltage",
+            "for an amplifier that closes a current loop write kind = \"current\" under [drive]",
+        ),
+        DriveKind::Current if unit.full_scale().is_some() => wrong(
+            "current",
+            "a duty is a voltage: write kind = \"voltage\" under [drive], or give the command in V or A",
+        ),
         _ => Ok(()),
     }
 }

@@ -12,6 +12,8 @@ pub enum TimeUnit {
     Milliseconds,
     /// Microseconds.
     Microseconds,
+    /// Nanoseconds.
+    Nanoseconds,
 }
 
 /// Unit of the command column.
@@ -20,12 +22,26 @@ pub enum CommandUnit {
     /// Volts: on the armature, or at the input of a current amplifier.
     #[default]
     Volts,
+    /// Millivolts.
+    Millivolts,
     /// Share of the supply voltage, −1 … 1.
     Duty,
+    /// The same in percent, −100 … 100.
+    Percent,
+    /// The same of a timer with eight bits, −255 … 255.
+    Pwm8,
+    /// The same of a timer with ten bits, −1023 … 1023.
+    Pwm10,
+    /// The same of a Dynamixel, −885 … 885.
+    Pwm885,
+    /// The same in a signed byte, −127 … 127.
+    SignedByte,
     /// Amperes, for a drive that closes a current loop.
     Amperes,
     /// Milliamperes, likewise.
     Milliamperes,
+    /// Newton metres, for a drive that is told a torque.
+    NewtonMetres,
 }
 
 /// Unit of the angle column.
@@ -42,6 +58,25 @@ pub enum AngleUnit {
     Revolutions,
     /// Metres of a linear axis.
     Metres,
+    /// A speed in place of an angle, which is integrated.
+    Speed(SpeedUnit),
+}
+
+/// Unit of a column that holds speeds where an angle is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedUnit {
+    /// Radians a second.
+    RadiansPerSecond,
+    /// Degrees a second.
+    DegreesPerSecond,
+    /// Revolutions a second.
+    RevolutionsPerSecond,
+    /// Revolutions a minute.
+    RevolutionsPerMinute,
+    /// Counts a second.
+    CountsPerSecond,
+    /// Counts since the row before: exact, where the encoder is read once a row.
+    CountsPerSample,
 }
 
 /// Unit of the current column.
@@ -67,6 +102,19 @@ pub struct Units {
     pub angle: AngleUnit,
     /// Of the current column.
     pub current: CurrentUnit,
+    /// Columns that are positive in the other direction than the rest.
+    pub reversed: Reversed,
+}
+
+/// Columns whose sign is turned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reversed {
+    /// The command.
+    pub voltage: bool,
+    /// The angle.
+    pub angle: bool,
+    /// The current.
+    pub current: bool,
 }
 
 impl TimeUnit {
@@ -75,7 +123,15 @@ impl TimeUnit {
         ("s", TimeUnit::Seconds),
         ("ms", TimeUnit::Milliseconds),
         ("us", TimeUnit::Microseconds),
+        ("ns", TimeUnit::Nanoseconds),
     ];
+
+    /// The unit that a log calls so, in whatever case.
+    pub fn of_text(text: &str) -> Option<Self> {
+        let text = text.trim().to_lowercase();
+        let mut all = TimeUnit::ALL.iter();
+        all.find(|(name, _)| *name == text).map(|(_, unit)| *unit)
+    }
 
     /// Seconds. Divides by a whole number, so that 1 ms becomes the double nearest to 0.001.
     pub fn seconds(self, time: f64) -> f64 {
@@ -83,6 +139,7 @@ impl TimeUnit {
             TimeUnit::Seconds => time,
             TimeUnit::Milliseconds => time / 1e3,
             TimeUnit::Microseconds => time / 1e6,
+            TimeUnit::Nanoseconds => time / 1e9,
         }
     }
 
@@ -92,6 +149,7 @@ impl TimeUnit {
             TimeUnit::Seconds => &["t_s"],
             TimeUnit::Milliseconds => &["t_ms", "t_s"],
             TimeUnit::Microseconds => &["t_us", "t_s"],
+            TimeUnit::Nanoseconds => &["t_ns", "t_s"],
         }
     }
 }
@@ -107,15 +165,43 @@ impl CommandUnit {
     /// Every unit with its name in `motor.toml`.
     pub const ALL: &'static [(&'static str, CommandUnit)] = &[
         ("V", CommandUnit::Volts),
+        ("mV", CommandUnit::Millivolts),
         ("duty", CommandUnit::Duty),
+        ("percent", CommandUnit::Percent),
+        ("pwm8", CommandUnit::Pwm8),
+        ("pwm10", CommandUnit::Pwm10),
+        ("pwm885", CommandUnit::Pwm885),
+        ("int8", CommandUnit::SignedByte),
         ("A", CommandUnit::Amperes),
         ("mA", CommandUnit::Milliamperes),
+        ("N*m", CommandUnit::NewtonMetres),
     ];
+
+    /// What all of the supply is in this unit; `None` where it is no share of it.
+    pub fn full_scale(self) -> Option<f64> {
+        match self {
+            CommandUnit::Duty => Some(1.0),
+            CommandUnit::Percent => Some(100.0),
+            CommandUnit::Pwm8 => Some(255.0),
+            CommandUnit::Pwm10 => Some(1023.0),
+            CommandUnit::Pwm885 => Some(885.0),
+            CommandUnit::SignedByte => Some(127.0),
+            _ => None,
+        }
+    }
+
+    /// Its name in `motor.toml`.
+    pub fn name(self) -> &'static str {
+        let named = CommandUnit::ALL.iter().find(|(_, unit)| *unit == self);
+        named.map_or("V", |(name, _)| name)
+    }
 
     /// Header names looked for where [columns] names none, best first.
     pub(super) fn default_names(self) -> &'static [&'static str] {
         match self {
             CommandUnit::Duty => &["duty", "voltage_v"],
+            CommandUnit::NewtonMetres => &["torque_n_m", "voltage_v"],
+            _ if self.full_scale().is_some() => &["pwm", "duty", "voltage_v"],
             _ => &["voltage_v"],
         }
     }
@@ -131,8 +217,44 @@ impl AngleUnit {
         ("m", AngleUnit::Metres),
     ];
 
+    /// Every unit of a speed that may stand in an angle's place, with its name in `motor.toml`.
+    pub const SPEEDS: &'static [(&'static str, AngleUnit)] = &[
+        ("rad/s", AngleUnit::Speed(SpeedUnit::RadiansPerSecond)),
+        ("deg/s", AngleUnit::Speed(SpeedUnit::DegreesPerSecond)),
+        ("rev/s", AngleUnit::Speed(SpeedUnit::RevolutionsPerSecond)),
+        ("rpm", AngleUnit::Speed(SpeedUnit::RevolutionsPerMinute)),
+        ("counts/s", AngleUnit::Speed(SpeedUnit::CountsPerSecond)),
+        (
+            "counts/sample",
+            AngleUnit::Speed(SpeedUnit::CountsPerSample),
+        ),
+    ];
+
+    /// The unit that a log calls so, in whatever case.
+    pub fn of_text(text: &str) -> Option<Self> {
+        // `rotations (1 rotation = 6.28 radians)` are rotations.
+        let text = text.split('(').next().unwrap_or(text);
+        let text = text.trim().to_lowercase();
+        let long: &[(&str, AngleUnit)] = &[
+            ("radian", AngleUnit::Radians),
+            ("radians", AngleUnit::Radians),
+            ("degree", AngleUnit::Degrees),
+            ("degrees", AngleUnit::Degrees),
+            ("\u{b0}", AngleUnit::Degrees),
+            ("rotation", AngleUnit::Revolutions),
+            ("rotations", AngleUnit::Revolutions),
+            ("revolutions", AngleUnit::Revolutions),
+            ("turns", AngleUnit::Revolutions),
+            ("ticks", AngleUnit::Counts),
+            ("meters", AngleUnit::Metres),
+            ("metres", AngleUnit::Metres),
+        ];
+        let mut all = long.iter().chain(AngleUnit::ALL).chain(AngleUnit::SPEEDS);
+        all.find(|(name, _)| *name == text).map(|(_, unit)| *unit)
+    }
+
     /// Length of one revolution in this unit; for metres the user's `metres_per_rev`, for counts the encoder's
-    /// own number.
+    /// own number. For a speed what it is at one revolution a second, or a sample.
     pub fn per_revolution(self, counts_per_rev: f64, metres_per_rev: f64) -> f64 {
         match self {
             AngleUnit::Counts => counts_per_rev,
@@ -140,6 +262,13 @@ impl AngleUnit {
             AngleUnit::Radians => TAU,
             AngleUnit::Revolutions => 1.0,
             AngleUnit::Metres => metres_per_rev,
+            AngleUnit::Speed(speed) => match speed {
+                SpeedUnit::RadiansPerSecond => TAU,
+                SpeedUnit::DegreesPerSecond => 360.0,
+                SpeedUnit::RevolutionsPerSecond => 1.0,
+                SpeedUnit::RevolutionsPerMinute => 60.0,
+                SpeedUnit::CountsPerSecond | SpeedUnit::CountsPerSample => counts_per_rev,
+            },
         }
     }
 
@@ -151,6 +280,14 @@ impl AngleUnit {
             AngleUnit::Radians => &["angle_rad", "angle_counts"],
             AngleUnit::Revolutions => &["angle_rev", "angle_counts"],
             AngleUnit::Metres => &["position_m", "angle_counts"],
+            AngleUnit::Speed(speed) => match speed {
+                SpeedUnit::RadiansPerSecond => &["speed_rad_s"],
+                SpeedUnit::DegreesPerSecond => &["speed_deg_s"],
+                SpeedUnit::RevolutionsPerSecond => &["speed_rev_s"],
+                SpeedUnit::RevolutionsPerMinute => &["speed_rpm", "rpm"],
+                SpeedUnit::CountsPerSecond => &["speed_counts_s"],
+                SpeedUnit::CountsPerSample => &["counts_per_sample"],
+            },
         }
     }
 
@@ -162,6 +299,8 @@ impl AngleUnit {
             AngleUnit::Radians => &["target_rad"],
             AngleUnit::Revolutions => &["target_rev"],
             AngleUnit::Metres => &["target_m"],
+            // Refused where it is read.
+            AngleUnit::Speed(_) => &[],
         }
     }
 }

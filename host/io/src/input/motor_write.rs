@@ -2,18 +2,47 @@
 
 use toml::Value;
 
+use super::log_part::LogPart;
 use super::motor_drive::DriveKind;
-use super::motor_file::{Fact, Known, MotorFile};
-use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit};
+use super::motor_file::{Columns, Fact, Known, MotorFile};
+use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
+use super::preset::Preset;
+use crate::recording::{Drive, Recording};
 
 /// A key and the text of its value, `None` where the default says it already.
 type Line = (&'static str, Option<String>);
 
 impl MotorFile {
+    /// The motor file with which a recording is read that [`write_csv`](crate::output::write_csv) has written: what is known of the
+    /// motor, and the contract's columns and units.
+    pub fn for_written(&self, recording: &Recording) -> Self {
+        let angle = if recording.quantised {
+            AngleUnit::Counts
+        } else {
+            AngleUnit::Revolutions
+        };
+        let command = match recording.drive {
+            Drive::Voltage => CommandUnit::Volts,
+            Drive::Current => CommandUnit::Amperes,
+        };
+        MotorFile {
+            counts_per_rev: self.encoder_counts(),
+            columns: Columns::default(),
+            units: Units {
+                voltage: command,
+                angle,
+                ..Units::default()
+            },
+            log: LogPart::default(),
+            ..self.clone()
+        }
+    }
+
     /// The text that [`parse`](Self::parse) reads back as this value (but for [`source`](Self::source)).
     /// Defaults are left out.
     pub fn to_toml(&self) -> String {
-        let units = &self.units;
+        let (units, reversed) = (&self.units, self.units.reversed);
+        let usual = self.log.preset.map(Preset::units).unwrap_or_default();
         let top = section(
             "",
             &[
@@ -34,15 +63,21 @@ impl MotorFile {
                 ("angle", self.columns.angle.as_deref().map(quoted)),
                 ("current", self.columns.current.as_deref().map(quoted)),
                 ("enabled", self.columns.enabled.as_deref().map(quoted)),
+                ("direction", self.columns.direction.as_deref().map(quoted)),
             ],
         );
         let units = section(
             "units",
             &[
-                ("time", word(TimeUnit::ALL, units.time, TimeUnit::default())),
+                ("time", word(TimeUnit::ALL, units.time, usual.time)),
                 (
                     "voltage",
-                    word(CommandUnit::ALL, units.voltage, CommandUnit::default()),
+                    signed(
+                        &[CommandUnit::ALL],
+                        reversed.voltage,
+                        units.voltage,
+                        usual.voltage,
+                    ),
                 ),
                 (
                     "target",
@@ -50,15 +85,26 @@ impl MotorFile {
                 ),
                 (
                     "angle",
-                    word(AngleUnit::ALL, units.angle, AngleUnit::default()),
+                    signed(
+                        &[AngleUnit::ALL, AngleUnit::SPEEDS],
+                        reversed.angle,
+                        units.angle,
+                        usual.angle,
+                    ),
                 ),
                 (
                     "current",
-                    word(CurrentUnit::ALL, units.current, CurrentUnit::default()),
+                    signed(
+                        &[CurrentUnit::ALL],
+                        reversed.current,
+                        units.current,
+                        usual.current,
+                    ),
                 ),
             ],
         );
-        let kind = Some(self.drive_kind()).filter(|kind| *kind != DriveKind::Voltage);
+        let usual = (self.log.preset).map_or(DriveKind::Voltage, |preset| preset.drive);
+        let kind = Some(self.drive_kind()).filter(|kind| *kind != usual);
         let control = self.position.unwrap_or_default();
         let drive = section(
             "drive",
@@ -74,7 +120,24 @@ impl MotorFile {
                 ("rate_hz", control.rate_hz.map(number)),
             ],
         );
-        [top, columns, units, drive, known(&self.known)].concat()
+        let selections: Vec<String> = (self.log.select.iter())
+            .map(|select| format!("{}={}", select.column, select.value))
+            .collect();
+        let log = section(
+            "log",
+            &[
+                ("preset", self.log.preset.map(|preset| quoted(preset.name))),
+                ("table", self.log.table.as_deref().map(quoted)),
+                (
+                    "select",
+                    (!selections.is_empty()).then(|| quoted(&selections.join(","))),
+                ),
+                ("rate_hz", self.log.rate_hz.map(number)),
+                ("from_s", self.log.from_s.map(number)),
+                ("to_s", self.log.to_s.map(number)),
+            ],
+        );
+        [top, columns, units, drive, known(&self.known), log].concat()
     }
 }
 
@@ -124,6 +187,24 @@ fn word<T: PartialEq>(all: &[(&str, T)], value: T, default: T) -> Option<String>
         return None;
     }
     name(all, value)
+}
+
+/// A unit with its sign, `None` for the usual one.
+fn signed<T: PartialEq + Copy>(
+    lists: &[&[(&str, T)]],
+    reversed: bool,
+    unit: T,
+    usual: T,
+) -> Option<String> {
+    if unit == usual && !reversed {
+        return None;
+    }
+    let mut all = lists.iter().flat_map(|list| list.iter());
+    let (name, _) = all.find(|(_, other)| *other == unit)?;
+    Some(quoted(&format!(
+        "{}{name}",
+        if reversed { "-" } else { "" }
+    )))
 }
 
 fn name<T: PartialEq>(all: &[(&str, T)], value: T) -> Option<String> {

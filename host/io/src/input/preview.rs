@@ -1,7 +1,8 @@
 //! The first rows of a file, as far as they can be read without knowing what its columns mean.
 
-use std::io::BufRead;
+use std::io::{BufRead, Cursor, Read};
 
+use super::dialect::{Dialect, HEAD_BYTES, Names};
 use super::lines::Lines;
 use super::row::Row;
 
@@ -18,19 +19,42 @@ pub struct Preview {
 
 /// Reads at most `rows` rows and `columns` columns as [`read_recording_from`](super::read_recording_from) splits them. What cannot
 /// be read ends the preview; the reader says why.
-pub fn preview(reader: impl BufRead, rows: usize, columns: usize) -> Preview {
-    let mut lines = Lines::new(reader, "");
-    let mut preview = Preview::default();
-    let Ok(true) = lines.advance() else {
+pub fn preview(mut reader: impl BufRead, rows: usize, columns: usize) -> Preview {
+    let mut head = Vec::new();
+    if reader
+        .by_ref()
+        .take(HEAD_BYTES as u64)
+        .read_to_end(&mut head)
+        .is_err()
+    {
+        return Preview::default();
+    }
+    let dialect = Dialect::of(&head);
+    let mut lines = Lines::new(Cursor::new(head).chain(reader), "");
+    let mut row = Row::new(&dialect);
+    let mut preview = Preview {
+        separator: char::from(row.separator()),
+        ..Preview::default()
+    };
+    for _ in 0..=dialect.before {
+        if !matches!(lines.advance(), Ok(true)) {
+            return preview;
+        }
+    }
+    let Some(first) = cells(&mut row, lines.bytes(), columns) else {
         return preview;
     };
-    let mut row = Row::for_header(lines.bytes());
-    preview.separator = char::from(row.separator());
-    let Some(header) = cells(&mut row, lines.bytes(), columns) else {
-        return preview;
+    preview.header = match &dialect.names {
+        Names::Row => first,
+        Names::Keys(keys) => keys.iter().take(columns).cloned().collect(),
+        Names::Numbers(count) => (1..=(*count).min(columns)).map(|k| k.to_string()).collect(),
     };
-    preview.header = header;
-    while preview.rows.len() < rows && matches!(lines.advance(), Ok(true)) {
+    let mut at_first = dialect.names != Names::Row;
+    if dialect.units_row && !matches!(lines.advance(), Ok(true)) {
+        return preview;
+    }
+    while preview.rows.len() < rows && (at_first || matches!(lines.advance(), Ok(true))) {
+        at_first = false;
         let Some(cells) = cells(&mut row, lines.bytes(), columns) else {
             break;
         };

@@ -33,6 +33,23 @@ pub enum ReadFault {
     /// The system refused to read it.
     #[error("cannot be read: {0}; check the path and its permissions")]
     Io(io::Error),
+    /// A log of another format than text.
+    #[cfg(feature = "formats")]
+    #[error("{place}{}{fault}", if place.is_empty() { "" } else { ": " })]
+    Log {
+        /// Where in it.
+        place: String,
+        /// What is wrong there.
+        fault: servoid_formats::FormatFault,
+    },
+    /// A table without times, of which a column is to be joined to those of another table.
+    #[error(
+        "the table `{table}` has no times, so its rows cannot be joined to those of another table"
+    )]
+    NoClock {
+        /// The table.
+        table: String,
+    },
     /// The path is a folder.
     #[error("is a folder; name the CSV file inside it")]
     Folder,
@@ -72,7 +89,8 @@ pub enum ReadFault {
     /// The first row holds numbers.
     #[error(
         "the first row holds numbers ({first}) where the columns' names must stand; add a header row such as \
-         t_s,voltage_v,angle_counts (a line that begins with # is a comment, not a header)"
+         t_s,voltage_v,angle_counts (a line that begins with # is a comment, not a header), or say which column is which \
+         by its number: --column time=1 --column voltage=2 --column angle=3"
     )]
     NoHeader {
         /// The first row.
@@ -104,6 +122,9 @@ pub enum ReadFault {
         /// Cells in the header.
         header: usize,
     },
+    /// A row that names other numbers than the first one.
+    #[error("this row does not name the same numbers as the first one; remove it")]
+    OtherKeys,
     /// An empty cell.
     #[error("the cell is empty; fill in the number or remove the row")]
     EmptyCell,
@@ -148,6 +169,40 @@ pub enum ReadFault {
         before: f64,
         /// Time of this row, s.
         now: f64,
+    },
+    /// Several recordings where one is wanted.
+    #[error(
+        "holds {count} recordings, and one is wanted here; name one of them: {source_name}#{first}"
+    )]
+    Several {
+        /// How many.
+        count: usize,
+        /// The file.
+        source_name: String,
+        /// What the first is called.
+        first: String,
+    },
+    /// A part that is not there.
+    #[error("has no part `{part}`; it has {known}")]
+    NoSuchPart {
+        /// What was asked for.
+        part: String,
+        /// What there is.
+        known: String,
+    },
+    /// A selection by a column that is not there.
+    #[error("no column `{name}` to select rows by; {hint}")]
+    NoSelectColumn {
+        /// Its name.
+        name: String,
+        /// The nearest name, or all of them.
+        hint: String,
+    },
+    /// A selection that no row meets.
+    #[error("no row has {selection}")]
+    NothingSelected {
+        /// The selection.
+        selection: String,
     },
     /// Time stands still.
     #[error(
@@ -251,12 +306,17 @@ pub enum ReadFault {
     },
     /// A duty beyond all of the supply.
     #[error(
-        "a duty of {} is more than all of the supply (a duty is -1 ... 1); if the column is in percent, divide it by 100",
+        "a duty of {} is more than all of the supply ({full} in the unit `{unit}`); say the command's unit: --unit \
+         voltage=percent for -100 ... 100, pwm8 for -255 ... 255, int8 for -127 ... 127, V for volts",
         plain(*.duty)
     )]
     DutyBeyondSupply {
         /// The duty.
         duty: f64,
+        /// All of the supply in this unit.
+        full: f64,
+        /// The unit.
+        unit: &'static str,
     },
     /// Nothing was commanded.
     #[error(

@@ -5,11 +5,13 @@
 
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder};
 
+use super::dialect::{Dialect, Names};
+use super::keyed;
 use super::read_error::ReadFault;
 
 /// The cells of one row; the buffers are kept from row to row.
 pub(super) struct Row {
-    separator: u8,
+    dialect: Dialect,
     parser: Reader,
     text: Vec<u8>,
     ends: Vec<usize>,
@@ -17,24 +19,11 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// A splitter at commas, semicolons or tabs: at what the header has most of, outside of quotes.
-    pub(super) fn for_header(header: &[u8]) -> Self {
-        let mut quoted = false;
-        let mut times = [(b',', 0), (b';', 0), (b'\t', 0)];
-        for byte in header {
-            quoted ^= *byte == b'"';
-            for (separator, times) in &mut times {
-                *times += usize::from(!quoted && byte == separator);
-            }
-        }
-        // Of equals the last: a comma is part of a number or a text more often than the others are.
-        let most = times.into_iter().max_by_key(|(_, times)| *times);
-        let separator = most
-            .filter(|(_, times)| *times > 0)
-            .map_or(b',', |(byte, _)| byte);
+    /// A splitter for rows of a dialect.
+    pub(super) fn new(dialect: &Dialect) -> Self {
         Row {
-            separator,
-            parser: ReaderBuilder::new().delimiter(separator).build(),
+            dialect: dialect.clone(),
+            parser: ReaderBuilder::new().delimiter(dialect.separator).build(),
             text: Vec::new(),
             ends: Vec::new(),
             cells: 0,
@@ -49,6 +38,30 @@ impl Row {
             self.text.resize(room, 0);
             self.ends.resize(room, 0);
         }
+        if let Names::Keys(keys) = &self.dialect.names {
+            let keys = keys.len();
+            return self.take_pairs(line, keys);
+        }
+        let line = self.unquoted(line);
+        if self.dialect.separator == b' ' {
+            self.cells = 0;
+            let words = line.split(u8::is_ascii_whitespace);
+            self.take(words.filter(|word| !word.is_empty()));
+        } else {
+            self.split_csv(line)?;
+        }
+        if self.dialect.decimal_comma {
+            let length = self.cells.checked_sub(1).map_or(0, |last| self.ends[last]);
+            for byte in &mut self.text[..length] {
+                if *byte == b',' {
+                    *byte = b'.';
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn split_csv(&mut self, line: &[u8]) -> Result<(), ReadFault> {
         self.parser.reset();
         let (_, _, text, cells) = self
             .parser
@@ -63,9 +76,45 @@ impl Row {
         }
     }
 
+    /// The numbers of a row with names. A row with other names has another number of cells.
+    fn take_pairs(&mut self, line: &[u8], keys: usize) -> Result<(), ReadFault> {
+        let pairs = keyed::pairs(line).unwrap_or_default();
+        let Names::Keys(names) = &self.dialect.names else {
+            return Ok(());
+        };
+        let same = pairs.len() == keys && pairs.iter().zip(names).all(|((a, _), b)| a == b);
+        if !same {
+            return Err(ReadFault::OtherKeys);
+        }
+        self.take(pairs.iter().map(|(_, number)| number.as_bytes()));
+        Ok(())
+    }
+
+    fn take<'l>(&mut self, cells: impl Iterator<Item = &'l [u8]>) {
+        let mut end = 0;
+        self.cells = 0;
+        for cell in cells {
+            self.text[end..end + cell.len()].copy_from_slice(cell);
+            end += cell.len();
+            self.ends[self.cells] = end;
+            self.cells += 1;
+        }
+    }
+
+    /// A row without the quotes that stand about it as a whole.
+    fn unquoted<'l>(&self, line: &'l [u8]) -> &'l [u8] {
+        if !self.dialect.quoted_rows {
+            return line;
+        }
+        let inner = line.trim_ascii().strip_prefix(b"\"");
+        inner
+            .and_then(|rest| rest.strip_suffix(b"\""))
+            .unwrap_or(line)
+    }
+
     /// What separates the cells.
     pub(super) fn separator(&self) -> u8 {
-        self.separator
+        self.dialect.separator
     }
 
     /// Number of cells.

@@ -1,6 +1,7 @@
 //! One row of the file to one sample.
 
 use super::cell::{finite, number, switch};
+use super::clock::Clock;
 use super::layout::{Column, Layout};
 use super::place::Place;
 use super::read_error::{ReadError, ReadFault};
@@ -16,88 +17,92 @@ pub(super) struct Sample {
     pub(super) enabled: Option<bool>,
 }
 
+/// A row that is no sample.
+pub(super) enum Taken {
+    /// The row is one.
+    Sample(Sample),
+    /// The row is not among those selected.
+    NotSelected,
+}
+
 /// What every row of one file is read with.
 pub(super) struct SampleReader<'f> {
     pub(super) source: &'f str,
     pub(super) layout: &'f Layout,
     pub(super) scale: &'f Scale<'f>,
+    pub(super) rate_hz: Option<f64>,
+    pub(super) clock: Clock,
+    /// Samples read: their times where the log has none.
+    pub(super) taken: u64,
 }
 
 impl SampleReader<'_> {
-    /// Reads the row just split, which stood on `line`; `before` is the time of the sample before.
-    pub(super) fn read(
-        &self,
-        row: &Row,
-        line: u64,
-        before: Option<f64>,
-    ) -> Result<Sample, ReadError> {
-        let (layout, scale) = (self.layout, self.scale);
+    /// Reads the row just split, which stood on `line`.
+    pub(super) fn read(&mut self, row: &Row, line: u64) -> Result<Taken, ReadError> {
+        let (layout, scale, source) = (self.layout, self.scale, self.source);
         if row.len() != layout.width {
             let fault = ReadFault::Ragged {
                 cells: row.len(),
                 header: layout.width,
             };
-            return Err(ReadError::new(Place::line(self.source, line), fault));
+            return Err(ReadError::new(Place::line(source, line), fault));
         }
-        let cells = Cells {
-            reader: self,
-            row,
-            line,
+        for (column, selection) in &layout.select {
+            let cell = row.cell(column.index);
+            let cell = cell.map_err(|fault| cell_error(source, line, column, fault))?;
+            if !selection.holds(cell) {
+                return Ok(Taken::NotSelected);
+            }
+        }
+        let number = |column: &Column, convert: &dyn Fn(f64) -> Result<f64, ReadFault>| {
+            let read = |text: &str| finite(convert(number(text)?)?, text);
+            let read = row.cell(column.index).and_then(read);
+            read.map_err(|fault| cell_error(source, line, column, fault))
         };
-        let time_s = cells.number(&layout.time, |time| increasing(before, scale.time(time)?))?;
-        let command = cells.number(&layout.command, |command| scale.command(command))?;
-        let counts = cells.number(&layout.angle, |angle| scale.counts(angle))?;
+        let time_s = match &layout.time {
+            Some(column) => {
+                let clock = &mut self.clock;
+                let read = |text: &str| finite(clock.seconds(text, scale)?, text);
+                let read = row.cell(column.index).and_then(read);
+                read.map_err(|fault| cell_error(source, line, column, fault))?
+            }
+            None => self.taken as f64 / self.rate_hz.unwrap_or(1.0),
+        };
+        let backwards = match &layout.direction {
+            Some(column) => is_backwards(number(column, &Ok)?),
+            None => false,
+        };
+        let command = number(&layout.command, &|command| {
+            scale.command(if backwards { 0.0 - command } else { command })
+        })?;
+        let counts = number(&layout.angle, &|angle| scale.counts(angle))?;
         let current = layout.current.as_ref();
         let current_a = current
-            .map(|column| cells.number(column, |x| scale.current(x)))
+            .map(|column| number(column, &|x| scale.current(x)))
             .transpose()?;
-        let enabled = layout
-            .enabled
-            .as_ref()
-            .map(|column| cells.switch(column))
+        let enabled = layout.enabled.as_ref();
+        let enabled = enabled
+            .map(|column| {
+                let read = row.cell(column.index).and_then(switch);
+                read.map_err(|fault| cell_error(source, line, column, fault))
+            })
             .transpose()?;
-        Ok(Sample {
+        self.taken += 1;
+        Ok(Taken::Sample(Sample {
             time_s,
             command,
             counts,
             current_a,
             enabled,
-        })
-    }
-}
-
-/// The cells of one row.
-struct Cells<'r> {
-    reader: &'r SampleReader<'r>,
-    row: &'r Row,
-    line: u64,
-}
-
-impl Cells<'_> {
-    fn number(
-        &self,
-        column: &Column,
-        convert: impl Fn(f64) -> Result<f64, ReadFault>,
-    ) -> Result<f64, ReadError> {
-        let read = |text: &str| finite(convert(number(text)?)?, text);
-        self.row
-            .cell(column.index)
-            .and_then(read)
-            .map_err(|fault| self.error(column, fault))
+        }))
     }
 
-    fn switch(&self, column: &Column) -> Result<bool, ReadError> {
-        self.row
-            .cell(column.index)
-            .and_then(switch)
-            .map_err(|fault| self.error(column, fault))
-    }
-
-    fn error(&self, column: &Column, fault: ReadFault) -> ReadError {
-        ReadError::new(
-            Place::cell(self.reader.source, self.line, &column.cell),
-            fault,
-        )
+    /// An error of the time of a row on `line`.
+    pub(super) fn time_error(&self, line: u64, fault: ReadFault) -> ReadError {
+        match &self.layout.time {
+            Some(column) => cell_error(self.source, line, column, fault),
+            None => ReadError::new(Place::line(self.source, line), fault),
+        }
     }
 }
 
@@ -107,4 +112,13 @@ pub(super) fn increasing(before: Option<f64>, now: f64) -> Result<f64, ReadFault
         Some(before) if now == before => Err(ReadFault::TimeRepeats { now }),
         _ => Ok(now),
     }
+}
+
+/// Whether a direction means backwards: zero, as on the direction pin of a bridge, or negative.
+pub(super) fn is_backwards(direction: f64) -> bool {
+    direction <= 0.0
+}
+
+fn cell_error(source: &str, line: u64, column: &Column, fault: ReadFault) -> ReadError {
+    ReadError::new(Place::cell(source, line, &column.cell), fault)
 }

@@ -5,10 +5,11 @@ use std::collections::TryReserveError;
 use super::counts::snap_to_whole;
 use super::csv_file::MAX_ROWS;
 use super::motor_file::MotorFile;
-use super::motor_units::AngleUnit;
+use super::motor_units::{AngleUnit, SpeedUnit};
 use super::read_error::ReadFault;
 use super::sample::Sample;
 use super::scale::{Scale, positive};
+use super::speed::integrated;
 use crate::position_loop::{Follower, LoopSettings};
 use crate::recording::{PositionDrive, Recording};
 
@@ -30,6 +31,11 @@ impl Samples {
             current_a: current.then(Vec::new),
             enabled: enabled.then(Vec::new),
         }
+    }
+
+    /// Number of samples.
+    pub(super) fn len(&self) -> usize {
+        self.time_s.len()
     }
 
     /// Time of the sample before the next, s.
@@ -66,6 +72,12 @@ impl Samples {
         if self.time_s.len() < 2 {
             return Err(ReadFault::TooFewSamples(self.time_s.len()));
         }
+        if let AngleUnit::Speed(unit) = motor.units.angle {
+            let per_sample = unit == SpeedUnit::CountsPerSample;
+            let (counts, whole) = integrated(&self.time_s, &self.counts, per_sample)?;
+            self.counts = counts;
+            return Ok(self.recording(source, motor, scale, whole, None));
+        }
         let mut position = (motor.position)
             .map(|settings| self.followed(settings, motor, scale))
             .transpose()?;
@@ -75,7 +87,18 @@ impl Samples {
         };
         let targets = position.iter_mut().flat_map(|p| &mut p.target_counts);
         targets.for_each(|target| *target -= dropped.unwrap_or(0.0));
-        Ok(Recording {
+        Ok(self.recording(source, motor, scale, dropped.is_some(), position))
+    }
+
+    fn recording(
+        self,
+        source: &str,
+        motor: &MotorFile,
+        scale: &Scale,
+        quantised: bool,
+        position: Option<PositionDrive>,
+    ) -> Recording {
+        Recording {
             source: source.into(),
             time_s: self.time_s,
             command: self.command,
@@ -83,11 +106,11 @@ impl Samples {
             current_a: self.current_a,
             enabled: self.enabled,
             counts_per_rev: scale.counts_per_rev,
-            quantised: dropped.is_some(),
+            quantised,
             supply_v: motor.supply_v,
             drive: motor.drive,
             position,
-        })
+        }
     }
 
     /// Targets become the volts that the loop makes of them. The readings are as they came: the loop knows no other zero.

@@ -2,7 +2,7 @@
 
 use super::counts::in_counter_range;
 use super::motor_file::MotorFile;
-use super::motor_units::{AngleUnit, CommandUnit};
+use super::motor_units::{AngleUnit, CommandUnit, SpeedUnit};
 use super::read_error::ReadFault;
 
 /// Largest duty: all of the supply, and a little for a logger that scales by 255 of 256 or so.
@@ -24,12 +24,12 @@ impl<'m> Scale<'m> {
     /// A number that the conversion needs is not known, or has no meaning.
     pub(super) fn new(motor: &'m MotorFile) -> Result<Self, ReadFault> {
         let named = || motor.called().to_string();
-        let counts_per_rev = positive("counts_per_rev", motor.counts_per_rev)?
+        let counts_per_rev = positive("counts_per_rev", motor.encoder_counts())?
             .ok_or_else(|| ReadFault::NoCountsPerRev { motor: named() })?;
         let supply_v = positive("supply_v", motor.supply_v)?;
-        let volts_per_duty = match motor.units.voltage {
-            CommandUnit::Duty => supply_v.ok_or_else(|| ReadFault::NoSupply { motor: named() })?,
-            _ => 1.0,
+        let volts_per_duty = match motor.units.voltage.full_scale() {
+            Some(_) => supply_v.ok_or_else(|| ReadFault::NoSupply { motor: named() })?,
+            None => 1.0,
         };
         let metres = positive("metres_per_rev", motor.metres_per_rev)?;
         let per_rev = |unit: AngleUnit| {
@@ -64,35 +64,52 @@ impl<'m> Scale<'m> {
         if let Some(per_rev) = self.target_per_rev {
             return in_counter_range(command / per_rev * self.counts_per_rev);
         }
-        Ok(match self.motor.units.voltage {
-            CommandUnit::Volts | CommandUnit::Amperes => command,
-            CommandUnit::Milliamperes => command / 1e3,
-            CommandUnit::Duty if command.abs() > MOST_DUTY => {
-                return Err(ReadFault::DutyBeyondSupply { duty: command });
+        let unit = self.motor.units.voltage;
+        let forward = match unit.full_scale() {
+            Some(full) if command.abs() > MOST_DUTY * full => {
+                return Err(ReadFault::DutyBeyondSupply {
+                    duty: command,
+                    full,
+                    unit: unit.name(),
+                });
             }
-            CommandUnit::Duty => command * self.volts_per_duty,
-        })
+            Some(full) => command / full * self.volts_per_duty,
+            None => match unit {
+                CommandUnit::Millivolts | CommandUnit::Milliamperes => command / 1e3,
+                _ => command,
+            },
+        };
+        Ok(turned(forward, self.motor.units.reversed.voltage))
     }
 
-    /// Counts, whole ones where the file says that it has counts.
+    /// Counts, whole ones where the file says that it has counts. Where it has speeds, counts a second or a sample.
     pub(super) fn counts(&self, angle: f64) -> Result<f64, ReadFault> {
-        if self.motor.units.angle != AngleUnit::Counts {
-            return in_counter_range(angle / self.angle_per_rev * self.counts_per_rev);
+        let angle = turned(angle, self.motor.units.reversed.angle);
+        match self.motor.units.angle {
+            AngleUnit::Counts if angle.fract() != 0.0 => {
+                let motor = self.motor.called().into();
+                Err(ReadFault::FractionalCounts {
+                    counts: angle,
+                    motor,
+                })
+            }
+            AngleUnit::Counts => in_counter_range(angle),
+            AngleUnit::Speed(SpeedUnit::CountsPerSample) => Ok(angle),
+            AngleUnit::Speed(_) => Ok(angle / self.angle_per_rev * self.counts_per_rev),
+            _ => in_counter_range(angle / self.angle_per_rev * self.counts_per_rev),
         }
-        if angle.fract() != 0.0 {
-            let motor = self.motor.called().into();
-            return Err(ReadFault::FractionalCounts {
-                counts: angle,
-                motor,
-            });
-        }
-        in_counter_range(angle)
     }
 
     /// Amperes.
     pub(super) fn current(&self, current: f64) -> Result<f64, ReadFault> {
-        Ok(self.motor.units.current.amperes(current))
+        let amperes = self.motor.units.current.amperes(current);
+        Ok(turned(amperes, self.motor.units.reversed.current))
     }
+}
+
+fn turned(value: f64, reversed: bool) -> f64 {
+    // Less than zero minus, so that no zero becomes negative.
+    if reversed { 0.0 - value } else { value }
 }
 
 /// The motor file's own reader refuses such numbers, but a flag may have set one.

@@ -49,7 +49,8 @@ pub(super) enum NumberOrTable<'t> {
 type Outcome<T> = Result<T, MotorFileError>;
 
 /// Facts that a user may know to be nothing at all.
-const MAY_BE_ZERO: [&str; 4] = [
+const MAY_BE_ZERO: [&str; 5] = [
+    "from_s",
     "inductance_h",
     "viscous_n_m_s",
     "damping_v_s_per_rad",
@@ -139,6 +140,37 @@ impl<'t> Section<'t> {
                 Err(self.text.error(&span, fault))
             }
         }
+    }
+
+    /// One word of several lists, and whether a minus stands before it.
+    pub(super) fn signed_word<T: Copy>(
+        &mut self,
+        key: &'static str,
+        lists: &[&[(&str, T)]],
+    ) -> Outcome<Option<Found<(bool, T)>>> {
+        let Some(Found { value: text, span }) = self.string(key)? else {
+            return Ok(None);
+        };
+        let plain = text.strip_prefix('-');
+        let word = plain.unwrap_or(&text);
+        let mut all = lists.iter().flat_map(|list| list.iter());
+        if let Some((_, value)) = all.find(|(name, _)| *name == word) {
+            let value = (plain.is_some(), *value);
+            return Ok(Some(Found { value, span }));
+        }
+        let names: Vec<&str> = (lists.iter())
+            .flat_map(|list| list.iter().map(|(name, _)| *name))
+            .collect();
+        let hint = format!(
+            "allowed: {}, each also with a minus where the sign is the other one",
+            quoted_list(&names)
+        );
+        let fault = MotorFault::UnknownWord {
+            key: key.into(),
+            text: shown(&text),
+            hint,
+        };
+        Err(self.text.error(&span, fault))
     }
 
     /// `true` or `false`.

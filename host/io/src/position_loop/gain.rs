@@ -128,7 +128,7 @@ impl Minimum {
 
     /// Step of the likelihood's logarithm from a loop without a limit.
     fn step(&self) -> f64 {
-        -0.5 * self.independent * self.left.ln()
+        -0.5 * self.independent * libm::log(self.left)
     }
 }
 
@@ -142,7 +142,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn gain(&self, log_gain: f64) -> f64 {
-        self.free * log_gain.exp()
+        self.free * libm::exp(log_gain)
     }
 
     fn unexplained(&self, motion: &mut Motion, log_gain: f64) -> f64 {
@@ -152,7 +152,7 @@ impl Search<'_> {
     }
 
     fn minimum(&self, motion: &mut Motion) -> Minimum {
-        let steps = (MOST.ln() / STEP) as usize;
+        let steps = (libm::log(MOST) / STEP) as usize;
         let unlimited = self.unexplained(motion, -STEP);
         let (mut best, mut least) = (0, f64::INFINITY);
         for step in 0..=steps {
@@ -164,8 +164,8 @@ impl Search<'_> {
         let middle = best as f64 * STEP;
         let (log_gain, least) = self.narrowed(motion, middle - STEP, middle + STEP);
         // A parabola through the logarithm of the likelihood.
-        let around = [-STEP, STEP].map(|d| self.unexplained(motion, log_gain + d).ln());
-        let bend = (around[0] + around[1] - 2.0 * least.ln()) / (STEP * STEP);
+        let around = [-STEP, STEP].map(|d| libm::log(self.unexplained(motion, log_gain + d)));
+        let bend = (around[0] + around[1] - 2.0 * libm::log(least)) / (STEP * STEP);
         let information = 0.5 * motion.independent() * bend;
         Minimum {
             log_gain,

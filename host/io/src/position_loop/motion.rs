@@ -112,7 +112,7 @@ fn row(follower: &Follower<'_>, begin: usize, end: usize) -> [f64; COLUMNS] {
     row[3] = time[end] - time[begin];
     for k in begin..end {
         let (length, step) = (time[k + 1] - time[k], counts[k + 1] - counts[k]);
-        let (sine, cosine) = (0.5 * rad * (counts[k] + counts[k + 1])).sin_cos();
+        let (sine, cosine) = libm::sincos(0.5 * rad * (counts[k] + counts[k + 1]));
         if step != 0.0 {
             row[2] += length * step.signum();
         }

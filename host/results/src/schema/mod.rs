@@ -21,6 +21,8 @@
 //! | `estimate` | parameters with their errors, response, margins |
 //! | `identified` | what an export needs of any of these: the model, and how well each number is known |
 //! | `hypotheses` | what a plan needs of a diagnosis: the models that explain the data alike |
+//! | `opened` | `servoid.open/1`, what a log holds |
+//! | `effects` | `servoid.effects/1`, what can be told of effects |
 //! | `partial` | the keys that these two look for in files of any version |
 
 pub mod certificate;
@@ -30,6 +32,7 @@ pub mod coverage;
 pub mod device;
 pub mod diagnosis;
 mod document;
+pub mod effects;
 pub mod estimate;
 pub mod fit;
 pub mod hypotheses;
@@ -39,6 +42,7 @@ mod identified_fault;
 pub mod likelihood;
 mod model;
 mod model_fault;
+pub mod opened;
 mod partial;
 pub mod plan;
 pub mod position_loop;

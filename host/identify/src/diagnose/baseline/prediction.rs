@@ -32,13 +32,13 @@ impl Prediction {
             self.held_out_whole,
         ]
         .iter()
-        .map(|rms| rms.max(f64::MIN_POSITIVE).ln())
+        .map(|rms| libm::log(rms.max(f64::MIN_POSITIVE)))
         .sum()
     }
 
     /// Sum of the held-out errors' logarithms.
     pub fn held_out_score(&self) -> f64 {
-        let positive = |rms: f64| rms.max(f64::MIN_POSITIVE).ln();
+        let positive = |rms: f64| libm::log(rms.max(f64::MIN_POSITIVE));
         positive(self.held_out_windowed) + positive(self.held_out_whole)
     }
 

@@ -83,7 +83,7 @@ pub fn fit_over_horizons(
     let logarithms = |weighted: &Weighted<'_>, x: &[f64]| -> f64 {
         let costs = weighted.problems.iter().map(|(problem, _)| problem.cost(x));
         costs
-            .map(|cost| 0.5 * cost.max(f64::MIN_POSITIVE).ln())
+            .map(|cost| 0.5 * libm::log(cost.max(f64::MIN_POSITIVE)))
             .sum()
     };
     let mut x = model.x.clone();

@@ -147,7 +147,7 @@ pub fn floor_counts(data: &Data, horizon: &Horizon, machine: &Machine<f64>) -> f
         for k in window.range.clone() {
             let t = data.time_s[k] - data.time_s[first];
             let carried = if slowest.is_finite() && slowest > 0.0 {
-                -slowest * (-t / slowest).exp_m1()
+                -slowest * libm::expm1(-t / slowest)
             } else {
                 t
             };

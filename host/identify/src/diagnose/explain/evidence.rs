@@ -211,7 +211,7 @@ fn line(missing: &ResidualAnalysis, order: usize) -> Option<String> {
 /// From the begin to the end of the recording.
 fn drift(map: &Map) -> Option<String> {
     let (first, last) = (map.bins.first()?, map.bins.last()?);
-    let sure = SURE * first.error_v.hypot(last.error_v);
+    let sure = SURE * libm::hypot(first.error_v, last.error_v);
     ((last.mean_v - first.mean_v).abs() > sure).then(|| {
         format!(
             "the residual against the motion drifts from {} V at the begin to {} V at the end of the recording",
@@ -279,6 +279,6 @@ pub fn plain(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return "0".to_owned();
     }
-    let digits = (2 - x.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    let digits = (2 - libm::log10(x.abs()).floor() as i32).clamp(0, 6) as usize;
     format!("{x:.digits$}")
 }

@@ -173,7 +173,11 @@ fn differences(one: &Fit, other: &Fit, least: f64) -> Option<String> {
         };
         let far = (a.value - b.value).abs();
         let smaller = a.value.abs().min(b.value.abs());
-        if a.identifiable && b.identifiable && far > SURE * s.hypot(t) && far > least * smaller {
+        if a.identifiable
+            && b.identifiable
+            && far > SURE * libm::hypot(s, t)
+            && far > least * smaller
+        {
             said.push(format!(
                 "{} {} instead of {} {}",
                 a.name,

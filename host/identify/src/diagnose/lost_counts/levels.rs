@@ -72,11 +72,11 @@ fn fraction(y: &[f64]) -> f64 {
     let (mut sine, mut cosine) = (0.0, 0.0);
     for window in y.windows(AVERAGED) {
         let mean = window.iter().sum::<f64>() / AVERAGED as f64;
-        let (s, c) = (core::f64::consts::TAU * mean).sin_cos();
+        let (s, c) = libm::sincos(core::f64::consts::TAU * mean);
         sine += s;
         cosine += c;
     }
-    f64::atan2(sine, cosine) / core::f64::consts::TAU
+    libm::atan2(sine, cosine) / core::f64::consts::TAU
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ pub fn share_and_threshold(losses: &[Loss], speed: &[f64]) -> (f64, f64) {
         let total = beyond(threshold);
         losses
             .iter()
-            .map(|loss| ((speed[loss.sample].abs() - threshold).max(0.0) / total).ln())
+            .map(|loss| libm::log((speed[loss.sample].abs() - threshold).max(0.0) / total))
             .sum()
     };
     let none = likelihood(0.0);

@@ -47,6 +47,6 @@ impl Errors {
     /// ln(fitted · held-out), neither counted below the noise: what candidates are ranked by.
     pub fn score(&self) -> f64 {
         let floored = |rms: f64| rms.max(self.floor);
-        (floored(self.fitted) * floored(self.held_out)).ln()
+        libm::log(floored(self.fitted) * floored(self.held_out))
     }
 }

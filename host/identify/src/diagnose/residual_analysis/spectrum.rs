@@ -60,7 +60,7 @@ fn lines(data: &Data, residuals: &[EquationResidual], time: f64, sign: f64) -> V
     let first = data.centre(0) / data.units.counts_per_rev * core::f64::consts::TAU;
     let mut sums = vec![[0.0f64; 4]; HIGHEST + 1];
     for r in moving {
-        let (sine, cosine) = (r.angle + first).sin_cos();
+        let (sine, cosine) = libm::sincos(r.angle + first);
         let volts = r.volts - mean;
         let (mut c, mut s) = (1.0, 0.0);
         let reach = (FASTEST / (r.speed.abs() * time).max(1e-9)) as usize;
@@ -80,8 +80,8 @@ fn lines(data: &Data, residuals: &[EquationResidual], time: f64, sign: f64) -> V
             let (c, s) = (2.0 * c / n, 2.0 * s / n);
             Line {
                 order,
-                volts: c.hypot(s),
-                phase_deg: s.atan2(c).to_degrees(),
+                volts: libm::hypot(c, s),
+                phase_deg: libm::atan2(s, c).to_degrees(),
                 share: (0.5 * n * (c * c + s * s) / squares).min(1.0),
             }
         })

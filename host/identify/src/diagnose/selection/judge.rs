@@ -121,7 +121,7 @@ fn instead(chosen: &FittedModel, place: Kind, other: &FittedModel) -> Option<Kin
 /// samples as the reading changes, since a motor at rest says the same thing a thousand times.
 pub fn p_value(data: &Data, before: &FittedModel, after: &FittedModel) -> f64 {
     let samples = data.transitions() as f64;
-    let statistic = 2.0 * samples * (before.ran().fitted / after.ran().fitted).ln();
+    let statistic = 2.0 * samples * libm::log(before.ran().fitted / after.ran().fitted);
     let searched = |model: &FittedModel| model.structure.dim() - model.structure.held();
     let added = searched(after).saturating_sub(searched(before)).max(1);
     let law = ChiSquared::new(added as f64).ok();

@@ -81,7 +81,7 @@ fn waves(data: &Data, left: &[EquationResidual], order: usize, time: f64) -> [Ve
         let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
         order as f64 * turns * core::f64::consts::TAU
     };
-    [f64::cos, f64::sin].map(|wave| {
+    [libm::cos, libm::sin].map(|wave| {
         let signal: Vec<f64> = (0..data.len()).map(|k| wave(phase(k))).collect();
         let filtered = filtered_values(data, time, &signal);
         left.iter().map(|r| filtered[r.sample]).collect()

@@ -32,13 +32,13 @@ pub struct Line {
 impl Line {
     /// Amplitude, V.
     pub fn amplitude(&self) -> f64 {
-        self.cosine.hypot(self.sine)
+        libm::hypot(self.cosine, self.sine)
     }
 
     /// Angle of the shaft, rad, at which the first wave is highest, as a part of the wave: `atan2(sine,
     /// cosine)`.
     pub fn phase(&self) -> f64 {
-        self.sine.atan2(self.cosine)
+        libm::atan2(self.sine, self.cosine)
     }
 }
 

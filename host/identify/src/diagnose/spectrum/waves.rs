@@ -68,7 +68,7 @@ pub fn each_sample(data: &Data, time: f64, mut at: impl FnMut(usize, &Rows)) {
 /// Cosines and sines of the multiples of an angle.
 #[inline(always)]
 fn multiples(angle: f64) -> Rows {
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = libm::sincos(angle);
     let (mut c, mut s) = (1.0, 0.0);
     let mut rows: Rows = [Row::default(); ROWS];
     for [cosines, sines] in &mut rows {

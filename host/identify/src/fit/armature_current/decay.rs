@@ -28,7 +28,7 @@ pub fn electrical(rows: &[Option<Row>], interval: f64) -> Option<Estimate> {
     let (decay, std) = (fitted.slopes[0] / scales[0], variance.sqrt() / scales[0]);
     let seconds = |decay: f64| {
         if decay > 0.0 {
-            -interval / decay.ln()
+            -interval / libm::log(decay)
         } else {
             0.0
         }
@@ -51,7 +51,7 @@ mod tests {
         for (seed, constant) in [(1, 2e-4_f64), (2, 1e-3), (3, 8e-3)] {
             let mut generator = rng::seeded(seed);
             let mut draw = || 2.0 * rng::uniform::<f64>(&mut generator) - 1.0;
-            let decay = (-interval / constant).exp();
+            let decay = libm::exp(-interval / constant);
             let (mut current, mut volts, mut speed) = (0.0, 0.0, 0.0);
             let rows: Vec<Option<Row>> = (0..5000)
                 .map(|k| {

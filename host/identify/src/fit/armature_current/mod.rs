@@ -49,9 +49,7 @@ pub fn current_evidence(
         // It is then anything between nothing and all of the damping.
         let machine = &candidate.machine;
         let resistance = machine.inertia / inertia.value;
-        friction.std = friction
-            .std
-            .hypot((machine.kb + machine.damping) / resistance);
+        friction.std = libm::hypot(friction.std, (machine.kb + machine.damping) / resistance);
     }
     Some(CurrentEvidence::Torque { inertia, friction })
 }

@@ -63,7 +63,7 @@ pub fn torque_evidence(
     {
         let slopes = DVector::from_iterator(slopes.len(), slopes.iter().map(|slope| slope[n]));
         let variance = slopes.dot(&(&covariance * &slopes)).max(0.0);
-        estimate.std = estimate.std.hypot(variance.sqrt());
+        estimate.std = libm::hypot(estimate.std, variance.sqrt());
     }
     Some(found)
 }
@@ -86,7 +86,7 @@ fn at(data: &Data, candidate: &Candidate, method: Method) -> Option<Torque> {
         },
         friction: Estimate {
             value: friction.value + slope.value * machine.damping,
-            std: friction.std.hypot(slope.std * machine.damping),
+            std: libm::hypot(friction.std, slope.std * machine.damping),
         },
     })
 }
@@ -131,13 +131,16 @@ mod tests {
     fn model() -> Vec<(f64, f64)> {
         (0..4000)
             .map(|k| {
-                let wave = (k as f64 * 0.01).sin();
+                let wave = libm::sin(k as f64 * 0.01);
                 let peak = if k % 200 < 4 {
                     40.0 / (1.0 + f64::from(k % 200))
                 } else {
                     0.0
                 };
-                (wave + peak * wave.signum(), 30.0 * (k as f64 * 0.01).cos())
+                (
+                    wave + peak * wave.signum(),
+                    30.0 * libm::cos(k as f64 * 0.01),
+                )
             })
             .collect()
     }

@@ -63,13 +63,13 @@ pub fn winding_evidence(data: &Data, model: &Candidate) -> Option<Winding> {
     let [mut resistance, mut kb] = regressed(&averaged(&all, count), rounding(data, count))?;
     // The electrical time constant is not known for certain: the motion may tell another one.
     let off =
-        electrical.value + (electrical.std).hypot(electrical.value - model.machine.electrical);
+        electrical.value + libm::hypot(electrical.std, electrical.value - model.machine.electrical);
     let there = averaged(&intervals(data, measured, &speeds, off), count);
     let there = regressed(&there, rounding(data, count))?;
     for (estimate, there) in [&mut resistance, &mut kb].into_iter().zip(there) {
-        estimate.std = estimate.std.hypot(there.value - estimate.value);
+        estimate.std = libm::hypot(estimate.std, there.value - estimate.value);
     }
-    resistance.std = resistance.std.hypot(LEAST * resistance.value);
+    resistance.std = libm::hypot(resistance.std, LEAST * resistance.value);
     (resistance.std < UNKNOWN * resistance.value && kb.value > 0.0)
         .then_some(Winding { resistance, kb })
 }
@@ -129,7 +129,7 @@ fn intervals(
         let (mean, acceleration) = (*speed)?;
         let seconds = seconds(data, k);
         let exponent = -seconds / electrical.max(f64::MIN_POSITIVE);
-        let (decay, rise) = (exponent.exp(), -exponent.exp_m1());
+        let (decay, rise) = (libm::exp(exponent), -libm::expm1(exponent));
         let before_end = electrical - seconds * decay / rise;
         Some(Interval {
             volts: data.command[k] * data.units.volts,
@@ -181,8 +181,8 @@ fn regressed(intervals: &[Interval], rounding: f64) -> Option<[Estimate; 2]> {
     let plane = Plane::through(&at, &currents, &used)?;
     let [mut over_volts, mut over_speed] = plane.slopes(&at, &currents, &used);
     let lost = plane.attenuation(rounding, currents.len());
-    over_volts.std = over_volts.std.hypot(lost[0]);
-    over_speed.std = over_speed.std.hypot(lost[1]);
+    over_volts.std = libm::hypot(over_volts.std, lost[0]);
+    over_speed.std = libm::hypot(over_speed.std, lost[1]);
     let resistance = 1.0 / over_volts.value;
     let kb = -over_speed.value * resistance;
     let relative = over_volts.std * resistance;
@@ -193,7 +193,7 @@ fn regressed(intervals: &[Interval], rounding: f64) -> Option<[Estimate; 2]> {
         },
         Estimate {
             value: kb,
-            std: (over_speed.std * resistance).hypot(kb * relative),
+            std: libm::hypot(over_speed.std * resistance, kb * relative),
         },
     ])
 }

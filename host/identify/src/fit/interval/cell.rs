@@ -46,17 +46,17 @@ impl Cell {
         // Densities at both edges over the probability.
         let (surprise, at_near, at_far) = if near < FAR {
             let tail = |z: f64| 0.5 * erfc(z / SQRT_2);
-            let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
+            let density = |z: f64| libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
             let probability: f64 = tail(near) - tail(far);
             (
-                -probability.ln(),
+                -libm::log(probability),
                 density(near) / probability,
                 density(far) / probability,
             )
         } else {
-            let fall = (-0.5 * (far - near) * (far + near)).exp();
+            let fall = libm::exp(-0.5 * (far - near) * (far + near));
             let per_density = mills(near) - mills(far) * fall;
-            let surprise = 0.5 * near * near + 0.5 * (2.0 * PI).ln() - per_density.ln();
+            let surprise = 0.5 * near * near + 0.5 * libm::log(2.0 * PI) - libm::log(per_density);
             (surprise, 1.0 / per_density, fall / per_density)
         };
         // What an edge brings that is out of reach is nothing, however high a power of its distance stands before it.
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn derivatives_are_those_of_the_surprise() {
         for (above, noise) in grid() {
-            let at = |e: f64, t: f64| Cell::at(above + e * noise, noise * t.exp());
+            let at = |e: f64, t: f64| Cell::at(above + e * noise, noise * libm::exp(t));
             let here = at(0.0, 0.0);
             let step = 1e-4;
             let (up, down) = (at(step, 0.0), at(-step, 0.0));
@@ -146,7 +146,7 @@ mod tests {
     fn probabilities_of_all_cells_sum_to_one() {
         for noise in [1e-3, 0.05, 0.3, 2.0] {
             let sum: f64 = (-60..=60)
-                .map(|cell| (-Cell::at(0.3 - f64::from(cell), noise).surprise).exp())
+                .map(|cell| libm::exp(-Cell::at(0.3 - f64::from(cell), noise).surprise))
                 .sum();
             assert!((sum - 1.0).abs() < 1e-12, "noise {noise}: {sum}");
         }

@@ -218,7 +218,7 @@ impl Search<'_, '_> {
             }
         }
         let louder = step[step.len() - 1].clamp(-NOISE_STEP, NOISE_STEP);
-        let noise = (here.noise * louder.exp()).max(LEAST_NOISE);
+        let noise = (here.noise * libm::exp(louder)).max(LEAST_NOISE);
         self.at(values, shifts, noise)
     }
 

@@ -115,7 +115,7 @@ impl Objective for Fine {
 
     fn residuals_and_cost(&self, x: &[f64]) -> Option<(Vec<f64>, f64)> {
         let residuals: Vec<f64> = (0..16)
-            .map(|row| (1e7 * (1.0 + f64::from(row) / 100.0) * (x[0] - 0.3)).sin())
+            .map(|row| libm::sin(1e7 * (1.0 + f64::from(row) / 100.0) * (x[0] - 0.3)))
             .collect();
         let squares = dot(&residuals, &residuals);
         Some((residuals, squares))

@@ -1,0 +1,8 @@
+//! JSON, JSON lines and WPILib's SysId.
+
+mod expected;
+
+#[test]
+fn values_are_what_python_wrote() {
+    expected::hold("json");
+}

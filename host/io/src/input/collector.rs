@@ -1,0 +1,123 @@
+//! Samples of a log into recordings: within the span that is wanted, and cut where the clock begins anew.
+
+use super::motor_file::MotorFile;
+use super::read_error::ReadFault;
+use super::sample::{Sample, increasing};
+use super::samples::Samples;
+use super::scale::Scale;
+use crate::recording::Recording;
+
+/// Part of a recording's length, from its beginning, within which a time that goes back begins a new recording.
+const RESTART: f64 = 0.1;
+
+/// Recordings as their samples come.
+pub(super) struct Collector<'m> {
+    motor: &'m MotorFile,
+    scale: &'m Scale<'m>,
+    /// Whether the log may hold several recordings, one after the other.
+    several: bool,
+    with_current: bool,
+    with_enabled: bool,
+    samples: Samples,
+    /// First and last time of the recording at hand, within the wanted span or not, s.
+    span: Option<(f64, f64)>,
+    done: Vec<Samples>,
+}
+
+impl<'m> Collector<'m> {
+    pub(super) fn new(
+        motor: &'m MotorFile,
+        scale: &'m Scale<'m>,
+        several: bool,
+        with_current: bool,
+        with_enabled: bool,
+    ) -> Self {
+        Collector {
+            motor,
+            scale,
+            several,
+            with_current,
+            with_enabled,
+            samples: Samples::new(with_current, with_enabled),
+            span: None,
+            done: Vec::new(),
+        }
+    }
+
+    /// Takes the time of the next sample, s; a recording ends where the clock begins anew.
+    ///
+    /// # Errors
+    /// Time goes back elsewhere, or stands still.
+    pub(super) fn time(&mut self, now: f64) -> Result<(), ReadFault> {
+        match self.span {
+            Some((first, last)) if self.several && now < last && restarts(first, last, now) => {
+                self.close();
+                self.span = Some((now, now));
+            }
+            Some((first, last)) => {
+                increasing(Some(last), now)?;
+                self.span = Some((first, now));
+            }
+            None => self.span = Some((now, now)),
+        }
+        Ok(())
+    }
+
+    /// Takes the sample whose time was taken last, if it lies in the wanted span.
+    ///
+    /// # Errors
+    /// There are too many, or no memory for more.
+    pub(super) fn take(&mut self, sample: &Sample) -> Result<(), ReadFault> {
+        let since = self.span.map_or(0.0, |(first, _)| sample.time_s - first);
+        let part = &self.motor.log;
+        let wanted =
+            part.from_s.is_none_or(|from| since >= from) && part.to_s.is_none_or(|to| since <= to);
+        if wanted {
+            self.samples.push(sample)?;
+        }
+        Ok(())
+    }
+
+    /// Whether no later sample is wanted: the span has ended in the only recording.
+    pub(super) fn has_all(&self) -> bool {
+        let (Some(to), Some((first, last))) = (self.motor.log.to_s, self.span) else {
+            return false;
+        };
+        !self.several && last - first > to
+    }
+
+    fn close(&mut self) {
+        let next = Samples::new(self.with_current, self.with_enabled);
+        self.done.push(std::mem::replace(&mut self.samples, next));
+    }
+
+    /// The recordings; `named` gives each its source, of its number from one and their number.
+    ///
+    /// # Errors
+    /// Too few samples, or a position loop of unknown gain, with the source.
+    pub(super) fn finish(
+        mut self,
+        named: impl Fn(usize, usize) -> String,
+    ) -> Result<Vec<Recording>, (String, ReadFault)> {
+        self.close();
+        let count = self.done.len();
+        // The beginning of one more, cut off, is none.
+        let enough = |samples: &Samples| samples.len() >= 2;
+        if count > 1 && self.done.iter().any(enough) {
+            self.done.retain(enough);
+        }
+        let count = self.done.len();
+        let (motor, scale) = (self.motor, self.scale);
+        let finished = |(k, samples): (usize, Samples)| {
+            let source = named(k + 1, count);
+            let recording = samples.finish(&source, motor, scale);
+            recording.map_err(|fault| (source, fault))
+        };
+        self.done.into_iter().enumerate().map(finished).collect()
+    }
+}
+
+/// Whether a clock that goes back begins anew, as it does for every episode of a log; a row out of order does not.
+fn restarts(first: f64, last: f64, now: f64) -> bool {
+    now - first <= RESTART * (last - first)
+}

@@ -1,0 +1,71 @@
+//! A file of any format that is read, opened by its content.
+
+use super::csv_file::read_text;
+use super::motor_file::MotorFile;
+use super::part::Part;
+use super::place::Place;
+use super::read_error::{ReadError, ReadFault};
+use super::reading::Reading;
+use crate::recording::Recording;
+use encoding_rs_io::DecodeReaderBytesBuilder;
+#[cfg(feature = "formats")]
+use servoid_formats::{FormatFault, Log};
+use std::io::{self, BufRead, BufReader};
+use std::path::Path;
+
+/// Reads all recordings of a file with what `motor` knows about its columns, units and encoder: of a text with columns, compressed
+/// or not, or with the feature `formats` of a log that has its own format. `FILE#PART` means one of several recordings.
+///
+/// # Errors
+/// The first fault found, with its place and the remedy: see [`ReadFault`].
+pub fn read_recordings(path: &Path, motor: &MotorFile) -> Result<Reading, ReadError> {
+    let part = Part::of(path);
+    let source = part.path.display().to_string();
+    let whole = |fault| ReadError::new(Place::file(&source), fault);
+    #[cfg(feature = "formats")]
+    if let Some(mut log) = log_of(&part.path, &source)? {
+        let name = part.name.as_deref();
+        return super::log_file::read_log(log.as_mut(), &source, name, motor);
+    }
+    if part.path.is_dir() {
+        return Err(whole(ReadFault::Folder));
+    }
+    let text = text_of(&part.path).map_err(|error| whole(ReadFault::Io(error)))?;
+    let reading = read_text(text, &source, motor, true)?;
+    reading.part(&source, part.name.as_deref()).map_err(whole)
+}
+
+/// Reads the only recording of a file.
+///
+/// # Errors
+/// As [`read_recordings`]; the file holds several.
+pub fn read_recording(path: &Path, motor: &MotorFile) -> Result<Recording, ReadError> {
+    let source = Part::of(path).path.display().to_string();
+    let whole = |fault| ReadError::new(Place::file(&source), fault);
+    let reading = read_recordings(path, motor)?.only(&source);
+    let recording = reading.map_err(whole)?.recordings.pop();
+    recording.ok_or_else(|| whole(ReadFault::TooFewSamples(0)))
+}
+
+/// A log of another format than text; `None` where it may be a text.
+#[cfg(feature = "formats")]
+pub(super) fn log_of(path: &Path, source: &str) -> Result<Option<Box<dyn Log>>, ReadError> {
+    servoid_formats::open(path).map_err(|error| {
+        if path.is_dir() && matches!(error.fault, FormatFault::Io(_)) {
+            return ReadError::new(Place::file(source), ReadFault::Folder);
+        }
+        super::log_file::of_format(source, error)
+    })
+}
+
+/// The text of a file in UTF-8, decompressed; UTF-16 is told by its byte order mark.
+pub(super) fn text_of(path: &Path) -> io::Result<Box<dyn BufRead>> {
+    #[cfg(feature = "formats")]
+    let bytes = servoid_formats::decompressed(path)?;
+    #[cfg(not(feature = "formats"))]
+    let bytes = BufReader::with_capacity(1 << 16, std::fs::File::open(path)?);
+    let decoded = DecodeReaderBytesBuilder::new()
+        .utf8_passthru(true)
+        .build(bytes);
+    Ok(Box::new(BufReader::with_capacity(1 << 16, decoded)))
+}

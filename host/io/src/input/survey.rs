@@ -1,0 +1,370 @@
+//! What a file holds: its tables, their columns with ranges, and what each is guessed to be. It reads the whole file, some rows at
+//! a time, and keeps none.
+
+use super::csv_file::TextRows;
+use super::guess::{Sought, guess, speed};
+#[cfg(feature = "formats")]
+use super::log_file::of_format;
+use super::motor_drive::DriveKind;
+use super::motor_file::MotorFile;
+#[cfg(feature = "formats")]
+use super::open::log_of;
+use super::open::text_of;
+use super::part::Part;
+use super::place::Place;
+use super::preset::{PRESETS, Preset};
+use super::read_error::{ReadError, ReadFault};
+#[cfg(feature = "formats")]
+use servoid_formats::{Kind, Log, Table};
+#[cfg(feature = "formats")]
+use std::ops::ControlFlow;
+use std::path::Path;
+
+#[cfg(feature = "formats")]
+/// Tables whose rows are read; further ones are listed.
+const TABLES: usize = 64;
+/// Columns of a table whose values are looked at; further ones are listed.
+const COLUMNS: usize = 512;
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    /// The format, for people.
+    pub format: String,
+    /// Its tables.
+    pub tables: Vec<SurveyTable>,
+    /// The program that seems to have written it.
+    pub preset: Option<&'static Preset>,
+    /// What its reader has to say.
+    pub notes: Vec<String>,
+}
+
+/// One table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurveyTable {
+    /// Its name; empty where the file has one table.
+    pub name: String,
+    /// Rows.
+    pub rows: u64,
+    /// From the first to the last time, in the time's unit; s where the log itself says that they are times.
+    pub span: Option<f64>,
+    /// Median of the first steps of the time, likewise.
+    pub interval: Option<f64>,
+    /// Its columns.
+    pub columns: Vec<SurveyColumn>,
+}
+
+/// One column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurveyColumn {
+    /// Its name.
+    pub name: String,
+    /// Whether it holds times, as the log says itself.
+    pub is_time: bool,
+    /// Whether it holds numbers.
+    pub is_number: bool,
+    /// Its unit, where the file says it.
+    pub unit: Option<String>,
+    /// Least value.
+    pub least: Option<f64>,
+    /// Greatest value.
+    pub greatest: Option<f64>,
+    /// What it may be: a key of `[columns]`.
+    pub guess: Option<&'static str>,
+    /// The unit that its name tells.
+    pub guessed_unit: Option<&'static str>,
+}
+
+/// Looks at a file. `done` is told of rows as they are read.
+///
+/// # Errors
+/// The file cannot be read, or is damaged.
+pub fn survey(path: &Path, motor: &MotorFile, done: &dyn Fn(u64)) -> Result<Survey, ReadError> {
+    let part = Part::of(path);
+    let source = part.path.display().to_string();
+    #[cfg(feature = "formats")]
+    let log = log_of(&part.path, &source)?;
+    #[cfg(feature = "formats")]
+    let logged = log.map(|mut log| {
+        let wanted = part.name.as_deref().or(motor.log.table.as_deref());
+        of_log(log.as_mut(), &source, wanted, done)
+    });
+    #[cfg(not(feature = "formats"))]
+    let logged: Option<Result<Survey, ReadError>> = None;
+    let mut survey = match logged {
+        Some(survey) => survey?,
+        None => of_text(&part.path, &source, motor, done)?,
+    };
+    survey.preset = motor.log.preset.or_else(|| likely(&survey.tables));
+    let kind = survey
+        .preset
+        .map_or(motor.drive_kind(), |preset| preset.drive);
+    for table in &mut survey.tables {
+        table.guess(kind, survey.preset);
+    }
+    Ok(survey)
+}
+
+/// The preset all of whose columns are in one table, and no other's are.
+fn likely(tables: &[SurveyTable]) -> Option<&'static Preset> {
+    let fits = |preset: &&Preset| {
+        tables.iter().any(|table| {
+            let has = |names: &[&str]| {
+                names
+                    .iter()
+                    .any(|name| table.columns.iter().any(|c| c.name == *name))
+            };
+            has(preset.command.names) && has(preset.angle.names) && has(preset.time.names)
+        })
+    };
+    let mut fitting = PRESETS.iter().filter(fits);
+    match (fitting.next(), fitting.next()) {
+        (Some(preset), None) => Some(preset),
+        _ => None,
+    }
+}
+
+#[cfg(feature = "formats")]
+fn of_log(
+    log: &mut dyn Log,
+    source: &str,
+    wanted: Option<&str>,
+    done: &dyn Fn(u64),
+) -> Result<Survey, ReadError> {
+    let listed: Vec<Table> = log.tables().to_vec();
+    let mut tables = Vec::new();
+    for (index, table) in listed.iter().enumerate() {
+        if wanted.is_some_and(|name| table.name != name) {
+            continue;
+        }
+        let mut surveyed = SurveyTable::of(table);
+        if tables.len() < TABLES {
+            let columns: Vec<usize> = (0..table.columns.len())
+                .filter(|k| table.columns[*k].kind != Kind::Text)
+                .take(COLUMNS)
+                .collect();
+            let mut clock = Clock::default();
+            let time = table.columns.iter().position(|c| c.kind == Kind::Time);
+            let read = log.read(index, &columns, &mut |rows| {
+                let count = rows.first().map_or(0, Vec::len);
+                surveyed.rows += count as u64;
+                done(count as u64);
+                for (k, values) in columns.iter().zip(rows) {
+                    let column = &mut surveyed.columns[*k];
+                    values.iter().for_each(|value| column.take(*value));
+                    if Some(*k) == time {
+                        values.iter().for_each(|value| clock.take(*value));
+                    }
+                }
+                ControlFlow::Continue(())
+            });
+            if columns.is_empty() {
+                surveyed.rows = table.rows.unwrap_or(0);
+            }
+            read.map_err(|error| of_format(source, error))?;
+            (surveyed.span, surveyed.interval) = clock.told();
+        }
+        tables.push(surveyed);
+    }
+    let mut notes = Vec::new();
+    if tables.len() > TABLES {
+        notes.push(format!(
+            "{source}: of {} tables the first {TABLES} were read; name one by --table",
+            tables.len()
+        ));
+    }
+    Ok(Survey {
+        format: log.format().name().to_owned(),
+        tables,
+        preset: None,
+        notes,
+    })
+}
+
+fn of_text(
+    path: &Path,
+    source: &str,
+    motor: &MotorFile,
+    done: &dyn Fn(u64),
+) -> Result<Survey, ReadError> {
+    let whole = |error| ReadError::new(Place::file(source), ReadFault::Io(error));
+    if path.is_dir() {
+        return Err(ReadError::new(Place::file(source), ReadFault::Folder));
+    }
+    let text = text_of(path).map_err(whole)?;
+    let mut rows = TextRows::new(text, source, motor, true)?;
+    let mut table = SurveyTable {
+        name: String::new(),
+        rows: 0,
+        span: None,
+        interval: None,
+        columns: rows
+            .names()
+            .iter()
+            .map(|name| SurveyColumn::named(name))
+            .collect(),
+    };
+    let header: Vec<String> = rows.names().to_vec();
+    let sought = [Sought {
+        key: "time",
+        called: motor.columns.time.as_deref(),
+    }];
+    let time = guess(&header, &sought, DriveKind::Voltage, &[])
+        .pop()
+        .flatten();
+    let time = time.and_then(|time| header.iter().position(|name| *name == time.column));
+    let mut clock = Clock::default();
+    while let Some(row) = rows.advance()? {
+        table.rows += 1;
+        done(1);
+        for (k, column) in table.columns.iter_mut().enumerate().take(COLUMNS) {
+            let Some(cell) = row.get(k) else {
+                continue;
+            };
+            let number = cell.parse::<f64>();
+            let value = number.as_ref().copied().unwrap_or(f64::NAN);
+            column.is_number &= number.is_ok() || cell.is_empty();
+            column.take(value);
+            if Some(k) == time {
+                clock.take(value);
+            }
+        }
+    }
+    (table.span, table.interval) = clock.told();
+    Ok(Survey {
+        format: "text with columns".to_owned(),
+        tables: vec![table],
+        preset: None,
+        notes: rows.notes(),
+    })
+}
+
+impl SurveyTable {
+    #[cfg(feature = "formats")]
+    fn of(table: &Table) -> Self {
+        SurveyTable {
+            name: table.name.clone(),
+            rows: 0,
+            span: None,
+            interval: None,
+            columns: (table.columns.iter())
+                .map(|column| SurveyColumn {
+                    is_time: column.kind == Kind::Time,
+                    is_number: column.kind != Kind::Text,
+                    unit: column.unit.clone(),
+                    ..SurveyColumn::named(&column.name)
+                })
+                .collect(),
+        }
+    }
+
+    /// Says what columns may be: as the preset has it, else as their names tell.
+    fn guess(&mut self, kind: DriveKind, preset: Option<&'static Preset>) {
+        let numbers = self.columns.iter().filter(|column| column.is_number);
+        let header: Vec<String> = numbers.map(|column| column.name.clone()).collect();
+        let keys = ["time", kind.command_key(), "angle", "current", "enabled"];
+        let presets = preset.map(|p| {
+            [
+                p.time.names,
+                p.command.names,
+                p.angle.names,
+                p.current.names,
+                p.enabled,
+            ]
+        });
+        let mut named: Vec<(&'static str, String, Option<&'static str>)> = Vec::new();
+        for (k, key) in keys.iter().enumerate() {
+            let names = presets.map_or(&[][..], |names| names[k]);
+            if let Some(name) = names
+                .iter()
+                .find(|name| header.iter().any(|own| own == *name))
+            {
+                named.push((key, (*name).to_owned(), None));
+            }
+        }
+        if let (None, Some(time)) = (
+            named.iter().find(|(key, ..)| *key == "time"),
+            self.columns.iter().find(|column| column.is_time),
+        ) {
+            named.push(("time", time.name.clone(), None));
+        }
+        let taken: Vec<String> = named.iter().map(|(_, name, _)| name.clone()).collect();
+        let open: Vec<&'static str> = (keys.into_iter())
+            .filter(|key| named.iter().all(|(own, ..)| own != key))
+            .collect();
+        let sought: Vec<Sought<'_>> = open
+            .iter()
+            .map(|key| Sought { key, called: None })
+            .collect();
+        for (key, guess) in open.iter().zip(guess(&header, &sought, kind, &taken)) {
+            named.extend(guess.map(|guess| (*key, guess.column, guess.unit)));
+        }
+        if named.iter().all(|(key, ..)| *key != "angle") {
+            let taken: Vec<&str> = named.iter().map(|(_, name, _)| name.as_str()).collect();
+            let found = speed(&header, &taken);
+            named.extend(found.map(|guess| ("angle", guess.column, guess.unit)));
+        }
+        for (key, name, unit) in named {
+            if let Some(column) = self.columns.iter_mut().find(|column| column.name == name) {
+                column.guess = Some(key);
+                column.guessed_unit = unit;
+            }
+        }
+    }
+}
+
+impl SurveyColumn {
+    fn named(name: &str) -> Self {
+        SurveyColumn {
+            name: name.to_owned(),
+            is_time: false,
+            is_number: true,
+            unit: None,
+            least: None,
+            greatest: None,
+            guess: None,
+            guessed_unit: None,
+        }
+    }
+
+    fn take(&mut self, value: f64) {
+        if value.is_finite() {
+            self.least = Some(self.least.map_or(value, |least| least.min(value)));
+            self.greatest = Some(self.greatest.map_or(value, |greatest| greatest.max(value)));
+        }
+    }
+}
+
+/// First and last time, and some steps.
+#[derive(Default)]
+struct Clock {
+    first: Option<f64>,
+    last: Option<f64>,
+    steps: Vec<f64>,
+}
+
+impl Clock {
+    /// Steps of which the median is taken.
+    const STEPS: usize = 1000;
+
+    fn take(&mut self, time: f64) {
+        if !time.is_finite() {
+            return;
+        }
+        if let Some(last) = self.last.filter(|_| self.steps.len() < Clock::STEPS) {
+            self.steps.push(time - last);
+        }
+        self.first.get_or_insert(time);
+        self.last = Some(time);
+    }
+
+    fn told(mut self) -> (Option<f64>, Option<f64>) {
+        let span = self.first.zip(self.last).map(|(first, last)| last - first);
+        if self.steps.is_empty() {
+            return (None, None);
+        }
+        let middle = self.steps.len() / 2;
+        let (_, median, _) = self.steps.select_nth_unstable_by(middle, f64::total_cmp);
+        (span, Some(*median))
+    }
+}

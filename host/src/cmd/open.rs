@@ -1,0 +1,112 @@
+//! `servoid open`: what a log holds, and the command that would fit it.
+
+use super::motor;
+use crate::cli::OpenArgs;
+use crate::error::Error;
+use crate::session::Session;
+use servoid_io::input::{MotorFile, Survey, SurveyColumn, SurveyTable, for_shell, survey};
+use servoid_results::report::opened::text;
+use servoid_results::schema::opened::Opened;
+
+pub(super) fn run(session: &Session, args: &OpenArgs) -> Result<(), Error> {
+    motor::check_outputs(session, &[], &args.motor, &args.log, None)?;
+    let motor = motor::motor_file(&args.motor, &args.log)?;
+    let bar = session.count("open", "rows");
+    let survey = survey(&args.log, &motor, &|rows| bar.inc(rows));
+    bar.finish_and_clear();
+    let survey = survey?;
+    let file = args.log.display().to_string();
+    let (command, needs) = fitting(&file, &survey, &motor);
+    let opened = Opened::new(&file, &survey, command, needs);
+    session.deliver(&text(&opened), &opened)
+}
+
+/// The command that would fit the log, and what it still needs.
+fn fitting(file: &str, survey: &Survey, motor: &MotorFile) -> (String, Vec<String>) {
+    let mut words = vec!["servoid fit".to_owned(), for_shell(file)];
+    let mut needs = Vec::new();
+    let table = most_guessed(survey);
+    if let Some(preset) = survey.preset {
+        words.push(format!("--preset {}", preset.name));
+    } else if let Some(table) = table {
+        let columns = table.columns.iter();
+        for (key, column) in columns.filter_map(|column| Some((column.guess?, column))) {
+            words.extend(mapped(key, column, motor));
+        }
+    }
+    if survey.preset.is_none() {
+        let found = |key: &str| {
+            table.is_some_and(|table| table.columns.iter().any(|c| c.guess == Some(key)))
+        };
+        if !found("time") && motor.log.rate_hz.is_none() {
+            words.push("--rate HZ".to_owned());
+            needs.push("no column looks like a time: say the samples a second".to_owned());
+        }
+        for (key, what) in [
+            (motor.drive_kind().command_key(), "the command"),
+            ("angle", "the angle"),
+        ] {
+            if !found(key) {
+                words.push(format!("--column {key}=NAME"));
+                needs.push(format!("no column looks like {what}: name it"));
+            }
+        }
+    }
+    let told = survey.preset.and_then(|preset| preset.counts_per_rev);
+    if motor.encoder_counts().or(told).is_none() {
+        words.push("--counts-per-rev N".to_owned());
+        needs.push("say the encoder's counts per revolution (its lines times 4)".to_owned());
+    }
+    let unit = survey.preset.map(|preset| preset.command.unit).or_else(|| {
+        let told = table?.columns.iter().find(|c| c.guess == Some("voltage"))?;
+        let name = told.guessed_unit?;
+        let all = servoid_io::input::CommandUnit::ALL.iter();
+        all.clone()
+            .find(|(own, _)| *own == name)
+            .map(|(_, unit)| *unit)
+    });
+    if unit.is_some_and(|unit| unit.full_scale().is_some()) && motor.supply_v.is_none() {
+        words.push("--supply-v V".to_owned());
+        needs.push("the command is a share of the supply: say its voltage".to_owned());
+    }
+    (words.join(" "), needs)
+}
+
+/// The table of which most is guessed.
+fn most_guessed(survey: &Survey) -> Option<&SurveyTable> {
+    let guessed = |table: &&SurveyTable| table.columns.iter().filter(|c| c.guess.is_some()).count();
+    // Of equals the first.
+    survey.tables.iter().rev().max_by_key(guessed)
+}
+
+/// The flags that map a column, none where the reader finds it by itself.
+fn mapped(key: &str, column: &SurveyColumn, motor: &MotorFile) -> Vec<String> {
+    let mut flags = Vec::new();
+    let usual: &[&str] = match key {
+        "time" => &["t_s"],
+        "voltage" => &["voltage_v"],
+        "angle" => &["angle_counts"],
+        "current" => &["current_a"],
+        "enabled" => &["enabled"],
+        _ => &[],
+    };
+    let own = |name: &&str| name.eq_ignore_ascii_case(&column.name);
+    let named = [
+        &motor.columns.time,
+        &motor.columns.voltage,
+        &motor.columns.angle,
+        &motor.columns.current,
+        &motor.columns.enabled,
+    ];
+    let said = named.into_iter().flatten().any(|name| *name == column.name);
+    if !column.is_time && !said && !usual.iter().any(own.clone()) {
+        flags.push(format!(
+            "--column {}",
+            for_shell(&format!("{key}={}", column.name))
+        ));
+    }
+    if let Some(unit) = column.guessed_unit {
+        flags.push(format!("--unit {key}={unit}"));
+    }
+    flags
+}

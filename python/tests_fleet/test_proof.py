@@ -1,0 +1,74 @@
+"""The same proof, whoever does its cases."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+import servoid as sv
+from servoid import fleet
+
+BUILT = Path(__file__).parents[2] / "target/debug/servoid"
+CASES = 45
+ARGUMENTS = ("--hidden", "none", "--seed", "5")
+
+
+@pytest.fixture(scope="module")
+def program():
+    found = os.environ.get("SERVOID") or (str(BUILT) if BUILT.exists() else shutil.which("servoid"))
+    if found is None:
+        pytest.skip("SKIPPED: no program servoid is built; cargo build makes it")
+    said = subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout.split()
+    if said[-1] != sv.__version__:
+        pytest.skip(f"SKIPPED: {found} is version {said[-1]}, the package {sv.__version__}")
+    return found
+
+
+@pytest.fixture(scope="module")
+def alone(program, tmp_path_factory):
+    """The coverage of the program alone."""
+    path = tmp_path_factory.mktemp("alone") / "coverage.json"
+    command = [program, "prove", "--coverage", "--cases", str(CASES), "--seed", "5", "--json", path, "-q"]
+    subprocess.run(command, check=True, capture_output=True)
+    return json.loads(path.read_text())
+
+
+@pytest.mark.parametrize("engine", ["local", "ray", "dask"])
+def test_coverage_is_the_same_with_any_engine(program, alone, tmp_path, engine):
+    def prove():
+        return fleet.prove(tmp_path / "out", ["--seed", "5"], cases=CASES, coverage=True, engine=engine, program=program)
+
+    proven = prove()
+    assert proven.to_dict() == alone
+    parts = sorted((tmp_path / "out").glob("coverage-*.json"))
+    assert len(parts) == 3
+    # One part is lost: it alone is done again.
+    kept = [part.stat().st_mtime_ns for part in parts[1:]]
+    parts[0].unlink()
+    Path(f"{parts[0]}.done").unlink()
+    assert prove().json == proven.json
+    assert [part.stat().st_mtime_ns for part in parts[1:]] == kept
+
+
+def test_a_proof_that_was_cut_goes_on(program, tmp_path):
+    proven = fleet.prove(tmp_path / "out", ARGUMENTS, cases=4, program=program)
+    (part,) = (tmp_path / "out").glob("prove-*.jsonl")
+    whole = part.read_bytes()
+    part.write_bytes(whole[: len(whole) // 2])
+    Path(f"{part}.done").unlink()
+    assert fleet.prove(tmp_path / "out", ARGUMENTS, cases=4, program=program).to_dict() == proven.to_dict()
+
+
+@pytest.mark.parametrize("argument", ["--cases", "--out=x", "--shard"])
+def test_what_the_proof_sets_itself_is_refused(program, tmp_path, argument):
+    with pytest.raises(sv.UsageError, match="leave it out"):
+        fleet.prove(tmp_path / "out", [argument], program=program)
+
+
+def test_what_the_program_refuses_is_told(program, tmp_path):
+    with pytest.raises(sv.UsageError):
+        fleet.prove(tmp_path / "out", ["--hidden", "three"], cases=2, program=program)
+    with pytest.raises(sv.UsageError, match="no such program"):
+        fleet.prove(tmp_path / "out", cases=2, program="no-such-servoid")
