@@ -1,6 +1,6 @@
 //! One recording, written as programs and people write it: read, it is always the same.
 
-use servoid_io::input::{MotorFile, read_recording, read_recordings};
+use servoid_io::input::{MotorFile, PRESETS, read_recording, read_recordings};
 use servoid_io::recording::Recording;
 use std::fmt::Write;
 use std::fs;
@@ -36,7 +36,8 @@ fn comma(x: f64) -> String {
 fn read(folder: &Path, bytes: &[u8], motor: &MotorFile) -> Recording {
     let path = folder.join("log.txt");
     fs::write(&path, bytes).expect("a file can be written");
-    let mut read = read_recording(&path, motor).unwrap_or_else(|error| panic!("{error}"));
+    let all = read_recordings(&path, motor).unwrap_or_else(|error| panic!("{error}"));
+    let [mut read] = <[Recording; 1]>::try_from(all.recordings).expect("one recording");
     read.source = String::new();
     // A clock may start anywhere.
     let start = read.time_s[0];
@@ -231,6 +232,20 @@ fn every_way_to_write_it_gives_the_same_recording() {
 }
 
 #[test]
+fn a_preset_is_kept_with_what_is_said_beside_it() {
+    for preset in PRESETS {
+        let text = format!(
+            "counts_per_rev = 2048.0\n[units]\ntime = \"ns\"\n[log]\npreset = \"{}\"\n",
+            preset.name
+        );
+        let motor = MotorFile::parse(&text, "motor.toml").expect(preset.name);
+        assert_eq!(motor.units.voltage, preset.command.unit, "{}", preset.name);
+        assert_eq!(motor.drive_kind(), preset.drive, "{}", preset.name);
+        assert_eq!(motor.to_toml(), text, "{}", preset.name);
+    }
+}
+
+#[test]
 fn other_encodings_are_read() {
     let folder = tempfile::tempdir().expect("a folder");
     let (_, known, text) = &ways()[0];
@@ -274,6 +289,25 @@ fn speeds_are_integrated() {
             assert_eq!(found.counts[k], angle, "{unit}, row {k}");
         }
     }
+}
+
+#[test]
+fn a_row_that_was_cut_off_is_left_out_with_a_note_or_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, known, text) = &ways()[0];
+    let path = folder.path().join("cut.csv");
+    fs::write(&path, format!("{text}120,1.")).expect("a file can be written");
+    let all = read_recordings(&path, &motor(known)).expect("all but the last row");
+    assert_eq!(all.recordings[0].len(), ROWS);
+    assert!(
+        all.notes[0].contains("not written to its end"),
+        "{:?}",
+        all.notes
+    );
+    let error = read_recording(&path, &motor(known))
+        .expect_err("cut off")
+        .to_string();
+    assert!(error.contains("the row has 2 cells"), "{error}");
 }
 
 #[test]

@@ -52,8 +52,8 @@ const EXAMPLES: &str = "Examples:
   servoid demo
   servoid demo --hide cogging
   servoid simulate --machine gearmotor --hide coulomb --out bench.csv
-  servoid open log.mcap
   servoid simulate --plan --between coulomb,brush_drop --out plan.csv
+  servoid open bench.csv
   servoid fit bench.csv --with coulomb --json fit.json
   servoid export fit.json --to wpilib
   servoid diagnose bench.csv

@@ -67,14 +67,30 @@ pub(super) fn read(
         ));
     };
     check_outputs_of(session, outputs, args, &fitted, &held_out)?;
-    let all = |paths: &[&Path]| -> Result<Vec<Recording>, Error> {
-        let read = paths.iter().map(|path| Ok(all_of(session, args, path)?.0));
-        let read: Vec<Vec<Recording>> = read.collect::<Result<_, Error>>()?;
-        Ok(read.into_iter().flatten().collect())
+    // Each with whether its path means a part of a file.
+    let all = |paths: &[&Path]| -> Result<Vec<(bool, Recording)>, Error> {
+        let mut all = Vec::new();
+        for path in paths {
+            let is_part = Part::of(path).name.is_some();
+            let (recordings, _) = all_of(session, args, path)?;
+            all.extend(recordings.into_iter().map(|recording| (is_part, recording)));
+        }
+        Ok(all)
     };
-    let (mut fitted, held_out) = (all(&fitted)?, all(&held_out)?);
+    let (fitted, held_out) = (all(&fitted)?, all(&held_out)?);
     // Parts of a file that are named to be held out are not among those of the whole file.
-    fitted.retain(|own| held_out.iter().all(|other| other.source != own.source));
+    let is_kept = |own: &Recording| {
+        let mut named = held_out.iter().filter(|(is_part, _)| *is_part);
+        named.all(|(_, other)| other.source != own.source)
+    };
+    let fitted: Vec<Recording> = (fitted.into_iter())
+        .map(|(_, recording)| recording)
+        .filter(is_kept)
+        .collect();
+    let held_out = held_out
+        .into_iter()
+        .map(|(_, recording)| recording)
+        .collect();
     let motor = motor_file(args, first)?;
     if args.write_motor {
         let beside = first.with_file_name("motor.toml");

@@ -68,7 +68,7 @@ const BAD: &[(&str, &[&str])] = &[
         &["rec.csv:3:3", "empty"],
     ),
     (
-        "t_s,voltage_v,angle_counts\n0,1,0\n1,1,5\n2,",
+        "t_s,voltage_v,angle_counts\n0,1,0\n1,1,5\n2,\n",
         &["rec.csv:4", "2 cells", "3"],
     ),
     (

@@ -212,9 +212,9 @@ const BAD: &[(&str, &str, &str)] = &[
         "allowed: `counts`, `deg`, `rad`, `rev`, `m`",
     ),
     (
-        "[units]\nvoltage = \"mV\"",
-        "motor.toml:2:11: `voltage` is \"mV\"",
-        "allowed: `V`, `duty`, `A`, `mA`",
+        "[units]\nvoltage = \"kV\"",
+        "motor.toml:2:11: `voltage` is \"kV\"",
+        "allowed: `V`, `mV`, `duty`, `percent`",
     ),
     (
         "[drive]\nkind = \"torque\"",

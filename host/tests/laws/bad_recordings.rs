@@ -225,7 +225,7 @@ const BAD_FILES: &[(&str, &str, &str, &[&str])] = &[
         &["metres_per_rev"],
     ),
     (
-        "t_s;voltage_v;angle_counts\n0,001;1;0\n",
+        "t_s,voltage_v,angle_counts\n\"0,001\",1,0\n",
         "counts_per_rev = 4",
         "rec.csv:2:1: column `t_s`: \"0,001\" is not a number",
         &["point for the decimal comma"],

@@ -252,7 +252,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
     );
     let log = (
         prop::option::of("[a-z/]{1,8}"),
-        prop::option::of(positive()),
+        positive(),
         prop::collection::vec(("[a-z]{1,5}", "[a-z0-9.]{1,5}"), 0..3),
         prop::option::of((1e-3f64..1e3, 1e-3f64..1e3)),
     );
@@ -307,6 +307,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                     },
                 },
                 log: LogPart {
+                    preset: None,
                     table,
                     rate_hz,
                     select: (select.into_iter())

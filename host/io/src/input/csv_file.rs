@@ -30,17 +30,30 @@ pub fn read_recording_from(
     source: &str,
     motor: &MotorFile,
 ) -> Result<Recording, ReadError> {
-    let mut reading = read_text(reader, source, motor, false)?;
+    let how = How {
+        several: false,
+        lenient: false,
+    };
+    let mut reading = read_text(reader, source, motor, how)?;
     let few = || ReadError::new(Place::file(source), ReadFault::TooFewSamples(0));
     reading.recordings.pop().ok_or_else(few)
 }
 
-/// Reads all recordings of a text with columns: a new one begins where the clock does, if there may be `several`.
+/// How a text is read.
+#[derive(Clone, Copy)]
+pub(super) struct How {
+    /// Whether it may hold several recordings: a new one begins where the clock does.
+    pub(super) several: bool,
+    /// Whether a last row that was not written to its end is left out, with a note, in place of an error.
+    pub(super) lenient: bool,
+}
+
+/// Reads all recordings of a text with columns.
 pub(super) fn read_text(
     reader: impl BufRead,
     source: &str,
     motor: &MotorFile,
-    several: bool,
+    how: How,
 ) -> Result<Reading, ReadError> {
     let whole = |fault| ReadError::new(Place::file(source), fault);
     let mut rows = TextRows::new(reader, source, motor, false)?;
@@ -57,7 +70,7 @@ pub(super) fn read_text(
     let mut collector = Collector::new(
         motor,
         &scale,
-        several,
+        how.several,
         layout.current.is_some(),
         layout.enabled.is_some(),
     );
@@ -67,7 +80,7 @@ pub(super) fn read_text(
         let sample = match read {
             Ok(Taken::Sample(sample)) => sample,
             Ok(Taken::NotSelected) => continue,
-            Err(error) if rows.cut_short(&error) => break,
+            Err(error) if how.lenient && rows.cut_short(&error) => break,
             Err(error) => return Err(error),
         };
         let timed = collector.time(sample.time_s);
@@ -194,7 +207,11 @@ impl<'s, R: BufRead> TextRows<'s, R> {
                 | ReadFault::EmptyCell
                 | ReadFault::OtherKeys
         );
-        if self.lines.ended() || !unfinished {
+        let is_text = |line: &[u8]| {
+            std::str::from_utf8(line)
+                .is_ok_and(|text| text.chars().all(|c| !c.is_control() || c == '\t'))
+        };
+        if self.lines.ended() || !unfinished || !is_text(self.lines.bytes()) {
             return false;
         }
         self.notes.push(format!(

@@ -250,7 +250,7 @@ const SPEED_UNITS: &[(&str, &str)] = &[
 ];
 /// What speeds are called, the likeliest first.
 const SPEED_WORDS: &[&str] = &[
-    "speed", "velocity", "omega", "vel", "rpm", "dtheta", "dq", "qd", "w",
+    "speed", "velocity", "omega", "velo", "vel", "rpm", "dtheta", "dq", "qd", "w",
 ];
 
 /// The column that may hold a speed, where a log has no angle; its unit is radians a second if the name tells none.

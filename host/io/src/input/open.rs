@@ -1,6 +1,6 @@
 //! A file of any format that is read, opened by its content.
 
-use super::csv_file::read_text;
+use super::csv_file::{How, read_text};
 use super::motor_file::MotorFile;
 use super::part::Part;
 use super::place::Place;
@@ -19,6 +19,10 @@ use std::path::Path;
 /// # Errors
 /// The first fault found, with its place and the remedy: see [`ReadFault`].
 pub fn read_recordings(path: &Path, motor: &MotorFile) -> Result<Reading, ReadError> {
+    read(path, motor, true)
+}
+
+fn read(path: &Path, motor: &MotorFile, lenient: bool) -> Result<Reading, ReadError> {
     let part = Part::of(path);
     let source = part.path.display().to_string();
     let whole = |fault| ReadError::new(Place::file(&source), fault);
@@ -31,7 +35,11 @@ pub fn read_recordings(path: &Path, motor: &MotorFile) -> Result<Reading, ReadEr
         return Err(whole(ReadFault::Folder));
     }
     let text = text_of(&part.path).map_err(|error| whole(ReadFault::Io(error)))?;
-    let reading = read_text(text, &source, motor, true)?;
+    let how = How {
+        several: true,
+        lenient,
+    };
+    let reading = read_text(text, &source, motor, how)?;
     reading.part(&source, part.name.as_deref()).map_err(whole)
 }
 
@@ -42,7 +50,8 @@ pub fn read_recordings(path: &Path, motor: &MotorFile) -> Result<Reading, ReadEr
 pub fn read_recording(path: &Path, motor: &MotorFile) -> Result<Recording, ReadError> {
     let source = Part::of(path).path.display().to_string();
     let whole = |fault| ReadError::new(Place::file(&source), fault);
-    let reading = read_recordings(path, motor)?.only(&source);
+    // Nobody sees the notes: a last row that was cut off is an error here.
+    let reading = read(path, motor, false)?.only(&source);
     let recording = reading.map_err(whole)?.recordings.pop();
     recording.ok_or_else(|| whole(ReadFault::TooFewSamples(0)))
 }

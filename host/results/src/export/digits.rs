@@ -5,9 +5,34 @@ pub fn rounded(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
 
+/// A number that YAML takes for one: with a point, and with a sign in its exponent.
+pub fn yaml(x: f64) -> String {
+    let text = format!("{x:?}");
+    let Some((digits, power)) = text.split_once('e') else {
+        return text;
+    };
+    let point = if digits.contains('.') { "" } else { ".0" };
+    let sign = if power.starts_with('-') { "" } else { "+" };
+    format!("{digits}{point}e{sign}{power}")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::rounded;
+    use super::{rounded, yaml};
+
+    #[test]
+    fn yaml_takes_numbers_of_every_size_for_numbers() {
+        for (x, text) in [
+            (1e-7, "1.0e-7"),
+            (-2.5e-9, "-2.5e-9"),
+            (3e20, "3.0e+20"),
+            (0.5, "0.5"),
+            (12.0, "12.0"),
+        ] {
+            assert_eq!(yaml(x), text);
+            assert_eq!(text.parse(), Ok(x));
+        }
+    }
 
     #[test]
     fn what_was_multiplied_and_divided_is_as_it_was_typed() {

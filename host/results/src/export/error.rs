@@ -18,7 +18,7 @@ pub enum ExportError {
     /// The amplifier closed a current loop, so that nothing is known in volts.
     #[error(
         "{format} needs a motor driven by a voltage, and this one was recorded behind a current loop; record it with a \
-         voltage, or export to toml, json, csv, c, rust, modelica or gains"
+         voltage, or export to toml, json, csv, c, rust, modelica, gains or ros2-control"
     )]
     CurrentDriven {
         /// The format.
@@ -27,6 +27,17 @@ pub enum ExportError {
     /// A loop that cannot be closed as asked.
     #[error("{0}")]
     Loop(String),
+    /// A format for the motor's own winding, and another shaft.
+    #[error(
+        "{format} speaks of the motor's own winding and shaft; export it without --side output, and give the drive the gear"
+    )]
+    MotorSide {
+        /// The format.
+        format: &'static str,
+    },
+    /// A text that cannot be made.
+    #[error("the text cannot be written: {0}; this is a defect of servoid, export to csv instead")]
+    Text(String),
     /// A unit that nobody knows.
     #[error(
         "`{name}` is in `{unit}`, a unit that servoid does not know; run the verb that wrote the result again"

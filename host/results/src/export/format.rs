@@ -4,7 +4,10 @@ use super::error::ExportError;
 use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
-use super::{c, csv, gains, json, modelica, mujoco, rust, toml, urdf, wpilib};
+use super::{
+    bam, c, csv, gains, json, mjlab, modelica, moteus, mujoco, odrive, ros2_control, rust,
+    simscape, toml, urdf, vesc, wpilib,
+};
 
 /// One format.
 pub struct Format {
@@ -67,6 +70,41 @@ pub const FORMATS: &[Format] = &[
         name: "gains",
         about: "PI controllers and feed-forward with their margins, as TOML",
         write: gains::write,
+    },
+    Format {
+        name: "bam",
+        about: "parameter file of bam (Rhoban): motor and friction of a servo; needs torques in N*m",
+        write: bam::write,
+    },
+    Format {
+        name: "mjlab",
+        about: "DcMotorActuatorCfg of mjlab, as Python; needs torques in N*m",
+        write: mjlab::write,
+    },
+    Format {
+        name: "simscape",
+        about: "workspace variables for Simscape's DC Motor, as MATLAB; needs torques in N*m",
+        write: simscape::write,
+    },
+    Format {
+        name: "ros2-control",
+        about: "a speed controller of ROS 2 (pid_controller), as YAML",
+        write: ros2_control::write,
+    },
+    Format {
+        name: "odrive",
+        about: "an ODrive's settings; needs the resistance",
+        write: odrive::write,
+    },
+    Format {
+        name: "vesc",
+        about: "a VESC's settings, as LispBM; needs the resistance",
+        write: vesc::write,
+    },
+    Format {
+        name: "moteus",
+        about: "a moteus's settings; needs the resistance",
+        write: moteus::write,
     },
 ];
 

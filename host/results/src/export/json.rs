@@ -56,6 +56,6 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         version: env!("CARGO_PKG_VERSION"),
     };
     let text = serde_json::to_string_pretty(&motor);
-    written.text = text.map_err(|e| ExportError::Loop(e.to_string()))? + "\n";
+    written.text = text.map_err(|e| ExportError::Text(e.to_string()))? + "\n";
     Ok(written)
 }

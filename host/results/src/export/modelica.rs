@@ -60,9 +60,9 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             again += 1;
         }
         written.map(name, &to, &shown);
+        let (kind, own) = kind(unit, shown == unit);
         body += &format!(
-            "  parameter {} {to} = {value:?} \"{name}, {shown}{about}, {} side\";\n",
-            kind(unit, shown == unit),
+            "  parameter {kind} {to}{own} = {value:?} \"{name}, {shown}{about}, {} side\";\n",
             subject.side.name()
         );
     }
@@ -91,15 +91,16 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     Ok(written)
 }
 
-/// Type of a number in `unit`; `physical` is false behind a current loop.
-fn kind(unit: &str, physical: bool) -> String {
+/// Type of a number in `unit`, and what stands behind its name; `physical` is false behind a current loop.
+fn kind(unit: &str, physical: bool) -> (String, String) {
     let known = TYPES.iter().find(|(known, _)| *known == unit);
+    let plain = "Real".to_owned();
     match known.filter(|_| physical) {
-        Some((_, name)) => format!("Modelica.Units.SI.{name}"),
-        None if !physical || unit.contains("rev") || unit == "1" => "Real".to_owned(),
+        Some((_, name)) => (format!("Modelica.Units.SI.{name}"), String::new()),
+        None if !physical || unit.contains("rev") || unit == "1" => (plain, String::new()),
         None => {
             let unit = unit.replace('*', ".").replace('^', "");
-            format!("Real(unit=\"{unit}\")")
+            (plain, format!("(unit=\"{unit}\")"))
         }
     }
 }

@@ -1,35 +1,38 @@
 //! A joint and a `dcmotor` actuator of MuJoCo (XML reference, `joint`, `actuator/dcmotor`; its technical note `dcmotor.pdf`).
 //!
-//! MuJoCo's motor has one constant `K`: `τ = (K/R)·(v − K·ω)`. Ours gives `τ = (v − Kb·ω)/ρ` with `ρ = R/Kt`. With `K = Kb` and
-//! `R' = ρ·Kb` the two are the same, whatever `Kt` is; where `Kt = Kb`, `R'` is the resistance itself. If viscous friction is
-//! not told apart from back-EMF, all of it stands as back-EMF, which moves the joint alike. The inductance is given by the
-//! electrical time constant. For a MuJoCo without `dcmotor` the same motor stands beside it as `general`, with `gain = 1/ρ`
-//! and `bias = −Kb/ρ`; that one has no inductance. (MuJoCo 4.0.0 was seen to reach the speeds, and to give the cogging and LuGre
-//! torques, of these equations.)
+//! MuJoCo's motor has one constant ([`OneConstant`]). The inductance is given by the electrical time constant. For a MuJoCo without
+//! `dcmotor` the same motor stands beside it as `general`, with `gain = 1/ρ` and `bias = −Kb/ρ`; that one has no inductance.
+//! (MuJoCo 4.0.0 was seen to reach the speeds, and to give the cogging and LuGre torques, of these equations.)
 
 use super::comment::{head, xml};
 use super::digits::rounded;
-use super::error::{ExportError, FIT_AGAIN};
+use super::error::ExportError;
 use super::friction::{self, Friction};
+use super::one_constant::{Named, OneConstant};
 use super::options::Options;
 use super::subject::{Subject, Term};
 use super::written::{Carried, Written};
 use shared::effects::Kind;
 
-const FORMAT: &str = "mujoco";
+const NAMED: Named = Named {
+    format: "mujoco",
+    program: "MuJoCo",
+    constant: "motorconst",
+};
 /// Orders nearer to a whole number than this are one.
 const WHOLE: f64 = 1e-3;
 /// Inertia of the body that carries the joint, as a part of the armature.
 const LITTLE: f64 = 1e-6;
+/// How soon frictionloss has its whole torque. With MuJoCo's own 0.02 s a gearmotor creeps below 16 rad/s, and a run of 4 s was seen to
+/// end 180 counts off, with this one 2; MuJoCo itself takes no less than two of its steps.
+const AT_ONCE: &str = "0.0001 1";
 /// The least that MuJoCo takes is 1e-15 kg·m².
 const LEAST_INERTIA: f64 = 1e-14;
-/// Motor constants that differ by less than this part are one.
-const SAME: f64 = 1e-3;
 
 pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, ExportError> {
-    subject.needs_volts(FORMAT)?;
-    subject.needs_response(FORMAT)?;
-    let ratio = subject.needs_torques(FORMAT)?;
+    subject.needs_volts(NAMED.format)?;
+    subject.needs_response(NAMED.format)?;
+    let ratio = subject.needs_torques(NAMED.format)?;
     let mut written = Written::new(subject);
     let bristles = bristles(subject, ratio);
     let mut friction = Friction::of(subject, &mut written);
@@ -41,57 +44,20 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             friction.slides.remove(place);
         }
     }
-    let machine = &subject.machine;
-    let (emf, viscous) = if subject.viscous_is_apart() {
-        (machine.kb, machine.damping)
-    } else {
-        written.remarks.push(
-            "viscous friction and back-EMF are not told apart: all of it stands as back-EMF (motorconst)".to_owned(),
-        );
-        (machine.kb + machine.damping, 0.0)
-    };
-    // Both stand in denominators there.
-    if emf <= 0.0 {
-        return Err(ExportError::Undetermined {
-            format: FORMAT,
-            needs: "a back-EMF constant above zero".to_owned(),
-            remedy: FIT_AGAIN,
-        });
-    }
-    let damping = rounded((viscous + friction.viscous) / ratio);
-    let resistance = rounded(ratio * emf);
-    let emf = rounded(emf);
-    if let Some(kt) = subject.physical("kt", "N*m/A")
-        && (kt / emf - 1.0).abs() > SAME
-    {
-        written.remarks.push(format!(
-            "MuJoCo has one motor constant and Kt is {kt:?} N*m/A: resistance is Kb*R/Kt, so that torques are right and currents are not"
-        ));
-    }
+    let one = OneConstant::of(subject, &friction, NAMED, &mut written)?;
+    let (resistance, emf) = (one.resistance, one.constant);
     let mut joint = vec![
-        ("damping", "N*m*s/rad", "viscous", damping),
-        (
-            "armature",
-            "kg*m^2",
-            "inertia",
-            rounded(machine.inertia / ratio),
-        ),
+        ("damping", "N*m*s/rad", "viscous", one.damping),
+        ("armature", "kg*m^2", "inertia", one.inertia),
     ];
-    let slides = friction.slides.join(", ");
-    if !slides.is_empty() {
-        joint.push((
-            "frictionloss",
-            "N*m",
-            &slides,
-            rounded(friction.sliding / ratio),
-        ));
+    if let Some((torque, slides)) = &one.sliding {
+        joint.push(("frictionloss", "N*m", slides.as_str(), *torque));
     }
     let mut motor = vec![
         ("resistance", "ohm", "resistance", format!("{resistance:?}")),
         ("motorconst", "V*s/rad", "kb", format!("{emf:?} {emf:?}")),
     ];
-    if subject.determined("electrical_time_constant").is_some() {
-        let seconds = machine.electrical;
+    if let Some(seconds) = one.electrical {
         motor.push((
             "inductance",
             "H s",
@@ -104,15 +70,14 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
             "not determined by this recording",
         );
     }
-    let limit = limit(subject);
-    if let Some(limit) = limit {
-        let clips = subject.terms.iter().any(|t| t.kind == Kind::VoltageSat);
-        let from = if clips {
-            "supply, voltage_sat"
-        } else {
-            "supply"
-        };
-        motor.push(("ctrlrange", "V", from, format!("-{limit:?} {limit:?}")));
+    if let Some(limit) = one.limit {
+        let volts = limit.volts;
+        motor.push((
+            "ctrlrange",
+            "V",
+            limit.from,
+            format!("-{volts:?} {volts:?}"),
+        ));
     } else {
         written.remarks.push(
             "the supply is not known, so ctrlrange is left out: give it, or the actuator takes any voltage".to_owned(),
@@ -182,8 +147,11 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     for (name, _, _, value) in &joint {
         text += &format!(" {name}=\"{value:?}\"");
     }
+    if one.sliding.is_some() {
+        text += &format!(" solreffriction=\"{AT_ONCE}\"");
+    }
     // MuJoCo wants some inertia in every body that moves.
-    let least = (LITTLE * machine.inertia / ratio).max(LEAST_INERTIA);
+    let least = (LITTLE * one.inertia).max(LEAST_INERTIA);
     text += &format!(
         "/>\n      <inertial pos=\"0 0 0\" mass=\"1e-6\" diaginertia=\"{least:?} {least:?} {least:?}\"/>\n    </body>\n  </worldbody>\n"
     );
@@ -192,7 +160,8 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         text += &format!(" {name}=\"{value}\"");
     }
     text += "/>\n    <!-- without dcmotor, and without inductance, cogging and lugre:\n";
-    let range = limit.map_or_else(String::new, |v| format!(" ctrlrange=\"-{v:?} {v:?}\""));
+    let volts = one.limit.map(|limit| limit.volts);
+    let range = volts.map_or_else(String::new, |v| format!(" ctrlrange=\"-{v:?} {v:?}\""));
     text += &format!(
         "    <general name=\"motor\" joint=\"shaft\"{range} gaintype=\"fixed\" gainprm=\"{:?}\" biastype=\"affine\" biasprm=\"0 0 {:?}\"/>\n    -->\n",
         rounded(1.0 / ratio),
@@ -203,29 +172,9 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     Ok(written)
 }
 
-/// The largest voltage: what the stage clips at, else the supply.
-fn limit(subject: &Subject) -> Option<f64> {
-    let clips = subject
-        .terms
-        .iter()
-        .filter(|term| term.kind == Kind::VoltageSat);
-    let clipped = clips
-        .filter(|term| term.determined[0])
-        .map(|term| term.values[0]);
-    clipped.fold(subject.supply_v, |least, limit| {
-        Some(least.map_or(limit, |least| least.min(limit)))
-    })
-}
-
-/// The first term of a kind, if all of its parameters are determined.
-fn first(subject: &Subject, kind: Kind) -> Option<&Term> {
-    let term = subject.terms.iter().find(|term| term.kind == kind);
-    term.filter(|term| !term.determined.contains(&false))
-}
-
 /// `amplitude poles phase`: MuJoCo pushes with `A·sin(n·θ + φ)` where ours brakes with `a·cos(kθ) + b·sin(kθ)`.
 fn cogging(subject: &Subject, ratio: f64) -> Option<(Kind, String)> {
-    let term = first(subject, Kind::Cogging)?;
+    let term = subject.first(Kind::Cogging)?;
     let (a, b, order) = (term.values[0], term.values[1], term.values[2]);
     let whole = order.round();
     let fits = (order - whole).abs() < WHOLE && whole >= 1.0;
@@ -240,7 +189,7 @@ fn cogging(subject: &Subject, ratio: f64) -> Option<(Kind, String)> {
 
 /// The sliding friction (V), and `stiffness damping coulomb static stribeck`, with `σ0 = Tc·(1 + r)/z(0)` and `σ1 = σ0·t1`.
 fn bristles(subject: &Subject, ratio: f64) -> Option<(f64, String)> {
-    let term = first(subject, Kind::Lugre)?;
+    let term = subject.first(Kind::Lugre)?;
     let [torque, excess, speed, presliding, time, form] = term.values[..] else {
         return None;
     };

@@ -1,5 +1,6 @@
 //! What a user chooses beside the format.
 
+use super::brushless::Winding;
 use super::error::ExportError;
 use super::gains::asked::Asked;
 use super::subject::Subject;
@@ -11,6 +12,10 @@ pub struct Options {
     pub sample_s: Option<f64>,
     /// Controllers.
     pub gains: Asked,
+    /// What voltage and current of the recording were those of.
+    pub winding: Winding,
+    /// Pairs of poles of a brushless motor.
+    pub pole_pairs: Option<u32>,
 }
 
 impl Options {

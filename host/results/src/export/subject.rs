@@ -192,6 +192,12 @@ impl Subject {
         value.filter(|x| x.abs() > LEAST)
     }
 
+    /// The first term of a kind, if all of its parameters are determined.
+    pub fn first(&self, kind: Kind) -> Option<&Term> {
+        let term = self.terms.iter().find(|term| term.kind == kind);
+        term.filter(|term| !term.determined.contains(&false))
+    }
+
     /// Volts at the winding per newton metre on the shaft, `R/Kt`, V/(N·m).
     pub fn volts_per_torque(&self) -> Option<f64> {
         if self.drive == Drive::Current {

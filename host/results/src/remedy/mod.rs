@@ -64,6 +64,7 @@ pub fn remedy(
             loops: Some(Loops::Voltage),
             ..Asked::default()
         },
+        ..Options::default()
     };
     let controllers = gains::design(subject, &options)?;
     let speed: &Section = controllers

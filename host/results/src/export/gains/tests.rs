@@ -35,8 +35,8 @@ fn motors() -> Vec<bench::Machine> {
 
 fn asked(gains: Asked) -> Options {
     Options {
-        sample_s: None,
         gains,
+        ..Options::default()
     }
 }
 
@@ -225,6 +225,7 @@ fn the_zero_of_a_current_loop_is_l_over_r_as_the_period_vanishes() {
             current_hz: Some(100.0),
             ..Asked::default()
         },
+        ..Options::default()
     };
     let found = design(&subject, &options).expect("loops");
     let closed = found.section("current_loop").expect("a loop").closed;

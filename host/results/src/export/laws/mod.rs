@@ -1,6 +1,7 @@
 //! Laws over all formats and results: every effect, with much and with little known, on both sides of a gear.
 
 mod compile;
+mod makers;
 mod numbers;
 
 use super::samples::{DIGITS, KNOWN, Known, linear, result, subject};
@@ -74,7 +75,8 @@ fn what_all_is_known_of_goes_into_every_format_and_a_current_loop_s_into_those_t
     }
     for format in FORMATS {
         let current = subject(&linear(&motor, Known::Current), Side::Motor);
-        let refused = ["mujoco", "urdf", "wpilib"].contains(&format.name);
+        let takes = ["toml", "json", "csv", "c", "rust", "modelica", "gains"];
+        let refused = !takes.contains(&format.name) && format.name != "ros2-control";
         assert_eq!(write(format, &current).is_err(), refused, "{}", format.name);
         let nothing = subject(&linear(&motor, Known::Nothing), Side::Motor);
         let tables = ["toml", "json", "csv"].contains(&format.name);
@@ -179,9 +181,15 @@ fn every_text_is_of_its_language() {
                     .filter(|line| line.starts_with("  p") && line.contains('='))
                 {
                     assert!(line.trim_end().ends_with(';'), "{case}: {line}");
+                    // In Modelica a unit stands behind the name, and not behind the type.
+                    let kind = line.split(' ').find(|word| word.starts_with("Real"));
+                    assert!(kind.is_none_or(|kind| kind == "Real"), "{case}: {line}");
                 }
             }
             "c" | "rust" => {}
+            "bam" | "mjlab" | "simscape" | "ros2-control" | "odrive" | "vesc" | "moteus" => {
+                makers::is_of_its_language(format, text).unwrap_or_else(|error| wrong(error));
+            }
             other => wrong(format!("a format without a test: {other}")),
         }
     }
