@@ -1,7 +1,7 @@
 //! `servoid open`: what a log holds, and the command that would fit it.
 
 use super::motor;
-use crate::cli::OpenArgs;
+use crate::cli::{MotorArgs, OpenArgs};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_io::input::{MotorFile, Survey, SurveyColumn, SurveyTable, for_shell, survey};
@@ -16,14 +16,20 @@ pub(super) fn run(session: &Session, args: &OpenArgs) -> Result<(), Error> {
     bar.finish_and_clear();
     let survey = survey?;
     let file = args.log.display().to_string();
-    let (command, needs) = fitting(&file, &survey, &motor);
+    let (command, needs) = fitting(&file, &survey, &motor, &given(&args.motor));
     let opened = Opened::new(&file, &survey, command, needs);
     session.deliver(&text(&opened), &opened)
 }
 
 /// The command that would fit the log, and what it still needs.
-fn fitting(file: &str, survey: &Survey, motor: &MotorFile) -> (String, Vec<String>) {
+fn fitting(
+    file: &str,
+    survey: &Survey,
+    motor: &MotorFile,
+    given: &[String],
+) -> (String, Vec<String>) {
     let mut words = vec!["servoid fit".to_owned(), for_shell(file)];
+    words.extend_from_slice(given);
     let mut needs = Vec::new();
     let table = most_guessed(survey);
     if let Some(preset) = survey.preset {
@@ -31,12 +37,15 @@ fn fitting(file: &str, survey: &Survey, motor: &MotorFile) -> (String, Vec<Strin
     } else if let Some(table) = table {
         let columns = table.columns.iter();
         for (key, column) in columns.filter_map(|column| Some((column.guess?, column))) {
-            words.extend(mapped(key, column, motor));
+            if !is_said(key, motor) {
+                words.extend(mapped(key, column));
+            }
         }
     }
     if survey.preset.is_none() {
         let found = |key: &str| {
-            table.is_some_and(|table| table.columns.iter().any(|c| c.guess == Some(key)))
+            is_said(key, motor)
+                || table.is_some_and(|table| table.columns.iter().any(|c| c.guess == Some(key)))
         };
         if !found("time") && motor.log.rate_hz.is_none() {
             words.push("--rate HZ".to_owned());
@@ -79,31 +88,60 @@ fn most_guessed(survey: &Survey) -> Option<&SurveyTable> {
     survey.tables.iter().rev().max_by_key(guessed)
 }
 
-/// The flags that map a column, none where the reader finds it by itself.
-fn mapped(key: &str, column: &SurveyColumn, motor: &MotorFile) -> Vec<String> {
-    let mut flags = Vec::new();
-    let usual: &[&str] = match key {
-        "time" => &["t_s"],
-        "voltage" => &["voltage_v"],
-        "angle" => &["angle_counts"],
-        "current" => &["current_a"],
-        "enabled" => &["enabled"],
-        _ => &[],
+/// Whether the user has named the column for a key.
+fn is_said(key: &str, motor: &MotorFile) -> bool {
+    let columns = &motor.columns;
+    let named = match key {
+        "time" => &columns.time,
+        "voltage" | "target" => &columns.voltage,
+        "angle" => &columns.angle,
+        "current" => &columns.current,
+        _ => &columns.enabled,
     };
-    let own = |name: &&str| name.eq_ignore_ascii_case(&column.name);
-    let named = [
-        &motor.columns.time,
-        &motor.columns.voltage,
-        &motor.columns.angle,
-        &motor.columns.current,
-        &motor.columns.enabled,
-    ];
-    let said = named.into_iter().flatten().any(|name| *name == column.name);
-    if !column.is_time && !said && !usual.iter().any(own.clone()) {
-        flags.push(format!(
-            "--column {}",
-            for_shell(&format!("{key}={}", column.name))
-        ));
+    named.is_some()
+}
+
+/// What the user has said by flags, to stand in the command as well.
+fn given(args: &MotorArgs) -> Vec<String> {
+    let texts = |flag: &str, values: &[String]| -> Vec<String> {
+        let each = values.iter();
+        each.map(|value| format!("{flag} {}", for_shell(value)))
+            .collect()
+    };
+    let number = |flag: &str, value: Option<f64>| value.map(|value| format!("{flag} {value}"));
+    let mut words = [
+        texts("--column", &args.column),
+        texts("--unit", &args.unit),
+        texts("--drive", args.drive.as_slice()),
+        texts("--table", args.table.as_slice()),
+        texts("--select", &args.select),
+    ]
+    .concat();
+    let motor = args.motor.as_ref();
+    words.extend(motor.map(|path| format!("--motor {}", for_shell(&path.display().to_string()))));
+    words.extend(number("--counts-per-rev", args.counts_per_rev));
+    words.extend(number("--supply-v", args.supply));
+    words.extend(number("--metres-per-rev", args.metres_per_rev));
+    words.extend(number("--rate", args.rate));
+    words.extend(number("--from", args.from));
+    words.extend(number("--to", args.to));
+    words
+}
+
+/// The flags that map a column, none where the reader finds it by itself.
+fn mapped(key: &str, column: &SurveyColumn) -> Vec<String> {
+    let mut flags = Vec::new();
+    let usual = match key {
+        "time" => "t_s",
+        "voltage" => "voltage_v",
+        "angle" => "angle_counts",
+        "current" => "current_a",
+        "enabled" => "enabled",
+        _ => "",
+    };
+    if !column.is_time && !column.name.eq_ignore_ascii_case(usual) {
+        let named = format!("{key}={}", column.name);
+        flags.push(format!("--column {}", for_shell(&named)));
     }
     if let Some(unit) = column.guessed_unit {
         flags.push(format!("--unit {key}={unit}"));
