@@ -56,6 +56,12 @@ fn ending(format: &str) -> &str {
         "rust" => "rs",
         "mujoco" | "urdf" => "xml",
         "modelica" => "mo",
+        "bam" => "json",
+        "mjlab" | "odrive" => "py",
+        "simscape" => "m",
+        "ros2-control" => "yaml",
+        "vesc" => "lisp",
+        "moteus" => "cfg",
         "wpilib" | "gains" => "txt",
         same => same,
     }
