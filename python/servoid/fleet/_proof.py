@@ -149,7 +149,7 @@ def _locally(work: Part, names: Sequence[str], shown: Progress) -> None:
     for ended, name in enumerate(names, 1):
         outcome = work(name)
         if outcome.done is None:
-            error = Error(outcome.message)
+            error = (UsageError if outcome.cause == "usage" else Error)(outcome.message)
             error.cause = outcome.cause
             raise error
         done += outcome.done.recordings
@@ -163,7 +163,9 @@ def _called(command: Sequence[str], threads: int | None) -> str:
         environment["RAYON_NUM_THREADS"] = str(threads)
     ran = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
     if ran.returncode != 0:
-        last = next(reversed(ran.stderr.strip().splitlines()), f"exit code {ran.returncode}")
+        lines = ran.stderr.strip().splitlines()
+        said = [line for line in lines if line.startswith(("error", "servoid"))] or lines[-1:]
+        last = said[0] if said else f"exit code {ran.returncode}"
         wrong = UsageError if ran.returncode == 2 else Error
         error = wrong(f"{os.path.basename(command[0])} {command[1]}: {last}")
         error.cause = "usage" if ran.returncode == 2 else "failed"
