@@ -95,11 +95,10 @@ impl Format {
 /// The file cannot be read, or is of a format that it contradicts.
 pub fn open(path: &Path) -> Result<Option<Box<dyn Log>>, FormatError> {
     if path.is_dir() {
-        let is_dataset = lerobot::is_dataset(path);
-        return Ok(match is_dataset.then(|| LeRobot::open(path)).transpose()? {
-            Some(dataset) => Some(Box::new(dataset)),
-            None => None,
-        });
+        if !lerobot::is_dataset(path) {
+            return Ok(None);
+        }
+        return Ok(Some(Box::new(LeRobot::open(path)?)));
     }
     let source = path.display().to_string();
     let fail = |error| FormatError::new(&source, "", error);

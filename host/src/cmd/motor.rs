@@ -1,5 +1,6 @@
 //! From flags and files to recordings: `motor.toml` beside the recording or named, then the flags.
 
+use super::motor_beside::write_motor;
 use crate::cli::{MotorArgs, RecordingsArgs};
 use crate::error::Error;
 use crate::session::Session;
@@ -94,9 +95,7 @@ pub(super) fn read(
     let motor = motor_file(args, first)?;
     if args.write_motor {
         let beside = first.with_file_name("motor.toml");
-        session.remark(
-            super::motor_beside::write_motor(session, &beside, &motor)?.trim_start_matches("; "),
-        );
+        session.remark(&write_motor(session, &beside, &motor)?);
     }
     Ok(Read {
         fitted,

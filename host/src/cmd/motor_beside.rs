@@ -15,7 +15,7 @@ pub(super) fn write_motor(
 ) -> Result<String, Error> {
     if !path.exists() {
         write_whole(path, |out| out.write_all(motor.to_toml().as_bytes()))?;
-        return Ok(format!("; what is known of the motor: {}", path.display()));
+        return Ok(format!("what is known of the motor: {}", path.display()));
     }
     let disagrees = match MotorFile::read(path) {
         Err(error) => vec![format!("it cannot be used: {error}")],
@@ -29,10 +29,7 @@ pub(super) fn write_motor(
             disagrees.join("; ")
         ));
     }
-    Ok(format!(
-        "; {} was there already and is kept",
-        path.display()
-    ))
+    Ok(format!("{} was there already and is kept", path.display()))
 }
 
 /// Where a motor file would make a recording of `motor` be misread, or tells of another motor.

@@ -116,6 +116,7 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
             position: control.map(settings),
             ..MotorFile::default()
         };
+        text += "; ";
         text += &write_motor(session, &motor_path, &motor)?;
     }
     text.push('\n');

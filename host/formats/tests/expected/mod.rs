@@ -1,17 +1,16 @@
 //! Fixtures against what their scripts wrote beside them.
+// Each program of tests takes some of it.
 #![allow(dead_code)]
+
+#[path = "../read/mod.rs"]
+mod read;
 
 use serde_json::Value;
 use servoid_formats::{FormatError, FormatFault, Kind, Log, Table, open};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// The folder of fixtures.
-pub fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/fixtures")
-        .join(name)
-}
+pub use read::fixture as folder;
 
 /// The fixtures of a folder, in the order of their names.
 pub fn fixtures(folder: &Path) -> Vec<PathBuf> {
@@ -30,16 +29,8 @@ pub fn rows(
     table: usize,
     columns: &[usize],
 ) -> Result<Vec<Vec<f64>>, FormatError> {
-    let mut out = vec![Vec::new(); columns.len()];
-    log.read(table, columns, &mut |some| {
-        assert_eq!(some.len(), columns.len());
-        for (all, some) in out.iter_mut().zip(some) {
-            assert!(!some.is_empty() && some.len() <= 4096);
-            all.extend_from_slice(some);
-        }
-        ControlFlow::Continue(())
-    })?;
-    Ok(out)
+    let (rows, read) = read::rows(log, table, columns);
+    read.map(|()| rows)
 }
 
 /// Every fixture of a folder is as its script expects it.

@@ -1,6 +1,6 @@
 //! A recording from columns of numbers in memory, by the same conversions and with the same refusals as one from a file.
 
-use super::cell::number;
+use super::cell::checked;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
@@ -82,15 +82,6 @@ pub fn recording_of(
         kept.push(&sample).map_err(whole)?;
     }
     kept.finish(source, motor, &scale).map_err(whole)
-}
-
-/// What is no number is refused as its text would be.
-fn checked(value: f64) -> Result<f64, ReadFault> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        number(&value.to_string())
-    }
 }
 
 #[cfg(test)]

@@ -17,6 +17,15 @@ pub(super) fn number(text: &str) -> Result<f64, ReadFault> {
     }
 }
 
+/// A number from memory; what is none is refused as its text would be.
+pub(super) fn checked(value: f64) -> Result<f64, ReadFault> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        number(&value.to_string())
+    }
+}
+
 /// A number that a conversion of `text` has made, which must still be finite.
 pub(super) fn finite(value: f64, text: &str) -> Result<f64, ReadFault> {
     if value.is_finite() {

@@ -1,7 +1,8 @@
 //! Samples of a log into recordings: within the span that is wanted, and cut where the clock begins anew.
 
 use super::motor_file::MotorFile;
-use super::read_error::ReadFault;
+use super::place::Place;
+use super::read_error::{ReadError, ReadFault};
 use super::sample::{Sample, increasing};
 use super::samples::Samples;
 use super::scale::Scale;
@@ -91,14 +92,11 @@ impl<'m> Collector<'m> {
         self.done.push(std::mem::replace(&mut self.samples, next));
     }
 
-    /// The recordings; `named` gives each its source, of its number from one and their number.
+    /// The recordings of `source`; of several each has its number behind it.
     ///
     /// # Errors
-    /// Too few samples, or a position loop of unknown gain, with the source.
-    pub(super) fn finish(
-        mut self,
-        named: impl Fn(usize, usize) -> String,
-    ) -> Result<Vec<Recording>, (String, ReadFault)> {
+    /// Too few samples, or a position loop of unknown gain.
+    pub(super) fn finish(mut self, source: &str) -> Result<Vec<Recording>, ReadError> {
         self.close();
         let count = self.done.len();
         // The beginning of one more, cut off, is none.
@@ -109,9 +107,12 @@ impl<'m> Collector<'m> {
         let count = self.done.len();
         let (motor, scale) = (self.motor, self.scale);
         let finished = |(k, samples): (usize, Samples)| {
-            let source = named(k + 1, count);
+            let source = match count {
+                1 => source.to_owned(),
+                _ => format!("{source}#{}", k + 1),
+            };
             let recording = samples.finish(&source, motor, scale);
-            recording.map_err(|fault| (source, fault))
+            recording.map_err(|fault| ReadError::new(Place::file(&source), fault))
         };
         self.done.into_iter().enumerate().map(finished).collect()
     }

@@ -88,21 +88,8 @@ pub(super) fn read_text(
         let kept = collector.take(&sample);
         kept.map_err(|fault| ReadError::new(Place::line(source, line), fault))?;
     }
-    if reader.taken == 0 && !motor.log.select.is_empty() {
-        let selection = motor.log.select.iter();
-        let selection: Vec<String> = selection
-            .map(|s| format!("{}={}", s.column, s.value))
-            .collect();
-        let selection = selection.join(" and ");
-        return Err(whole(ReadFault::NothingSelected { selection }));
-    }
-    let named = |number, count| match count {
-        1 => source.to_owned(),
-        _ => format!("{source}#{number}"),
-    };
-    let recordings = collector.finish(named);
-    let recordings =
-        recordings.map_err(|(source, fault)| ReadError::new(Place::file(&source), fault))?;
+    motor.log.check_met(reader.taken).map_err(whole)?;
+    let recordings = collector.finish(source)?;
     Ok(Reading {
         recordings,
         notes: rows.notes,
@@ -221,9 +208,7 @@ impl<'s, R: BufRead> TextRows<'s, R> {
         ));
         true
     }
-}
 
-impl<R: BufRead> TextRows<'_, R> {
     /// The names of the columns.
     pub(super) fn names(&self) -> &[String] {
         &self.names

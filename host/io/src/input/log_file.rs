@@ -1,6 +1,6 @@
 //! Recordings from logs of other formats, whose tables have names, kinds and units of their own.
 
-use super::cell::number;
+use super::cell::checked;
 use super::collector::Collector;
 use super::layout::{Column, Layout};
 use super::log_table::{self, Joined};
@@ -10,7 +10,7 @@ use super::place::Place;
 use super::preset::Preset;
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
-use super::sample::{Sample, is_backwards};
+use super::sample::{Sample, directed};
 use super::scale::Scale;
 use servoid_formats::{FormatError, Kind, Log, Rows, Table};
 use std::ops::ControlFlow;
@@ -89,7 +89,7 @@ pub(super) fn read_log(
 }
 
 /// How a table is called in messages, and its recording.
-pub(super) fn called(source: &str, table: &Table) -> String {
+fn called(source: &str, table: &Table) -> String {
     if table.name.is_empty() {
         source.to_owned()
     } else {
@@ -98,7 +98,7 @@ pub(super) fn called(source: &str, table: &Table) -> String {
 }
 
 /// The columns of a table. A column of times is the time where the user names none.
-pub(super) fn layout(table: &Table, name: &str, motor: &MotorFile) -> Result<Layout, ReadError> {
+fn layout(table: &Table, name: &str, motor: &MotorFile) -> Result<Layout, ReadError> {
     let names: Vec<String> = table.columns.iter().map(|c| c.name.clone()).collect();
     let time = table
         .columns
@@ -171,7 +171,9 @@ impl TableReader<'_> {
                     scale,
                     name,
                     row,
-                    values: &asked.values(rows, k),
+                    asked: &asked,
+                    rows,
+                    place: k,
                 };
                 if !cells.selected() {
                     continue;
@@ -207,18 +209,9 @@ impl TableReader<'_> {
             return Err(error);
         }
         read.map_err(|error| of_format(name, error))?;
-        if taken == 0 && !motor.log.select.is_empty() {
-            let selection = log_table::selection(motor);
-            let fault = ReadFault::NothingSelected { selection };
-            return Err(ReadError::new(Place::file(name), fault));
-        }
-        let named = |number, count| match count {
-            1 => name.to_owned(),
-            _ => format!("{name}#{number}"),
-        };
-        let recordings = collector.finish(named);
-        let recordings =
-            recordings.map_err(|(source, fault)| ReadError::new(Place::file(&source), fault))?;
+        let met = motor.log.check_met(taken);
+        met.map_err(|fault| ReadError::new(Place::file(name), fault))?;
+        let recordings = collector.finish(name)?;
         let notes = (left_out > 0).then(|| {
             format!(
                 "{name}: {left_out} of {row} rows lack a number that is needed and are left out"
@@ -266,10 +259,10 @@ impl Asked {
         Asked { columns }
     }
 
-    /// The values of a row, by the index of their column.
-    fn values(&self, rows: Rows<'_>, k: usize) -> Vec<(usize, f64)> {
-        let values = self.columns.iter().zip(rows);
-        values.map(|(index, column)| (*index, column[k])).collect()
+    /// The value of a column in a row.
+    fn value(&self, column: &Column, rows: Rows<'_>, k: usize) -> f64 {
+        let place = self.columns.binary_search(&column.index);
+        place.map_or(f64::NAN, |place| rows[place][k])
     }
 }
 
@@ -278,14 +271,17 @@ struct Cells<'r> {
     layout: &'r Layout,
     scale: &'r Scale<'r>,
     name: &'r str,
+    /// Its number in the table, from one.
     row: u64,
-    values: &'r [(usize, f64)],
+    asked: &'r Asked,
+    rows: Rows<'r>,
+    /// Its place among the rows that were handed on.
+    place: usize,
 }
 
 impl Cells<'_> {
     fn value(&self, column: &Column) -> f64 {
-        let found = self.values.iter().find(|(index, _)| *index == column.index);
-        found.map_or(f64::NAN, |(_, value)| *value)
+        self.asked.value(column, self.rows, self.place)
     }
 
     fn selected(&self) -> bool {
@@ -339,10 +335,9 @@ impl Cells<'_> {
     fn sample(&self, time_s: f64) -> Result<Sample, ReadError> {
         let layout = self.layout;
         let direction = layout.direction.as_ref();
-        let backwards = direction.is_some_and(|column| is_backwards(self.value(column)));
+        let direction = direction.map(|column| self.value(column));
         let command = self.number(&layout.command, |command| {
-            let command = if backwards { 0.0 - command } else { command };
-            self.scale.command(command)
+            self.scale.command(directed(command, direction))
         })?;
         let current = layout.current.as_ref();
         let current_a = current
@@ -366,14 +361,5 @@ impl Cells<'_> {
             current_a,
             enabled: enabled.transpose()?,
         })
-    }
-}
-
-/// What is no number is refused as its text would be.
-pub(super) fn checked(value: f64) -> Result<f64, ReadFault> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        number(&value.to_string())
     }
 }

@@ -2,9 +2,11 @@
 
 use super::motor_error::{MotorFault, MotorFileError};
 use super::preset::Preset;
+use super::read_error::ReadFault;
 use super::section::Section;
 use super::shown::shown;
 use super::suggest::did_you_mean;
+use std::fmt;
 
 /// The part of a log that is meant; the default means all of it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,6 +49,25 @@ impl Selection {
     pub(super) fn holds(&self, cell: &str) -> bool {
         cell == self.value
             || matches!((cell.parse::<f64>(), self.value.parse::<f64>()), (Ok(a), Ok(b)) if a == b)
+    }
+}
+
+impl fmt::Display for Selection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.column, self.value)
+    }
+}
+
+impl LogPart {
+    /// Refuses a selection that none of the rows met; `taken` are those that did.
+    pub(super) fn check_met(&self, taken: u64) -> Result<(), ReadFault> {
+        if taken > 0 || self.select.is_empty() {
+            return Ok(());
+        }
+        let all: Vec<String> = self.select.iter().map(Selection::to_string).collect();
+        Err(ReadFault::NothingSelected {
+            selection: all.join(" and "),
+        })
     }
 }
 

@@ -1,7 +1,8 @@
 //! Tables of a log by name, and recordings whose columns are in several of them.
 
+use super::cell::checked;
 use super::collector::Collector;
-use super::log_file::{checked, of_format};
+use super::log_file::of_format;
 use super::motor_file::MotorFile;
 use super::place::Place;
 use super::read_error::{ReadError, ReadFault};
@@ -27,13 +28,6 @@ pub(super) fn missing(fault: &ReadFault) -> usize {
             .sum(),
         _ => 0,
     }
-}
-
-/// What rows are selected by, for messages.
-pub(super) fn selection(motor: &MotorFile) -> String {
-    let all = motor.log.select.iter();
-    let all: Vec<String> = all.map(|s| format!("{}={}", s.column, s.value)).collect();
-    all.join(" and ")
 }
 
 /// Columns that a user has named by their tables, as in `/joint_states:position[0]`: each with times of its own.
@@ -106,9 +100,7 @@ impl Joined {
             collector.time(time).map_err(whole)?;
             collector.take(&sample).map_err(whole)?;
         }
-        let recordings = collector.finish(|_, _| source.to_owned());
-        let recordings =
-            recordings.map_err(|(source, fault)| ReadError::new(Place::file(&source), fault))?;
+        let recordings = collector.finish(source)?;
         let mut notes = vec![format!(
             "{source}: each angle is taken with the last command before it, as the log's own times order them"
         )];

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::log_part::LogPart;
+use super::log_part::{LogPart, Selection};
 use super::motor_drive::DriveKind;
 use super::motor_file::{Columns, Fact, Known, MotorFile};
 use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
@@ -120,9 +120,7 @@ impl MotorFile {
                 ("rate_hz", control.rate_hz.map(number)),
             ],
         );
-        let selections: Vec<String> = (self.log.select.iter())
-            .map(|select| format!("{}={}", select.column, select.value))
-            .collect();
+        let selections: Vec<String> = (self.log.select.iter()).map(Selection::to_string).collect();
         let log = section(
             "log",
             &[

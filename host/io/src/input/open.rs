@@ -9,7 +9,7 @@ use super::reading::Reading;
 use crate::recording::Recording;
 use encoding_rs_io::DecodeReaderBytesBuilder;
 #[cfg(feature = "formats")]
-use servoid_formats::{FormatFault, Log};
+use servoid_formats::Log;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
@@ -59,12 +59,7 @@ pub fn read_recording(path: &Path, motor: &MotorFile) -> Result<Recording, ReadE
 /// A log of another format than text; `None` where it may be a text.
 #[cfg(feature = "formats")]
 pub(super) fn log_of(path: &Path, source: &str) -> Result<Option<Box<dyn Log>>, ReadError> {
-    servoid_formats::open(path).map_err(|error| {
-        if path.is_dir() && matches!(error.fault, FormatFault::Io(_)) {
-            return ReadError::new(Place::file(source), ReadFault::Folder);
-        }
-        super::log_file::of_format(source, error)
-    })
+    servoid_formats::open(path).map_err(|error| super::log_file::of_format(source, error))
 }
 
 /// The text of a file in UTF-8, decompressed; UTF-16 is told by its byte order mark.

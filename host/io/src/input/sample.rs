@@ -68,12 +68,10 @@ impl SampleReader<'_> {
             }
             None => self.taken as f64 / self.rate_hz.unwrap_or(1.0),
         };
-        let backwards = match &layout.direction {
-            Some(column) => is_backwards(number(column, &Ok)?),
-            None => false,
-        };
+        let direction = layout.direction.as_ref();
+        let direction = direction.map(|column| number(column, &Ok)).transpose()?;
         let command = number(&layout.command, &|command| {
-            scale.command(if backwards { 0.0 - command } else { command })
+            scale.command(directed(command, direction))
         })?;
         let counts = number(&layout.angle, &|angle| scale.counts(angle))?;
         let current = layout.current.as_ref();
@@ -114,9 +112,13 @@ pub(super) fn increasing(before: Option<f64>, now: f64) -> Result<f64, ReadFault
     }
 }
 
-/// Whether a direction means backwards: zero, as on the direction pin of a bridge, or negative.
-pub(super) fn is_backwards(direction: f64) -> bool {
-    direction <= 0.0
+/// A command with its direction, where that has a column of its own: backwards is zero, as on the direction pin of a bridge, or
+/// negative.
+pub(super) fn directed(command: f64, direction: Option<f64>) -> f64 {
+    match direction {
+        Some(direction) if direction <= 0.0 => 0.0 - command,
+        _ => command,
+    }
 }
 
 fn cell_error(source: &str, line: u64, column: &Column, fault: ReadFault) -> ReadError {
