@@ -127,10 +127,11 @@ export async function settled(page, models) {
       && document.querySelectorAll("#tree .node").length >= models,
     models, { timeout: 120_000 });
   const begun = Date.now();
-  const rests = () => page.evaluate(async () => {
+  // Counted again: recordings that were exchanged have no model until the fit that follows begins.
+  const rests = () => page.evaluate(async (models) => {
     const state = await (await fetch("state")).json();
-    return !state.job && document.body.dataset.drawn === String(state.revision);
-  });
+    return !state.job && document.body.dataset.drawn === String(state.revision) && document.querySelectorAll("#tree .node").length >= models;
+  }, models);
   while (!(await rests())) {
     if (Date.now() - begun > 120_000) throw new Error(`the page does not settle: ${await page.textContent("#fault")}`);
     await page.waitForTimeout(50);

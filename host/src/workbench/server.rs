@@ -68,13 +68,11 @@ impl Server {
         };
         let lock = file.as_deref().map(Lock::take).transpose()?;
         let bench = Bench::new(file, device);
-        let mut first_fit = false;
         match opening {
             Opening::Empty => {}
             Opening::Recording(fitted, held_out) => {
                 let recordings = Recordings::new(Arc::from(fitted), held_out.map(Arc::from));
                 bench.change(|state| state.begin(recordings));
-                first_fit = true;
             }
             Opening::Session(session) => bench.change(|state| session.lay(state))?,
         }
@@ -90,7 +88,12 @@ impl Server {
         let address = listener
             .local_addr()
             .map_err(|error| failed("listen", &error))?;
-        if first_fit {
+        // Also where a session ended before its first fit did.
+        let unfitted = {
+            let state = bench.state();
+            state.recordings.is_some() && state.models.is_empty()
+        };
+        if unfitted {
             job::start(&bench, "fit", |bench| work::fit(bench, &[], "lm"))?;
         }
         Ok(Server {

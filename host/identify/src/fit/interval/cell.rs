@@ -1,6 +1,5 @@
 //! One reading: minus the logarithm of the probability of its cell, with derivatives.
 
-use statrs::function::erf::erfc;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Beyond so many standard deviations the tail is taken from its continued fraction, which does not underflow.
@@ -45,7 +44,7 @@ impl Cell {
         let (near, far) = (-above / noise, (1.0 - above) / noise);
         // Densities at both edges over the probability.
         let (surprise, at_near, at_far) = if near < FAR {
-            let tail = |z: f64| 0.5 * erfc(z / SQRT_2);
+            let tail = |z: f64| 0.5 * libm::erfc(z / SQRT_2);
             let density = |z: f64| libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
             let probability: f64 = tail(near) - tail(far);
             (
