@@ -40,6 +40,8 @@ pub enum Quantity {
     Ratio,
     /// Cycles per revolution.
     PerRev,
+    /// In a unit of its own, which a [formula](crate::effects::formula) states; its ranges are in that unit.
+    Stated(&'static str),
 }
 
 impl Quantity {
@@ -59,6 +61,7 @@ impl Quantity {
             Quantity::PerEnergy => "1/(V^2*s)",
             Quantity::Ratio => "1",
             Quantity::PerRev => "1/rev",
+            Quantity::Stated(unit) => unit,
         }
     }
 }
@@ -120,7 +123,7 @@ impl<R: Real> PerUnit<R> {
             Quantity::PerVolt => one / self.volts,
             Quantity::PerSquareVolt => one / (self.volts * self.volts),
             Quantity::PerEnergy => one / (self.volts * self.volts * self.interval),
-            Quantity::Ratio | Quantity::PerRev => one,
+            Quantity::Ratio | Quantity::PerRev | Quantity::Stated(_) => one,
         }
     }
 

@@ -103,7 +103,8 @@ impl Parameter {
             | Quantity::Time
             | Quantity::Angle
             | Quantity::Ratio
-            | Quantity::PerRev => value,
+            | Quantity::PerRev
+            | Quantity::Stated(_) => value,
         }
     }
 }

@@ -5,7 +5,7 @@
 //! effects; the enum of kinds, the names, the dispatch (a `match`, no `dyn`) and all tests that run
 //! over the whole catalogue follow from that list. Its order is the number on the wire: append only.
 //!
-//! To add one: write its file, then add its `mod` line and its line in `kinds!`.
+//! To add one: write its file, then add its `mod` line and its line in `kinds!`. A law that a user states is a [`formula`].
 
 mod asym_coulomb;
 mod asym_viscous;
@@ -35,6 +35,7 @@ mod chebyshev;
 mod decay;
 mod describe;
 mod facts;
+pub mod formula;
 mod harmonic;
 mod hump;
 mod lowered;
@@ -50,8 +51,10 @@ pub use set::EffectSet;
 pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, WHOLE_DROP, Winding};
 
 use crate::motor::Machine;
+use crate::error::ModelError;
 use crate::scalar::{FromLanes, Real, Scalar};
 use crate::units::PerUnit;
+use formula::{Formula, Stated};
 
 /// Most effects in one model.
 pub const MAX_EFFECTS: usize = 8;
@@ -197,49 +200,62 @@ macro_rules! kinds {
         /// The effects, in the order of their wire numbers.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[repr(u8)]
-        pub enum Kind { $($(#[$doc])* $kind),* }
+        pub enum Kind {
+            $($(#[$doc])* $kind,)*
+            /// A law that the user stated.
+            Formula(&'static Formula),
+        }
 
         impl Kind {
-            /// Every effect.
+            /// Every effect of the catalogue.
             pub const ALL: &'static [Kind] = &[$(Kind::$kind),*];
 
             /// What it is. Nothing that runs on a device reads it, so that its texts stay out of the image.
             pub fn description(self) -> &'static Description {
                 match self {
-                    $(Kind::$kind => const { &<$file::$kind<f64> as Effect<f64>>::DESCRIPTION }),*
+                    $(Kind::$kind => const { &<$file::$kind<f64> as Effect<f64>>::DESCRIPTION },)*
+                    Kind::Formula(formula) => &formula.description,
                 }
             }
 
             /// Its name.
             pub fn name(self) -> &'static str {
                 match self {
-                    $(Kind::$kind => const { <$file::$kind<f64> as Effect<f64>>::DESCRIPTION.name }),*
+                    $(Kind::$kind => const { <$file::$kind<f64> as Effect<f64>>::DESCRIPTION.name },)*
+                    Kind::Formula(formula) => formula.description.name,
                 }
             }
 
             /// Its parameters.
             pub fn parameters(self) -> &'static [Parameter] {
                 match self {
-                    $(Kind::$kind => const { <$file::$kind<f64> as Effect<f64>>::DESCRIPTION.parameters }),*
+                    $(Kind::$kind => const { <$file::$kind<f64> as Effect<f64>>::DESCRIPTION.parameters },)*
+                    Kind::Formula(formula) => formula.description.parameters,
                 }
             }
 
             /// What it needs of the model.
             pub fn needs(self) -> Needs {
-                match self { $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::NEEDS),* }
+                match self {
+                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::NEEDS,)*
+                    Kind::Formula(formula) => formula.program.needs(),
+                }
             }
 
             /// Place in the order in which effects act.
             fn rank(self) -> u16 {
                 let order = match self {
-                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::ORDER),*
+                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::ORDER,)*
+                    Kind::Formula(_) => u8::MAX,
                 };
-                (order as u16) << 8 | self as u16
+                let number = Kind::ALL.iter().position(|kind| *kind == self);
+                (order as u16) << 8 | number.unwrap_or(usize::from(u8::MAX)) as u16
             }
 
             fn delay<R: Real>(self, values: &[R], units: &PerUnit<R>) -> R {
                 match self {
-                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::delay(values, units)),*
+                    $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::delay(values, units),)*
+                    Kind::Formula(_) => R::zero(),
                 }
             }
 
@@ -251,20 +267,37 @@ macro_rules! kinds {
             ) -> Option<Coupling<R>> {
                 match self {
                     $(Kind::$kind =>
-                        <$file::$kind<f64> as Effect<f64>>::coupling(values, units, machine)),*
+                        <$file::$kind<f64> as Effect<f64>>::coupling(values, units, machine),)*
+                    Kind::Formula(_) => None,
+                }
+            }
+
+            /// Whether the number format `S` can hold it; of the catalogue's effects it can hold all.
+            pub(crate) fn check<S: Scalar, R: Real>(
+                self,
+                values: &[R],
+                units: &PerUnit<R>,
+            ) -> Result<(), ModelError> {
+                match self {
+                    Kind::Formula(formula) => formula.check::<S, R>(values, units),
+                    _ => Ok(()),
                 }
             }
 
             fn lower<S: Scalar, R: Real>(self, values: &[R], units: &PerUnit<R>) -> Any<S> {
                 match self {
-                    $(Kind::$kind => Any::$kind(<$file::$kind<S> as Effect<S>>::lower(values, units))),*
+                    $(Kind::$kind => Any::$kind(<$file::$kind<S> as Effect<S>>::lower(values, units)),)*
+                    Kind::Formula(formula) => Any::Formula(Stated::lower(formula, values, units)),
                 }
             }
         }
 
         /// Any effect, lowered.
         #[derive(Clone, Copy, Debug)]
-        enum Any<S: Scalar> { $($kind($file::$kind<S>)),* }
+        enum Any<S: Scalar> {
+            $($kind($file::$kind<S>),)*
+            Formula(Stated<S>),
+        }
 
         impl<W, const N: usize> FromLanes<Any<f64>, N> for Any<W>
         where
@@ -279,7 +312,15 @@ macro_rules! kinds {
                             *own = effect;
                         }
                         Some(Any::$kind(FromLanes::from_lanes(own)?))
-                    }),*
+                    },)*
+                    Any::Formula(first) => {
+                        let mut own = [first; N];
+                        for (own, one) in own.iter_mut().zip(each) {
+                            let Any::Formula(effect) = one else { return None };
+                            *own = effect;
+                        }
+                        Some(Any::Formula(FromLanes::from_lanes(own)?))
+                    }
                 }
             }
         }
@@ -287,39 +328,66 @@ macro_rules! kinds {
         impl<S: Scalar> Any<S> {
             #[inline(always)]
             fn drive(&self, volts: S) -> S {
-                match self { $(Any::$kind(effect) => effect.drive(volts)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.drive(volts),)*
+                    Any::Formula(effect) => effect.drive(volts),
+                }
             }
             #[inline(always)]
             fn brush(&self) -> Brush<S> {
-                match self { $(Any::$kind(effect) => effect.brush()),* }
+                match self {
+                    $(Any::$kind(effect) => effect.brush(),)*
+                    Any::Formula(_) => Brush::default(),
+                }
             }
             #[inline(always)]
             fn winding(&self, volts: S, shaft: &Shaft<S>, memory: S) -> Winding<S> {
-                match self { $(Any::$kind(effect) => effect.winding(volts, shaft, memory)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.winding(volts, shaft, memory),)*
+                    Any::Formula(_) => Winding::default(),
+                }
             }
             #[inline(always)]
             fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
-                match self { $(Any::$kind(effect) => effect.torque(shaft, memory)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.torque(shaft, memory),)*
+                    Any::Formula(effect) => effect.torque(shaft),
+                }
             }
             #[inline(always)]
             fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
-                match self { $(Any::$kind(effect) => effect.stiff(shaft, memory)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.stiff(shaft, memory),)*
+                    Any::Formula(effect) => effect.stiff(shaft, memory),
+                }
             }
             #[inline(always)]
             fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
-                match self { $(Any::$kind(effect) => effect.lost_torque(shaft, memory)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.lost_torque(shaft, memory),)*
+                    Any::Formula(effect) => effect.lost_torque(shaft),
+                }
             }
             #[inline(always)]
             fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
-                match self { $(Any::$kind(effect) => effect.friction(shaft)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.friction(shaft),)*
+                    Any::Formula(effect) => effect.friction(shaft),
+                }
             }
             #[inline(always)]
             fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
-                match self { $(Any::$kind(effect) => effect.remember(memory, shaft)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.remember(memory, shaft),)*
+                    Any::Formula(effect) => effect.remember(memory, shaft),
+                }
             }
             #[inline(always)]
             fn sensed(&self, turns: S, memory: S) -> S {
-                match self { $(Any::$kind(effect) => effect.sensed(turns, memory)),* }
+                match self {
+                    $(Any::$kind(effect) => effect.sensed(turns, memory),)*
+                    Any::Formula(effect) => effect.sensed(turns),
+                }
             }
         }
     };

@@ -114,6 +114,9 @@ impl<S: Scalar> Model<S> {
     pub fn new<R: Real>(plan: &Plan<R>) -> Result<Self, ModelError> {
         plan.machine.check()?;
         let units = &plan.units;
+        for (kind, values) in plan.effects.present() {
+            kind.check::<S, R>(values, units)?;
+        }
         let effects = Lowered::new(&plan.effects, units);
         let one = R::from_f64(1.0);
         let (late, fraction) = whole_and_fraction(plan.effects.delay(units))?;

@@ -1,0 +1,231 @@
+//! Laws of stated effects: what runs is what was written, in every number format, beside the catalogue's own code.
+
+use proptest::prelude::*;
+use servoid_formula::{Point, define, law_of};
+use shared::effects::formula::Output;
+use shared::effects::{EffectSet, Kind};
+use shared::model::{Model, Plan, State};
+use shared::motor::Machine;
+use shared::scalar::Fixed;
+use shared::units::PerUnit;
+use shared::scalar::Readable as _;
+
+const SUPPLY: f64 = 24.0;
+const FASTEST: f64 = 800.0;
+const INTERVAL: f64 = 1e-3;
+const COUNTS: f64 = 4096.0;
+
+fn plan(kinds: &[(Kind, Vec<f64>)]) -> Plan<f64> {
+    let units = PerUnit::new(SUPPLY, FASTEST, INTERVAL, COUNTS).unwrap();
+    let machine = Machine {
+        kb: 0.03,
+        damping: 0.002,
+        inertia: 1.1e-3,
+        electrical: 0.7e-3,
+    };
+    let mut plan = Plan::linear(machine, units);
+    let mut effects = EffectSet::default();
+    for (kind, values) in kinds {
+        effects.push(*kind, values).unwrap();
+    }
+    plan.effects = effects;
+    plan
+}
+
+/// Steps and reversals of several sizes, per unit.
+fn command(k: usize) -> f64 {
+    [0.6, -0.3, 0.1, 0.9, -0.8, 0.0, 0.25, -0.05][k / 150 % 8]
+}
+
+const SAMPLES: usize = 2400;
+
+fn angles(plan: &Plan<f64>) -> Vec<f64> {
+    let model = Model::<f64>::new(plan).unwrap();
+    let mut state = State::default();
+    (0..SAMPLES)
+        .map(|k| {
+            model.step(&mut state, command(k), false);
+            model.reading(&state)
+        })
+        .collect()
+}
+
+fn furthest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Effects of the catalogue as formulas.
+fn twins() -> Vec<(&'static str, Vec<f64>, Kind, Vec<f64>)> {
+    let by = |name| Kind::by_name(name).unwrap();
+    vec![
+        ("drag: torque = -c*w*abs(w); c in [0, 1] V*s^2/rad^2", vec![1.5e-6], by("windage"), vec![1.5e-6]),
+        ("dry: friction = c; c in [0, 5] V", vec![0.9], by("coulomb"), vec![0.9]),
+        ("load: torque = -c; c in [-5, 5] V", vec![0.7], by("load_torque"), vec![0.7]),
+        ("bias: voltage = c; c in [-5, 5] V", vec![0.7], by("offset_voltage"), vec![0.7]),
+        (
+            "teeth: torque = -(a*cos(12*theta) + b*sin(12*theta)); a, b in [-1, 1] V",
+            vec![0.3, 0.2],
+            by("cogging"),
+            vec![0.3, 0.2, 12.0],
+        ),
+        (
+            "slow: friction = c + s*exp(-(abs(w)/ws)^2); c, s in [0, 5] V; ws in [1, 100] rad/s",
+            vec![0.5, 0.6, 20.0],
+            by("stribeck"),
+            vec![0.5, 0.6, 20.0, 2.0, 0.0],
+        ),
+        (
+            "bent: torque = -c*z; z' = (w - abs(w)*z)/h; c in [0, 5] V; h in [1e-3, 1] rad",
+            vec![0.9, 0.01],
+            by("lugre"),
+            vec![0.9, 0.0, 10.0, 0.01, 0.0, 0.0],
+        ),
+    ]
+}
+
+#[test]
+fn a_formula_moves_as_the_effect_of_the_catalogue_that_it_states() {
+    for (text, values, kind, own) in twins() {
+        let stated = define(text).unwrap_or_else(|fault| panic!("{fault}"));
+        let (one, other) = (
+            angles(&plan(&[(stated, values)])),
+            angles(&plan(&[(kind, own)])),
+        );
+        let off = furthest(&one, &other);
+        let without = furthest(&one, &angles(&plan(&[])));
+        assert!(without > 50.0, "{text}: moves nothing ({without} counts)");
+        assert!(off < 6.0, "{text}: {off} counts off {}", kind.name());
+    }
+}
+
+#[test]
+fn every_number_format_moves_alike_or_refuses() {
+    for (text, values, ..) in twins() {
+        let stated = define(text).unwrap();
+        let plan = plan(&[(stated, values)]);
+        let exact = angles(&plan);
+        let mut narrow = (State::default(), State::default());
+        let single = Model::<f32>::new(&plan).unwrap();
+        let fixed = Model::<Fixed>::new(&plan);
+        if law_of(stated).unwrap().definition.state.is_some() {
+            let refused = fixed.err().map(|error| error.to_string()).unwrap_or_default();
+            assert!(refused.contains("number format"), "{text}: {refused}");
+            continue;
+        }
+        let fixed = fixed.unwrap();
+        for (k, exact) in exact.iter().enumerate() {
+            single.step(&mut narrow.0, command(k) as f32, false);
+            fixed.step(&mut narrow.1, shared::scalar::Scalar::from_f64(command(k)), false);
+            let off = [
+                f64::from(single.reading(&narrow.0).floor()) - exact.floor(),
+                f64::from(fixed.reading(&narrow.1).floor()) - exact.floor(),
+            ];
+            assert!(off.iter().all(|off| off.abs() <= 8.0), "{text}, sample {k}: {off:?} counts");
+        }
+    }
+}
+
+#[test]
+fn amplitudes_are_found() {
+    for (text, expected) in [
+        ("gear: z' = (w - abs(w)*z)/h; torque = -(ma*abs(tau)*z + md*tau^2/v0*z); h = 0.01 in [1e-3, 1] rad; ma, md in [0, 1]; v0 = 1 V", vec![false, true, true]),
+        ("p: torque = -c*sgn(w)*abs(w/w0)^p; c in [0, 1] V; p in [0.1, 3]; w0 = 100 rad/s", vec![true, false]),
+        ("k: torque = -c*(1 + k*cos(theta)); c in [0, 1] V; k in [0, 2]", vec![true, false]),
+        ("s: torque_constant = 1 - k*(i/v0)^2; k in [0, 1]; v0 = 12 V", vec![true]),
+    ] {
+        let kind = define(text).unwrap_or_else(|fault| panic!("{fault}"));
+        let found: Vec<bool> = kind.parameters().iter().map(|p| p.amplitude).collect();
+        assert_eq!(found, expected, "{text}");
+    }
+}
+
+#[test]
+fn faults_point_at_the_character_and_say_what_was_expected() {
+    for (text, at, words) in [
+        ("torque = 1", 7, "`:`"),
+        ("a: torque = c*w; c in [0, 1] V*s", 12, "expected V"),
+        ("a: torque = c*x; c in [0, 1] V", 14, "`x` is neither"),
+        ("a: torque = c*(w; c in [0, 1] V", 16, "`)`"),
+        ("a: torque = c*; c in [0, 1] V", 14, "a name"),
+        ("a: torque = c; c in [1, 0] V", 15, "empty"),
+        ("a: torque = c; c in [0, 1] N", 27, "no unit"),
+        ("a: c in [0, 1] V", 16, "no place"),
+        ("a: torque = c/w*w0; c in [0, 1] V; w0 = 1 rad/s", 14, "zero"),
+        ("a: torque = c*(w/w0)^0.5; c in [0, 1] V; w0 = 1 rad/s", 14, "negative"),
+        ("a: torque = c*u/u0; c in [0, 1] V; u0 = 1 V", 14, "command"),
+        ("coulomb: torque = c; c in [0, 1] V", 0, "catalogue"),
+        ("a: torque = c + w; c in [0, 1] V", 16, "added"),
+        ("", 0, "a name"),
+    ] {
+        let fault = define(text).expect_err(text);
+        assert_eq!(fault.at, at, "{text}: {fault}");
+        assert!(fault.what.contains(words), "{text}: {fault}");
+    }
+}
+
+/// A random expression of the speed, the current and the angle that is of no unit.
+fn expression() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        (0.05..3.0f64).prop_map(|x| format!("{x:.3}")),
+        Just("(w/w0)".to_owned()),
+        Just("(i/v0)".to_owned()),
+        Just("sin(theta)".to_owned()),
+        Just("c".to_owned()),
+    ];
+    leaf.prop_recursive(4, 24, 2, |inner| {
+        let two = (inner.clone(), inner.clone());
+        prop_oneof![
+            two.clone().prop_map(|(a, b)| format!("({a} + {b})")),
+            two.clone().prop_map(|(a, b)| format!("({a} - {b})")),
+            two.clone().prop_map(|(a, b)| format!("{a}*{b}")),
+            two.clone().prop_map(|(a, b)| format!("{a}/(1 + abs({b}))")),
+            two.clone().prop_map(|(a, b)| format!("min({a}, {b})")),
+            two.prop_map(|(a, b)| format!("max({a}, -{b})")),
+            inner.clone().prop_map(|a| format!("tanh({a})")),
+            inner.clone().prop_map(|a| format!("exp(-abs({a}))")),
+            inner.clone().prop_map(|a| format!("abs({a})^0.7")),
+            inner.clone().prop_map(|a| format!("({a})^2")),
+            inner.clone().prop_map(|a| format!("sgn({a})")),
+            inner.prop_map(|a| format!("cos({a})")),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    /// A friction budget shows the law's value at once: with a shaft that is at rest or moves slowly no other part of the model
+    /// matters. Here the compiled law is compared with the text's own value by way of a torque on a motor at known motion.
+    #[test]
+    fn what_runs_is_what_was_written(text in expression(), c in 0.1..1.0f64, seed in 0u64..1000) {
+        let text = format!("t{seed}: torque = v0*({text}); c = 0.5 in [-2, 2]; w0 = 400 rad/s; v0 = 12 V");
+        let Ok(kind) = define(&text) else { return Ok(()) };
+        let law = law_of(kind).unwrap();
+        prop_assert_eq!(law.definition.output, Output::Torque);
+        for k in 0..20 {
+            let point = Point {
+                speed: 700.0 * ((k as f64 * 0.618).fract() * 2.0 - 1.0),
+                angle: std::f64::consts::TAU * (k as f64 * 0.754).fract(),
+                current: 20.0 * ((k as f64 * 0.569).fract() * 2.0 - 1.0),
+                ..Point::default()
+            };
+            let written = law.definition.value(&[c], &point);
+            let runs = law.formula.value(&[c], &plan(&[]).units, [point.speed, point.angle, point.current]);
+            let size = 1.0 + written.abs();
+            prop_assert!((written - runs).abs() < 1e-6 * size || !written.is_finite(), "{}: {written} as written, {runs} as it runs at {point:?}", text);
+        }
+    }
+
+    #[test]
+    fn no_text_panics(text in "\\PC{0,200}") {
+        let _ = define(&text);
+    }
+
+    #[test]
+    fn no_text_of_its_own_words_panics(words in prop::collection::vec(prop::sample::select(vec![
+        "a", ":", ";", "torque", "=", "(", ")", "w", "z", "'", "in", "[", "]", ",", "1", "-", "+", "*", "/", "^", "abs", "exp", "sgn", "V", "rad", "1e-3", "c", "i", "friction", "max", " ",
+    ]), 0..60)) {
+        let _ = define(&format!("a: torque = {}", words.concat()));
+        let _ = define(&words.concat());
+    }
+}

@@ -1,0 +1,113 @@
+//! The operations of a formula, and what it says of itself.
+
+/// Most constants of a program: what depends on the parameters alone.
+pub const MAX_CONSTANTS: usize = 16;
+/// Most numbers that wait on the stack.
+pub const MAX_DEPTH: usize = 8;
+
+/// What a formula may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// Speed of the shaft, rad/s.
+    Speed,
+    /// Its position within the revolution, rad.
+    Angle,
+    /// Current, as the voltage across the resistance, V: the torque of the motor.
+    Current,
+    /// Torque that motor and load pass to each other, V; of a friction budget only.
+    Transmitted,
+    /// Command, V; of a voltage only.
+    Command,
+}
+
+/// What a formula gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// A torque in the direction of positive rotation, V referred to the winding.
+    Torque,
+    /// A friction budget, V referred to the winding; what is below zero is none.
+    Friction,
+    /// A voltage added to the command, V.
+    Voltage,
+    /// The torque constant, as a part of the motor's.
+    TorqueConstant,
+    /// An angle added to what the encoder sees, rad.
+    Angle,
+}
+
+/// One operation. It takes its operands from the stack and puts its result there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// A number; of constants only.
+    Number(f64),
+    /// The parameter at this place, SI; of constants only.
+    Parameter(u8),
+    /// A variable.
+    Variable(Variable),
+    /// The state.
+    State,
+    /// The constant at this place.
+    Constant(u8),
+    /// Times the constant at this place.
+    Scale(u8),
+    /// To the power of the constant at this place, of a magnitude.
+    Raise(u8),
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient. The divisor is never zero.
+    Div,
+    /// With the other sign.
+    Neg,
+    /// Magnitude.
+    Abs,
+    /// −1, 0 or 1.
+    Sign,
+    /// Square.
+    Square,
+    /// The smaller of two.
+    Min,
+    /// The larger of two.
+    Max,
+    /// Natural exponential.
+    Exp,
+    /// Power; of constants only.
+    Power,
+    /// Sine, of rad.
+    Sin,
+    /// Cosine, of rad.
+    Cos,
+    /// Hyperbolic tangent.
+    Tanh,
+}
+
+/// A formula compiled: programs on a stack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Program {
+    /// What it gives.
+    pub output: Output,
+    /// Programs of the constants, at most [`MAX_CONSTANTS`].
+    pub constants: &'static [&'static [Op]],
+    /// Program of the law.
+    pub law: &'static [Op],
+    /// Program of the state's rate, by the second; empty where there is no state.
+    pub rate: &'static [Op],
+    /// Range in which the state lies.
+    pub state: (f64, f64),
+}
+
+impl Program {
+    /// Whether the law or its state looks at a variable.
+    pub fn looks_at(&self, variable: Variable) -> bool {
+        let mut ops = self.law.iter().chain(self.rate);
+        ops.any(|op| *op == Op::Variable(variable))
+    }
+
+    /// Whether it remembers a number.
+    pub fn has_state(&self) -> bool {
+        !self.rate.is_empty()
+    }
+}

@@ -1,0 +1,436 @@
+//! A formula along the shaft.
+
+use super::lower::{MAX_NUMBERS, Numbers, TANH_ENDS};
+use super::number::{Dual, Number};
+use super::{Formula, MAX_DEPTH, Op, Output, Program, Variable, power};
+use crate::effects::tangent::tanh;
+use crate::effects::{Budget, Needs, Shaft, Stiff};
+use crate::scalar::{FromLanes, Real, Scalar, lanes};
+use crate::units::{PerUnit, Quantity};
+
+/// A formula with the values of its parameters, in a number format.
+#[derive(Clone, Copy, Debug)]
+pub struct Stated<S: Scalar> {
+    program: &'static Program,
+    numbers: [S::Coefficient; MAX_NUMBERS],
+    rate_from: usize,
+    /// From the law's last result to the output per unit.
+    law: S::Coefficient,
+    /// From the rate's last result to that of the state by the interval.
+    rate: S::Coefficient,
+    /// Speed by travel in turns, of one interval.
+    per_turn: S::Coefficient,
+}
+
+lanes!(Stated {
+    program,
+    numbers,
+    rate_from,
+    law,
+    rate,
+    per_turn
+});
+
+impl<const N: usize> FromLanes<&'static Program, N> for &'static Program {
+    fn from_lanes(each: [&&'static Program; N]) -> Option<Self> {
+        let same = each.iter().all(|one| core::ptr::eq(**one, *each[0]));
+        same.then_some(*each[0])
+    }
+}
+
+/// What a formula may look at.
+#[derive(Clone, Copy)]
+struct At<N> {
+    speed: N,
+    turns: N,
+    current: N,
+    transmitted: N,
+    command: N,
+    state: N,
+}
+
+impl Program {
+    /// What it needs of the model.
+    pub(in crate::effects) fn needs(&self) -> Needs {
+        let torque = self.output == Output::Torque;
+        let lost = self.output == Output::TorqueConstant;
+        let current = self.looks_at(Variable::Current) || self.looks_at(Variable::Transmitted);
+        let sensed = self.output == Output::Angle;
+        let varies = current || self.looks_at(Variable::Speed) || self.looks_at(Variable::Angle);
+        Needs {
+            mean: (varies && !sensed) || lost || self.has_state(),
+            current: current || lost,
+            angle: self.looks_at(Variable::Angle) && !sensed,
+            friction: self.output == Output::Friction,
+            torque: torque && !self.has_state(),
+            stiff: torque && self.has_state(),
+            lost_torque: lost,
+            memory: self.has_state(),
+            sensed,
+            ..Needs::NOTHING
+        }
+    }
+}
+
+impl<S: Scalar> Stated<S> {
+    pub(in crate::effects) fn lower<R: Real>(
+        formula: &'static Formula,
+        values: &[R],
+        units: &PerUnit<R>,
+    ) -> Self {
+        let numbers = Numbers::new(formula, values, units);
+        let turn = units.lower(units.base(Quantity::Angle), Quantity::Speed) / units.interval;
+        Stated {
+            program: &formula.program,
+            numbers: numbers.lowered::<S>(),
+            rate_from: numbers.rate_from,
+            law: S::coefficient(numbers.law),
+            rate: S::coefficient(numbers.rate),
+            per_turn: S::coefficient_of(turn),
+        }
+    }
+
+    /// Runs one of its programs.
+    #[inline]
+    fn run<N: Number<S>>(&self, ops: &[Op], from: usize, at: &At<N>) -> N {
+        S::routine(
+            #[inline(always)]
+            || {
+                let mut numbers = Taken {
+                    left: &self.numbers[from..],
+                };
+                let mut stack = [N::constant(S::zero()); MAX_DEPTH];
+                let mut depth = 0;
+                for op in ops {
+                    depth = step(op, &mut stack, depth, &mut numbers, at);
+                }
+                stack[0]
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn law<N: Number<S>>(&self, at: &At<N>) -> N {
+        self.run(self.program.law, 0, at).scaled(self.law)
+    }
+
+    /// What it sees a part `reach` of the changes after the middle.
+    #[inline(always)]
+    fn seen(&self, shaft: &Shaft<S>, reach: f64, state: S) -> At<S> {
+        let reach = S::from_f64(reach);
+        At {
+            speed: shaft.speed + shaft.speed_change * reach,
+            turns: shaft.turns + shaft.travel * reach,
+            current: shaft.current + shaft.current_change * reach,
+            transmitted: shaft.transmitted + shaft.current_change * reach,
+            command: S::zero(),
+            state,
+        }
+    }
+
+    /// Mean over the part by Gauss's rule of two points; of four where several waves along the angle may pass within it.
+    #[inline(always)]
+    fn mean(&self, shaft: &Shaft<S>) -> S {
+        const TWO: [(f64, f64); 1] = [(0.288_675_134_594_812_9, 0.5)];
+        const FOUR: [(f64, f64); 2] = [
+            (0.169_990_521_792_428_13, 0.326_072_577_431_273_07),
+            (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
+        ];
+        let nodes = if self.program.looks_at(Variable::Angle) {
+            &FOUR[..]
+        } else {
+            &TWO[..]
+        };
+        let zero = S::zero();
+        let mut sum = zero;
+        for (reach, weight) in nodes {
+            let before = self.law(&self.seen(shaft, -reach, zero));
+            let after = self.law(&self.seen(shaft, *reach, zero));
+            sum = sum + (before + after) * S::from_f64(*weight);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn drive(&self, volts: S) -> S {
+        if self.program.output != Output::Voltage {
+            return volts;
+        }
+        let zero = S::zero();
+        let at = At {
+            speed: zero,
+            turns: zero,
+            current: zero,
+            transmitted: zero,
+            command: volts,
+            state: zero,
+        };
+        volts + self.law(&at)
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn torque(&self, shaft: &Shaft<S>) -> S {
+        if self.program.output != Output::Torque || self.program.has_state() {
+            return S::zero();
+        }
+        -self.mean(shaft)
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn lost_torque(&self, shaft: &Shaft<S>) -> S {
+        if self.program.output != Output::TorqueConstant {
+            return S::zero();
+        }
+        shaft.current * (S::one() - self.mean(shaft))
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
+        if self.program.output != Output::Friction {
+            return Budget::default();
+        }
+        Budget::even(self.law(&self.seen(shaft, 0.0, S::zero())).max(S::zero()))
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn sensed(&self, turns: S) -> S {
+        if self.program.output != Output::Angle {
+            return S::zero();
+        }
+        let zero = S::zero();
+        self.law(&At {
+            speed: zero,
+            turns,
+            current: zero,
+            transmitted: zero,
+            command: zero,
+            state: zero,
+        })
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
+        if self.program.output != Output::Torque || !self.program.has_state() {
+            return Stiff::default();
+        }
+        let moved = self.moved(shaft, memory);
+        let mut at = self.differentiated(shaft, memory);
+        at.state.value = moved.mean;
+        let torque = self.law(&at);
+        // Against the motion, by the speed: as the state follows it, and at once.
+        let drag = -(torque.by_speed + torque.by_state * moved.mean_by_speed);
+        let slower = shaft.compliance.times(self.per_turn).times(shaft.per_length);
+        Stiff {
+            torque: -torque.value,
+            slope: (drag * slower).max(S::zero()),
+            doubt: S::zero(),
+        }
+    }
+
+    #[inline(always)]
+    pub(in crate::effects) fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
+        if !self.program.has_state() {
+            return memory;
+        }
+        self.moved(shaft, memory).end
+    }
+
+    #[inline(always)]
+    fn differentiated(&self, shaft: &Shaft<S>, state: S) -> At<Dual<S>> {
+        let own = |value| Dual::constant(value);
+        At {
+            speed: Dual {
+                by_speed: S::one(),
+                ..own(shaft.speed)
+            },
+            turns: own(shaft.turns),
+            current: own(shaft.current),
+            transmitted: own(shaft.transmitted),
+            command: own(S::zero()),
+            state: Dual {
+                by_state: S::one(),
+                ..own(state)
+            },
+        }
+    }
+
+    /// The state over a part, whose rate is taken as linear in it: exact where it is and the speed is steady (the exponential
+    /// Rosenbrock–Euler method: Hochbruck, Ostermann, *Acta Numerica* 19, 2010, 2.3).
+    #[inline(always)]
+    fn moved(&self, shaft: &Shaft<S>, state: S) -> Moved<S> {
+        let at = self.differentiated(shaft, state);
+        let rate = self.run(self.program.rate, self.rate_from, &at).scaled(self.rate);
+        let rate = rate.scaled(shaft.length);
+        let one = S::one();
+        // How often the state is renewed within the part; not negative.
+        let x = (-rate.by_state).max(S::zero()).min(S::from_f64(600.0));
+        let half = S::from_f64(0.5);
+        let sixth = S::from_f64(1.0 / 6.0);
+        let small = x.less(S::from_f64(1.0 / 64.0));
+        // (1 − e^−x)/x and (x − 1 + e^−x)/x², by their series where a difference would lose digits.
+        let twelfth = S::from_f64(1.0 / 24.0);
+        let series = one - x * (half - x * (sixth - x * twelfth));
+        let first = S::select(small, series, (one - (-x).exp_decay()).part_of(x));
+        let series = half - x * (sixth - x * (twelfth - x * S::from_f64(1.0 / 120.0)));
+        let quotient = (one - first).part_of(x);
+        let second = S::select(small, series, quotient);
+        Moved {
+            mean: state + rate.value * second,
+            end: state + rate.value * first,
+            mean_by_speed: rate.by_speed * second,
+        }
+    }
+}
+
+impl Stated<f64> {
+    /// The law in its unit, without a state, at a speed, an angle and a current or command in SI.
+    pub(super) fn value(&self, units: &PerUnit<f64>, [speed, angle, volts]: [f64; 3]) -> f64 {
+        let volts = units.lower(volts, Quantity::Voltage);
+        let at = At {
+            speed: units.lower(speed, Quantity::Speed),
+            turns: units.lower(angle, Quantity::Angle),
+            current: volts,
+            transmitted: volts,
+            command: volts,
+            state: 0.0,
+        };
+        let quantity = match self.program.output {
+            Output::Torque | Output::Friction | Output::Voltage => Quantity::Voltage,
+            Output::TorqueConstant => Quantity::Ratio,
+            Output::Angle => Quantity::Angle,
+        };
+        units.raise(self.law(&at), quantity)
+    }
+}
+
+/// The state over a part, in its range.
+struct Moved<S> {
+    mean: S,
+    end: S,
+    mean_by_speed: S,
+}
+
+/// Numbers that operations take one after the other.
+struct Taken<'a, S: Scalar> {
+    left: &'a [S::Coefficient],
+}
+
+impl<'a, S: Scalar> Taken<'a, S> {
+    #[inline(always)]
+    fn take<const K: usize>(&mut self) -> [S::Coefficient; K] {
+        let Some((taken, left)) = self.left.split_first_chunk::<K>() else {
+            return [S::Coefficient::default(); K];
+        };
+        self.left = left;
+        *taken
+    }
+}
+
+/// One operation; gives the new depth of the stack.
+#[inline(always)]
+fn step<S: Scalar, N: Number<S>>(
+    op: &Op,
+    stack: &mut [N; MAX_DEPTH],
+    depth: usize,
+    numbers: &mut Taken<'_, S>,
+    at: &At<N>,
+) -> usize {
+    // What is put on the stack.
+    let pushed = match *op {
+        Op::Variable(variable) => {
+            let value = match variable {
+                Variable::Speed => at.speed,
+                Variable::Angle => at.turns,
+                Variable::Current => at.current,
+                Variable::Transmitted => at.transmitted,
+                Variable::Command => at.command,
+            };
+            let [k] = numbers.take();
+            Some(value.scaled(k))
+        }
+        Op::State => Some(at.state),
+        Op::Constant(_) => Some(N::constant(S::one())),
+        _ => None,
+    };
+    if let Some(value) = pushed {
+        if let Some(place) = stack.get_mut(depth) {
+            *place = value;
+        }
+        return (depth + 1).min(MAX_DEPTH);
+    }
+    let top = depth.saturating_sub(1);
+    let under = depth.saturating_sub(2);
+    let (a, b) = (stack[under], stack[top]);
+    let zero = S::zero();
+    let less = |a: N, b: N| a.value().less(b.value());
+    let two = match *op {
+        Op::Add | Op::Sub | Op::Min | Op::Max => {
+            let [j, k] = numbers.take();
+            let (a, b) = (a.scaled(j), b.scaled(k));
+            Some(match *op {
+                Op::Min => N::choose(less(b, a), b, a),
+                Op::Max => N::choose(less(a, b), b, a),
+                _ => a.plus(b),
+            })
+        }
+        Op::Mul => Some(a.by(b)),
+        Op::Div => {
+            let [least, inverse] = numbers.take();
+            let divisor = {
+                let negative = b.value().less(zero);
+                N::choose(negative, b.negated(), b)
+            };
+            // Its inverse, as a part of the largest that there is.
+            let over = S::one().times(least).part_of(divisor.value());
+            let over = divisor.map(over, || -(over * over).times(inverse));
+            Some(a.by(over))
+        }
+        _ => None,
+    };
+    if let Some(value) = two {
+        stack[under] = value;
+        return depth.saturating_sub(1);
+    }
+    let x = b;
+    let value = x.value();
+    stack[top] = match *op {
+        Op::Abs => N::choose(value.less(zero), x.negated(), x),
+        Op::Sign => N::constant(value.signum()),
+        Op::Square => x.by(x),
+        Op::Exp => {
+            let [scale, shift, floor, most, base] = numbers.take();
+            // How far below its largest value it lies, as far as the format can say.
+            let mut below = value.times(scale) - S::one().times(shift);
+            if S::LIMIT.is_finite() {
+                below = below.max(-S::one().times(floor));
+            }
+            let below = below.times(most);
+            let result = below.min(zero).exp_decay();
+            x.map(result, || result.times(base))
+        }
+        Op::Raise(_) => {
+            let [exponent] = numbers.take();
+            let terms: [S::Coefficient; power::NUMBERS] = numbers.take();
+            let size = N::choose(value.less(zero), x.negated(), x);
+            power::raised(size, exponent, &terms)
+        }
+        Op::Sin | Op::Cos => {
+            let [turns, base] = numbers.take();
+            let (sine, cosine) = value.times(turns).sin_cos_turns();
+            match *op {
+                Op::Sin => x.map(sine, || cosine.times(base)),
+                _ => x.map(cosine, || -sine.times(base)),
+            }
+        }
+        Op::Tanh => {
+            let [end, base] = numbers.take();
+            let size = value.abs().min(S::one().times(end)).times(base);
+            let size = tanh(size.min(S::from_f64(TANH_ENDS)));
+            let result = S::select(value.less(zero), -size, size);
+            x.map(result, || (S::one() - size * size).times(base))
+        }
+        // A factor or a sign is in the base.
+        _ => x,
+    };
+    depth
+}
