@@ -2,7 +2,7 @@
 
 mod read;
 
-use read::{assert_same, column, fixture, names, of, opened, rows, table};
+use read::{assert_same, column, fixture, names, numeric, of, opened, rows, table};
 use servoid_formats::{Format, FormatFault, Kind, open};
 use std::ops::ControlFlow;
 
@@ -194,4 +194,22 @@ fn a_file_that_was_cut_short_says_so() {
         matches!(error.fault, FormatFault::CutShort { .. }),
         "{error}"
     );
+}
+
+#[test]
+fn a_dictionary_that_claims_more_than_its_page_holds_is_refused() {
+    let mut bytes = std::fs::read(fixture("parquet/flat.parquet")).unwrap();
+    // The head of the first dictionary ends with its 32 values; signs are in the last bit.
+    let said = [0x4c, 0x15, 2 * 32];
+    let at = bytes.windows(3).position(|bytes| bytes == said).unwrap();
+    bytes[at + 2] = 2 * 63;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("claims.parquet");
+    std::fs::write(&path, bytes).unwrap();
+    let mut log = open(&path).unwrap().unwrap();
+    for _ in 0..2 {
+        let all = numeric(&log.tables()[0]);
+        let error = rows(&mut *log, 0, &all).1.unwrap_err();
+        assert!(error.to_string().contains("claims more"), "{error}");
+    }
 }

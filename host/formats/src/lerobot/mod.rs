@@ -93,7 +93,23 @@ impl Log for LeRobot {
             };
             wanted.push((source, column.kind));
         }
-        rows(&file, episode.index, &wanted, each)
+        let mut broken = false;
+        let mut handed = 0_u64;
+        rows(&file, episode.index, &wanted, &mut |rows| {
+            handed += rows.first().map_or(0, Vec::len) as u64;
+            let flow = each(rows);
+            broken = flow.is_break();
+            flow
+        })?;
+        // Rows that are lost must not pass for an episode that was short.
+        match episode.rows.filter(|said| *said != handed && !broken) {
+            None => Ok(()),
+            Some(said) => {
+                let why = format!("it has {handed} rows of the episode, and meta says {said}");
+                let name = found.name.clone();
+                Err(FormatError::new(file.source(), name, damaged(why)))
+            }
+        }
     }
 }
 

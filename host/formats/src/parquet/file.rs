@@ -1,20 +1,24 @@
 //! A Parquet file, of which some columns of some rows are decoded at a time.
 
 use super::footer::Footer;
+use super::pages;
 use crate::error::{FormatError, FormatFault};
 use crate::guard::guarded;
 use crate::log::ROWS_AT_A_TIME;
 use ::parquet::arrow::ProjectionMask;
 use ::parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader,
+    ParquetRecordBatchReaderBuilder,
 };
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::RowGroupMetaData;
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, SchemaRef};
+use std::collections::HashSet;
 use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Which rows are read.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +37,8 @@ pub(crate) struct ParquetFile {
     source: String,
     path: PathBuf,
     metadata: ArrowReaderMetadata,
+    /// Column chunks whose pages were looked at, by row group and column.
+    looked_at: Mutex<HashSet<(usize, usize)>>,
 }
 
 impl ParquetFile {
@@ -61,11 +67,22 @@ impl ParquetFile {
         let options = ArrowReaderOptions::new();
         let metadata =
             ArrowReaderMetadata::load(&file, options).map_err(|error| fail(fault(error)))?;
-        Ok(ParquetFile {
-            source,
+        let said = metadata.metadata().file_metadata().num_rows();
+        let opened = ParquetFile {
+            source: source.clone(),
             path: path.to_owned(),
             metadata,
-        })
+            looked_at: Mutex::default(),
+        };
+        // Rows that are lost must not pass for a table that was short.
+        if u64::try_from(said) != Ok(opened.rows()) {
+            let why = format!(
+                "its footer has {said} rows, and {} in row groups",
+                opened.rows()
+            );
+            return Err(fail(damaged(why)));
+        }
+        Ok(opened)
     }
 
     pub(crate) fn source(&self) -> &str {
@@ -91,39 +108,89 @@ impl ParquetFile {
         part: Part,
         each: &mut dyn FnMut(&RecordBatch) -> Result<ControlFlow<()>, ArrowError>,
     ) -> Result<(), FormatError> {
-        let fail = |fault: FormatFault| FormatError::new(&self.source, "", fault);
-        let file = File::open(&self.path).map_err(|error| fail(error.into()))?;
-        let metadata = self.metadata.clone();
-        let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata);
-        let mask = ProjectionMask::roots(builder.parquet_schema(), roots.iter().copied());
-        let most = part.most.unwrap_or(usize::MAX);
-        let mut builder = builder
-            .with_projection(mask)
-            .with_batch_size(ROWS_AT_A_TIME.min(most).max(1))
-            .with_offset(part.skip);
-        if let Some(most) = part.most {
-            builder = builder.with_limit(most);
-        }
-        if let Some(groups) = part.groups {
-            builder = builder.with_row_groups(groups);
-        }
-        let mut reader = decoded(|| builder.build().map_err(fault)).map_err(fail)?;
+        let (mut skip, mut left) = (part.skip, part.most.unwrap_or(usize::MAX));
+        let groups = part
+            .groups
+            .unwrap_or_else(|| (0..self.groups().len()).collect());
         let mut row = part.skip;
-        loop {
-            let fail = |fault| FormatError::new(&self.source, format!("after row {row}"), fault);
-            let unlike = |error: ArrowError| damaged(error.to_string());
-            let batch = decoded(|| reader.next().transpose().map_err(unlike)).map_err(fail)?;
-            let Some(batch) = batch else {
-                return Ok(());
+        for number in groups {
+            let Some(group) = self.groups().get(number) else {
+                continue;
             };
-            if each(&batch)
-                .map_err(|error| fail(unlike(error)))?
-                .is_break()
-            {
+            let rows = usize::try_from(rows_of(group)).unwrap_or(usize::MAX);
+            if skip >= rows {
+                skip -= rows;
+                continue;
+            }
+            if left == 0 {
                 return Ok(());
             }
-            row = row.saturating_add(batch.num_rows());
+            let mut reader = self
+                .reader(number, roots, skip, left)
+                .map_err(|fault| FormatError::new(&self.source, "", fault))?;
+            let mut wanted = left.min(rows - skip);
+            skip = 0;
+            loop {
+                let fail =
+                    |fault| FormatError::new(&self.source, format!("after row {row}"), fault);
+                let unlike = |error: ArrowError| damaged(error.to_string());
+                let batch = decoded(|| reader.next().transpose().map_err(unlike)).map_err(fail)?;
+                let Some(batch) = batch else {
+                    break;
+                };
+                wanted = wanted.saturating_sub(batch.num_rows());
+                if each(&batch)
+                    .map_err(|error| fail(unlike(error)))?
+                    .is_break()
+                {
+                    return Ok(());
+                }
+                row = row.saturating_add(batch.num_rows());
+                left = left.saturating_sub(batch.num_rows());
+            }
+            if wanted > 0 {
+                let why = format!("{wanted} of {rows} rows of a row group are not there");
+                return Err(FormatError::new(&self.source, "", damaged(why)));
+            }
         }
+        Ok(())
+    }
+
+    /// A reader of some columns of one row group, once their pages are known to claim no more than there can be.
+    fn reader(
+        &self,
+        group: usize,
+        roots: &[usize],
+        skip: usize,
+        most: usize,
+    ) -> Result<ParquetRecordBatchReader, FormatFault> {
+        let mut file = File::open(&self.path)?;
+        let metadata = self.metadata.metadata();
+        let schema = metadata.file_metadata().schema_descr();
+        for (leaf, chunk) in metadata.row_group(group).columns().iter().enumerate() {
+            if roots.contains(&schema.get_column_root_idx(leaf)) {
+                let place = (group, leaf);
+                let looked_at = || {
+                    self.looked_at
+                        .lock()
+                        .unwrap_or_else(PoisonError::into_inner)
+                };
+                if !looked_at().contains(&place) {
+                    pages::check(&mut file, chunk)?;
+                    looked_at().insert(place);
+                }
+            }
+        }
+        let mask = ProjectionMask::roots(schema, roots.iter().copied());
+        let builder =
+            ParquetRecordBatchReaderBuilder::new_with_metadata(file, self.metadata.clone());
+        let builder = builder
+            .with_row_groups(vec![group])
+            .with_projection(mask)
+            .with_batch_size(ROWS_AT_A_TIME.min(most).max(1))
+            .with_offset(skip)
+            .with_limit(most);
+        decoded(|| builder.build().map_err(fault))
     }
 }
 

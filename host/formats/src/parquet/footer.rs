@@ -1,5 +1,6 @@
 //! The footer of a Parquet file, looked at before the crate `parquet` reads it: a schema of thousands of levels would end its stack.
 
+use super::thrift::{Thrift, kind};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -52,26 +53,6 @@ impl Footer {
     }
 }
 
-/// Values in the compact protocol of Thrift, which footers are written in.
-struct Thrift<'b> {
-    rest: &'b [u8],
-}
-
-mod kind {
-    pub(super) const TRUE: u8 = 1;
-    pub(super) const FALSE: u8 = 2;
-    pub(super) const BYTE: u8 = 3;
-    pub(super) const I16: u8 = 4;
-    pub(super) const I32: u8 = 5;
-    pub(super) const I64: u8 = 6;
-    pub(super) const DOUBLE: u8 = 7;
-    pub(super) const BINARY: u8 = 8;
-    pub(super) const LIST: u8 = 9;
-    pub(super) const SET: u8 = 10;
-    pub(super) const MAP: u8 = 11;
-    pub(super) const STRUCT: u8 = 12;
-}
-
 impl Thrift<'_> {
     /// Goes over the schema, which is the footer's second field; `None` if it is none, or is too deep.
     fn schema(&mut self) -> Option<()> {
@@ -116,100 +97,6 @@ impl Thrift<'_> {
             }
         }
         Some(children)
-    }
-
-    /// The kind of the next field, whose number is counted on; `Some(None)` at the end of the structure.
-    fn field(&mut self, number: &mut u64) -> Option<Option<u8>> {
-        let head = self.byte()?;
-        if head == 0 {
-            return Some(None);
-        }
-        *number = match head >> 4 {
-            0 => self.varint()? >> 1,
-            step => number.checked_add(u64::from(step))?,
-        };
-        Some(Some(head & 15))
-    }
-
-    fn list(&mut self) -> Option<(u64, u8)> {
-        let head = self.byte()?;
-        let count = match head >> 4 {
-            15 => self.varint()?,
-            count => u64::from(count),
-        };
-        // Each element has a byte at least.
-        (count <= self.rest.len() as u64).then_some((count, head & 15))
-    }
-
-    fn skip(&mut self, kind: u8, depth: usize) -> Option<()> {
-        if depth > DEEPEST {
-            return None;
-        }
-        match kind {
-            kind::TRUE | kind::FALSE => {}
-            kind::BYTE => self.bytes(1)?,
-            kind::I16 | kind::I32 | kind::I64 => {
-                self.varint()?;
-            }
-            kind::DOUBLE => self.bytes(8)?,
-            kind::BINARY => {
-                let length = self.varint()?;
-                self.bytes(length)?;
-            }
-            kind::LIST | kind::SET => {
-                let (count, kind) = self.list()?;
-                for _ in 0..count {
-                    self.element(kind, depth)?;
-                }
-            }
-            kind::MAP => {
-                let count = self.varint()?;
-                let kinds = if count == 0 { 0 } else { self.byte()? };
-                for _ in 0..count {
-                    self.element(kinds >> 4, depth)?;
-                    self.element(kinds & 15, depth)?;
-                }
-            }
-            kind::STRUCT => {
-                let mut field = 0;
-                while let Some(kind) = self.field(&mut field)? {
-                    self.skip(kind, depth + 1)?;
-                }
-            }
-            _ => return None,
-        }
-        Some(())
-    }
-
-    /// Goes over a value in a list, where a flag has a byte of its own.
-    fn element(&mut self, kind: u8, depth: usize) -> Option<()> {
-        match kind {
-            kind::TRUE | kind::FALSE => self.bytes(1),
-            kind => self.skip(kind, depth + 1),
-        }
-    }
-
-    fn bytes(&mut self, count: u64) -> Option<()> {
-        self.rest = self.rest.get(usize::try_from(count).ok()?..)?;
-        Some(())
-    }
-
-    fn byte(&mut self) -> Option<u8> {
-        let (first, rest) = self.rest.split_first()?;
-        self.rest = rest;
-        Some(*first)
-    }
-
-    fn varint(&mut self) -> Option<u64> {
-        let mut number = 0;
-        for shift in (0..64).step_by(7) {
-            let byte = self.byte()?;
-            number |= u64::from(byte & 0x7f) << shift;
-            if byte < 0x80 {
-                return Some(number);
-            }
-        }
-        None
     }
 }
 

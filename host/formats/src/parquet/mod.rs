@@ -3,7 +3,9 @@
 mod columns;
 mod file;
 mod footer;
+mod pages;
 mod recordings;
+mod thrift;
 mod values;
 
 pub(crate) use columns::{Source, Step};
