@@ -12,6 +12,7 @@ pub mod error;
 mod interrupt;
 pub mod prove;
 pub mod session;
+mod stated_law;
 mod titled;
 pub mod twins;
 pub mod workbench;

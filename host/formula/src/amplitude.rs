@@ -25,8 +25,7 @@ pub(crate) fn amplitudes(definition: &Definition) -> Vec<bool> {
             };
             (low..=high).contains(&0.0)
                 && points.iter().all(|point| {
-                    let (none, one, two) =
-                        (at(0.0, point), at(step, point), at(2.0 * step, point));
+                    let (none, one, two) = (at(0.0, point), at(step, point), at(2.0 * step, point));
                     let size = none.abs().max(one.abs()).max(two.abs());
                     (two - 2.0 * one + none).abs() <= ROUNDING * size
                 })

@@ -30,10 +30,14 @@ pub(crate) fn compile(definition: &Definition) -> Result<Program, Refused> {
         Some((_, rate, _)) => compiler.program(rate)?,
         None => Vec::new(),
     };
-    let state = definition.state.as_ref().map_or((-1.0, 1.0), |(.., range)| *range);
+    let state = definition
+        .state
+        .as_ref()
+        .map_or((-1.0, 1.0), |(.., range)| *range);
     let refused = |what: String| (0, what);
     if compiler.constants.len() > MAX_CONSTANTS {
-        let what = format!("the law has more than {MAX_CONSTANTS} constants; a simpler one is needed");
+        let what =
+            format!("the law has more than {MAX_CONSTANTS} constants; a simpler one is needed");
         return Err(refused(what));
     }
     let numbers: usize = law.iter().chain(&rate).map(numbers).sum();
@@ -43,7 +47,9 @@ pub(crate) fn compile(definition: &Definition) -> Result<Program, Refused> {
     }
     let deepest = compiler.constants.iter().map(|ops| depth(ops)).max();
     if deepest.unwrap_or(0).max(depth(&law)).max(depth(&rate)) > MAX_DEPTH {
-        let what = format!("the law needs more than {MAX_DEPTH} results at once; put brackets to the left");
+        let what = format!(
+            "the law needs more than {MAX_DEPTH} results at once; put brackets to the left"
+        );
         return Err(refused(what));
     }
     // Laws live as long as the process: every effect is known by a reference of that life.
@@ -157,7 +163,11 @@ impl Compiler<'_> {
                     }
                     Function::Min | Function::Max => {
                         let second = self.code(&arguments[1])?;
-                        let op = if *function == Function::Min { Op::Min } else { Op::Max };
+                        let op = if *function == Function::Min {
+                            Op::Min
+                        } else {
+                            Op::Max
+                        };
                         self.both(op, first, second)
                     }
                 }

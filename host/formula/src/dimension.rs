@@ -75,7 +75,10 @@ impl Dimension {
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let written = |powers: &[f64; 3], sign: f64| {
-            let factors = NAMES.iter().zip(powers).filter(|(_, power)| sign * **power > SAME);
+            let factors = NAMES
+                .iter()
+                .zip(powers)
+                .filter(|(_, power)| sign * **power > SAME);
             let factors = factors.map(|(name, power)| match power.abs() {
                 one if (one - 1.0).abs() < SAME => (*name).to_owned(),
                 power => format!("{name}^{power}"),
@@ -84,7 +87,11 @@ impl fmt::Display for Dimension {
         };
         let above = written(&self.powers, 1.0);
         let below = written(&self.powers, -1.0);
-        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
+        let above = if above.is_empty() {
+            "1".to_owned()
+        } else {
+            above.join("*")
+        };
         match below.is_empty() {
             true => f.write_str(&above),
             false => write!(f, "{above}/{}", below.join("/")),
@@ -100,7 +107,10 @@ pub(crate) fn check(definition: &Definition) -> Result<(), (usize, String)> {
     let expected = match definition.output {
         Output::Torque | Output::Friction => (VOLT, "a torque is in V, referred to the winding"),
         Output::Voltage => (VOLT, "a voltage is in V"),
-        Output::TorqueConstant => (ONE, "torque_constant is a part of the motor's, without a unit"),
+        Output::TorqueConstant => (
+            ONE,
+            "torque_constant is a part of the motor's, without a unit",
+        ),
         Output::Angle => (RADIAN, "an angle is in rad"),
     };
     same(definition, &definition.law, expected.0, expected.1)?;

@@ -5,7 +5,7 @@ use crate::amplitude::amplitudes;
 use crate::compile::compile;
 use crate::fault::Fault;
 use crate::syntax::Definition;
-use shared::effects::formula::{Formula, Output};
+use shared::effects::formula::{Formula, Op, Output};
 use shared::effects::{Description, Facts, Kind, Parameter, Place};
 use shared::units::Quantity;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -28,6 +28,64 @@ fn laws() -> MutexGuard<'static, Vec<&'static Law>> {
     LAWS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+impl Law {
+    /// The law as a static of Rust, for a program that states it when it is built, such as firmware.
+    pub fn rust(&self) -> String {
+        let program = &self.formula.program;
+        let description = &self.formula.description;
+        let ops = |ops: &[Op]| {
+            let ops: Vec<String> = ops.iter().map(op).collect();
+            format!("&[{}]", ops.join(", "))
+        };
+        let constants: Vec<String> = program.constants.iter().map(|one| ops(one)).collect();
+        let parameters: Vec<String> = (description.parameters.iter())
+            .map(|parameter| {
+                format!(
+                    "Parameter {{ name: {:?}, quantity: Quantity::Stated({:?}), range: {:?}, widest: {:?}, typical: {:?}, amplitude: {}, neutral: {:?}, form: false }}",
+                    parameter.name,
+                    parameter.quantity.unit(),
+                    parameter.range,
+                    parameter.widest,
+                    parameter.typical,
+                    parameter.amplitude,
+                    parameter.neutral,
+                )
+            })
+            .collect();
+        format!(
+            "/// `{}`\npub static {}: Formula = Formula {{\n    description: Description {{\n        name: {:?},\n        place: Place::{:?},\n        \
+             title: {:?},\n        parameters: &[{}],\n        equation: {:?},\n        signature: {:?},\n        exposed_by: {:?},\n        \
+             look_alikes: &[],\n        source: {:?},\n        facts: Facts {{ series_parallel: {}, ..Facts::PLAIN }},\n    }},\n    \
+             program: Program {{\n        output: Output::{:?},\n        constants: &[{}],\n        law: {},\n        rate: {},\n        \
+             state: {:?},\n    }},\n}};\n",
+            self.definition.text,
+            self.definition.name.to_uppercase(),
+            description.name,
+            description.place,
+            description.title,
+            parameters.join(", "),
+            description.equation,
+            description.signature,
+            description.exposed_by,
+            description.source,
+            description.facts.series_parallel,
+            program.output,
+            constants.join(", "),
+            ops(program.law),
+            ops(program.rate),
+            program.state,
+        )
+    }
+}
+
+/// An operation in Rust.
+fn op(op: &Op) -> String {
+    match op {
+        Op::Variable(variable) => format!("Op::Variable(Variable::{variable:?})"),
+        other => format!("Op::{other:?}"),
+    }
+}
+
 /// The effect that a text states. The same text gives the same effect.
 ///
 /// # Errors
@@ -44,12 +102,19 @@ pub fn define(text: &str) -> Result<Kind, Fault> {
     }
     let definition = Definition::parse(text)?;
     if Kind::by_name(&definition.name).is_some() {
-        let what = format!("`{}` is an effect of the catalogue; take another name", definition.name);
+        let what = format!(
+            "`{}` is an effect of the catalogue; take another name",
+            definition.name
+        );
         return Err(Fault::new(text, 0, what));
     }
     let program = compile(&definition).map_err(|(at, what)| Fault::new(text, at, what))?;
     if laws().len() >= MOST {
-        return Err(Fault::new(text, 0, format!("more than {MOST} laws in one process")));
+        return Err(Fault::new(
+            text,
+            0,
+            format!("more than {MOST} laws in one process"),
+        ));
     }
     let description = describe(&definition);
     let law: &'static Law = Box::leak(Box::new(Law {

@@ -234,8 +234,12 @@ fn operand(input: &mut Input<'_>) -> Parsed<Expression> {
     // Anything else that is no operand is wrong here.
     let term = cut_err(alt((
         unsigned.map(Term::Number),
-        delimited(token("("), sum, cut_err(token(")")).context(expected("`)`")))
-            .map(|inner| inner.term),
+        delimited(
+            token("("),
+            sum,
+            cut_err(token(")")).context(expected("`)`")),
+        )
+        .map(|inner| inner.term),
         named,
     )))
     .context(expected("a number, a name or `(`"))
@@ -291,7 +295,10 @@ fn sum(input: &mut Input<'_>) -> Parsed<Expression> {
         )
         .parse_next(input)
     };
-    expression(operand).prefix(prefix).infix(infix).parse_next(input)
+    expression(operand)
+        .prefix(prefix)
+        .infix(infix)
+        .parse_next(input)
 }
 
 fn join(binary: Binary, a: Expression, b: Expression) -> Expression {
@@ -322,14 +329,18 @@ fn unit(input: &mut Input<'_>) -> Parsed<(usize, String)> {
 
 fn place(input: &mut Input<'_>) -> Parsed<Statement> {
     let at = input.current_token_start();
-    let output = identifier.verify_map(|name| found(&PLACES, name)).parse_next(input)?;
+    let output = identifier
+        .verify_map(|name| found(&PLACES, name))
+        .parse_next(input)?;
     let law = cut_err(preceded(token("=").context(expected("`=`")), sum)).parse_next(input)?;
     Ok(Statement::Place(at, output, law))
 }
 
 fn rate(input: &mut Input<'_>) -> Parsed<Statement> {
     let at = input.current_token_start();
-    let name = terminated(identifier, token("'")).parse_next(input)?.to_owned();
+    let name = terminated(identifier, token("'"))
+        .parse_next(input)?
+        .to_owned();
     let rate = cut_err(preceded(token("=").context(expected("`=`")), sum)).parse_next(input)?;
     Ok(Statement::Rate(at, name, rate))
 }
@@ -369,8 +380,9 @@ fn law(input: &mut Input<'_>) -> Parsed<(String, Vec<Statement>)> {
     multispace0.parse_next(input)?;
     let name = cut_err(identifier).parse_next(input)?.to_owned();
     cut_err(token(":").context(expected("`:` after the name"))).parse_next(input)?;
-    let statement = alt((place, rate, parameter))
-        .context(expected("a place such as `torque = ...`, a state `z' = ...` or a parameter `c in [0, 1] V`"));
+    let statement = alt((place, rate, parameter)).context(expected(
+        "a place such as `torque = ...`, a state `z' = ...` or a parameter `c in [0, 1] V`",
+    ));
     let between = repeat::<_, _, (), _, _>(1.., token(";"));
     let statements = separated(1.., cut_err(statement), between).parse_next(input)?;
     opt(token(";")).parse_next(input)?;
@@ -386,7 +398,10 @@ impl Definition {
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let fault = |at: usize, what: String| Fault::new(text, at, what);
         if text.len() > LONGEST {
-            return Err(fault(LONGEST, format!("the law is longer than {LONGEST} characters")));
+            return Err(fault(
+                LONGEST,
+                format!("the law is longer than {LONGEST} characters"),
+            ));
         }
         nesting(text)?;
         let (name, statements) = law.parse(LocatingSlice::new(text)).map_err(|error| {
@@ -441,8 +456,8 @@ impl Definition {
                 }
                 Statement::Fixed(at, name, value, (unit_at, unit)) => {
                     self.new_name(text, at, &name)?;
-                    let dimension = Dimension::parse(&unit)
-                        .map_err(|what| Fault::new(text, unit_at, what))?;
+                    let dimension =
+                        Dimension::parse(&unit).map_err(|what| Fault::new(text, unit_at, what))?;
                     self.fixed.push(Fixed {
                         name,
                         value,
@@ -460,13 +475,16 @@ impl Definition {
         }
         self.output = output.ok_or_else(|| {
             let places: Vec<&str> = PLACES.iter().map(|(name, _)| *name).collect();
-            let what = format!("the law has no place; add one of {} = ...", places.join(", "));
+            let what = format!(
+                "the law has no place; add one of {} = ...",
+                places.join(", ")
+            );
             Fault::new(text, text.len(), what)
         })?;
         for (names, start, range, (unit_at, unit)) in ranges {
             for (at, name) in names {
                 let (low, high) = range;
-                if !(low < high) {
+                if low >= high {
                     let what = format!("the range of {name} is empty: [{low}, {high}]");
                     return Err(Fault::new(text, at, what));
                 }
@@ -487,7 +505,11 @@ impl Definition {
                     name,
                     start: start.unwrap_or_else(|| middle(low, high)),
                     range,
-                    unit: if unit.is_empty() { "1".to_owned() } else { unit.clone() },
+                    unit: if unit.is_empty() {
+                        "1".to_owned()
+                    } else {
+                        unit.clone()
+                    },
                     dimension,
                 });
             }
@@ -544,7 +566,8 @@ impl Definition {
                     Fault::new(text, at, what)
                 })?;
                 if let Term::Variable(variable) = term {
-                    self.is_at_hand(variable).map_err(|what| Fault::new(text, at, what))?;
+                    self.is_at_hand(variable)
+                        .map_err(|what| Fault::new(text, at, what))?;
                 }
                 expression.term = term;
             }
@@ -572,7 +595,9 @@ impl Definition {
         }
         let parameter = self.parameters.iter().position(|p| p.name == name);
         let fixed = || self.fixed.iter().position(|p| p.name == name);
-        parameter.map(Term::Parameter).or_else(|| fixed().map(Term::Fixed))
+        parameter
+            .map(Term::Parameter)
+            .or_else(|| fixed().map(Term::Fixed))
     }
 
     /// Whether the place sees a variable.

@@ -28,7 +28,8 @@ impl Expression {
             Term::Number(x) => Some(*x),
             Term::Negative(a) => a.constant().map(|x| -x),
             Term::Call(function, arguments) => {
-                let arguments: Option<Vec<f64>> = arguments.iter().map(Expression::constant).collect();
+                let arguments: Option<Vec<f64>> =
+                    arguments.iter().map(Expression::constant).collect();
                 arguments.map(|arguments| called(*function, &arguments))
             }
             Term::Binary(binary, a, b) => Some(joined(*binary, a.constant()?, b.constant()?)),

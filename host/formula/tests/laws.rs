@@ -7,8 +7,8 @@ use shared::effects::{EffectSet, Kind};
 use shared::model::{Model, Plan, State};
 use shared::motor::Machine;
 use shared::scalar::Fixed;
-use shared::units::PerUnit;
 use shared::scalar::Readable as _;
+use shared::units::PerUnit;
 
 const SUPPLY: f64 = 24.0;
 const FASTEST: f64 = 800.0;
@@ -51,17 +51,40 @@ fn angles(plan: &Plan<f64>) -> Vec<f64> {
 }
 
 fn furthest(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
 }
 
 /// Effects of the catalogue as formulas.
 fn twins() -> Vec<(&'static str, Vec<f64>, Kind, Vec<f64>)> {
     let by = |name| Kind::by_name(name).unwrap();
     vec![
-        ("drag: torque = -c*w*abs(w); c in [0, 1] V*s^2/rad^2", vec![1.5e-6], by("windage"), vec![1.5e-6]),
-        ("dry: friction = c; c in [0, 5] V", vec![0.9], by("coulomb"), vec![0.9]),
-        ("load: torque = -c; c in [-5, 5] V", vec![0.7], by("load_torque"), vec![0.7]),
-        ("bias: voltage = c; c in [-5, 5] V", vec![0.7], by("offset_voltage"), vec![0.7]),
+        (
+            "drag: torque = -c*w*abs(w); c in [0, 1] V*s^2/rad^2",
+            vec![1.5e-6],
+            by("windage"),
+            vec![1.5e-6],
+        ),
+        (
+            "dry: friction = c; c in [0, 5] V",
+            vec![0.9],
+            by("coulomb"),
+            vec![0.9],
+        ),
+        (
+            "load: torque = -c; c in [-5, 5] V",
+            vec![0.7],
+            by("load_torque"),
+            vec![0.7],
+        ),
+        (
+            "bias: voltage = c; c in [-5, 5] V",
+            vec![0.7],
+            by("offset_voltage"),
+            vec![0.7],
+        ),
         (
             "teeth: torque = -(a*cos(12*theta) + b*sin(12*theta)); a, b in [-1, 1] V",
             vec![0.3, 0.2],
@@ -108,19 +131,29 @@ fn every_number_format_moves_alike_or_refuses() {
         let single = Model::<f32>::new(&plan).unwrap();
         let fixed = Model::<Fixed>::new(&plan);
         if law_of(stated).unwrap().definition.state.is_some() {
-            let refused = fixed.err().map(|error| error.to_string()).unwrap_or_default();
+            let refused = fixed
+                .err()
+                .map(|error| error.to_string())
+                .unwrap_or_default();
             assert!(refused.contains("number format"), "{text}: {refused}");
             continue;
         }
         let fixed = fixed.unwrap();
         for (k, exact) in exact.iter().enumerate() {
             single.step(&mut narrow.0, command(k) as f32, false);
-            fixed.step(&mut narrow.1, shared::scalar::Scalar::from_f64(command(k)), false);
+            fixed.step(
+                &mut narrow.1,
+                shared::scalar::Scalar::from_f64(command(k)),
+                false,
+            );
             let off = [
                 f64::from(single.reading(&narrow.0).floor()) - exact.floor(),
                 f64::from(fixed.reading(&narrow.1).floor()) - exact.floor(),
             ];
-            assert!(off.iter().all(|off| off.abs() <= 8.0), "{text}, sample {k}: {off:?} counts");
+            assert!(
+                off.iter().all(|off| off.abs() <= 8.0),
+                "{text}, sample {k}: {off:?} counts"
+            );
         }
     }
 }
@@ -128,10 +161,22 @@ fn every_number_format_moves_alike_or_refuses() {
 #[test]
 fn amplitudes_are_found() {
     for (text, expected) in [
-        ("gear: z' = (w - abs(w)*z)/h; torque = -(ma*abs(tau)*z + md*tau^2/v0*z); h = 0.01 in [1e-3, 1] rad; ma, md in [0, 1]; v0 = 1 V", vec![false, true, true]),
-        ("p: torque = -c*sgn(w)*abs(w/w0)^p; c in [0, 1] V; p in [0.1, 3]; w0 = 100 rad/s", vec![true, false]),
-        ("k: torque = -c*(1 + k*cos(theta)); c in [0, 1] V; k in [0, 2]", vec![true, false]),
-        ("s: torque_constant = 1 - k*(i/v0)^2; k in [0, 1]; v0 = 12 V", vec![true]),
+        (
+            "gear: z' = (w - abs(w)*z)/h; torque = -(ma*abs(tau)*z + md*tau^2/v0*z); h = 0.01 in [1e-3, 1] rad; ma, md in [0, 1]; v0 = 1 V",
+            vec![false, true, true],
+        ),
+        (
+            "p: torque = -c*sgn(w)*abs(w/w0)^p; c in [0, 1] V; p in [0.1, 3]; w0 = 100 rad/s",
+            vec![true, false],
+        ),
+        (
+            "k: torque = -c*(1 + k*cos(theta)); c in [0, 1] V; k in [0, 2]",
+            vec![true, false],
+        ),
+        (
+            "s: torque_constant = 1 - k*(i/v0)^2; k in [0, 1]; v0 = 12 V",
+            vec![true],
+        ),
     ] {
         let kind = define(text).unwrap_or_else(|fault| panic!("{fault}"));
         let found: Vec<bool> = kind.parameters().iter().map(|p| p.amplitude).collect();
@@ -150,8 +195,16 @@ fn faults_point_at_the_character_and_say_what_was_expected() {
         ("a: torque = c; c in [1, 0] V", 15, "empty"),
         ("a: torque = c; c in [0, 1] N", 27, "no unit"),
         ("a: c in [0, 1] V", 16, "no place"),
-        ("a: torque = c/w*w0; c in [0, 1] V; w0 = 1 rad/s", 14, "zero"),
-        ("a: torque = c*(w/w0)^0.5; c in [0, 1] V; w0 = 1 rad/s", 14, "negative"),
+        (
+            "a: torque = c/w*w0; c in [0, 1] V; w0 = 1 rad/s",
+            14,
+            "zero",
+        ),
+        (
+            "a: torque = c*(w/w0)^0.5; c in [0, 1] V; w0 = 1 rad/s",
+            14,
+            "negative",
+        ),
         ("a: torque = c*u/u0; c in [0, 1] V; u0 = 1 V", 14, "command"),
         ("coulomb: torque = c; c in [0, 1] V", 0, "catalogue"),
         ("a: torque = c + w; c in [0, 1] V", 16, "added"),

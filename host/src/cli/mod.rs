@@ -113,11 +113,7 @@ pub enum Verb {
     /// Talks to the firmware: commissions a motor on its own controller, and checks what it found
     Device(DeviceArgs),
     /// The effects that can be told: equation, sign, experiment, remedy, look-alikes
-    Effects {
-        /// One of them; a list of all if not given
-        #[arg(value_parser = effect_names())]
-        name: Option<String>,
-    },
+    Effects(EffectsArgs),
     /// Prints a completion script for a shell
     Completions {
         /// The shell
@@ -202,12 +198,40 @@ fn preset_names() -> PossibleValuesParser {
     PossibleValuesParser::new(presets.map(|p| PossibleValue::new(p.name).help(p.about)))
 }
 
+/// `servoid effects`.
+#[derive(Clone, Debug, Args)]
+pub struct EffectsArgs {
+    /// One of them; a list of all if not given
+    #[arg(value_parser = effect_names(), conflicts_with_all = ["effect", "effects"])]
+    pub name: Option<String>,
+    /// Laws of the user's own in the place of the catalogue.
+    #[command(flatten)]
+    pub formulas: FormulaArgs,
+    /// Write these laws as statics of Rust, for firmware that states them when it is built
+    #[arg(long, value_name = "FILE")]
+    pub emit_rust: Option<PathBuf>,
+}
+
+/// Laws that the user states.
+#[derive(Clone, Debug, Args)]
+pub struct FormulaArgs {
+    /// A law of your own as an effect, as in "drag: torque = -c*w*abs(w); c in [0, 1e-3] V*s^2/rad^2"; may be repeated
+    #[arg(long, value_name = "LAW")]
+    pub effect: Vec<String>,
+    /// Laws by their names in a TOML file with a table [effects]; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub effects: Vec<PathBuf>,
+}
+
 /// What the model is made of and what is minimised.
 #[derive(Clone, Debug, Args)]
 pub struct ModelArgs {
     /// Effects beside the linear machine
     #[arg(long, value_delimiter = ',', value_name = "EFFECT,…", value_parser = effect_names())]
     pub with: Vec<String>,
+    /// Laws of the user's own beside the linear machine.
+    #[command(flatten)]
+    pub formulas: FormulaArgs,
     /// What is minimised
     #[arg(long, value_enum, default_value_t = CostName::Squared)]
     pub cost: CostName,
@@ -295,6 +319,9 @@ pub struct DiagnoseArgs {
     /// and two minutes of one processor core, and few recordings need a tenth of it
     #[arg(long, default_value_t = USUAL_STEPS / 1_000_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub budget: u64,
+    /// Laws that are tried beside the effects of the catalogue.
+    #[command(flatten)]
+    pub formulas: FormulaArgs,
     /// Diagnose recordings that `servoid check` refuses
     #[arg(long)]
     pub force: bool,
@@ -329,6 +356,12 @@ pub struct CompareArgs {
     /// Plot of best cost against evaluations (SVG)
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// Where the runs themselves go (JSON), for --merge
+    #[arg(long, short, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Run nothing: the joint table of these files of --out, whose seeds were run apart with otherwise the same options
+    #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["seeds", "out"])]
+    pub merge: Vec<PathBuf>,
     /// The model.
     #[command(flatten)]
     pub model: ModelArgs,

@@ -1,6 +1,6 @@
 //! `servoid simulate`, and planning the next recording.
 
-use super::effect_names;
+use super::{FormulaArgs, effect_names};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
@@ -18,6 +18,9 @@ pub struct SimulateArgs {
     /// Hide an effect in it: a name, or name:key=value,key=value; may be repeated
     #[arg(long, value_name = "EFFECT", conflicts_with = "plan")]
     pub hide: Vec<String>,
+    /// Laws of your own that are hidden too, with the values that they state.
+    #[command(flatten)]
+    pub formulas: FormulaArgs,
     /// Excitation: commissioning, commissioning-coast, or the name of one shape (see --list)
     #[arg(
         long,

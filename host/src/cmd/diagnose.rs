@@ -1,7 +1,7 @@
 //! `servoid diagnose`: where the linear motor fails, and what is missing.
 
 use super::progress::Watched;
-use super::{motor, report};
+use super::{formula, motor, report};
 use crate::cli::DiagnoseArgs;
 use crate::error::Error;
 use crate::session::Session;
@@ -33,6 +33,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         known: read.motor.known,
         seed: session.seed,
         force: args.force,
+        candidates: formula::stated(&args.formulas)?,
         ..Options::default()
     };
     let name = read.motor.name;

@@ -4,6 +4,7 @@ mod batch;
 mod bench;
 mod check;
 mod compare;
+mod compare_runs;
 mod completions;
 mod demo;
 mod device;
@@ -12,6 +13,7 @@ mod effects;
 mod export;
 mod fit;
 mod fleet;
+mod formula;
 mod model;
 mod motor;
 mod motor_beside;
@@ -52,7 +54,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Verb::Report(args) => report::run(&session, &args),
         Verb::Prove(args) => prove::run(&session, &args),
         Verb::Device(args) => device::run(&session, &args),
-        Verb::Effects { name } => effects::run(&session, name.as_deref()),
+        Verb::Effects(args) => effects::run(&session, &args),
         Verb::Completions { shell } => completions::run(shell),
     }
 }

@@ -1,5 +1,6 @@
 //! From flags to fit options.
 
+use super::formula;
 use crate::cli::{CostName, Integrator, ModelArgs};
 use crate::error::Error;
 use servoid_engine::simulation::Method;
@@ -7,6 +8,7 @@ use servoid_identify::fit::{Bound, COSTS, Options, effects_by_name};
 use servoid_io::input::Known;
 use shared::cost::Cost;
 use shared::discretise::Discretisation;
+use shared::effects::MAX_EFFECTS;
 
 impl CostName {
     /// The cost itself.
@@ -35,8 +37,15 @@ pub(super) fn options(
             "--window {window}: must be a positive number of seconds"
         )));
     }
+    let mut effects = effects_by_name("--with", &args.with)?;
+    effects.extend(formula::stated(&args.formulas)?);
+    if effects.len() > MAX_EFFECTS {
+        return Err(Error::Usage(format!(
+            "--with, --effect: at most {MAX_EFFECTS} effects fit into one model"
+        )));
+    }
     Ok(Options {
-        effects: effects_by_name("--with", &args.with)?,
+        effects,
         cost: args.cost.cost(),
         seed,
         budget: usize::try_from(budget).unwrap_or(usize::MAX),

@@ -1,11 +1,13 @@
 //! `servoid simulate`: the virtual bench makes a recording.
 
+use super::formula;
 use super::motor;
 use super::motor_beside::write_motor;
 use super::simulate_list::Offer;
 use crate::cli::SimulateArgs;
 use crate::error::Error;
 use crate::session::Session;
+use crate::stated_law::StatedLaw;
 use serde::Serialize;
 use servoid_io::excitation;
 use servoid_io::input::MotorFile;
@@ -14,12 +16,13 @@ use servoid_io::output::write_recording;
 use servoid_io::position_loop::LoopSettings;
 use servoid_io::record::Record;
 use servoid_io::recording::Recording;
-use servoid_plant::{Amplifier, Bench, BenchError, Hidden, Machine, PositionControl};
+use servoid_plant::{Amplifier, Bench, BenchError, Hidden, Machine, PositionControl, Stated};
 use shared::excite::Experiment;
 use std::f64::consts::{PI, TAU};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Longest recording, samples: a day at 1 kHz would be a slip of a unit.
 const MOST_SAMPLES: f64 = 2e7;
@@ -100,7 +103,8 @@ pub(super) fn run(session: &Session, args: &SimulateArgs) -> Result<(), Error> {
         .record(&drive, &out.display().to_string(), with_current)
         .map_err(wrong_flag)?;
     check_counts(&recording, args)?;
-    let hidden: Vec<String> = bench.effects.iter().map(Hidden::described).collect();
+    let mut hidden: Vec<String> = bench.effects.iter().map(Hidden::described).collect();
+    hidden.extend(args.formulas.effect.iter().cloned());
     write_recording(out, &recording, &provenance(args, &hidden, session.seed))?;
     let mut text = format!(
         "{}: {} samples, {:.3} s",
@@ -254,6 +258,22 @@ fn bench(args: &SimulateArgs, seed: u64) -> Result<Bench, Error> {
     bench.current_noise_a = args.current_noise;
     bench.angle_noise_counts = args.angle_noise;
     bench.torque_noise_n_m = args.torque_noise * bench.machine.stall_torque_n_m();
+    let laws = formula::stated(&args.formulas)?;
+    let laws: Vec<_> = laws
+        .into_iter()
+        .filter_map(servoid_formula::law_of)
+        .collect();
+    let with_state = laws.iter().filter(|law| law.definition.state.is_some());
+    if with_state.count() > 1 {
+        return Err(Error::Usage(
+            "--effect: the bench hides one law with a state at a time; leave the others away"
+                .to_owned(),
+        ));
+    }
+    for law in laws {
+        let effect = StatedLaw::new(law, bench.machine);
+        bench.stated.push(Stated(Arc::new(effect)));
+    }
     if let Some(hz) = args.substep_hz {
         bench.substep_hz = hz;
     }

@@ -140,7 +140,7 @@ fn within_minutes(seconds: f64) -> Result<f64, Error> {
 fn kinds(names: &[String]) -> Result<Vec<Kind>, Error> {
     let mut kinds = Vec::new();
     for name in names {
-        let kind = Kind::by_name(name)
+        let kind = servoid_formula::by_name(name)
             .ok_or_else(|| Error::Usage(format!("there is no effect `{name}`")))?;
         if kinds.contains(&kind) {
             return Err(Error::Usage(format!("{name} is in the model already")));

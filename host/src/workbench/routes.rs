@@ -19,7 +19,6 @@ use axum::{Json, Router, middleware};
 use futures_util::stream::{self, Stream};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
-use shared::effects::Kind;
 use std::convert::Infallible;
 use std::sync::Arc;
 use tokio::sync::broadcast::error::RecvError;
@@ -223,7 +222,7 @@ struct Lock {
 
 /// Takes an effect out of what is proposed, or lets it in again.
 async fn lock(State(bench): Shared, Json(asked): Json<Lock>) -> Answer {
-    let kind = Kind::by_name(&asked.effect)
+    let kind = servoid_formula::by_name(&asked.effect)
         .ok_or_else(|| Error::Usage(format!("there is no effect `{}`", asked.effect)))?;
     bench.act(|state| {
         state.locked.retain(|other| *other != kind);

@@ -12,7 +12,6 @@ use axum::http::header::CONTENT_TYPE;
 use serde::Deserialize;
 use servoid_engine::problem::Data;
 use servoid_results::report::html::Model as Drawn;
-use shared::effects::Kind;
 use std::ops::Range;
 
 /// Numbers as bytes, f32 each but for times.
@@ -118,7 +117,7 @@ pub(super) async fn of_proposal(
     residual(bench, which, move |bench| {
         let state = bench.state();
         let proposed = state.proposed.get(&id);
-        let kind = Kind::by_name(&effect);
+        let kind = servoid_formula::by_name(&effect);
         let found = proposed.and_then(|proposed| {
             let mut list = proposed.list.iter();
             list.find(|suggestion| Some(suggestion.effect) == kind)

@@ -12,7 +12,6 @@ use servoid_io::output::write_private;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
 use servoid_results::schema::{self, Document};
-use shared::effects::Kind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -170,7 +169,7 @@ impl SessionFile {
         state.locked = self
             .locked
             .iter()
-            .filter_map(|name| Kind::by_name(name))
+            .filter_map(|name| servoid_formula::by_name(name))
             .collect();
         let parents: Vec<Option<usize>> = self.models.iter().map(|saved| saved.parent).collect();
         let mut ids = Vec::new();

@@ -51,9 +51,11 @@ fn a_stopped_fit_keeps_its_best() {
 #[test]
 fn a_stopped_comparison_keeps_what_it_has_and_makes_nothing_up() {
     let desk = Desk::with_recording();
-    let line = "compare rec.csv --algorithm random,pso --seeds 1000 --budget 1000000 --json c.json --plot c.svg";
+    let line = "compare rec.csv --algorithm random,pso --seeds 1000 --budget 1000000 --json c.json --plot c.svg --out r.json";
     let outcome = interrupted(&desk, line);
     assert!(outcome.stdout.contains("random"), "{outcome}");
+    // Half of a seed's run is no run of it.
+    assert!(!desk.path("r.json").exists());
     let comparison = desk.read_json("c.json");
     let rows = list(&comparison, "rows");
     has(&rows[0], "best_cost: number, median_cost: number");

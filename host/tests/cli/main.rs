@@ -11,6 +11,7 @@ mod bench;
 mod certificate;
 mod check;
 mod colour;
+mod compare_apart;
 mod contract;
 mod desk;
 mod device_signals;

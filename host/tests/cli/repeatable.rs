@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::desk::Desk;
 
 /// Takes out what may differ: computing time.
-fn without_times(value: &mut Value) {
+pub fn without_times(value: &mut Value) {
     match value {
         Value::Object(object) => {
             object.remove("wall_s");

@@ -50,8 +50,8 @@ pub use lowered::Lowered;
 pub use set::EffectSet;
 pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, WHOLE_DROP, Winding};
 
-use crate::motor::Machine;
 use crate::error::ModelError;
+use crate::motor::Machine;
 use crate::scalar::{FromLanes, Real, Scalar};
 use crate::units::PerUnit;
 use formula::{Formula, Stated};

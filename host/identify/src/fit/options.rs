@@ -41,6 +41,8 @@ pub struct Options {
     pub start: Option<Candidate>,
     /// Whether the result has the errors of the models that lead to it, effect by effect.
     pub error_ladder: bool,
+    /// Laws that a diagnosis tries beside the effects of the catalogue.
+    pub candidates: Vec<Kind>,
     /// Whether recordings are fitted that the [check](crate::check) refuses.
     pub force: bool,
 }
@@ -89,14 +91,20 @@ pub fn cost_by_name(name: &str) -> Option<Cost> {
     COSTS.into_iter().find(|cost| cost_name(*cost) == name)
 }
 
-/// The effects of these names, which stand behind `flag`.
+/// The effects of these names, which stand behind `flag`; a name with a colon states a law.
 ///
 /// # Errors
 /// A name that is none, or stands twice; more than a model holds.
 pub fn effects_by_name(flag: &str, names: &[String]) -> Result<Vec<Kind>, Error> {
     let mut effects = Vec::new();
     for name in names {
-        let kind = Kind::by_name(name).ok_or_else(|| {
+        // A law with its name, as it is stated.
+        if name.contains(':') {
+            let stated = servoid_formula::define(name);
+            effects.push(stated.map_err(|fault| Error::Usage(format!("{flag}: {fault}")))?);
+            continue;
+        }
+        let kind = servoid_formula::by_name(name).ok_or_else(|| {
             let known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
             Error::Usage(format!(
                 "{flag} {name}: unknown effect; {}",
@@ -136,6 +144,7 @@ impl Default for Options {
             profile: false,
             start: None,
             error_ladder: false,
+            candidates: Vec::new(),
             force: false,
         }
     }

@@ -323,6 +323,9 @@ pub struct HeldOut {
 pub struct Alternative {
     /// Its effects.
     pub effects: Vec<String>,
+    /// Laws among them that are none of the catalogue, as they were stated.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub formulas: Vec<String>,
     /// `chosen` or `alternative`.
     #[serde(default)]
     pub role: String,
@@ -424,6 +427,9 @@ impl Alternative {
     pub fn new(role: &str, refit: &FittedModel) -> Self {
         Alternative {
             effects: effects(refit),
+            formulas: (refit.effects.iter())
+                .filter_map(|kind| servoid_formula::text_of(*kind).map(str::to_owned))
+                .collect(),
             role: role.to_owned(),
             machine: Machine::from(&refit.candidate.machine),
             parameters: ModelParameter::all(&refit.effects, &refit.parameters),

@@ -81,6 +81,17 @@ impl Effects {
     }
 }
 
+impl Effects {
+    /// Laws that the user stated.
+    pub fn stated(kinds: &[Kind]) -> Self {
+        Effects {
+            schema: SCHEMA.to_owned(),
+            effects: kinds.iter().copied().map(EffectFacts::new).collect(),
+            version: VERSION.to_owned(),
+        }
+    }
+}
+
 impl EffectFacts {
     fn new(kind: Kind) -> Self {
         let description = kind.description();

@@ -2,7 +2,7 @@
 
 use super::diagnosis::{Alternative, SCHEMA};
 use super::hypotheses_fault::{DiagnosisError, DiagnosisFault};
-use super::model::terms;
+use super::model::{define, terms};
 use super::partial::Alike;
 use super::{ModelFault, json_place, number};
 use servoid_identify::plan::{Hypothesis, Setup};
@@ -68,6 +68,7 @@ fn setup(diagnosis: &Alike) -> Result<Setup, DiagnosisFault> {
 fn hypothesis(index: usize, model: &Alternative) -> Result<Hypothesis, ModelFault> {
     let place = format!("models[{index}]");
     let (mut effects, mut values) = (Vec::new(), Vec::new());
+    define(&model.formulas, &place)?;
     for (kind, own) in terms(&model.effects, &model.parameters, &place)? {
         effects.push(kind);
         values.extend(own);

@@ -148,6 +148,7 @@ impl Identified {
         .machine();
         let mut model = Model {
             effects: Vec::new(),
+            formulas: Vec::new(),
             machine: Machine::from(&machine),
             parameters: Vec::new(),
             start_speed_rad_s: 0.0,

@@ -16,6 +16,9 @@ use shared::motor;
 pub struct Model {
     /// Names of the effects; one may stand here several times.
     pub effects: Vec<String>,
+    /// Laws among the effects that are none of the catalogue, as they were stated.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub formulas: Vec<String>,
     /// The linear machine.
     pub machine: Machine,
     /// The effects' parameters, torques in V.
@@ -133,7 +136,10 @@ impl Model {
             parameters.extend(ModelParameter::all(&[kind], values));
         }
         let effects = candidate.effects.iter();
+        let stated = candidate.effects.iter();
+        let stated = stated.filter_map(|(kind, _)| servoid_formula::text_of(kind));
         Model {
+            formulas: stated.map(str::to_owned).collect(),
             effects: effects.map(|(kind, _)| kind.name().to_owned()).collect(),
             machine: Machine::from(&candidate.machine),
             parameters,
@@ -189,6 +195,7 @@ impl Model {
     /// # Errors
     /// An effect or unit that is unknown, a parameter that is not there, too many effects.
     pub fn terms(&self, place: &str) -> Result<Vec<(Kind, Vec<f64>)>, ModelFault> {
+        define(&self.formulas, place)?;
         terms(&self.effects, &self.parameters, place)
     }
 }
@@ -245,8 +252,22 @@ pub(super) fn terms(
     Ok(terms)
 }
 
+/// States the laws of a model, so that their names are known.
+///
+/// # Errors
+/// A text that is no law.
+pub(super) fn define(formulas: &[String], place: &str) -> Result<(), ModelFault> {
+    for text in formulas {
+        servoid_formula::define(text).map_err(|fault| ModelFault::Formula {
+            place: place.to_owned(),
+            fault: fault.to_string(),
+        })?;
+    }
+    Ok(())
+}
+
 fn kind(place: &str, name: &str) -> Result<Kind, ModelFault> {
-    Kind::by_name(name).ok_or_else(|| {
+    servoid_formula::by_name(name).ok_or_else(|| {
         let known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
         ModelFault::Effect {
             place: place.to_owned(),

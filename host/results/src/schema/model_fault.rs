@@ -23,6 +23,14 @@ pub enum ModelFault {
         /// The nearest name, or all of them.
         remedy: String,
     },
+    /// A law that cannot be read.
+    #[error("{place} states a law that cannot be read: {fault}")]
+    Formula {
+        /// The model.
+        place: String,
+        /// What is wrong, and where.
+        fault: String,
+    },
     /// A parameter that is not there.
     #[error("{place} lacks the parameter `{name}`")]
     Parameter {

@@ -48,7 +48,9 @@ impl Interval {
 
     /// The smallest that holds the given ones.
     fn around(ends: [f64; 4]) -> Self {
-        let low = ends.iter().fold(f64::INFINITY, |low, x| libm::fmin(low, *x));
+        let low = ends
+            .iter()
+            .fold(f64::INFINITY, |low, x| libm::fmin(low, *x));
         let high = (ends.iter()).fold(f64::NEG_INFINITY, |high, x| libm::fmax(high, *x));
         Interval { low, high }
     }

@@ -255,7 +255,10 @@ fn constant_of<R: Real>(ops: &[Op], values: &[R]) -> f64 {
     let mut depth = 0;
     for op in ops {
         let at = depth - operands(op).min(depth);
-        let (a, b) = (stack[at.min(MAX_DEPTH - 1)], stack[(at + 1).min(MAX_DEPTH - 1)]);
+        let (a, b) = (
+            stack[at.min(MAX_DEPTH - 1)],
+            stack[(at + 1).min(MAX_DEPTH - 1)],
+        );
         stack[at.min(MAX_DEPTH - 1)] = match *op {
             Op::Number(x) => x,
             Op::Parameter(place) => values.get(usize::from(place)).map_or(0.0, |x| x.to_f64()),
@@ -300,8 +303,14 @@ pub(super) fn check<S: Scalar, R: Real>(
         return Ok(());
     }
     // Rates of a state are far beyond one where it follows within a sample.
-    let limit = if formula.program.has_state() { 0.0 } else { LARGEST_MULTIPLIER };
-    let most = all.chain([&numbers.law, &numbers.rate]).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let limit = if formula.program.has_state() {
+        0.0
+    } else {
+        LARGEST_MULTIPLIER
+    };
+    let most = all
+        .chain([&numbers.law, &numbers.rate])
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
     if most < limit {
         return Ok(());
     }

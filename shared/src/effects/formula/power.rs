@@ -76,7 +76,9 @@ pub(super) fn raised<S: Scalar, N: Number<S>>(
         #[inline(always)]
         || {
             let near = S::from_f64(NEAR);
-            let inverse = near.part_of(value.max(near)).times(S::coefficient(1.0 / NEAR));
+            let inverse = near
+                .part_of(value.max(near))
+                .times(S::coefficient(1.0 / NEAR));
             (power * inverse).times(exponent)
         },
     )

@@ -90,8 +90,9 @@ impl<S: Scalar> Stated<S> {
         }
     }
 
-    /// Runs one of its programs.
-    #[inline]
+    /// Runs one of its programs. A routine of its own in every format: inlined into each place that asks for it, the operations
+    /// would make the model many times as large.
+    #[inline(never)]
     fn run<N: Number<S>>(&self, ops: &[Op], from: usize, at: &At<N>) -> N {
         S::routine(
             #[inline(always)]
@@ -151,88 +152,118 @@ impl<S: Scalar> Stated<S> {
         sum
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn drive(&self, volts: S) -> S {
         if self.program.output != Output::Voltage {
             return volts;
         }
-        let zero = S::zero();
-        let at = At {
-            speed: zero,
-            turns: zero,
-            current: zero,
-            transmitted: zero,
-            command: volts,
-            state: zero,
-        };
-        volts + self.law(&at)
+        S::routine(
+            #[inline(always)]
+            || {
+                let zero = S::zero();
+                let at = At {
+                    speed: zero,
+                    turns: zero,
+                    current: zero,
+                    transmitted: zero,
+                    command: volts,
+                    state: zero,
+                };
+                volts + self.law(&at)
+            },
+        )
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn torque(&self, shaft: &Shaft<S>) -> S {
         if self.program.output != Output::Torque || self.program.has_state() {
             return S::zero();
         }
-        -self.mean(shaft)
+        S::routine(
+            #[inline(always)]
+            || -self.mean(shaft),
+        )
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn lost_torque(&self, shaft: &Shaft<S>) -> S {
         if self.program.output != Output::TorqueConstant {
             return S::zero();
         }
-        shaft.current * (S::one() - self.mean(shaft))
+        S::routine(
+            #[inline(always)]
+            || shaft.current * (S::one() - self.mean(shaft)),
+        )
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn friction(&self, shaft: &Shaft<S>) -> Budget<S> {
         if self.program.output != Output::Friction {
             return Budget::default();
         }
-        Budget::even(self.law(&self.seen(shaft, 0.0, S::zero())).max(S::zero()))
+        S::routine(
+            #[inline(always)]
+            || Budget::even(self.law(&self.seen(shaft, 0.0, S::zero())).max(S::zero())),
+        )
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn sensed(&self, turns: S) -> S {
         if self.program.output != Output::Angle {
             return S::zero();
         }
-        let zero = S::zero();
-        self.law(&At {
-            speed: zero,
-            turns,
-            current: zero,
-            transmitted: zero,
-            command: zero,
-            state: zero,
-        })
+        S::routine(
+            #[inline(always)]
+            || {
+                let zero = S::zero();
+                self.law(&At {
+                    speed: zero,
+                    turns,
+                    current: zero,
+                    transmitted: zero,
+                    command: zero,
+                    state: zero,
+                })
+            },
+        )
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
         if self.program.output != Output::Torque || !self.program.has_state() {
             return Stiff::default();
         }
-        let moved = self.moved(shaft, memory);
-        let mut at = self.differentiated(shaft, memory);
-        at.state.value = moved.mean;
-        let torque = self.law(&at);
-        // Against the motion, by the speed: as the state follows it, and at once.
-        let drag = -(torque.by_speed + torque.by_state * moved.mean_by_speed);
-        let slower = shaft.compliance.times(self.per_turn).times(shaft.per_length);
-        Stiff {
-            torque: -torque.value,
-            slope: (drag * slower).max(S::zero()),
-            doubt: S::zero(),
-        }
+        S::routine(
+            #[inline(always)]
+            || {
+                let moved = self.moved(shaft, memory);
+                let mut at = self.differentiated(shaft, memory);
+                at.state.value = moved.mean;
+                let torque = self.law(&at);
+                // Against the motion, by the speed: as the state follows it, and at once.
+                let drag = -(torque.by_speed + torque.by_state * moved.mean_by_speed);
+                let slower = shaft
+                    .compliance
+                    .times(self.per_turn)
+                    .times(shaft.per_length);
+                Stiff {
+                    torque: -torque.value,
+                    slope: (drag * slower).max(S::zero()),
+                    doubt: S::zero(),
+                }
+            },
+        )
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::effects) fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
         if !self.program.has_state() {
             return memory;
         }
-        self.moved(shaft, memory).end
+        S::routine(
+            #[inline(always)]
+            || self.moved(shaft, memory).end,
+        )
     }
 
     #[inline(always)]
@@ -259,7 +290,9 @@ impl<S: Scalar> Stated<S> {
     #[inline(always)]
     fn moved(&self, shaft: &Shaft<S>, state: S) -> Moved<S> {
         let at = self.differentiated(shaft, state);
-        let rate = self.run(self.program.rate, self.rate_from, &at).scaled(self.rate);
+        let rate = self
+            .run(self.program.rate, self.rate_from, &at)
+            .scaled(self.rate);
         let rate = rate.scaled(shaft.length);
         let one = S::one();
         // How often the state is renewed within the part; not negative.

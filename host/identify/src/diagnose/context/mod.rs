@@ -33,6 +33,8 @@ pub struct Context<'a> {
     pub floor: f64,
     /// How models are run at first.
     pub method: Method,
+    /// Effects that models may have.
+    pub candidates: Vec<Kind>,
     /// How much may be computed.
     pub budget: &'a Budget<'a>,
 }
@@ -59,6 +61,11 @@ impl<'a> Context<'a> {
                 substeps: 1,
                 ..options.method
             },
+            candidates: Kind::ALL
+                .iter()
+                .chain(&options.candidates)
+                .copied()
+                .collect(),
             budget,
         }
     }
@@ -107,6 +114,7 @@ impl<'a> Context<'a> {
             held_out,
             motion: Motion::measured(data),
             span: self.span.clone(),
+            candidates: self.candidates.clone(),
             fitted_horizon: self.fitted_horizon.clone(),
             held_out_horizon: self.held_out_horizon.clone(),
             floor: self.floor,

@@ -23,14 +23,14 @@ const FAR: f64 = 4.0;
 const AT_A_TIME: usize = 2;
 
 /// The same model must not be screened twice, whichever parent it comes from.
-fn sets(parents: &[&FittedModel]) -> Vec<(usize, Kind)> {
+fn sets(candidates: &[Kind], parents: &[&FittedModel]) -> Vec<(usize, Kind)> {
     let mut seen: Vec<Vec<Kind>> = Vec::new();
     let mut pairs = Vec::new();
     for (index, parent) in parents.iter().enumerate() {
         if parent.structure.effects.len() >= MAX_EFFECTS || parent.losses.is_some() {
             continue;
         }
-        for &kind in Kind::ALL {
+        for &kind in candidates {
             // Losses are found, not screened.
             if parent.effects.contains(&kind) || kind.facts().by_chance {
                 continue;
@@ -84,7 +84,8 @@ fn smooth(
     parents: &[&FittedModel],
     done: &(dyn Fn() + Sync),
 ) -> Vec<FittedModel> {
-    let (plain, bristles): (Vec<_>, Vec<_>) = sets(parents).into_iter().partition(|(at, kind)| {
+    let sets = sets(&context.candidates, parents);
+    let (plain, bristles): (Vec<_>, Vec<_>) = sets.into_iter().partition(|(at, kind)| {
         let beside = &parents[*at].effects;
         !beside.iter().chain([kind]).any(|kind| kind.facts().costly)
     });

@@ -12,7 +12,6 @@ use crate::report::diagnosis::nothing_else;
 use crate::schema::diagnosis::Step;
 use crate::schema::{Demo, Diagnosis};
 use servoid_identify::fit::margins::Loop;
-use shared::effects::Kind;
 
 /// Candidates that are listed for each step.
 const LISTED: usize = 8;
@@ -151,7 +150,7 @@ fn named_effects(diagnosis: &Diagnosis) -> Vec<Section> {
 }
 
 fn effect(index: usize, step: &Step, stopped: bool) -> Section {
-    let description = Kind::by_name(&step.added).map(|kind| kind.description());
+    let description = servoid_formula::by_name(&step.added).map(|kind| kind.description());
     let title = description.map_or("", |d| d.title);
     let heading = format!("{}. {}: {title}", index + 1, step.added);
     let mut section = Section::new(&format!("effect-{}", index + 1), &heading);

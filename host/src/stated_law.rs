@@ -1,0 +1,109 @@
+//! A law that the user states, on the virtual bench: its text is evaluated as it stands, by none of the code that the model runs.
+
+use servoid_formula::{Law, Point};
+use servoid_plant::Machine;
+use servoid_plant::effects::{At, Effect, Sliding};
+use shared::effects::formula::Output;
+use std::f64::consts::TAU;
+
+/// A law with the values of its parameters, in a machine.
+pub struct StatedLaw {
+    law: &'static Law,
+    values: Vec<f64>,
+    machine: Machine,
+}
+
+impl StatedLaw {
+    /// With the values from which a search would start.
+    pub fn new(law: &'static Law, machine: Machine) -> Self {
+        let values = law.definition.parameters.iter().map(|p| p.start).collect();
+        StatedLaw {
+            law,
+            values,
+            machine,
+        }
+    }
+
+    /// The law where it gives `output`, else nothing.
+    fn value(&self, output: Output, point: &Point) -> Option<f64> {
+        let definition = &self.law.definition;
+        (definition.output == output).then(|| definition.value(&self.values, point))
+    }
+
+    /// A voltage referred to the winding, as a torque in N·m.
+    fn torque_n_m(&self, volts: f64) -> f64 {
+        volts / self.machine.winding_volts(1.0)
+    }
+
+    fn point(&self, at: &At) -> Point {
+        let current = at.current * self.machine.resistance_ohm;
+        Point {
+            speed: at.speed,
+            angle: at.angle.rem_euclid(TAU),
+            current,
+            transmitted: current,
+            command: 0.0,
+            state: at.memory,
+        }
+    }
+}
+
+/// Step of the state by which its rate is differentiated.
+const STEP: f64 = 1e-4;
+
+impl Effect for StatedLaw {
+    fn volts(&self, volts: f64, _: &At) -> f64 {
+        let point = Point {
+            command: volts,
+            ..Point::default()
+        };
+        volts + self.value(Output::Voltage, &point).unwrap_or(0.0)
+    }
+
+    fn torque(&self, at: &At) -> f64 {
+        let point = self.point(at);
+        let part = self.value(Output::TorqueConstant, &point).unwrap_or(1.0);
+        let added = self.value(Output::Torque, &point).unwrap_or(0.0);
+        self.torque_n_m(added + point.current * (part - 1.0))
+    }
+
+    fn friction(&self, sliding: &Sliding) -> f64 {
+        let transmitted = self.machine.winding_volts(sliding.transmitted);
+        let point = Point {
+            speed: sliding.direction * sliding.speed,
+            angle: sliding.angle.rem_euclid(TAU),
+            current: transmitted,
+            transmitted,
+            ..Point::default()
+        };
+        let budget = self.value(Output::Friction, &point).unwrap_or(0.0);
+        self.torque_n_m(budget.max(0.0))
+    }
+
+    fn memory(&self) -> Option<f64> {
+        self.law.definition.state.as_ref().map(|_| 0.0)
+    }
+
+    fn memory_rate(&self, at: &At) -> f64 {
+        self.law.definition.rate(&self.values, &self.point(at))
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        if self.law.definition.state.is_none() {
+            return 0.0;
+        }
+        let rate = |step: f64| {
+            let memory = at.memory + step;
+            self.memory_rate(&At { memory, ..*at })
+        };
+        ((rate(STEP) - rate(-STEP)) / (2.0 * STEP)).abs()
+    }
+
+    fn sensed_angle(&self, angle: f64) -> f64 {
+        let point = Point {
+            angle: angle.rem_euclid(TAU),
+            ..Point::default()
+        };
+        angle + self.value(Output::Angle, &point).unwrap_or(0.0)
+    }
+}
