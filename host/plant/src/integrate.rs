@@ -94,7 +94,8 @@ impl Plant<'_> {
 
     fn holds(&self, state: &State) -> bool {
         let torques = self.torques(state, &self.winding(state));
-        torques.net.abs() <= self.budget(torques.net.signum(), 0.0, torques.transmitted)
+        let direction = torques.net.signum();
+        torques.net.abs() <= self.budget(direction, 0.0, torques.transmitted, state.angle)
     }
 
     /// Decides if friction holds a shaft at rest, or which way it slides.

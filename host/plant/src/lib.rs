@@ -15,6 +15,7 @@
 //! | `machine` | the true parameters of the motor, and presets |
 //! | `effects` | the hooks of an effect, the catalogue, and one file per effect |
 //! | `hidden` | one hidden effect: its parameters and its strength, typical or from text |
+//! | `outside` | laws that the catalogue does not hold, to be found by other means |
 //! | `timeline` | the time at which each command reaches the bridge |
 //! | `plant` | the state and its differential equations |
 //! | `integrate` | the state moved forward, with stops, releases and contacts located |
@@ -52,6 +53,7 @@ mod integrate;
 #[cfg(test)]
 mod laws;
 mod machine;
+pub mod outside;
 mod plant;
 mod position;
 mod run;
@@ -62,6 +64,7 @@ pub use coupling::Coupling;
 pub use error::BenchError;
 pub use hidden::Hidden;
 pub use machine::{Machine, PRESETS};
+pub use outside::{Outside, OutsideLaw};
 pub use position::PositionControl;
 pub use run::{Amplifier, Bench, Reading, Run};
 pub use timeline::DriveSample;

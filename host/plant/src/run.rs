@@ -7,7 +7,7 @@ use super::integrate::DEFAULT_SUBSTEP_HZ;
 use super::plant::{Feed, Plant};
 use super::position::{Controller, PositionControl};
 use super::timeline::Timeline;
-use super::{BenchError, DriveSample, Hidden, Machine};
+use super::{BenchError, DriveSample, Hidden, Machine, OutsideLaw};
 use std::f64::consts::TAU;
 
 /// What the command sets.
@@ -50,6 +50,8 @@ pub struct Bench {
     pub angle_noise_counts: f64,
     /// Standard deviation of a load torque that is another one in each sample interval, N·m.
     pub torque_noise_n_m: f64,
+    /// A law that is hidden and that the catalogue does not hold.
+    pub outside: Option<OutsideLaw>,
 }
 
 /// A run on the bench: one entry of each column per drive sample.
@@ -103,6 +105,7 @@ impl Bench {
             current_zero_a: 0.0,
             angle_noise_counts: 0.0,
             torque_noise_n_m: 0.0,
+            outside: None,
         }
     }
 
@@ -223,7 +226,7 @@ impl Bench {
         self.start_angle_rad.unwrap_or(drawn)
     }
 
-    /// The effects in the order of the catalogue.
+    /// The effects in the order of the catalogue, and the law from outside it.
     fn assemble(&self) -> Result<Vec<Box<dyn Effect>>, BenchError> {
         let mut effects = Vec::new();
         for kind in CATALOGUE {
@@ -237,6 +240,9 @@ impl Bench {
             if orders.next().is_some() {
                 return Err(BenchError::Twice(kind.name));
             }
+        }
+        if let Some(law) = &self.outside {
+            effects.push(Box::new(law.clone()));
         }
         Ok(effects)
     }

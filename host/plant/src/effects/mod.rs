@@ -180,6 +180,8 @@ pub struct Sliding {
     pub speed: f64,
     /// Torque passed from the motor to its load, N·m, ≥ 0.
     pub transmitted: f64,
+    /// Angle of the motor shaft, rad.
+    pub angle: f64,
 }
 
 /// The winding's parameters at one instant; an effect multiplies what it changes.

@@ -1,0 +1,376 @@
+//! Laws outside the catalogue: what a motor may hide that no effect of the catalogue states.
+//!
+//! They serve to judge whether a program finds the law itself from a recording. A law is hidden by
+//! [`Bench::outside`](super::Bench::outside), beside effects of the catalogue or alone, and [`OutsideLaw::volts`] tells the truth.
+
+use super::effects::{At, Effect, Sliding};
+use super::{Chance, Machine};
+
+/// One form of law.
+pub struct Outside {
+    /// Its name.
+    pub name: &'static str,
+    /// Its equation, in a line.
+    pub about: &'static str,
+    /// Draws parameters, SI, that are typical on a machine.
+    draw: fn(&Machine, &mut Chance) -> Vec<f64>,
+    /// Torque added to the shaft, N·m.
+    torque: fn(&[f64], &At) -> f64,
+    /// Budget of dry friction, N·m.
+    friction: fn(&[f64], &Sliding) -> f64,
+    /// Voltage added at the winding, V.
+    volts: fn(&[f64], &At) -> f64,
+    /// Distance over which a memory follows the motion, rad; `None` without a memory.
+    memory_rad: Option<fn(&[f64]) -> f64>,
+    /// Speed at which the law jumps, rad/s.
+    jump_rad_s: Option<fn(&[f64]) -> f64>,
+}
+
+/// A form with its parameters.
+#[derive(Clone)]
+pub struct OutsideLaw {
+    form: &'static Outside,
+    values: Vec<f64>,
+}
+
+const NOTHING: Outside = Outside {
+    name: "",
+    about: "",
+    draw: |_, _| Vec::new(),
+    torque: |_, _| 0.0,
+    friction: |_, _| 0.0,
+    volts: |_, _| 0.0,
+    memory_rad: None,
+    jump_rad_s: None,
+};
+
+/// Parts of a machine's stall torque, as large as effects of the catalogue typically are.
+fn torque(machine: &Machine, chance: &mut Chance) -> f64 {
+    let part = 0.02 * 4f64.powf(chance.uniform());
+    part * machine.stall_torque_n_m()
+}
+
+fn between(chance: &mut Chance, low: f64, high: f64) -> f64 {
+    low + (high - low) * chance.uniform()
+}
+
+/// A part of the top speed, rad/s.
+fn speed(machine: &Machine, chance: &mut Chance, low: f64, high: f64) -> f64 {
+    between(chance, low, high) * machine.top_speed_rad_s()
+}
+
+/// A whole number of cycles in a revolution, and a phase.
+fn order_and_phase(chance: &mut Chance, most: f64) -> [f64; 2] {
+    let order = between(chance, 1.0, most + 1.0).floor();
+    [order, between(chance, 0.0, std::f64::consts::TAU)]
+}
+
+impl Outside {
+    /// Every form.
+    pub const ALL: &'static [Outside] = &[
+        Outside {
+            name: "power_drag",
+            about: "-c*sgn(w)*(|w|/w0)^p, p from 0.3 to 0.7 or from 2.4 to 3",
+            draw: |machine, chance| {
+                let p = if chance.uniform() < 0.5 {
+                    between(chance, 0.3, 0.7)
+                } else {
+                    between(chance, 2.4, 3.0)
+                };
+                vec![torque(machine, chance), machine.top_speed_rad_s(), p]
+            },
+            torque: |v, at| -v[0] * (at.speed.abs() / v[1]).powf(v[2]) * at.speed.signum(),
+            ..NOTHING
+        },
+        Outside {
+            name: "cubic_drag",
+            about: "-c*(w/w0)^3",
+            draw: |machine, chance| vec![torque(machine, chance), machine.top_speed_rad_s()],
+            torque: |v, at| -v[0] * (at.speed / v[1]).powi(3),
+            ..NOTHING
+        },
+        Outside {
+            name: "saturating_drag",
+            about: "-c*(w/ws)/(1 + |w|/ws)",
+            draw: |machine, chance| {
+                vec![torque(machine, chance), speed(machine, chance, 0.05, 0.3)]
+            },
+            torque: |v, at| -v[0] * (at.speed / v[1]) / (1.0 + at.speed.abs() / v[1]),
+            ..NOTHING
+        },
+        Outside {
+            name: "decaying_friction",
+            about: "dry friction c*exp(-|w|/ws)",
+            draw: |machine, chance| {
+                vec![torque(machine, chance), speed(machine, chance, 0.05, 0.4)]
+            },
+            friction: |v, sliding| v[0] * (-sliding.speed / v[1]).exp(),
+            ..NOTHING
+        },
+        Outside {
+            name: "current_square",
+            about: "-c*i*|i|/i0^2, a torque lost to the square of the current",
+            draw: |machine, chance| vec![2.0 * torque(machine, chance), machine.stall_current_a()],
+            torque: |v, at| -v[0] * at.current * at.current.abs() / (v[1] * v[1]),
+            ..NOTHING
+        },
+        Outside {
+            name: "viscous_by_angle",
+            about: "-c*(w/w0)*cos(k*theta + phase)",
+            draw: |machine, chance| {
+                let [order, phase] = order_and_phase(chance, 6.0);
+                let c = torque(machine, chance);
+                vec![c, machine.top_speed_rad_s(), order, phase]
+            },
+            torque: |v, at| -v[0] * at.speed / v[1] * (v[2] * at.angle + v[3]).cos(),
+            ..NOTHING
+        },
+        Outside {
+            name: "coulomb_by_angle",
+            about: "dry friction c*(1 + a*cos(k*theta + phase))",
+            draw: |machine, chance| {
+                let [order, phase] = order_and_phase(chance, 6.0);
+                let c = torque(machine, chance);
+                vec![c, between(chance, 0.3, 0.9), order, phase]
+            },
+            friction: |v, sliding| v[0] * (1.0 + v[1] * (v[2] * sliding.angle + v[3]).cos()),
+            ..NOTHING
+        },
+        Outside {
+            name: "saturating_back_emf",
+            about: "back-EMF kb*w/(1 + |w|/ws)",
+            draw: |machine, chance| vec![machine.kb_v_s_rad, speed(machine, chance, 2.0, 6.0)],
+            volts: |v, at| v[0] * at.speed * (1.0 - 1.0 / (1.0 + at.speed.abs() / v[1])),
+            ..NOTHING
+        },
+        Outside {
+            name: "gear_loss",
+            about: "-(ma*|tau|*z + md*tau*z^2), z' = (w - |w|*z)/h",
+            draw: |machine, chance| {
+                vec![
+                    between(chance, 0.05, 0.25),
+                    between(chance, 0.05, 0.25),
+                    0.003 * 30f64.powf(chance.uniform()),
+                    machine.kt_n_m_a,
+                ]
+            },
+            torque: |v, at| {
+                let motor = v[3] * at.current;
+                -(v[0] * motor.abs() * at.memory + v[1] * motor * at.memory * at.memory)
+            },
+            memory_rad: Some(|v| v[2]),
+            ..NOTHING
+        },
+        Outside {
+            name: "crank",
+            about: "1/2*a*k*J*w^2*sin(k*theta + phase), what an inertia J*(1 + a*cos) asks of a steady speed",
+            draw: |machine, chance| {
+                let [order, phase] = order_and_phase(chance, 4.0);
+                let c = 2.0 * torque(machine, chance);
+                vec![c, machine.top_speed_rad_s(), order, phase]
+            },
+            torque: |v, at| v[0] * (at.speed / v[1]).powi(2) * (v[2] * at.angle + v[3]).sin(),
+            ..NOTHING
+        },
+        Outside {
+            name: "step_above",
+            about: "-c*sgn(w) where |w| > w1",
+            draw: |machine, chance| {
+                vec![torque(machine, chance), speed(machine, chance, 0.15, 0.6)]
+            },
+            torque: |v, at| {
+                if at.speed.abs() > v[1] {
+                    -v[0] * at.speed.signum()
+                } else {
+                    0.0
+                }
+            },
+            jump_rad_s: Some(|v| v[1]),
+            ..NOTHING
+        },
+        Outside {
+            name: "tanh_friction",
+            about: "-c*tanh(w/ws)",
+            draw: |machine, chance| {
+                vec![torque(machine, chance), speed(machine, chance, 0.03, 0.4)]
+            },
+            torque: |v, at| -v[0] * (at.speed / v[1]).tanh(),
+            ..NOTHING
+        },
+        Outside {
+            name: "one_sided_drag",
+            about: "-c*(max(w, 0)/w0)^2",
+            draw: |machine, chance| vec![2.0 * torque(machine, chance), machine.top_speed_rad_s()],
+            torque: |v, at| -v[0] * (at.speed.max(0.0) / v[1]).powi(2),
+            ..NOTHING
+        },
+    ];
+
+    /// The form of that name.
+    pub fn find(name: &str) -> Option<&'static Outside> {
+        Outside::ALL.iter().find(|form| form.name == name)
+    }
+
+    /// The form with parameters that are typical on `machine`. The same seed gives the same bits.
+    pub fn draw(&'static self, machine: &Machine, seed: u64) -> OutsideLaw {
+        let values = (self.draw)(machine, &mut Chance::new(seed, self.name));
+        OutsideLaw { form: self, values }
+    }
+}
+
+impl OutsideLaw {
+    /// Name of its form.
+    pub fn name(&self) -> &'static str {
+        self.form.name
+    }
+
+    /// Its parameters, SI, in the order in which its form states them.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// What it adds to the shaft of a turning motor, V referred to the winding; dry friction is against the motion.
+    pub fn volts(&self, machine: &Machine, at: &At) -> f64 {
+        let sliding = Sliding {
+            direction: at.speed.signum(),
+            speed: at.speed.abs(),
+            transmitted: 0.0,
+            angle: at.angle,
+        };
+        let dry = if at.speed == 0.0 {
+            0.0
+        } else {
+            sliding.direction * (self.form.friction)(&self.values, &sliding)
+        };
+        let torque = (self.form.torque)(&self.values, at) - dry;
+        machine.winding_volts(torque) + (self.form.volts)(&self.values, at)
+    }
+
+    /// Its memory after the shaft has turned at `speed` rad/s for `dt` s, in closed form.
+    pub fn remembered(&self, memory: f64, speed: f64, dt: f64) -> f64 {
+        let Some(distance) = self.form.memory_rad else {
+            return 0.0;
+        };
+        if speed == 0.0 {
+            return memory;
+        }
+        let kept = (-(speed * dt).abs() / distance(&self.values)).exp();
+        speed.signum() + (memory - speed.signum()) * kept
+    }
+}
+
+impl std::fmt::Debug for OutsideLaw {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {:?}", self.name(), self.values)
+    }
+}
+
+impl Effect for OutsideLaw {
+    fn volts(&self, volts: f64, at: &At) -> f64 {
+        volts + (self.form.volts)(&self.values, at)
+    }
+
+    fn torque(&self, at: &At) -> f64 {
+        (self.form.torque)(&self.values, at)
+    }
+
+    fn friction(&self, sliding: &Sliding) -> f64 {
+        (self.form.friction)(&self.values, sliding)
+    }
+
+    fn memory(&self) -> Option<f64> {
+        self.form.memory_rad.map(|_| 0.0)
+    }
+
+    fn memory_rate(&self, at: &At) -> f64 {
+        let distance = self.form.memory_rad;
+        distance.map_or(0.0, |distance| {
+            (at.speed - at.speed.abs() * at.memory) / distance(&self.values)
+        })
+    }
+
+    fn stiffness_per_s(&self, at: &At) -> f64 {
+        let distance = self.form.memory_rad;
+        distance.map_or(0.0, |distance| at.speed.abs() / distance(&self.values))
+    }
+
+    fn piece(&self, at: &At, _transmitted: f64) -> i8 {
+        let jump = self.form.jump_rad_s.map(|jump| jump(&self.values));
+        i8::from(jump.is_some_and(|jump| at.speed.abs() > jump))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Bench, DriveSample};
+
+    fn drive(machine: &Machine) -> Vec<DriveSample> {
+        let levels = [0.1, 0.5, -0.3, 1.0, -1.0, 0.0, -0.6];
+        let volts = levels.iter().flat_map(|part| [part * machine.supply_v; 60]);
+        let sample = |volts| DriveSample {
+            volts,
+            enabled: true,
+        };
+        volts.map(sample).collect()
+    }
+
+    #[test]
+    fn every_form_acts_and_half_the_substep_gives_the_same_recording() {
+        let machine = Machine::gearmotor();
+        let drive = drive(&machine);
+        let plain = Bench::new(machine).run(&drive).unwrap();
+        for form in Outside::ALL {
+            for seed in 0..3 {
+                let mut bench = Bench::new(machine);
+                bench.outside = Some(form.draw(&machine, seed));
+                let run = bench.run(&drive).unwrap();
+                bench.substep_hz *= 2.0;
+                let finer = bench.run(&drive).unwrap();
+                let gap = |other: &[f64]| {
+                    let pairs = run.angle_rad.iter().zip(other);
+                    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+                };
+                assert!(gap(&plain.angle_rad) > 0.002, "{}", form.name);
+                let refined = gap(&finer.angle_rad);
+                assert!(refined < 1e-4, "{} {seed}: {refined}", form.name);
+            }
+        }
+    }
+
+    /// Along a steady speed the shaft takes what the truth says.
+    #[test]
+    fn the_truth_is_what_the_motor_is_short_of() {
+        let machine = Machine::gearmotor();
+        for form in Outside::ALL
+            .iter()
+            .filter(|form| !["viscous_by_angle", "coulomb_by_angle", "crank"].contains(&form.name))
+        {
+            for level in [0.7, -0.9] {
+                let law = form.draw(&machine, 1);
+                let mut bench = Bench::new(machine);
+                bench.outside = Some(law.clone());
+                let volts = level * machine.supply_v;
+                let sample = DriveSample {
+                    volts,
+                    enabled: true,
+                };
+                let run = bench.run(&[sample; 800]).unwrap();
+                let at = At {
+                    angle: 0.0,
+                    speed: run.speed_rad_s[799],
+                    current: run.current_a[799],
+                    memory: level.signum(),
+                };
+                let total = machine.kb_v_s_rad + machine.winding_volts(machine.viscous_n_m_s);
+                let short = total * at.speed - volts;
+                let truth = law.volts(&machine, &at);
+                assert!(
+                    (truth - short).abs() < 1e-6,
+                    "{}: {truth} {short}",
+                    form.name
+                );
+            }
+        }
+    }
+}
