@@ -22,6 +22,8 @@ const FEWEST: usize = 200;
 const MOVE: f64 = 1e-4;
 /// A column of which less than this part is its own repeats the others.
 const OWN_PART: f64 = 1e-6;
+/// The same of a law beside the linear motor: with less, differences between filters count as much as a law.
+const LAW_PART: f64 = 0.05;
 
 /// The regression's rows of one recording.
 pub struct Equation<'a> {
@@ -36,6 +38,10 @@ pub struct Equation<'a> {
     pub missing: Vec<f64>,
     /// What changes of the model's own parameters would give, V.
     pub own: Vec<Vec<f64>>,
+    /// An orthonormal basis of `own`, and after it of what makes the linear motor: with the command free, too, no motor at all
+    /// would fit perfectly, and whatever is like the command would seem to explain all.
+    basis: Vec<Vec<f64>>,
+    own_directions: usize,
     /// Mean square of what a perfect model would leave, V², beside `own`.
     pub noise: f64,
 }
@@ -76,8 +82,16 @@ impl<'a> Equation<'a> {
             rows,
             missing,
             own,
+            basis: Vec::new(),
+            own_directions: 0,
             noise: 0.0,
         };
+        let mut linear = equation.own.clone();
+        equation.own_directions = orthonormal(&linear).len();
+        linear.push(equation.seen(&equation.motion.command, Place::Voltage));
+        linear.push(equation.seen(&equation.motion.current, Place::Torque));
+        linear.push(equation.seen(&equation.motion.speed, Place::Torque));
+        equation.basis = orthonormal(&linear);
         equation.noise = equation.perfect(candidate).unwrap_or(0.0);
         Some(equation)
     }
@@ -98,6 +112,30 @@ impl<'a> Equation<'a> {
     pub fn columns(&self, term: &Term) -> Vec<Vec<f64>> {
         let factors = term.factors(&self.motion);
         factors.iter().map(|f| self.seen(f, term.place)).collect()
+    }
+
+    /// What the model's own parameters can make, as orthonormal directions.
+    pub fn own_basis(&self) -> &[Vec<f64>] {
+        &self.basis[..self.own_directions]
+    }
+
+    /// Whether columns say something that the linear motor and the ones before do not.
+    pub fn are_distinct(&self, columns: &[Vec<f64>]) -> bool {
+        let mut found: Vec<Vec<f64>> = Vec::new();
+        columns.iter().all(|column| {
+            let whole = dot(column, column);
+            let mut rest = column.clone();
+            take_out(&self.basis, &mut rest);
+            take_out(&found, &mut rest);
+            let square = dot(&rest, &rest);
+            let distinct = square > LAW_PART * LAW_PART * whole && square.is_normal();
+            if distinct {
+                let length = square.sqrt();
+                rest.iter_mut().for_each(|x| *x /= length);
+                found.push(rest);
+            }
+            distinct
+        })
     }
 
     /// What a torque along the samples gives at the rows.

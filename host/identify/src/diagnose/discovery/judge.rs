@@ -27,8 +27,6 @@ pub struct Judge<'a> {
 pub struct Trial {
     /// The terms, with their amplitudes by the fitted recording.
     pub terms: Vec<Term>,
-    /// Coefficients of the model's own columns.
-    pub own: Vec<f64>,
     /// On the fitted recording.
     pub fitted: f64,
     /// On its blocks, each by the others.
@@ -68,6 +66,9 @@ impl<'a> Judge<'a> {
             terms.iter().flat_map(|term| equation.columns(term)).collect()
         };
         let (fitted_columns, held_columns) = (columns(&self.fitted), columns(&self.held));
+        if !self.fitted.are_distinct(&fitted_columns) {
+            return None;
+        }
         let references: Vec<&[f64]> = fitted_columns.iter().map(Vec::as_slice).collect();
         let fitted = Blocks::new(&self.fitted, &references);
         let references: Vec<&[f64]> = held_columns.iter().map(Vec::as_slice).collect();
@@ -82,7 +83,6 @@ impl<'a> Judge<'a> {
             ..term.clone()
         });
         let terms = amplified.collect();
-        let own: Vec<f64> = by.iter().take(fitted.own).copied().collect();
         let mut rest = self.held.missing.clone();
         let columns = self.held.own.iter().chain(&held_columns);
         for (column, by) in columns.zip(by.iter()) {
@@ -93,7 +93,6 @@ impl<'a> Judge<'a> {
         let part = independent_part(&rest);
         Some(Trial {
             terms,
-            own,
             fitted: fitted.left(&used, &by) / n,
             crossed: fitted.left_out(&used)? / n,
             held: held.left(&used, &by) / held.rows as f64,

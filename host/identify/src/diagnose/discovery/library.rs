@@ -87,7 +87,6 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
         reference,
     };
     let mut pairs = vec![
-        (Speed::One, Load::Plain),
         (Speed::One, Load::Size),
         (Speed::Sign, Load::Plain),
         (Speed::Sign, Load::Size),
@@ -152,7 +151,7 @@ fn by_command(reference: f64) -> Vec<Term> {
         place: Place::Voltage,
         ..Term::torque(Speed::One, load)
     };
-    let mut loads = vec![Load::Plain, Load::Size];
+    let mut loads = vec![Load::Size];
     for exponent in [0.5, 1.5, 2.0, 3.0] {
         loads.extend([true, false].map(|odd| Load::Power {
             exponent,

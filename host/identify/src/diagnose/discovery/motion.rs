@@ -1,12 +1,12 @@
 //! The measured motion, as a law sees it.
 
-use crate::fit::SPEED_HALF_WIDTH;
 use core::f64::consts::TAU;
 use servoid_engine::problem::{Candidate, Data};
 use shared::effects::Lowered;
 
-/// Half the samples over which a reading that moves by a count at most is at rest.
-const REST_HALF_WIDTH: usize = 2;
+/// Half the samples over which a speed is taken, and over which a reading that moves by a count at most is at rest: short against the
+/// filter behind it, which averages the counts.
+const HALF_WIDTH: usize = 2;
 
 /// What a law sees in the interval that begins at each sample, as its mean. A command that jumps at the sample makes the
 /// current jump: what is held over the interval has the right mean, whatever the winding's time constant.
@@ -36,7 +36,7 @@ impl Motion {
                 if rests[k] {
                     return 0.0;
                 }
-                data.rate_of(&data.counts, k, SPEED_HALF_WIDTH) * per_count
+                data.rate_of(&data.counts, k, HALF_WIDTH) * per_count
             })
             .collect();
         let next = |k: usize| if data.recordings.is_last(k) { k } else { k + 1 };
@@ -58,7 +58,7 @@ impl Motion {
 }
 
 fn rests(data: &Data, k: usize) -> bool {
-    let near = data.recordings.around(k, REST_HALF_WIDTH);
+    let near = data.recordings.around(k, HALF_WIDTH);
     let readings = &data.counts[near];
     let low = readings.iter().copied().fold(f64::INFINITY, f64::min);
     let high = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);

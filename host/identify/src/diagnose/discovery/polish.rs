@@ -15,32 +15,27 @@ const ROUNDS: usize = 2;
 /// The regression with the model's own columns taken out.
 pub struct Polish<'e> {
     equation: &'e Equation<'e>,
-    basis: Vec<Vec<f64>>,
     target: Vec<f64>,
 }
 
 impl<'e> Polish<'e> {
     /// Of a recording.
     pub fn new(equation: &'e Equation<'e>) -> Self {
-        let basis = orthonormal(&equation.own);
         let mut target = equation.missing.clone();
-        take_out(&basis, &mut target);
-        Polish {
-            equation,
-            basis,
-            target,
-        }
+        take_out(equation.own_basis(), &mut target);
+        Polish { equation, target }
     }
 
     /// Squares that terms leave.
     fn left(&self, terms: &[Term]) -> f64 {
         let columns = terms.iter().flat_map(|term| self.equation.columns(term));
-        let columns: Vec<Vec<f64>> = columns
-            .map(|mut column| {
-                take_out(&self.basis, &mut column);
-                column
-            })
-            .collect();
+        let mut columns: Vec<Vec<f64>> = columns.collect();
+        if !self.equation.are_distinct(&columns) {
+            return f64::INFINITY;
+        }
+        for column in &mut columns {
+            take_out(self.equation.own_basis(), column);
+        }
         let directions = orthonormal(&columns);
         let taken = directions.iter().map(|d| {
             let along = dot(d, &self.target);

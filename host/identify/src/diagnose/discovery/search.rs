@@ -9,9 +9,11 @@ use rayon::prelude::*;
 /// Pairs that leave least of the fitted recording, of which more is asked.
 const PAIRS: usize = 200;
 
-/// The library's columns on both recordings.
+/// The library's columns on both recordings, of those terms that are distinct from the linear motor.
 pub struct Search<'a> {
     terms: &'a [Term],
+    /// Whether a term's columns are.
+    distinct: Vec<bool>,
     /// Columns of each term.
     columns: Vec<Vec<usize>>,
     fitted: Blocks,
@@ -34,6 +36,9 @@ impl<'a> Search<'a> {
             .par_iter()
             .map(|term| (judge.fitted.columns(term), judge.held.columns(term)))
             .unzip();
+        let distinct = fitted.par_iter();
+        let distinct = distinct.map(|columns: &Vec<Vec<f64>>| judge.fitted.are_distinct(columns));
+        let distinct = distinct.collect();
         let mut next = 0;
         let columns = terms.iter().map(|term| {
             let from = next;
@@ -45,6 +50,7 @@ impl<'a> Search<'a> {
         let held: Vec<&[f64]> = held.iter().flatten().map(Vec::as_slice).collect();
         Search {
             terms,
+            distinct,
             columns,
             fitted: Blocks::new(&judge.fitted, &fitted),
             held: Blocks::new(&judge.held, &held),
@@ -73,7 +79,8 @@ impl<'a> Search<'a> {
 
     /// Every term, the best first.
     pub fn single(&self) -> Vec<Found> {
-        self.judged((0..self.terms.len()).map(|t| vec![t]).collect())
+        let terms = (0..self.terms.len()).filter(|&t| self.distinct[t]);
+        self.judged(terms.map(|t| vec![t]).collect())
     }
 
     /// The best pairs of those that may stand together, the best first.
@@ -82,9 +89,11 @@ impl<'a> Search<'a> {
         let n = self.terms.len();
         let mut pairs: Vec<(f64, usize, usize)> = (0..n)
             .into_par_iter()
+            .filter(|&a| self.distinct[a])
             .flat_map_iter(|a| {
                 let projected = &projected;
-                let others = (a + 1..n).filter(move |&b| together(&self.terms[a], &self.terms[b]));
+                let others = (a + 1..n).filter(|&b| self.distinct[b]);
+                let others = others.filter(move |&b| together(&self.terms[a], &self.terms[b]));
                 others.map(move |b| {
                     let columns = self.columns[a].iter().chain(&self.columns[b]);
                     (projected.gain(columns), a, b)

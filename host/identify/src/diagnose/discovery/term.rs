@@ -14,6 +14,7 @@ pub enum Place {
 
 /// A term's dependence on the speed. Powers are of the speed as a part of `reference`, rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
 pub enum Speed {
     /// None.
     One,
@@ -47,6 +48,7 @@ pub enum Speed {
 
 /// A term's dependence on the current, V across the resistance, or on the command, V.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
 pub enum Load {
     /// None.
     One,

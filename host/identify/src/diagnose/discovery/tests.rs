@@ -2,7 +2,7 @@
 
 use super::equation::{Equation, dot, orthonormal, take_out};
 use super::*;
-use crate::fit::{self, Options};
+use crate::fit::Options;
 use crate::{Silent, identify_data};
 use servoid_engine::problem::{Candidate, Data};
 use servoid_io::excitation;
@@ -99,6 +99,13 @@ fn table() {
             let truth = form.draw(&machine, seed);
             let laws = proposed(form, &machine, seed);
             println!("{truth:?}  {:.1} s", start.elapsed().as_secs_f64());
+            {
+                let one = known(Some(&truth), &machine, seed);
+                let candidate = fitted(&one.data);
+                let judge = super::judge::Judge::new(&one.data, &one.data, &candidate).unwrap();
+                let base = judge.try_terms(&[]).unwrap();
+                println!("    base {:.4} crossed {:.4} noise {:.4}", base.fitted.sqrt(), base.crossed.sqrt(), judge.fitted.noise.sqrt());
+            }
             for (off, law) in laws.iter().take(3) {
                 println!("    {off:.3} explained {:.3}  {}", law.explained, law.formula("found"));
             }
