@@ -1,10 +1,11 @@
 //! What a model's equation misses along the measured motion, and what its own parameters could take of it.
 
+use super::blocks::Blocks;
 use super::motion::Motion;
 use super::term::{Place, Term};
 use crate::diagnose::residual_analysis::simulated;
 use crate::fit::filter::filtered;
-use crate::fit::scores::equation_residuals;
+use crate::fit::scores::{EquationResidual, equation_residuals};
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
 
@@ -70,6 +71,7 @@ impl<'a> Equation<'a> {
         let mut own = vec![
             used.iter().map(|r| r.speed).collect(),
             used.iter().map(|r| r.acceleration).collect(),
+            jerk(data, time, &used),
         ];
         let rows: Vec<usize> = used.iter().map(|r| r.sample).collect();
         let missing = used.iter().map(|r| -r.volts).collect();
@@ -138,6 +140,17 @@ impl<'a> Equation<'a> {
         })
     }
 
+    /// Changes of speed, acceleration and jerk's coefficients, V per each, beside some torques along the samples.
+    pub fn changes_beside(&self, torques: &[Vec<f64>]) -> Option<[f64; 3]> {
+        let columns = torques.iter().map(|torque| self.torque(torque));
+        let columns: Vec<Vec<f64>> = columns.collect();
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let blocks = Blocks::new(self, &columns);
+        let all: Vec<usize> = (0..columns.len()).collect();
+        let by = blocks.coefficients(&blocks.with(&all))?;
+        Some([by[0], by[1], by[2]])
+    }
+
     /// What a torque along the samples gives at the rows.
     pub fn torque(&self, torque: &[f64]) -> Vec<f64> {
         self.seen(torque, Place::Torque)
@@ -173,6 +186,15 @@ impl<'a> Equation<'a> {
         let noise: f64 = squares / n;
         noise.is_finite().then_some(noise)
     }
+}
+
+/// The third derivative of the angle at the residuals' samples.
+fn jerk(data: &Data, time: f64, used: &[&EquationResidual]) -> Vec<f64> {
+    let per_count = core::f64::consts::TAU / data.units.counts_per_rev;
+    let angle = |k: usize| (data.centre(k) - data.centre(0)) * per_count;
+    let angles: Vec<f64> = (0..data.len()).map(angle).collect();
+    let filtered = filtered(data, time, &angles, false);
+    used.iter().map(|r| filtered[r.sample].jerk).collect()
 }
 
 /// Derivatives of the missing volts by the parameters of the model's effects.

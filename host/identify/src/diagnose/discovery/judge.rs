@@ -2,6 +2,7 @@
 
 use super::blocks::Blocks;
 use super::equation::Equation;
+use super::refined::refined;
 use super::term::Term;
 use crate::fit::correlation_sum;
 use servoid_engine::problem::{Candidate, Data};
@@ -54,9 +55,10 @@ impl Trial {
 impl<'a> Judge<'a> {
     /// Of two recordings. `None` where either shows too little motion.
     pub fn new(data: &'a Data, held_out: &'a Data, candidate: &Candidate) -> Option<Self> {
+        let candidate = refined(data, candidate);
         Some(Judge {
-            fitted: Equation::new(data, candidate)?,
-            held: Equation::new(held_out, candidate)?,
+            fitted: Equation::new(data, &candidate)?,
+            held: Equation::new(held_out, &candidate)?,
         })
     }
 

@@ -11,6 +11,7 @@
 //! | `term`, `state` | one product of simple functions; the state of a hysteresis |
 //! | `library` | the terms that are tried |
 //! | `equation` | the rows of the regression, the missing volts and what the model's own parameters could give |
+//! | `refined` | the linear motor beside what it lacks |
 //! | `blocks` | regressions on all blocks but one, from sums of products |
 //! | `search` | every term and every pair |
 //! | `polish` | exponents, scales and distances |
@@ -27,6 +28,7 @@ mod library;
 mod motion;
 mod polish;
 mod propose;
+mod refined;
 mod search;
 mod state;
 mod term;
