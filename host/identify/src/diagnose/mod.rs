@@ -43,6 +43,7 @@ mod conclude;
 mod confirmation;
 mod context;
 mod criterion;
+pub mod discovery;
 mod explain;
 mod hypotheses;
 mod linear;

@@ -167,7 +167,7 @@ impl<'a> Passing<'a> {
 }
 
 /// Filters a signal that is sampled (straight between samples) or `held` (constant between them).
-pub(super) fn filtered(data: &Data, time: f64, signal: &[f64], held: bool) -> Vec<Filtered> {
+pub(crate) fn filtered(data: &Data, time: f64, signal: &[f64], held: bool) -> Vec<Filtered> {
     let mut passing = Passing::new(data, time, held);
     let at = |(k, now): (usize, &f64)| passing.at(k, *now, signal.get(k + 1).copied());
     signal.iter().enumerate().map(at).collect()

@@ -1,0 +1,271 @@
+//! What a model's equation misses along the measured motion, and what its own parameters could take of it.
+
+use super::blocks::Blocks;
+use super::motion::Motion;
+use super::term::{Place, Term};
+use crate::diagnose::residual_analysis::simulated;
+use crate::fit::filter::filtered;
+use crate::fit::scores::{EquationResidual, equation_residuals};
+use servoid_engine::problem::{Candidate, Data};
+use servoid_engine::simulation::Method;
+
+/// Filter time, sample intervals: as in the drawings of the residual.
+const FILTER_SAMPLES: f64 = 5.0;
+/// Filter times for which the four lags remember what a resting shaft was held by: less than 2 % is older.
+const MEMORY: f64 = 9.0;
+/// Most rows of a regression; one of so many samples is taken, as neighbours say the same through the filter.
+const ROWS: usize = 12_000;
+/// Fewest samples between rows.
+const STRIDE: usize = 3;
+/// Fewest rows that say anything.
+const FEWEST: usize = 200;
+/// Parts of a parameter by which it is moved for a derivative.
+const MOVE: f64 = 1e-4;
+/// A column of which less than this part is its own repeats the others.
+const OWN_PART: f64 = 1e-6;
+/// The same of a law beside the linear motor: with less, differences between filters count as much as a law.
+const LAW_PART: f64 = 0.05;
+
+/// The regression's rows of one recording.
+pub struct Equation<'a> {
+    data: &'a Data,
+    time: f64,
+    lead: f64,
+    /// The measured motion.
+    pub motion: Motion,
+    /// Samples of the rows.
+    pub rows: Vec<usize>,
+    /// Volts that the shaft is given beyond the model.
+    pub missing: Vec<f64>,
+    /// What changes of the model's own parameters would give, V.
+    pub own: Vec<Vec<f64>>,
+    /// An orthonormal basis of `own`, and after it of what makes the linear motor: with the command free, too, no motor at all
+    /// would fit perfectly, and whatever is like the command would seem to explain all.
+    basis: Vec<Vec<f64>>,
+    own_directions: usize,
+    /// Mean square of what a perfect model would leave, V², beside `own`.
+    pub noise: f64,
+}
+
+impl<'a> Equation<'a> {
+    /// Of a recording and a model. `None` where the motor turned too little.
+    pub fn new(data: &'a Data, candidate: &Candidate) -> Option<Self> {
+        let time = FILTER_SAMPLES * data.units.interval;
+        let motion = Motion::new(data, candidate);
+        let residuals = equation_residuals(data, candidate, time);
+        let mut since = f64::NEG_INFINITY;
+        let rested: Vec<bool> = (0..data.len())
+            .map(|k| {
+                if motion.rests[k] || data.recordings.is_first(k) {
+                    since = data.time_s[k];
+                }
+                data.time_s[k] - since < MEMORY * time
+            })
+            .collect();
+        let used: Vec<_> = residuals.iter().filter(|r| !rested[r.sample]).collect();
+        let stride = used.len().div_ceil(ROWS).max(STRIDE);
+        let used: Vec<_> = used.into_iter().step_by(stride).collect();
+        if used.len() < FEWEST {
+            return None;
+        }
+        let mut own = vec![
+            used.iter().map(|r| r.speed).collect(),
+            used.iter().map(|r| r.acceleration).collect(),
+            jerk(data, time, &used),
+        ];
+        let rows: Vec<usize> = used.iter().map(|r| r.sample).collect();
+        let missing = used.iter().map(|r| -r.volts).collect();
+        own.extend(own_columns(data, candidate, time, &rows));
+        let mut equation = Equation {
+            data,
+            time,
+            lead: candidate.machine.electrical,
+            motion,
+            rows,
+            missing,
+            own,
+            basis: Vec::new(),
+            own_directions: 0,
+            noise: 0.0,
+        };
+        let mut linear = equation.own.clone();
+        equation.own_directions = orthonormal(&linear).len();
+        linear.push(equation.seen(&equation.motion.command, Place::Voltage));
+        linear.push(equation.seen(&equation.motion.current, Place::Torque));
+        linear.push(equation.seen(&equation.motion.speed, Place::Torque));
+        equation.basis = orthonormal(&linear);
+        equation.noise = equation.perfect(candidate).unwrap_or(0.0);
+        Some(equation)
+    }
+
+    /// What a signal that is held from sample to sample gives at the rows.
+    fn seen(&self, signal: &[f64], place: Place) -> Vec<f64> {
+        let filtered = filtered(self.data, self.time, signal, true);
+        // A torque passes the winding's lag backwards: its volts lead.
+        let lead = match place {
+            Place::Torque => self.lead,
+            Place::Voltage => 0.0,
+        };
+        let at = |&k: &usize| filtered[k].value + lead * filtered[k].rate;
+        self.rows.iter().map(at).collect()
+    }
+
+    /// The columns of a term, one for each amplitude.
+    pub fn columns(&self, term: &Term) -> Vec<Vec<f64>> {
+        let factors = term.factors(&self.motion);
+        factors.iter().map(|f| self.seen(f, term.place)).collect()
+    }
+
+    /// What the model's own parameters can make, as orthonormal directions.
+    pub fn own_basis(&self) -> &[Vec<f64>] {
+        &self.basis[..self.own_directions]
+    }
+
+    /// Whether columns say something that the linear motor and the ones before do not.
+    pub fn are_distinct(&self, columns: &[Vec<f64>]) -> bool {
+        let mut found: Vec<Vec<f64>> = Vec::new();
+        columns.iter().all(|column| {
+            let whole = dot(column, column);
+            let mut rest = column.clone();
+            take_out(&self.basis, &mut rest);
+            take_out(&found, &mut rest);
+            let square = dot(&rest, &rest);
+            let distinct = square > LAW_PART * LAW_PART * whole && square.is_normal();
+            if distinct {
+                let length = square.sqrt();
+                rest.iter_mut().for_each(|x| *x /= length);
+                found.push(rest);
+            }
+            distinct
+        })
+    }
+
+    /// Changes of speed, acceleration and jerk's coefficients, V per each, beside some torques along the samples.
+    pub fn changes_beside(&self, torques: &[Vec<f64>]) -> Option<[f64; 3]> {
+        let columns = torques.iter().map(|torque| self.torque(torque));
+        let columns: Vec<Vec<f64>> = columns.collect();
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let blocks = Blocks::new(self, &columns);
+        let all: Vec<usize> = (0..columns.len()).collect();
+        let by = blocks.coefficients(&blocks.with(&all))?;
+        Some([by[0], by[1], by[2]])
+    }
+
+    /// What a torque along the samples gives at the rows.
+    pub fn torque(&self, torque: &[f64]) -> Vec<f64> {
+        self.seen(torque, Place::Torque)
+    }
+
+    /// What the model leaves of its own run, floored to counts.
+    fn perfect(&self, candidate: &Candidate) -> Option<f64> {
+        if !self.data.quantised {
+            return None;
+        }
+        let mut own = simulated(self.data, candidate, Method::default()).ok()?;
+        for count in &mut own.counts {
+            *count = count.floor();
+        }
+        let motion = Motion::new(&own, candidate);
+        let mut since = f64::NEG_INFINITY;
+        let residuals = equation_residuals(&own, candidate, self.time);
+        let (mut squares, mut n) = (0.0, 0.0);
+        let mut next = residuals.iter().peekable();
+        for k in 0..own.len() {
+            if motion.rests[k] || own.recordings.is_first(k) {
+                since = own.time_s[k];
+            }
+            while next.peek().is_some_and(|r| r.sample < k) {
+                next.next();
+            }
+            let turns = own.time_s[k] - since >= MEMORY * self.time;
+            if let Some(r) = next.peek().filter(|r| r.sample == k && turns) {
+                squares += r.volts * r.volts;
+                n += 1.0;
+            }
+        }
+        let noise: f64 = squares / n;
+        noise.is_finite().then_some(noise)
+    }
+}
+
+/// The third derivative of the angle at the residuals' samples.
+fn jerk(data: &Data, time: f64, used: &[&EquationResidual]) -> Vec<f64> {
+    let per_count = core::f64::consts::TAU / data.units.counts_per_rev;
+    let angle = |k: usize| (data.centre(k) - data.centre(0)) * per_count;
+    let angles: Vec<f64> = (0..data.len()).map(angle).collect();
+    let filtered = filtered(data, time, &angles, false);
+    used.iter().map(|r| filtered[r.sample].jerk).collect()
+}
+
+/// Derivatives of the missing volts by the parameters of the model's effects.
+fn own_columns(data: &Data, candidate: &Candidate, time: f64, rows: &[usize]) -> Vec<Vec<f64>> {
+    let at_rows = |candidate: &Candidate| -> Option<Vec<f64>> {
+        let residuals = equation_residuals(data, candidate, time);
+        let mut next = residuals.iter().peekable();
+        let find = |&row: &usize| {
+            while next.peek().is_some_and(|r| r.sample < row) {
+                next.next();
+            }
+            next.peek().filter(|r| r.sample == row).map(|r| -r.volts)
+        };
+        rows.iter().map(find).collect()
+    };
+    let here = at_rows(candidate).unwrap_or_else(|| vec![0.0; rows.len()]);
+    let mut columns = Vec::new();
+    let effects: Vec<_> = candidate.effects.iter().collect();
+    for (index, (kind, values)) in effects.iter().enumerate() {
+        for (slot, parameter) in kind.parameters().iter().enumerate() {
+            let usual = parameter.scaled(parameter.typical, data.supply, data.units.speed);
+            let step = MOVE * values[slot].abs().max(usual.abs()).max(1e-12);
+            let mut moved = Candidate {
+                effects: Default::default(),
+                ..*candidate
+            };
+            for (other, (kind, values)) in effects.iter().enumerate() {
+                let mut values = values.to_vec();
+                if other == index {
+                    values[slot] += step;
+                }
+                // They fitted in before.
+                let _ = moved.effects.push(*kind, &values);
+            }
+            // As many columns for every recording: one of zeros takes nothing.
+            let there = at_rows(&moved).unwrap_or_else(|| here.clone());
+            let pairs = there.iter().zip(&here);
+            columns.push(pairs.map(|(there, here)| (there - here) / step).collect());
+        }
+    }
+    columns
+}
+
+/// Columns with their parts along the ones before taken out, each of length one; those that have no part of their own are left out.
+pub fn orthonormal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for column in columns {
+        let whole = dot(column, column);
+        let mut rest = column.clone();
+        take_out(&basis, &mut rest);
+        take_out(&basis, &mut rest);
+        let square = dot(&rest, &rest);
+        if square > OWN_PART * whole && square.is_normal() {
+            let length = square.sqrt();
+            rest.iter_mut().for_each(|x| *x /= length);
+            basis.push(rest);
+        }
+    }
+    basis
+}
+
+/// Takes the parts along an orthonormal basis out of a column.
+pub fn take_out(basis: &[Vec<f64>], column: &mut [f64]) {
+    for direction in basis {
+        let along = dot(direction, column);
+        for (x, d) in column.iter_mut().zip(direction) {
+            *x -= along * d;
+        }
+    }
+}
+
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,240 @@
+//! A law as text.
+
+use super::term::{Load, Place, Speed, Term};
+
+/// Greatest amplitude, times the one that was found.
+const MOST: f64 = 10.0;
+
+/// Parameters that are collected while a text grows.
+struct Parameters {
+    texts: Vec<String>,
+    suffix: String,
+}
+
+impl Parameters {
+    /// Adds one; its name.
+    fn add(&mut self, name: &str, value: f64, low: f64, high: f64, unit: &str) -> String {
+        let name = format!("{name}{}", self.suffix);
+        let space = if unit.is_empty() { "" } else { " " };
+        self.texts.push(format!(
+            "{name} = {} in [{}, {}]{space}{unit}",
+            number(value),
+            number(low),
+            number(high)
+        ));
+        name
+    }
+}
+
+/// Four digits.
+fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = 3 - libm::floor(libm::log10(value.abs())) as i32;
+    if (-1..=7).contains(&digits) {
+        let text = format!("{value:.*}", digits.max(0) as usize);
+        if text.contains('.') {
+            return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        }
+        return text;
+    }
+    let text = format!("{value:.3e}");
+    match text.split_once('e') {
+        Some((digits, power)) if digits.contains('.') => {
+            let digits = digits.trim_end_matches('0').trim_end_matches('.');
+            format!("{digits}e{power}")
+        }
+        _ => text,
+    }
+}
+
+/// The text of terms.
+pub fn formula(terms: &[Term], name: &str) -> String {
+    let mut parameters = Parameters {
+        texts: Vec::new(),
+        suffix: String::new(),
+    };
+    // A budget stands against the motion, and is never negative.
+    let dry = budget(terms);
+    let place = match (terms.first().map(|term| term.place), dry) {
+        (Some(Place::Voltage), _) => "voltage",
+        (_, true) => "friction",
+        _ => "torque",
+    };
+    let mut expression = String::new();
+    let mut state = None;
+    for (index, term) in terms.iter().enumerate() {
+        parameters.suffix = if index == 0 {
+            String::new()
+        } else {
+            (index + 1).to_string()
+        };
+        let (minus, text) = product(term, dry, &mut state, &mut parameters);
+        match (expression.is_empty(), minus) {
+            (true, true) => expression.push('-'),
+            (true, false) => {}
+            (false, true) => expression.push_str(" - "),
+            (false, false) => expression.push_str(" + "),
+        }
+        expression.push_str(&text);
+    }
+    let mut parts = vec![format!("{name}: {place} = {expression}")];
+    if let Some(distance) = state {
+        parts.push(format!("z' = (w - abs(w)*z)/{distance}"));
+    }
+    parts.extend(parameters.texts);
+    parts.join("; ")
+}
+
+/// Whether all terms together are a budget of dry friction.
+fn budget(terms: &[Term]) -> bool {
+    let constant: f64 = terms
+        .iter()
+        .filter(|term| term.order.is_none())
+        .map(|term| -term.amplitudes[0])
+        .sum();
+    let waves: f64 = terms
+        .iter()
+        .filter(|term| term.order.is_some())
+        .map(|term| libm::hypot(term.amplitudes[0], term.amplitudes[1]))
+        .sum();
+    let plain = |term: &Term| term.speed == Speed::Sign && term.load == Load::One;
+    let against = |term: &Term| term.order.is_some() || term.amplitudes[0] < 0.0;
+    terms.iter().all(|term| term.is_dry() && against(term))
+        && (waves == 0.0 || (constant >= waves && terms.iter().all(plain)))
+}
+
+/// A term without the sign before it, and whether that is a minus.
+fn product(
+    term: &Term,
+    dry: bool,
+    state: &mut Option<String>,
+    parameters: &mut Parameters,
+) -> (bool, String) {
+    let unit = match (term.load, term.place) {
+        (Load::One | Load::Power { .. }, _) => "V",
+        _ => "",
+    };
+    let mut minus = false;
+    let mut factors = Vec::new();
+    if let (Some(order), [cosine, sine]) = (term.order, term.amplitudes.as_slice()) {
+        let turned = if dry { -1.0 } else { 1.0 };
+        let most = MOST * libm::hypot(*cosine, *sine);
+        let a = parameters.add("a", turned * cosine, -most, most, unit);
+        let b = parameters.add("b", turned * sine, -most, most, unit);
+        let angle = if order == 1 {
+            "theta".to_owned()
+        } else {
+            format!("{order}*theta")
+        };
+        factors.push(format!("({a}*cos({angle}) + {b}*sin({angle}))"));
+    } else {
+        let amplitude = term.amplitudes.first().copied().unwrap_or_default();
+        let size = amplitude.abs();
+        minus = amplitude < 0.0 && !dry;
+        factors.push(parameters.add("c", size, 0.0, MOST * size, unit));
+    }
+    speed(term.speed, dry, &mut factors, parameters);
+    load(term, &mut factors, parameters);
+    if let Some(memory) = term.memory {
+        if state.is_none() {
+            let (low, high) = super::term::DISTANCES;
+            let (low, high) = (low.min(memory.distance), high.max(memory.distance));
+            *state = Some(parameters.add("h", memory.distance, low, high, "rad"));
+        }
+        factors.push(if memory.squared { "z^2" } else { "z" }.to_owned());
+    }
+    (minus, factors.join("*"))
+}
+
+/// Limits of a number that shapes a term.
+fn limits(value: f64) -> (f64, f64) {
+    (0.1 * value, 5.0 * value)
+}
+
+fn exponent(value: f64, parameters: &mut Parameters) -> String {
+    let (low, high) = (value.min(0.1), value.max(4.0));
+    parameters.add("p", value, low, high, "")
+}
+
+fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Parameters) {
+    let mut scaled = |name: &str, value: f64| {
+        let (low, high) = limits(value);
+        parameters.add(name, value, low, high, "rad/s")
+    };
+    let sign = |odd: bool, factors: &mut Vec<String>| {
+        if odd && !dry {
+            factors.push("sgn(w)".to_owned());
+        }
+    };
+    match speed {
+        Speed::One => {}
+        Speed::Sign => sign(true, factors),
+        Speed::Plain { reference } => factors.push(format!("w/{}", number(reference))),
+        Speed::Power {
+            exponent: p,
+            odd,
+            reference,
+        } => {
+            sign(odd, factors);
+            let p = exponent(p, parameters);
+            factors.push(format!("abs(w/{})^{p}", number(reference)));
+        }
+        Speed::Decay { scale, odd } => {
+            sign(odd, factors);
+            let scale = scaled("ws", scale);
+            factors.push(format!("exp(-abs(w)/{scale})"));
+        }
+        Speed::Saturating { scale } => {
+            let scale = scaled("ws", scale);
+            factors.push(format!("w/({scale} + abs(w))"));
+        }
+        Speed::Tanh { scale } => {
+            let scale = scaled("ws", scale);
+            factors.push(format!("tanh(w/{scale})"));
+        }
+        Speed::OneSided {
+            exponent: p,
+            forward,
+            reference,
+        } => {
+            let p = exponent(p, parameters);
+            let ahead = if forward { "w" } else { "-w" };
+            factors.push(format!("(max({ahead}, 0)/{})^{p}", number(reference)));
+        }
+        Speed::Above { threshold } => {
+            sign(true, factors);
+            let threshold = scaled("w1", threshold);
+            factors.push(format!("max(sgn(abs(w) - {threshold}), 0)"));
+        }
+        Speed::Beyond { threshold } => {
+            sign(true, factors);
+            let threshold = scaled("w1", threshold);
+            factors.push(format!("max(abs(w)/{threshold} - 1, 0)"));
+        }
+    }
+}
+
+fn load(term: &Term, factors: &mut Vec<String>, parameters: &mut Parameters) {
+    let name = match term.place {
+        Place::Torque => "i",
+        Place::Voltage => "u",
+    };
+    match term.load {
+        Load::One => {}
+        Load::Plain => factors.push(name.to_owned()),
+        Load::Size => factors.push(format!("abs({name})")),
+        Load::Power {
+            exponent: p,
+            odd,
+            reference,
+        } => {
+            if odd {
+                factors.push(format!("sgn({name})"));
+            }
+            let p = parameters.add("q", p, p.min(0.1), p.max(4.0), "");
+            factors.push(format!("abs({name}/{})^{p}", number(reference)));
+        }
+    }
+}

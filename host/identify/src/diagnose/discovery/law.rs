@@ -1,0 +1,27 @@
+//! A law that is proposed.
+
+use super::formula::formula;
+use super::term::Term;
+
+/// A law, by what is known of it from the measured motion alone.
+#[derive(Clone, Debug)]
+pub struct Law {
+    /// Its terms, with amplitudes: what each adds to the shaft, V referred to the winding.
+    pub terms: Vec<Term>,
+    /// Share that it explains of the variance of the volts that the model misses on the held-out recording, beyond what a
+    /// perfect model would miss.
+    pub explained: f64,
+}
+
+impl Law {
+    /// Its text, as the program reads it.
+    pub fn formula(&self, name: &str) -> String {
+        formula(&self.terms, name)
+    }
+
+    /// Numbers that it has.
+    pub fn freedom(&self) -> usize {
+        let of = |term: &Term| term.amplitudes.len() + term.shapes().len();
+        self.terms.iter().map(of).sum()
+    }
+}

@@ -1,0 +1,163 @@
+//! The terms that are tried.
+
+use super::term::{Load, Place, Speed, Term};
+use servoid_engine::problem::Data;
+
+/// Exponents from which the search for one starts.
+const EXPONENTS: [f64; 6] = [0.25, 0.5, 1.5, 2.0, 3.0, 4.0];
+/// Scales of the speed, parts of the fastest, likewise.
+const SCALES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8];
+/// Distances of the state, rad.
+const DISTANCES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
+/// Most cycles in a revolution.
+const ORDERS: u32 = 12;
+
+/// Every term, for a recording's fastest speed and supply.
+pub fn library(data: &Data) -> Vec<Term> {
+    let fastest = two_digits(data.units.speed);
+    let supply = two_digits(data.supply);
+    let mut terms = by_speed(fastest);
+    terms.extend(by_load(fastest, supply));
+    terms.extend(by_angle(fastest));
+    terms.extend(by_state());
+    terms.extend(by_command(supply));
+    terms
+}
+
+/// Rounded to two digits.
+pub fn two_digits(value: f64) -> f64 {
+    let unit = libm::pow(10.0, libm::floor(libm::log10(value.abs().max(1e-300))) - 1.0);
+    (value / unit).round() * unit
+}
+
+fn by_speed(reference: f64) -> Vec<Term> {
+    let mut speeds = vec![Speed::One, Speed::Sign];
+    let even = Speed::Power {
+        exponent: 1.0,
+        odd: false,
+        reference,
+    };
+    speeds.push(even);
+    for exponent in EXPONENTS {
+        for odd in [true, false] {
+            speeds.push(Speed::Power {
+                exponent,
+                odd,
+                reference,
+            });
+        }
+        for forward in [true, false] {
+            speeds.push(Speed::OneSided {
+                exponent,
+                forward,
+                reference,
+            });
+        }
+    }
+    for part in SCALES {
+        let scale = part * reference;
+        speeds.extend([
+            Speed::Decay { scale, odd: true },
+            Speed::Decay { scale, odd: false },
+            Speed::Saturating { scale },
+            Speed::Tanh { scale },
+            Speed::Above { threshold: scale },
+            Speed::Beyond { threshold: scale },
+        ]);
+    }
+    let terms = speeds.into_iter();
+    terms.map(|speed| Term::torque(speed, Load::One)).collect()
+}
+
+fn by_load(reference: f64, supply: f64) -> Vec<Term> {
+    let plain = Speed::Plain { reference };
+    let power = |exponent: f64, odd: bool| Load::Power {
+        exponent,
+        odd,
+        reference: supply,
+    };
+    let square = |odd| Speed::Power {
+        exponent: 2.0,
+        odd,
+        reference,
+    };
+    let size = Speed::Power {
+        exponent: 1.0,
+        odd: false,
+        reference,
+    };
+    let mut pairs = vec![
+        (Speed::One, Load::Size),
+        (Speed::Sign, Load::Plain),
+        (Speed::Sign, Load::Size),
+        (plain, Load::Plain),
+        (plain, Load::Size),
+        (size, Load::Plain),
+        (square(true), Load::Size),
+        (square(false), Load::Plain),
+    ];
+    for exponent in [0.5, 1.5, 2.0, 3.0] {
+        pairs.extend([
+            (Speed::One, power(exponent, true)),
+            (Speed::One, power(exponent, false)),
+            (Speed::Sign, power(exponent, false)),
+        ]);
+    }
+    let terms = pairs.into_iter();
+    terms.map(|(speed, load)| Term::torque(speed, load)).collect()
+}
+
+fn by_angle(reference: f64) -> Vec<Term> {
+    let square = |odd| Speed::Power {
+        exponent: 2.0,
+        odd,
+        reference,
+    };
+    let size = Speed::Power {
+        exponent: 1.0,
+        odd: false,
+        reference,
+    };
+    let plain = Speed::Plain { reference };
+    let modulated = [
+        (Speed::One, Load::One),
+        (Speed::Sign, Load::One),
+        (plain, Load::One),
+        (size, Load::One),
+        (square(false), Load::One),
+        (square(true), Load::One),
+        (Speed::One, Load::Plain),
+        (Speed::Sign, Load::Size),
+    ];
+    let orders = 1..=ORDERS;
+    let each = |order| modulated.map(|(speed, load)| Term::torque(speed, load).by_angle(order));
+    orders.flat_map(each).collect()
+}
+
+fn by_state() -> Vec<Term> {
+    let kinds = [
+        (Load::One, false),
+        (Load::Size, false),
+        (Load::Plain, true),
+    ];
+    let each = |distance| {
+        kinds.map(|(load, squared)| Term::torque(Speed::One, load).with_memory(distance, squared))
+    };
+    DISTANCES.into_iter().flat_map(each).collect()
+}
+
+fn by_command(reference: f64) -> Vec<Term> {
+    let voltage = |load| Term {
+        place: Place::Voltage,
+        ..Term::torque(Speed::One, load)
+    };
+    let mut loads = vec![Load::Size];
+    for exponent in [0.5, 1.5, 2.0, 3.0] {
+        loads.extend([true, false].map(|odd| Load::Power {
+            exponent,
+            odd,
+            reference,
+        }));
+    }
+    loads.into_iter().map(voltage).collect()
+}

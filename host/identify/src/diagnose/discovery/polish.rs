@@ -1,0 +1,114 @@
+//! The numbers that shape a law, at which the fitted recording is left least of.
+
+use super::equation::{Equation, dot, orthonormal, take_out};
+use super::term::Term;
+
+/// Farthest that a number moves, as a factor.
+const REACH: f64 = 2.5;
+/// Points of a scan before the golden section.
+const SCAN: usize = 7;
+/// Steps of the golden section.
+const STEPS: usize = 9;
+/// Rounds over all numbers.
+const ROUNDS: usize = 2;
+
+/// The regression with the model's own columns taken out.
+pub struct Polish<'e> {
+    equation: &'e Equation<'e>,
+    target: Vec<f64>,
+}
+
+impl<'e> Polish<'e> {
+    /// Of a recording.
+    pub fn new(equation: &'e Equation<'e>) -> Self {
+        let mut target = equation.missing.clone();
+        take_out(equation.own_basis(), &mut target);
+        Polish { equation, target }
+    }
+
+    /// Squares that terms leave.
+    fn left(&self, terms: &[Term]) -> f64 {
+        let columns = terms.iter().flat_map(|term| self.equation.columns(term));
+        let mut columns: Vec<Vec<f64>> = columns.collect();
+        if !self.equation.are_distinct(&columns) {
+            return f64::INFINITY;
+        }
+        for column in &mut columns {
+            take_out(self.equation.own_basis(), column);
+        }
+        let directions = orthonormal(&columns);
+        let taken = directions.iter().map(|d| {
+            let along = dot(d, &self.target);
+            along * along
+        });
+        dot(&self.target, &self.target) - taken.sum::<f64>()
+    }
+
+    /// The terms with better numbers.
+    pub fn polished(&self, terms: &[Term]) -> Vec<Term> {
+        let mut terms = terms.to_vec();
+        for round in 0..ROUNDS {
+            let reach = if round == 0 { REACH } else { REACH.sqrt() };
+            for index in 0..terms.len() {
+                for slot in 0..terms[index].shapes().len() {
+                    terms = self.along(terms, index, slot, reach);
+                }
+            }
+        }
+        terms
+    }
+
+    fn along(&self, terms: Vec<Term>, index: usize, slot: usize, reach: f64) -> Vec<Term> {
+        let shapes = terms[index].shapes();
+        let shape = shapes[slot];
+        let at = |log: f64| -> Vec<Term> {
+            let mut moved = terms.clone();
+            let mut values: Vec<f64> = shapes.iter().map(|shape| shape.value).collect();
+            values[slot] = libm::exp(log);
+            moved[index] = moved[index].shaped(&values);
+            // One state is one: its distance is common.
+            if let Some(own) = moved[index].memory {
+                for memory in moved.iter_mut().filter_map(|term| term.memory.as_mut()) {
+                    memory.distance = own.distance;
+                }
+            }
+            moved
+        };
+        let here = libm::log(shape.value);
+        let low = (here - libm::log(reach)).max(libm::log(shape.low));
+        let high = (here + libm::log(reach)).min(libm::log(shape.high));
+        if high <= low {
+            return terms;
+        }
+        let cost = |log: f64| self.left(&at(log));
+        let step = (high - low) / (SCAN - 1) as f64;
+        let scanned = (0..SCAN).map(|k| low + step * k as f64).chain([here]);
+        let best = scanned
+            .map(|log| (cost(log), log))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, middle)) = best else {
+            return terms;
+        };
+        let log = golden(cost, (middle - step).max(low), (middle + step).min(high));
+        at(log)
+    }
+}
+
+/// The least of a function of one number (Kiefer 1953).
+fn golden(cost: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    const PART: f64 = 0.618_033_988_749_894_9;
+    let (mut a, mut b) = (high - PART * (high - low), low + PART * (high - low));
+    let (mut at_a, mut at_b) = (cost(a), cost(b));
+    for _ in 0..STEPS {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - PART * (high - low);
+            at_a = cost(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + PART * (high - low);
+            at_b = cost(b);
+        }
+    }
+    if at_a < at_b { a } else { b }
+}

@@ -1,0 +1,92 @@
+//! From library to laws.
+
+use super::judge::{Judge, Trial};
+use super::law::Law;
+use super::library::library;
+use super::polish::Polish;
+use super::search::{Found, Search};
+use super::term::Term;
+use rayon::prelude::*;
+use servoid_engine::problem::{Candidate, Data};
+
+/// Laws of one term whose numbers are polished, and of two.
+const SINGLE: usize = 12;
+const PAIRS: usize = 10;
+/// Part of what one term leaves unexplained that two must explain.
+const SECOND_TERM: f64 = 0.3;
+
+/// Proposes at most so many laws for what `candidate` lacks, the best first; none where nothing simple explains it.
+///
+/// A law is believed where it predicts blocks of `data` that it was not fitted on, and `held_out`, which nothing is fitted on.
+pub fn propose(data: &Data, held_out: &Data, candidate: &Candidate, most: usize) -> Vec<Law> {
+    let Some(judge) = Judge::new(data, held_out, candidate) else {
+        return Vec::new();
+    };
+    let Some(base) = judge.try_terms(&[]) else {
+        return Vec::new();
+    };
+    let terms = library(data);
+    let search = Search::new(&judge, &terms);
+    let polish = Polish::new(&judge.fitted);
+    let polished = |found: &[Found]| -> Vec<Trial> {
+        let polished = found.par_iter().filter_map(|found| {
+            let start: Vec<Term> = found.terms.iter().map(|&t| terms[t].clone()).collect();
+            judge.try_terms(&polish.polished(&start))
+        });
+        polished.collect()
+    };
+    let single = polished(&families(search.single(), &terms, SINGLE));
+    let mut believed: Vec<Trial> = single
+        .into_iter()
+        .filter(|trial| judge.believes(&base, trial, terms.len()))
+        .collect();
+    sort(&mut believed);
+    let pairs = polished(&families(search.pairs(), &terms, PAIRS));
+    let tried = terms.len() * terms.len() / 2;
+    let pairs = pairs.into_iter().filter(|pair| {
+        judge.believes(&base, pair, tried)
+            && believed
+                .first()
+                .is_none_or(|one| explains_more(&judge, one, pair))
+    });
+    let pairs: Vec<Trial> = pairs.collect();
+    believed.extend(pairs);
+    sort(&mut believed);
+    let laws = believed.into_iter().take(most).map(|trial| Law {
+        explained: judge.explained(&base, &trial),
+        terms: trial.terms,
+    });
+    laws.collect()
+}
+
+/// Whether a second term is worth its numbers.
+fn explains_more(judge: &Judge<'_>, one: &Trial, two: &Trial) -> bool {
+    let part = |before: f64, after: f64, noise: f64| {
+        let noise = noise.min(after);
+        (before - after) / (before - noise).max(f64::MIN_POSITIVE)
+    };
+    part(one.held, two.held, judge.held.noise) > SECOND_TERM
+        && part(one.crossed, two.crossed, judge.fitted.noise) > SECOND_TERM
+}
+
+/// Best first.
+fn sort(trials: &mut [Trial]) {
+    let independent = trials.iter().map(|trial| trial.independent);
+    let independent = independent.fold(10.0, f64::max);
+    trials.sort_by(|a, b| a.score(independent).total_cmp(&b.score(independent)));
+}
+
+/// The best of each family that differs by its numbers alone.
+fn families(found: Vec<Found>, terms: &[Term], most: usize) -> Vec<Found> {
+    let mut kept: Vec<Found> = Vec::new();
+    for one in found {
+        let alike = |other: &Found| {
+            let pairs = one.terms.iter().zip(&other.terms);
+            pairs.clone().all(|(&a, &b)| terms[a].is_alike(&terms[b]))
+        };
+        if kept.len() < most && !kept.iter().any(alike) {
+            kept.push(one);
+        }
+    }
+    kept
+}

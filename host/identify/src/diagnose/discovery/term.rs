@@ -1,0 +1,302 @@
+//! One term of a law: a product of simple functions of speed, current, angle and one state.
+
+use super::motion::Motion;
+use super::state::along;
+
+/// Where a term acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A torque on the shaft.
+    Torque,
+    /// A voltage beside the commanded one; the term's load is the command instead of the current.
+    Voltage,
+}
+
+/// A term's dependence on the speed. Powers are of the speed as a part of `reference`, rad/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Speed {
+    /// None.
+    One,
+    /// Direction of the motion.
+    Sign,
+    /// `w/reference`.
+    Plain { reference: f64 },
+    /// `|w/reference|^exponent`, with the motion's sign where `odd`.
+    Power {
+        exponent: f64,
+        odd: bool,
+        reference: f64,
+    },
+    /// `exp(-|w|/scale)`, with the motion's sign where `odd`.
+    Decay { scale: f64, odd: bool },
+    /// `(w/scale)/(1 + |w|/scale)`.
+    Saturating { scale: f64 },
+    /// `tanh(w/scale)`.
+    Tanh { scale: f64 },
+    /// `(max(±w, 0)/reference)^exponent`.
+    OneSided {
+        exponent: f64,
+        forward: bool,
+        reference: f64,
+    },
+    /// Direction of the motion, where it is faster than `threshold`.
+    Above { threshold: f64 },
+    /// By how much it is faster than `threshold`, as a part of that, with the motion's sign.
+    Beyond { threshold: f64 },
+}
+
+/// A term's dependence on the current, V across the resistance, or on the command, V.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Load {
+    /// None.
+    One,
+    /// Its value.
+    Plain,
+    /// Its size.
+    Size,
+    /// `|i/reference|^exponent`, with its sign where `odd`.
+    Power {
+        exponent: f64,
+        odd: bool,
+        reference: f64,
+    },
+}
+
+/// A term's dependence on the state `z' = (w - |w|*z)/distance`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory {
+    /// Distance over which it follows a reversal, rad.
+    pub distance: f64,
+    /// Whether it stands squared.
+    pub squared: bool,
+}
+
+/// A product, times one amplitude; or two, of cosine and sine of a multiple of the angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// Where it acts.
+    pub place: Place,
+    /// Speed.
+    pub speed: Speed,
+    /// Current or command.
+    pub load: Load,
+    /// Cycles in a revolution.
+    pub order: Option<u32>,
+    /// State.
+    pub memory: Option<Memory>,
+    /// Amplitudes: V, or without unit beside a plain load.
+    pub amplitudes: Vec<f64>,
+}
+
+/// One number that shapes a term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Its value.
+    pub value: f64,
+    /// Least.
+    pub low: f64,
+    /// Greatest.
+    pub high: f64,
+}
+
+/// Exponents that are sensible.
+const EXPONENTS: (f64, f64) = (0.1, 4.0);
+/// Scales of the speed in which a bend shows, parts of the scale that the library starts from.
+const SCALES: (f64, f64) = (0.02, 10.0);
+/// Distances that a state follows, rad.
+pub const DISTANCES: (f64, f64) = (1e-3, 10.0);
+
+impl Speed {
+    /// At a speed, rad/s.
+    pub fn at(self, w: f64) -> f64 {
+        let size = w.abs();
+        let sign = if w == 0.0 { 0.0 } else { w.signum() };
+        let signed = |odd: bool| if odd { sign } else { 1.0 };
+        match self {
+            Speed::One => 1.0,
+            Speed::Sign => sign,
+            Speed::Plain { reference } => w / reference,
+            Speed::Power {
+                exponent,
+                odd,
+                reference,
+            } => signed(odd) * libm::pow(size / reference, exponent),
+            Speed::Decay { scale, odd } => signed(odd) * libm::exp(-size / scale),
+            Speed::Saturating { scale } => w / (scale + size),
+            Speed::Tanh { scale } => libm::tanh(w / scale),
+            Speed::OneSided {
+                exponent,
+                forward,
+                reference,
+            } => {
+                let ahead = if forward { w } else { -w };
+                libm::pow(ahead.max(0.0) / reference, exponent)
+            }
+            Speed::Above { threshold } => {
+                if size > threshold {
+                    sign
+                } else {
+                    0.0
+                }
+            }
+            Speed::Beyond { threshold } => sign * (size / threshold - 1.0).max(0.0),
+        }
+    }
+
+    fn shape(&mut self) -> Option<(&mut f64, (f64, f64))> {
+        match self {
+            Speed::Power { exponent, .. } | Speed::OneSided { exponent, .. } => {
+                Some((exponent, EXPONENTS))
+            }
+            Speed::Decay { scale, .. }
+            | Speed::Saturating { scale }
+            | Speed::Tanh { scale }
+            | Speed::Above { threshold: scale }
+            | Speed::Beyond { threshold: scale } => {
+                let range = (SCALES.0 * *scale, SCALES.1 * *scale);
+                Some((scale, range))
+            }
+            Speed::One | Speed::Sign | Speed::Plain { .. } => None,
+        }
+    }
+}
+
+impl Load {
+    /// At a current or command, V.
+    pub fn at(self, i: f64) -> f64 {
+        match self {
+            Load::One => 1.0,
+            Load::Plain => i,
+            Load::Size => i.abs(),
+            Load::Power {
+                exponent,
+                odd,
+                reference,
+            } => {
+                let sign = if odd && i < 0.0 { -1.0 } else { 1.0 };
+                sign * libm::pow(i.abs() / reference, exponent)
+            }
+        }
+    }
+
+    fn shape(&mut self) -> Option<(&mut f64, (f64, f64))> {
+        match self {
+            Load::Power { exponent, .. } => Some((exponent, EXPONENTS)),
+            Load::One | Load::Plain | Load::Size => None,
+        }
+    }
+}
+
+impl Term {
+    /// A torque without amplitudes.
+    pub fn torque(speed: Speed, load: Load) -> Self {
+        Term {
+            place: Place::Torque,
+            speed,
+            load,
+            order: None,
+            memory: None,
+            amplitudes: vec![0.0],
+        }
+    }
+
+    /// The same, going with cosine and sine of a multiple of the angle.
+    pub fn by_angle(self, order: u32) -> Self {
+        Term {
+            order: Some(order),
+            amplitudes: vec![0.0; 2],
+            ..self
+        }
+    }
+
+    /// The same, going with the state.
+    pub fn with_memory(self, distance: f64, squared: bool) -> Self {
+        Term {
+            memory: Some(Memory { distance, squared }),
+            ..self
+        }
+    }
+
+    /// The factors along a motion, one for each amplitude.
+    pub fn factors(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        let load = match self.place {
+            Place::Torque => &motion.current,
+            Place::Voltage => &motion.command,
+        };
+        let pairs = motion.speed.iter().zip(load);
+        let mut product: Vec<f64> = pairs
+            .map(|(&w, &i)| self.speed.at(w) * self.load.at(i))
+            .collect();
+        if let Some(memory) = self.memory {
+            for (value, z) in product.iter_mut().zip(along(motion, memory.distance)) {
+                *value *= if memory.squared { z * z } else { z };
+            }
+        }
+        let Some(order) = self.order else {
+            return vec![product];
+        };
+        let order = f64::from(order);
+        let waves = [libm::cos, libm::sin];
+        let times = |wave: fn(f64) -> f64| {
+            let pairs = product.iter().zip(&motion.angle);
+            pairs.map(|(value, angle)| value * wave(order * angle)).collect()
+        };
+        waves.into_iter().map(times).collect()
+    }
+
+    fn shapes_mut(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64))> {
+        let memory = self.memory.as_mut().map(|m| (&mut m.distance, DISTANCES));
+        let speed = self.speed.shape();
+        speed.into_iter().chain(self.load.shape()).chain(memory)
+    }
+
+    /// The numbers that shape it.
+    pub fn shapes(&self) -> Vec<Shape> {
+        let mut copy = self.clone();
+        let shapes = copy.shapes_mut();
+        shapes
+            .map(|(value, (low, high))| Shape {
+                value: *value,
+                low,
+                high,
+            })
+            .collect()
+    }
+
+    /// The same with other numbers.
+    pub fn shaped(&self, values: &[f64]) -> Self {
+        let mut copy = self.clone();
+        for ((own, _), value) in copy.shapes_mut().zip(values) {
+            *own = *value;
+        }
+        copy
+    }
+
+    /// Whether another differs by its numbers alone.
+    pub fn is_alike(&self, other: &Term) -> bool {
+        let own = self.shapes().len();
+        let ones = vec![1.0; own];
+        let plain = |term: &Term| Term {
+            amplitudes: Vec::new(),
+            ..term.shaped(&ones)
+        };
+        own == other.shapes().len() && plain(self) == plain(other)
+    }
+
+    /// Whether it is a friction: with the direction of the motion, of one sign, and not vanishing at rest.
+    pub fn is_dry(&self) -> bool {
+        let dry = match self.speed {
+            Speed::Sign | Speed::Decay { odd: true, .. } => true,
+            Speed::Power { exponent, odd, .. } => odd && exponent < 1.0,
+            _ => false,
+        };
+        let even = match self.load {
+            Load::One | Load::Size => true,
+            Load::Power { odd, .. } => !odd,
+            Load::Plain => false,
+        };
+        dry && even && self.place == Place::Torque && self.memory.is_none()
+    }
+}
