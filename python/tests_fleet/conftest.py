@@ -19,6 +19,7 @@ import pyarrow.parquet
 import pytest
 import servoid as sv
 
+BUILT = Path(__file__).parents[2] / "target/debug/servoid"
 UNITS = 24
 #: Rows of a row group of the file: one group a shard.
 GROUP = 3
@@ -85,11 +86,11 @@ class Folder:
 
 
 class Driver:
-    """`python -m servoid.fleet run`, in a process group of its own."""
+    """`python -m servoid.fleet`, in a process group of its own."""
 
-    def __init__(self, *arguments: object) -> None:
+    def __init__(self, *arguments: object, verb: str = "run") -> None:
         self._out, self._err = tempfile.TemporaryFile("w+"), tempfile.TemporaryFile("w+")
-        command = [sys.executable, "-m", "servoid.fleet", "run", *map(str, arguments), "--json", "-"]
+        command = [sys.executable, "-m", "servoid.fleet", verb, *map(str, arguments), "--json", "-"]
         self.process = subprocess.Popen(command, stdout=self._out, stderr=self._err, start_new_session=True)
         self._seen: set[psutil.Process] = set()
 
@@ -168,6 +169,18 @@ def ray_of_its_own() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
+def program() -> str:
+    """The program `servoid`, of the package's version."""
+    found = os.environ.get("SERVOID") or (str(BUILT) if BUILT.exists() else shutil.which("servoid"))
+    if found is None:
+        pytest.skip("SKIPPED: no program servoid is built; cargo build makes it")
+    said = subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout.split()
+    if said[-1] != sv.__version__:
+        pytest.skip(f"SKIPPED: {found} is version {said[-1]}, the package {sv.__version__}")
+    return found
+
+
+@pytest.fixture(scope="session")
 def lot(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The recordings."""
     path = tmp_path_factory.mktemp("lot") / "lot.parquet"
@@ -197,8 +210,8 @@ def drive() -> Iterator[Callable[..., Driver]]:
     """Starts drivers."""
     drivers: list[Driver] = []
 
-    def start(*arguments: object) -> Driver:
-        drivers.append(Driver(*arguments))
+    def start(*arguments: object, verb: str = "run") -> Driver:
+        drivers.append(Driver(*arguments, verb=verb))
         return drivers[-1]
 
     yield start

@@ -14,8 +14,10 @@ from typing import Any, get_args
 
 from .._batch import Done
 from .._servoid import Error, UsageError
+from ._comparison import compare
 from ._engine import Name
-from ._proof import Proven, prove
+from ._parts import Joint
+from ._proof import prove
 from ._run import run
 
 EXAMPLES = """examples:
@@ -29,6 +31,14 @@ exit codes: 0 done, 1 the work failed or was stopped, 2 usage, 130 stopped by a 
 PROOFS = """examples:
   python -m servoid.fleet prove cases --cases 100000 --engine ray --hidden one --seed 7
   python -m servoid.fleet prove cover --cases 1000 --coverage --engine dask --address tcp://head:8786"""
+
+
+COMPARISONS = """examples:
+  python -m servoid.fleet compare runs rec.csv --seeds 10000 --engine ray --algorithm lm,pso --json compare.json
+  python -m servoid.fleet compare runs logs/*.csv --seeds 1000 --budget 500 --engine dask --with coulomb
+
+With several recordings each table stands under its recording, and the JSON is servoid.fleet_compare/1: what
+servoid compare writes of each."""
 
 
 def _positive(text: str) -> int:
@@ -79,6 +89,22 @@ def _arguments() -> argparse.ArgumentParser:
     add("--coverage", action="store_true", help="how often the standard errors of fits hold the truth")
     add("--program", metavar="FILE", help="the program servoid, at the same path everywhere; else the one on the path")
     add("--json", metavar="FILE", help="the joint result as JSON; - for stdout")
+    add = verbs.add_parser(
+        "compare",
+        help="compares search methods over many seeds",
+        description="Runs `servoid compare` in parts of some seeds each. Arguments that this does not know go to it.",
+        epilog=COMPARISONS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    ).add_argument
+    add("out", metavar="OUT", help="folder of the finished runs")
+    add("recordings", metavar="REC", nargs="+", help="the recordings; they stand before arguments that go on")
+    _engine(add)
+    add("--seeds", type=_positive, default=30, metavar="N", help="runs of each method, each with its own seed (default: 30)")
+    add("--seed", type=int, default=1, metavar="N", help="seed of the first run (default: 1)")
+    add("--budget", type=_positive, default=5000, metavar="N", help="model evaluations of each run (default: 5000)")
+    add("--motor", metavar="FILE", help="what is known of the motors; else motor.toml beside each recording")
+    add("--program", metavar="FILE", help="the program servoid, at the same path everywhere; else the one on the path")
+    add("--json", metavar="FILE", help="the joint result as JSON; - for stdout")
     return parser
 
 
@@ -94,7 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; returns its exit code."""
     parser = _arguments()
     asked, further = parser.parse_known_args(arguments)
-    if further and asked.verb != "prove":
+    if further and asked.verb == "run":
         parser.error(f"unrecognized arguments: {' '.join(further)}")
     for name in ("SIGTERM", "SIGHUP"):
         # `nohup` ignores SIGHUP, and so does this then.
@@ -107,13 +133,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with warnings.catch_warnings(), contextlib.redirect_stdout(sys.stderr):
             warnings.showwarning = lambda message, *_: print(f"servoid.fleet: {message}", file=sys.stderr)
             warnings.simplefilter("always", UserWarning)
-            if asked.verb == "prove":
-                proven = _proven(asked, further)
-                done = None
-            else:
+            if asked.verb == "run":
                 done = _batched(asked)
-        if done is None:
-            _deliver_proof(asked, proven)
+            else:
+                joint = _proven(asked, further) if asked.verb == "prove" else _compared(asked, further)
+        if asked.verb != "run":
+            _deliver_joint(asked, joint)
             return 0
         _deliver(asked, done, time.monotonic() - started)
     except (Error, OSError) as error:
@@ -151,10 +176,10 @@ def _batched(asked: argparse.Namespace) -> Done:
     )
 
 
-def _proven(asked: argparse.Namespace, further: Sequence[str]) -> Proven:
+def _proven(asked: argparse.Namespace, further: Sequence[str]) -> Joint:
     return prove(
         asked.out,
-        [argument for argument in further if argument != "--"],
+        _going_on(further),
         cases=asked.cases,
         coverage=asked.coverage,
         engine=asked.engine,
@@ -165,14 +190,44 @@ def _proven(asked: argparse.Namespace, further: Sequence[str]) -> Proven:
     )
 
 
-def _deliver_proof(asked: argparse.Namespace, proven: Proven) -> None:
+def _compared(asked: argparse.Namespace, further: Sequence[str]) -> Joint:
+    found = compare(
+        asked.out,
+        asked.recordings,
+        _going_on(further),
+        seeds=asked.seeds,
+        seed=asked.seed,
+        budget=asked.budget,
+        motor=asked.motor,
+        engine=asked.engine,
+        address=asked.address,
+        workers=asked.workers,
+        program=asked.program,
+        progress=not asked.quiet,
+    )
+    if len(found) == 1:
+        return found[0]
+    pairs = list(zip(asked.recordings, found, strict=True))
+    document = {
+        "schema": "servoid.fleet_compare/1",
+        "recordings": [{"recording": name, "compare": one.to_dict()} for name, one in pairs],
+    }
+    return Joint("\n".join(f"{name}\n{one.text}" for name, one in pairs), json.dumps(document, indent=2) + "\n")
+
+
+def _going_on(further: Sequence[str]) -> list[str]:
+    """Arguments for the program."""
+    return [argument for argument in further if argument != "--"]
+
+
+def _deliver_joint(asked: argparse.Namespace, joint: Joint) -> None:
     """Prints the table, and writes the result as JSON if asked for."""
     if asked.json == "-":
-        print(proven.json, end="")
+        print(joint.json, end="")
         return
-    print(proven.text, end="")
+    print(joint.text, end="")
     if asked.json is not None:
-        _write_whole(asked.json, proven.json)
+        _write_whole(asked.json, joint.json)
 
 
 def _deliver(asked: argparse.Namespace, done: Done, took: float) -> None:

@@ -1,89 +1,53 @@
-"""A proof on many processes or machines: random motors with hidden physics, or the coverage of standard errors.
+"""A proof on many processes or machines: random motors with hidden physics, or the coverage of standard errors."""
 
-The program `servoid` does the cases. They are cut into parts of some cases each, whatever the engine, and each part is a file of its
-own: a proof that was killed goes on with the same command, on any number of machines.
-"""
-
-import hashlib
-import json
 import os
-import shutil
-import subprocess
-import tempfile
+import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from .._batch import Done
-from .._servoid import Error, UsageError, __version__
+from .._servoid import UsageError
 from ._engine import Name
-from ._progress import Progress
-from ._spread import spread_shards
-from ._task import Outcome, check_place, mark
+from ._parts import Joint, Parts, Place, do_parts, refuse
 
 #: Cases of a part: some seconds of work, so that little is lost and a part is worth its process.
 CASES = 20
+#: What is set here.
+TAKEN = {"--cases", "--shard", "--out", "-o", "--resume", "--merge", "--only", "--json", "--plot", "--coverage"}
 
 
 @dataclass(frozen=True, slots=True)
-class Proven:
-    """The joint result of a proof."""
+class Proof(Parts):
+    """The cases. A part is a shard of them."""
 
-    #: The table, as `servoid prove --merge` prints it.
-    text: str
-    #: `servoid.prove/1` or `servoid.coverage/1`, as it writes it.
-    json: str
-
-    def to_dict(self) -> dict[str, Any]:
-        """The result as a dictionary of its own."""
-        document: dict[str, Any] = json.loads(self.json)
-        return document
-
-
-@dataclass(frozen=True, slots=True)
-class Part:
-    """A part of a proof: what every task is told."""
-
-    out: str
-    mark: str
-    version: str
-    program: str
+    place: Place
     arguments: tuple[str, ...]
     coverage: bool
-    cases: int
-    threads: int | None
+    number: int
+    shards: int
+
+    def names(self) -> list[str]:
+        return [f"{index}/{self.shards}" for index in range(1, self.shards + 1)]
+
+    def cases(self, name: str) -> int:
+        index, count = (int(number) for number in name.split("/"))
+        return len(range(index - 1, self.number, count))
 
     def file(self, name: str) -> str:
-        """The file of a shard. Cases of other options or versions are in other files."""
-        told = json.dumps([self.version, self.coverage, self.cases, *self.arguments])
-        key = hashlib.sha256(told.encode()).hexdigest()[:12]
         kind, end = ("coverage", "json") if self.coverage else ("prove", "jsonl")
-        return os.path.join(self.out, f"{kind}-{key}-{name.replace('/', '-of-')}.{end}")
+        return self.place.file(kind, [self.number, *self.arguments], f"{name.replace('/', '-of-')}.{end}")
 
-    def __call__(self, name: str) -> Outcome:
-        """Does a shard."""
-        try:
-            check_place(self.out, self.mark, self.version)
-            index, count = (int(number) for number in name.split("/"))
-            cases = len(range(index - 1, self.cases, count))
-            path = self.file(name)
-            there = os.path.exists(path + ".done")
-            if not there:
-                self._run(name, path)
-            return Outcome(name, Done(cases, cases if there else 0, 0 if there else cases, 0, False))
-        except Error as error:
-            return Outcome(name, None, error.cause, str(error))
-
-    def _run(self, name: str, path: str) -> None:
-        common = [self.program, "prove", *self.arguments, "--cases", str(self.cases), "--shard", name, "--quiet"]
+    def make(self, name: str) -> None:
+        path = self.file(name)
+        common = ["prove", *self.arguments, "--cases", str(self.number), "--shard", name, "--quiet"]
         if self.coverage:
-            own = f"{path}.{os.getpid()}"
-            _called([*common, "--coverage", "--json", own], self.threads)
-            os.replace(own, path)
+            # Of work that was stopped the program writes what there is.
+            own = f"{path}.{uuid.uuid4().hex}"
+            self.place.call(*common, "--coverage", "--json", own)
         else:
-            _called([*common, "--resume" if os.path.exists(path) else "--out", path], self.threads)
-        with open(path + ".done", "w", encoding="ascii"):
-            pass
+            # The program adds to it case by case, and goes on with it.
+            own = f"{path}.begun"
+            self.place.call(*common, "--resume" if os.path.exists(own) else "--out", own)
+        os.replace(own, path)
 
 
 def prove(
@@ -97,8 +61,8 @@ def prove(
     workers: int | None = None,
     program: str | None = None,
     progress: bool = False,
-) -> Proven:
-    """Proves `cases` with an engine, and returns the joint result.
+) -> Joint:
+    """Proves `cases` with an engine, and returns the joint result: `servoid.prove/1` or `servoid.coverage/1`.
 
     Parameters
     ----------
@@ -110,65 +74,9 @@ def prove(
     """
     if cases < 1:
         raise UsageError(f"cases={cases}: it is at least 1")
-    taken = {"--cases", "--shard", "--out", "--resume", "--merge", "--only", "--json", "--plot", "--coverage"}
-    for argument in arguments:
-        if argument.split("=")[0] in taken:
-            raise UsageError(f"{argument}: is set by the proof itself; leave it out")
-    found = shutil.which(program or "servoid")
-    if found is None:
-        raise UsageError(f"{program or 'servoid'}: there is no such program; name it by program=")
-    found = os.path.abspath(found)
-    said = _called([found, "--version"], None).split()
-    if said[-1:] != [__version__]:
-        raise Error(f"{found} is version {' '.join(said[-1:])}, this package {__version__}; install one version of both")
-    folder = os.path.abspath(os.fspath(out))
-    parts = -(-cases // CASES)
-    # In this process one part after the other takes all cores; a task of an engine takes one.
-    threads = workers if engine == "local" else 1
-    work = Part(folder, mark(folder), __version__, found, tuple(arguments), coverage, cases, threads)
-    names = [f"{index}/{parts}" for index in range(1, parts + 1)]
-    shown = Progress(progress, cases, parts, "cases")
-    if engine == "local":
-        with shown:
-            _locally(work, names, shown)
-    else:
-        done = spread_shards(work, lambda _: names, engine, address, workers, shown)
-        if done.interrupted:
-            raise KeyboardInterrupt
-    files = [work.file(name) for name in names]
+    refuse(arguments, TAKEN)
+    place = Place.of(out, program, engine, workers)
+    proof = Proof(place, tuple(arguments), coverage, cases, -(-cases // CASES))
+    do_parts(proof, engine, address, workers, progress, "cases")
     kind = ["--coverage"] if coverage else []
-    with tempfile.TemporaryDirectory() as own:
-        path = os.path.join(own, "merged.json")
-        table = _called([found, "prove", *kind, "--merge", *files, "--json", path], None)
-        with open(path, encoding="utf-8") as file:
-            return Proven(table, file.read())
-
-
-def _locally(work: Part, names: Sequence[str], shown: Progress) -> None:
-    done = 0
-    for ended, name in enumerate(names, 1):
-        outcome = work(name)
-        if outcome.done is None:
-            error = (UsageError if outcome.cause == "usage" else Error)(outcome.message)
-            error.cause = outcome.cause
-            raise error
-        done += outcome.done.recordings
-        shown.at(done, ended)
-
-
-def _called(command: Sequence[str], threads: int | None) -> str:
-    """Runs the program; its stdout."""
-    environment = dict(os.environ)
-    if threads is not None:
-        environment["RAYON_NUM_THREADS"] = str(threads)
-    ran = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
-    if ran.returncode != 0:
-        lines = ran.stderr.strip().splitlines()
-        said = [line for line in lines if line.startswith(("error", "servoid"))] or lines[-1:]
-        last = said[0] if said else f"exit code {ran.returncode}"
-        wrong = UsageError if ran.returncode == 2 else Error
-        error = wrong(f"{os.path.basename(command[0])} {command[1]}: {last}")
-        error.cause = "usage" if ran.returncode == 2 else "failed"
-        raise error
-    return ran.stdout
-
+    return place.joint("prove", *kind, "--merge", *(proof.file(name) for name in proof.names()))
