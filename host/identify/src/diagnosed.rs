@@ -1,7 +1,8 @@
 //! The front door of a diagnosis: every face comes through here.
 
 use crate::datasets::Datasets;
-use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, pair};
+use crate::diagnose::discovery::{Proposed, discover};
+use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, Verdict, pair};
 use crate::error::Error;
 use crate::fit::recordings::recording_errors;
 use crate::fit::{Fit, Options, RecordingError};
@@ -25,6 +26,8 @@ pub struct Diagnosed {
     pub recordings: Vec<RecordingError>,
     /// Whether the search for effects was stopped.
     pub interrupted: bool,
+    /// Laws that were proposed for what the catalogue leaves; none where they were not looked for.
+    pub proposed: Option<Vec<Proposed>>,
 }
 
 /// Names the physical effects that a recording shows and the linear motor lacks. `validation` is another recording of the
@@ -98,7 +101,14 @@ pub fn diagnose_data(
 ) -> Result<Diagnosed, Error> {
     let stop = progress.stop();
     let tried = || progress.tried();
-    let diagnosis = diagnose::diagnose(fitted, held_out, options, budget, &tried)?;
+    let mut diagnosis = diagnose::diagnose(fitted, held_out, options, budget, &tried)?;
+    let mut proposed = None;
+    if options.discover && diagnosis.verdict == Verdict::Unexplained {
+        let own = Budget::of(budget.most(), stop);
+        let laws;
+        (diagnosis, laws) = discover(diagnosis, fitted, held_out, options, &own, &tried)?;
+        proposed = Some(laws);
+    }
     let interrupted = stop.load(Ordering::Relaxed);
     let mut last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
     if !interrupted {
@@ -118,5 +128,6 @@ pub fn diagnose_data(
         findings,
         remarks,
         interrupted,
+        proposed,
     })
 }

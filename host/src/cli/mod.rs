@@ -322,6 +322,9 @@ pub struct DiagnoseArgs {
     /// Laws that are tried beside the effects of the catalogue.
     #[command(flatten)]
     pub formulas: FormulaArgs,
+    /// Look for a law of its own where the catalogue leaves something, and try it as an effect
+    #[arg(long)]
+    pub discover: bool,
     /// Diagnose recordings that `servoid check` refuses
     #[arg(long)]
     pub force: bool,

@@ -34,6 +34,7 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
         seed: session.seed,
         force: args.force,
         candidates: formula::stated(&args.formulas)?,
+        discover: args.discover,
         ..Options::default()
     };
     let name = read.motor.name;

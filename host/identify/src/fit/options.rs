@@ -43,6 +43,8 @@ pub struct Options {
     pub error_ladder: bool,
     /// Laws that a diagnosis tries beside the effects of the catalogue.
     pub candidates: Vec<Kind>,
+    /// Whether a diagnosis looks for a law of its own where the catalogue leaves something.
+    pub discover: bool,
     /// Whether recordings are fitted that the [check](crate::check) refuses.
     pub force: bool,
 }
@@ -145,6 +147,7 @@ impl Default for Options {
             start: None,
             error_ladder: false,
             candidates: Vec::new(),
+            discover: false,
             force: false,
         }
     }

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose;
 use servoid_identify::diagnose::FittedModel;
+use servoid_identify::diagnose::discovery::Proposed;
 use servoid_identify::fit;
 
 /// RMS errors of the last model in windows and over whole runs, counts.
@@ -75,6 +76,9 @@ pub struct Diagnosis {
     /// What to know about the recordings before believing anything.
     #[serde(default)]
     pub remarks: Vec<String>,
+    /// Laws that were proposed for what the catalogue leaves; absent where they were not looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proposed: Option<Vec<ProposedLaw>>,
     /// Where models fail.
     #[serde(default)]
     pub residual: Residual,
@@ -338,6 +342,30 @@ pub struct Alternative {
     pub rms_counts: Option<f64>,
     /// On what was held out, counts RMS.
     pub validate_rms_counts: Option<f64>,
+}
+
+/// A law that was proposed for what the catalogue leaves.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ProposedLaw {
+    /// Its name as an effect.
+    pub name: String,
+    /// Its text, as `--effect` takes it.
+    pub law: String,
+    /// Share of the missing volts on what was held out that it explains along the measured motion.
+    pub explained_percent: Option<f64>,
+    /// Whether it was named after simulation, by the rules of every effect.
+    pub named: bool,
+}
+
+impl From<&Proposed> for ProposedLaw {
+    fn from(law: &Proposed) -> Self {
+        ProposedLaw {
+            name: law.name.clone(),
+            law: law.text.clone(),
+            explained_percent: finite(100.0 * law.explained),
+            named: law.named,
+        }
+    }
 }
 
 impl From<&FittedModel> for Base {

@@ -38,7 +38,9 @@ impl Blocks {
             })
             .collect();
         let size = columns.len();
-        let all = parts.iter().fold(DMatrix::zeros(size, size), |sum, part| sum + part);
+        let all = parts
+            .iter()
+            .fold(DMatrix::zeros(size, size), |sum, part| sum + part);
         Blocks {
             parts,
             all,

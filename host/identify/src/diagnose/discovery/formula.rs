@@ -24,6 +24,14 @@ impl Parameters {
         ));
         name
     }
+
+    /// Adds a fixed number with a unit; its name.
+    fn fix(&mut self, name: &str, value: f64, unit: &str) -> String {
+        let name = format!("{name}{}", self.suffix);
+        self.texts
+            .push(format!("{name} = {} {unit}", number(value)));
+        name
+    }
 }
 
 /// Four digits.
@@ -159,7 +167,7 @@ fn exponent(value: f64, parameters: &mut Parameters) -> String {
 }
 
 fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Parameters) {
-    let mut scaled = |name: &str, value: f64| {
+    let scaled = |name: &str, value: f64, parameters: &mut Parameters| {
         let (low, high) = limits(value);
         parameters.add(name, value, low, high, "rad/s")
     };
@@ -171,7 +179,10 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
     match speed {
         Speed::One => {}
         Speed::Sign => sign(true, factors),
-        Speed::Plain { reference } => factors.push(format!("w/{}", number(reference))),
+        Speed::Plain { reference } => {
+            let reference = parameters.fix("v", reference, "rad/s");
+            factors.push(format!("w/{reference}"));
+        }
         Speed::Power {
             exponent: p,
             odd,
@@ -179,19 +190,20 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
         } => {
             sign(odd, factors);
             let p = exponent(p, parameters);
-            factors.push(format!("abs(w/{})^{p}", number(reference)));
+            let reference = parameters.fix("v", reference, "rad/s");
+            factors.push(format!("abs(w/{reference})^{p}"));
         }
         Speed::Decay { scale, odd } => {
             sign(odd, factors);
-            let scale = scaled("ws", scale);
+            let scale = scaled("ws", scale, parameters);
             factors.push(format!("exp(-abs(w)/{scale})"));
         }
         Speed::Saturating { scale } => {
-            let scale = scaled("ws", scale);
+            let scale = scaled("ws", scale, parameters);
             factors.push(format!("w/({scale} + abs(w))"));
         }
         Speed::Tanh { scale } => {
-            let scale = scaled("ws", scale);
+            let scale = scaled("ws", scale, parameters);
             factors.push(format!("tanh(w/{scale})"));
         }
         Speed::OneSided {
@@ -201,16 +213,17 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
         } => {
             let p = exponent(p, parameters);
             let ahead = if forward { "w" } else { "-w" };
-            factors.push(format!("(max({ahead}, 0)/{})^{p}", number(reference)));
+            let reference = parameters.fix("v", reference, "rad/s");
+            factors.push(format!("(max({ahead}, 0)/{reference})^{p}"));
         }
         Speed::Above { threshold } => {
             sign(true, factors);
-            let threshold = scaled("w1", threshold);
+            let threshold = scaled("w1", threshold, parameters);
             factors.push(format!("max(sgn(abs(w) - {threshold}), 0)"));
         }
         Speed::Beyond { threshold } => {
             sign(true, factors);
-            let threshold = scaled("w1", threshold);
+            let threshold = scaled("w1", threshold, parameters);
             factors.push(format!("max(abs(w)/{threshold} - 1, 0)"));
         }
     }
@@ -234,7 +247,8 @@ fn load(term: &Term, factors: &mut Vec<String>, parameters: &mut Parameters) {
                 factors.push(format!("sgn({name})"));
             }
             let p = parameters.add("q", p, p.min(0.1), p.max(4.0), "");
-            factors.push(format!("abs({name}/{})^{p}", number(reference)));
+            let reference = parameters.fix("e", reference, "V");
+            factors.push(format!("abs({name}/{reference})^{p}"));
         }
     }
 }

@@ -65,7 +65,10 @@ impl<'a> Judge<'a> {
     /// The model with these terms.
     pub fn try_terms(&self, terms: &[Term]) -> Option<Trial> {
         let columns = |equation: &Equation<'_>| -> Vec<Vec<f64>> {
-            terms.iter().flat_map(|term| equation.columns(term)).collect()
+            terms
+                .iter()
+                .flat_map(|term| equation.columns(term))
+                .collect()
         };
         let (fitted_columns, held_columns) = (columns(&self.fitted), columns(&self.held));
         if !self.fitted.are_distinct(&fitted_columns) {
@@ -125,7 +128,9 @@ impl<'a> Judge<'a> {
 fn chance(base: &Trial, trial: &Trial) -> f64 {
     let more = (trial.freedom() - base.freedom()).max(1.0);
     let others = (0.5 * trial.independent - trial.freedom()).max(2.0);
-    let before = base.crossed.min(base.held * trial.crossed / trial.held.max(1e-300));
+    let before = base
+        .crossed
+        .min(base.held * trial.crossed / trial.held.max(1e-300));
     let ratio = (before - trial.crossed) / more / (trial.crossed / others).max(f64::MIN_POSITIVE);
     let law = FisherSnedecor::new(more, others).ok();
     law.filter(|_| ratio.is_finite())

@@ -26,7 +26,10 @@ pub fn library(data: &Data) -> Vec<Term> {
 
 /// Rounded to two digits.
 pub fn two_digits(value: f64) -> f64 {
-    let unit = libm::pow(10.0, libm::floor(libm::log10(value.abs().max(1e-300))) - 1.0);
+    let unit = libm::pow(
+        10.0,
+        libm::floor(libm::log10(value.abs().max(1e-300))) - 1.0,
+    );
     (value / unit).round() * unit
 }
 
@@ -104,7 +107,9 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
         ]);
     }
     let terms = pairs.into_iter();
-    terms.map(|(speed, load)| Term::torque(speed, load)).collect()
+    terms
+        .map(|(speed, load)| Term::torque(speed, load))
+        .collect()
 }
 
 fn by_angle(reference: f64) -> Vec<Term> {
@@ -135,11 +140,7 @@ fn by_angle(reference: f64) -> Vec<Term> {
 }
 
 fn by_state() -> Vec<Term> {
-    let kinds = [
-        (Load::One, false),
-        (Load::Size, false),
-        (Load::Plain, true),
-    ];
+    let kinds = [(Load::One, false), (Load::Size, false), (Load::Plain, true)];
     let each = |distance| {
         kinds.map(|(load, squared)| Term::torque(Speed::One, load).with_memory(distance, squared))
     };

@@ -18,8 +18,10 @@
 //! | `judge` | what a law predicts of what it was not fitted on, and whether chance would do as much |
 //! | `propose` | the stages in their order |
 //! | `law`, `formula` | a law, and its text |
+//! | `discover` | the proposed laws beside the catalogue |
 
 mod blocks;
+mod discover;
 mod equation;
 mod formula;
 mod judge;
@@ -33,6 +35,7 @@ mod search;
 mod state;
 mod term;
 
+pub use discover::{Proposed, discover};
 pub use law::Law;
 pub use propose::propose;
 pub use term::{Load, Memory, Place, Shape, Speed, Term};

@@ -58,7 +58,10 @@ impl<'a> Search<'a> {
     }
 
     fn left(&self, terms: &[usize]) -> Option<f64> {
-        let columns: Vec<usize> = terms.iter().flat_map(|&t| self.columns[t].clone()).collect();
+        let columns: Vec<usize> = terms
+            .iter()
+            .flat_map(|&t| self.columns[t].clone())
+            .collect();
         let used = self.fitted.with(&columns);
         let by = self.fitted.coefficients(&used)?;
         let crossed = self.fitted.left_out(&used)? / self.fitted.rows as f64;

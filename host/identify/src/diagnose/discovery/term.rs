@@ -241,7 +241,9 @@ impl Term {
         let waves = [libm::cos, libm::sin];
         let times = |wave: fn(f64) -> f64| {
             let pairs = product.iter().zip(&motion.angle);
-            pairs.map(|(value, angle)| value * wave(order * angle)).collect()
+            pairs
+                .map(|(value, angle)| value * wave(order * angle))
+                .collect()
         };
         waves.into_iter().map(times).collect()
     }

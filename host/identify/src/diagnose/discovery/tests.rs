@@ -38,7 +38,13 @@ fn fitted(data: &Data) -> Candidate {
 
 /// RMS of the difference of a law from the truth as a part of the truth, along the motion of a recording, without what the
 /// model's own parameters can take.
-fn departure(law: &Law, truth: &OutsideLaw, machine: &Machine, known: &Known, candidate: &Candidate) -> f64 {
+fn departure(
+    law: &Law,
+    truth: &OutsideLaw,
+    machine: &Machine,
+    known: &Known,
+    candidate: &Candidate,
+) -> f64 {
     let equation = Equation::new(&known.data, candidate).expect("motion");
     let run = &known.run;
     let mut memory = 0.0;
@@ -90,11 +96,20 @@ fn proposed(form: &'static Outside, machine: &Machine, seed: u64) -> Vec<(f64, L
 #[ignore = "the table of all forms, for the eye"]
 fn table() {
     let only = std::env::var("FORM").ok();
-    let from: u64 = std::env::var("FROM").ok().and_then(|s| s.parse().ok()).unwrap_or(0);
-    let seeds: u64 = std::env::var("SEEDS").ok().and_then(|s| s.parse().ok()).unwrap_or(2);
+    let from: u64 = std::env::var("FROM")
+        .ok()
+        .and_then(|s| s.parse().ok())
+        .unwrap_or(0);
+    let seeds: u64 = std::env::var("SEEDS")
+        .ok()
+        .and_then(|s| s.parse().ok())
+        .unwrap_or(2);
     let machine = std::env::var("MACHINE").unwrap_or_else(|_| "gearmotor".to_owned());
     let machine = Machine::preset(&machine).expect("a preset");
-    for form in Outside::ALL.iter().filter(|f| only.as_ref().is_none_or(|o| o == f.name)) {
+    for form in Outside::ALL
+        .iter()
+        .filter(|f| only.as_ref().is_none_or(|o| o == f.name))
+    {
         for seed in from..from + seeds {
             let start = std::time::Instant::now();
             let truth = form.draw(&machine, seed);
@@ -105,11 +120,24 @@ fn table() {
                 let candidate = fitted(&one.data);
                 let judge = super::judge::Judge::new(&one.data, &one.data, &candidate).unwrap();
                 let base = judge.try_terms(&[]).unwrap();
-                println!("    {:?} then {:?}", candidate.machine, super::refined::refined(&one.data, &candidate).machine);
-                println!("    base {:.4} crossed {:.4} noise {:.4}", base.fitted.sqrt(), base.crossed.sqrt(), judge.fitted.noise.sqrt());
+                println!(
+                    "    {:?} then {:?}",
+                    candidate.machine,
+                    super::refined::refined(&one.data, &candidate).machine
+                );
+                println!(
+                    "    base {:.4} crossed {:.4} noise {:.4}",
+                    base.fitted.sqrt(),
+                    base.crossed.sqrt(),
+                    judge.fitted.noise.sqrt()
+                );
             }
             for (off, law) in laws.iter().take(3) {
-                println!("    {off:.3} explained {:.3}  {}", law.explained, law.formula("found"));
+                println!(
+                    "    {off:.3} explained {:.3}  {}",
+                    law.explained,
+                    law.formula("found")
+                );
             }
         }
     }

@@ -35,6 +35,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             cannot_tell: report.cannot_tell(),
             cause: report.cause().map(Remark::to_string),
             remarks: report.remarks.iter().map(Remark::to_string).collect(),
+            proposed: (report.proposed).map(|laws| laws.iter().map(Into::into).collect()),
             residual: Residual::from(report.findings),
             held_out: HeldOut::from(report.held_out),
             window_s: diagnosis.span.window_s.and_then(finite),

@@ -14,6 +14,7 @@ pub(super) use text::nothing_else;
 use servoid_engine::problem::Data;
 use servoid_identify::Diagnosed;
 use servoid_identify::diagnose::advice::cannot_tell;
+use servoid_identify::diagnose::discovery::Proposed;
 use servoid_identify::diagnose::{
     Diagnosis, Findings, FittedModel, HeldOut, Remark, Step, Verdict,
 };
@@ -40,6 +41,8 @@ pub struct DiagnosisReport<'a> {
     pub remarks: Vec<Remark>,
     /// The error of the last model on each recording, where there are several.
     pub recordings: &'a [RecordingError],
+    /// Laws that were proposed for what the catalogue leaves, if they were looked for.
+    pub proposed: Option<&'a [Proposed]>,
     /// Seed of everything random.
     pub seed: u64,
     /// Whether the user stopped the work.
@@ -71,6 +74,7 @@ impl<'a> DiagnosisReport<'a> {
             findings: &found.findings,
             remarks: found.remarks.clone(),
             recordings: &found.recordings,
+            proposed: found.proposed.as_deref(),
             seed,
             interrupted: found.interrupted,
             json,

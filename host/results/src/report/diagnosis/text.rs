@@ -9,6 +9,7 @@ use crate::report::position_loop;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
+use servoid_identify::diagnose::discovery::Proposed;
 use servoid_identify::diagnose::evidence;
 use servoid_identify::diagnose::{HeldOut, Step, Verdict};
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -39,6 +40,7 @@ impl DiagnosisReport<'_> {
         for index in 0..self.diagnosis.steps.len() {
             self.step(out, index)?;
         }
+        out.push_str(&proposed_text(self.proposed));
         if self.verdict() == Verdict::Unexplained {
             let (what, found) = if self.diagnosis.fits_only_its_own() {
                 ("on what was held out", &self.findings.held_out)
@@ -272,4 +274,31 @@ pub(in crate::report) fn nothing_else(stopped: bool) -> &'static str {
     } else {
         "nothing else of the catalogue explains these data as well"
     }
+}
+
+/// Laws that were proposed for what the catalogue leaves.
+fn proposed_text(proposed: Option<&[Proposed]>) -> String {
+    let Some(proposed) = proposed else {
+        return String::new();
+    };
+    let mut out = format!("\n{}\n", painted(HEADING, "not in the catalogue:"));
+    if proposed.is_empty() {
+        out.push_str(&wrapped(
+            "nothing simple explains what is left: no law of one or two terms holds on what was held out",
+        ));
+    }
+    for law in proposed {
+        let percent = 100.0 * law.explained;
+        let what = if law.named {
+            "is named; before it was simulated, it explained"
+        } else {
+            "was simulated and is not confirmed; along the measured motion it explains"
+        };
+        out.push_str(&wrapped(&format!(
+            "{} {what} {percent:.0} % of the missing volts on what was held out",
+            law.name
+        )));
+        out.push_str(&wrapped(&format!("--effect \"{}\"", law.text)));
+    }
+    out
 }
