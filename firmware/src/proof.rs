@@ -1,10 +1,11 @@
 //! Reference results that the PC and a microcontroller must compute bit for bit, as lines of text.
 //!
-//! Every effect of the catalogue runs in f32 and in fixed point, and both searches fit a recording in both. Whoever runs it
-//! prints the same lines, or the host cannot repeat what a device found.
+//! Every effect of the catalogue runs in f32 and in fixed point, as do laws that a user stated, with every operation between them; both
+//! searches fit a recording in both. Whoever runs it prints the same lines, or the host cannot repeat what a device found.
 
 use core::fmt::{self, Write};
 use shared::cost::{Cost, evaluate};
+use shared::effects::formula::Formula;
 use shared::effects::{EffectSet, Kind, MAX_PARAMETERS};
 use shared::fit::{Arithmetic, Fit, Method, Settings};
 use shared::model::{Model, Plan, State};
@@ -14,6 +15,19 @@ use shared::rng;
 use shared::scalar::{ErrorValue, Fixed, Readable};
 use shared::trace::Trace;
 use shared::units::PerUnit;
+
+#[path = "proof_laws.rs"]
+mod laws;
+
+/// Laws that use every operation between them.
+const STATED: &[&Formula] = &[
+    &laws::DRAG,
+    &laws::FALLING,
+    &laws::GEAR,
+    &laws::STEPS,
+    &laws::TEETH,
+    &laws::WEAK,
+];
 
 /// Samples that each effect runs for.
 const SAMPLES: usize = 200;
@@ -47,9 +61,11 @@ impl Hash {
 /// # Errors
 /// Errors of the writer.
 pub fn prove(out: &mut impl Write) -> fmt::Result {
+    let stated = STATED.iter().map(|law| Some(Kind::Formula(law)));
     for kind in [None]
         .into_iter()
         .chain(Kind::ALL.iter().copied().map(Some))
+        .chain(stated)
     {
         let name = kind.map_or("linear", Kind::name);
         line::<f32>(out, "f32", name, kind)?;

@@ -178,7 +178,7 @@ fn describe(definition: &Definition) -> Description {
             Output::Voltage => Place::Drive,
             Output::Angle => Place::Sensed,
         },
-        title: leaked(&format!("{} (stated)", definition.name)),
+        title: "law as stated",
         parameters: Box::leak(parameters.into_boxed_slice()),
         equation: leaked(&definition.text),
         signature: "as its equation says",

@@ -19,6 +19,7 @@ mod diagnose;
 mod diagnose_pairs;
 mod export;
 mod fleet;
+mod formulas;
 mod foreign_logs;
 mod glitches;
 mod help_examples;
