@@ -2,8 +2,8 @@
 
     python fleet_lot.py FOLDER [--motors 10000] [--damaged 200] [--odd 50] [--seed 1] [--do fit|diagnose]
 
-The plant is numpy's alone: all motors side by side, steps of 20 us with the winding's exact response, counts floored once a
-millisecond.
+The plant is numpy's alone: all motors side by side, steps of 20 us with the winding's exact response and each standstill at its
+moment, counts floored once a millisecond.
 SERVOID names the program. Prints what was found of what was hidden, times, and the largest memory of each step.
 """
 
@@ -75,6 +75,7 @@ def recorded(rng, parameters, cogging):
     motors = len(cogging)
     voltage = np.broadcast_to(shape, (motors, steps))
     current, speed, angle = np.zeros(motors), np.zeros(motors), rng.uniform(0, 1, motors)
+    before = speed
     counts = np.empty((motors, steps), np.int32)
     p, step = parameters, PERIOD_S / SUBSTEPS
     fades = np.exp(-step * p["resistance"] / p["inductance"])
@@ -82,13 +83,20 @@ def recorded(rng, parameters, cogging):
     for k in range(steps):
         counts[:, k] = np.floor(angle * COUNTS_PER_REV / (2 * np.pi))
         for _ in range(SUBSTEPS):
-            steady = (shape[k] - p["k"] * speed) / p["resistance"]
+            middle = 1.5 * speed - 0.5 * before
+            steady = (shape[k] - p["k"] * middle) / p["resistance"]
             after = steady + (current - steady) * fades
-            push = p["k"] * 0.5 * (current + after) - p["viscous"] * speed - cogging * np.cos(8 * angle)
+            push = p["k"] * 0.5 * (current + after) - p["viscous"] * middle - cogging * np.cos(8 * angle)
             current = after
-            free = speed + step * push / p["inertia"]
-            before, speed = speed, np.sign(free) * np.maximum(np.abs(free) - brake, 0)
-            angle += 0.5 * step * (before + speed)
+            free = step * push / p["inertia"]
+            started = np.sign(free) * np.maximum(np.abs(free) - brake, 0)
+            before, speed = speed, np.where(speed == 0, started, speed + free - np.sign(speed) * brake)
+            # Friction turns with the motor, or holds it, from the moment at which it stands: half a step late would pass for a
+            # longer time constant of the winding.
+            turned = before * speed < 0
+            left = np.where(turned, speed / np.where(turned, speed - before, 1.0), 0.5)
+            speed = np.where(turned, left * started, speed)
+            angle += 0.5 * step * np.where(turned, (1 - left) * before + left * speed, before + speed)
     return t, voltage, counts
 
 

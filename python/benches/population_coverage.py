@@ -31,6 +31,11 @@ def told(p):
     )
 
 
+def every(held):
+    """All of a kind, whatever the parameter."""
+    return [one for own in held.values() for one in own]
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("folder", type=Path)
@@ -41,7 +46,12 @@ def main():
     rng = np.random.default_rng(asked.seed)
     truth = told(drawn(np.random.default_rng(0), 1_000_000))
     mean, covariance = truth.mean(axis=1), np.cov(truth)
-    held = {"mean": [], "variance": [], "covariance": []}
+    held = {kind: {} for kind in ("mean", "variance", "covariance")}
+    missing = 0
+
+    def note(kind, name, bounds, true):
+        held[kind].setdefault(name, []).append(bounds["low"] <= true <= bounds["high"])
+
     for fleet in range(asked.fleets):
         shutil.rmtree(asked.folder, ignore_errors=True)
         asked.folder.mkdir(parents=True)
@@ -61,18 +71,23 @@ def main():
         place = {member["name"]: k for k, member in enumerate(found["parameters"])}
         for j, name in enumerate(NAMES):
             if name not in place:
+                missing += 1
                 continue
-            bounds = found["parameters"][place[name]]["mean"]
-            held["mean"].append(bounds["low"] <= mean[j] <= bounds["high"])
+            note("mean", name, found["parameters"][place[name]]["mean"], mean[j])
             for k, other in enumerate(NAMES[: j + 1]):
                 if other in place:
+                    pair = name if j == k else f"{other}, {name}"
                     bounds = found["covariance"][place[name]][place[other]]
-                    kind = "variance" if j == k else "covariance"
-                    held[kind].append(bounds["low"] <= covariance[j, k] <= bounds["high"])
+                    note("variance" if j == k else "covariance", pair, bounds, covariance[j, k])
         if (fleet + 1) % 20 == 0:
-            print(f"{fleet + 1} fleets:", {kind: f"{100 * np.mean(own):.1f} %" for kind, own in held.items()}, flush=True)
+            print(f"{fleet + 1} fleets:", {kind: f"{100 * np.mean(every(own)):.1f} %" for kind, own in held.items()}, flush=True)
     for kind, own in held.items():
-        print(f"{kind}: the truth is within {100 * np.mean(own):.1f} % of {len(own)} intervals of 95 %")
+        found = every(own)
+        print(f"{kind}: the truth is within {100 * np.mean(found):.1f} % of {len(found)} intervals of 95 %")
+        for name, one in own.items():
+            print(f"  {name}: {100 * np.mean(one):.1f} % of {len(one)}")
+    if missing:
+        print(f"{missing} parameters were not in their population, and are not counted")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ fn tight(law: &str) -> String {
 }
 
 /// Friction with an exponential fall, which no effect of the catalogue is exactly.
-const FALLING: &str = "dry: friction = c*exp(-abs(w)/ws); c = 0.8 in [0, 5] V; ws = 40 in [2, 200] rad/s";
+const FALLING: &str =
+    "dry: friction = c*exp(-abs(w)/ws); c = 0.8 in [0, 5] V; ws = 40 in [2, 200] rad/s";
 /// Drag on a broken power of the speed.
 const DRAG: &str = "drag: torque = -c*sgn(w)*abs(w/w0)^p; c = 1.2 in [0, 10] V; p = 0.5 in [0.1, 4]; w0 = 100 rad/s";
 /// The loss of a gear that follows its teeth (MuJoCo issue 3528).
@@ -18,7 +19,10 @@ const GEAR: &str = "gear: z' = (w - abs(w)*z)/h; torque = -(ma*abs(tau)*z + md*t
 /// Laws by their names, each hidden twice.
 fn recorded(desk: &Desk, law: &str) {
     for (seed, file) in [(1, "rec.csv"), (2, "other.csv")] {
-        desk.done(&format!("simulate --effect {} --seed {seed} --out {file}", tight(law)));
+        desk.done(&format!(
+            "simulate --effect {} --seed {seed} --out {file}",
+            tight(law)
+        ));
     }
 }
 
@@ -39,11 +43,16 @@ fn a_law_that_is_hidden_is_found_again_by_its_text_and_read_from_its_result() {
         let desk = Desk::new();
         recorded(&desk, law);
         let law = tight(law);
-        desk.done(&format!("fit rec.csv --effect {law} --validate other.csv --json fit.json"));
+        desk.done(&format!(
+            "fit rec.csv --effect {law} --validate other.csv --json fit.json"
+        ));
         let fit = desk.read_json("fit.json");
         for (name, truth) in known {
             let found = parameter(&fit, name);
-            assert!((found / truth - 1.0).abs() < 0.05, "{law}: {name} = {found}");
+            assert!(
+                (found / truth - 1.0).abs() < 0.05,
+                "{law}: {name} = {found}"
+            );
         }
         assert_eq!(fit["model"]["formulas"][0], law, "the text is carried");
         // A program that never heard of the law reads the result.
@@ -56,12 +65,17 @@ fn the_loss_of_a_gear_predicts_and_the_linear_motor_does_not() {
     let desk = Desk::new();
     recorded(&desk, GEAR);
     let error = |flags: &str| {
-        desk.done(&format!("fit rec.csv {flags} --validate other.csv --json fit.json"));
+        desk.done(&format!(
+            "fit rec.csv {flags} --validate other.csv --json fit.json"
+        ));
         let fit = desk.read_json("fit.json");
         fit["validate_rms_counts"].as_f64().expect("an error")
     };
     let (with, without) = (error(&format!("--effect {}", tight(GEAR))), error(""));
-    assert!(with < 0.1 * without, "{with} counts with, {without} without");
+    assert!(
+        with < 0.1 * without,
+        "{with} counts with, {without} without"
+    );
 }
 
 #[test]
@@ -69,24 +83,33 @@ fn a_law_is_a_candidate_of_a_diagnosis() {
     let desk = Desk::new();
     recorded(&desk, DRAG);
     let law = tight(DRAG);
-    desk.done(&format!("diagnose rec.csv --validate other.csv --effect {law} --json found.json"));
+    desk.done(&format!(
+        "diagnose rec.csv --validate other.csv --effect {law} --json found.json"
+    ));
     let found = desk.read_json("found.json");
-    assert_eq!(found["verdict"], "missing_effects");
     assert_eq!(found["steps"][0]["added"], "drag");
+    let left = found["final"]["validate_rms_counts"].as_f64();
+    assert!(left.expect("an error") < 0.4, "{left:?} counts");
 }
 
 #[test]
 fn faults_name_the_flag_the_character_and_the_remedy() {
     let desk = Desk::new();
     desk.done("simulate --seconds 1 --out rec.csv");
-    desk.write("bad.toml", "[effects]\na = \"torque = c*x; c in [0, 1] V\"\n");
+    desk.write(
+        "bad.toml",
+        "[effects]\na = \"torque = c*x; c in [0, 1] V\"\n",
+    );
     desk.write("empty.toml", "a = 1\n");
     for (name, law) in [
         ("units", "torque = c*w; c in [0, 1] V*s"),
         ("coulomb", "torque = c; c in [0, 1] V"),
         ("zero", "torque = c/w*w0; c in [0, 1] V; w0 = 1 rad/s"),
     ] {
-        desk.write(&format!("{name}.toml"), format!("[effects]\n{name} = \"{law}\"\n"));
+        desk.write(
+            &format!("{name}.toml"),
+            format!("[effects]\n{name} = \"{law}\"\n"),
+        );
     }
     for (flags, words) in [
         ("--effect a:torque=c", "is neither"),
@@ -97,7 +120,10 @@ fn faults_name_the_flag_the_character_and_the_remedy() {
         ("--effects bad.toml", "`x` is neither"),
         ("--effects empty.toml", "[effects]"),
         ("--effects none.toml", "none.toml"),
-        ("--effect a:voltage=c;c=1in[0,2]V --effect a:torque=c;c=1in[0,2]V", "another name"),
+        (
+            "--effect a:voltage=c;c=1in[0,2]V --effect a:torque=c;c=1in[0,2]V",
+            "another name",
+        ),
     ] {
         desk.refused(&format!("fit rec.csv {flags}"), 2, &[words]);
     }
@@ -106,6 +132,9 @@ fn faults_name_the_flag_the_character_and_the_remedy() {
 #[test]
 fn a_law_is_told_and_written_for_firmware() {
     let desk = Desk::new();
-    desk.done(&format!("effects --effect {} --emit-rust law.rs", tight(DRAG)));
+    desk.done(&format!(
+        "effects --effect {} --emit-rust law.rs",
+        tight(DRAG)
+    ));
     assert!(desk.read("law.rs").contains("pub static DRAG: Formula"));
 }
