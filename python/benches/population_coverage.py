@@ -47,6 +47,7 @@ def main():
     truth = told(drawn(np.random.default_rng(0), 1_000_000))
     mean, covariance = truth.mean(axis=1), np.cov(truth)
     held = {kind: {} for kind in ("mean", "variance", "covariance")}
+    errors = {name: ([], []) for name in NAMES}
     missing = 0
 
     def note(kind, name, bounds, true):
@@ -66,7 +67,15 @@ def main():
             "supply_v": [SUPPLY_V] * asked.motors,
         }
         pq.write_table(pa.table(rows), asked.folder / "lot.parquet")
-        sv.batch(asked.folder / "lot.parquet", asked.folder / "out", do="fit", effects=["coulomb"])
+        table = asked.folder / "table.parquet"
+        sv.batch(asked.folder / "lot.parquet", asked.folder / "out", do="fit", effects=["coulomb"], table=table)
+        own = dict(zip(NAMES, told(parameters), strict=True))
+        for row in pq.read_table(table, columns=["unit", "parameters"]).to_pylist():
+            for one in row["parameters"] or []:
+                if one["name"] in errors and one["std"] is not None:
+                    true = own[one["name"]][int(row["unit"])]
+                    errors[one["name"]][0].append(one["value"] / true - 1)
+                    errors[one["name"]][1].append(one["std"] / true)
         found = json.loads(sv.population(asked.folder / "out").json)
         place = {member["name"]: k for k, member in enumerate(found["parameters"])}
         for j, name in enumerate(NAMES):
@@ -86,6 +95,10 @@ def main():
         print(f"{kind}: the truth is within {100 * np.mean(found):.1f} % of {len(found)} intervals of 95 %")
         for name, one in own.items():
             print(f"  {name}: {100 * np.mean(one):.1f} % of {len(one)}")
+    print("errors of one motor's fit, in percent: mean, standard deviation, and what fits state")
+    for name, (found, stated) in errors.items():
+        told_std = np.sqrt(np.mean(np.square(stated)))
+        print(f"  {name}: {100 * np.mean(found):.4f}, {100 * np.std(found):.4f}, {100 * told_std:.4f} ({len(found)} motors)")
     if missing:
         print(f"{missing} parameters were not in their population, and are not counted")
 
