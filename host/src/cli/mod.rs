@@ -218,7 +218,7 @@ pub struct FormulaArgs {
     /// A law of your own as an effect, as in "drag: torque = -c*w*abs(w); c in [0, 1e-3] V*s^2/rad^2"; may be repeated
     #[arg(long, value_name = "LAW")]
     pub effect: Vec<String>,
-    /// Laws by their names in a TOML file with a table [effects]; may be repeated
+    /// Laws by their names in the table `effects` of a TOML file; may be repeated
     #[arg(long, value_name = "FILE")]
     pub effects: Vec<PathBuf>,
 }
