@@ -7,7 +7,7 @@ use crate::syntax::{Binary, Definition, Expression, Function, Term, VARIABLES};
 pub enum Language {
     /// C99, with `math.h`.
     C,
-    /// Rust, with methods of f64.
+    /// Rust, with the crate `libm`, so that it needs no standard library.
     Rust,
     /// Modelica.
     Modelica,
@@ -16,15 +16,54 @@ pub enum Language {
 }
 
 impl Definition {
-    /// The law as an expression, with the parameters by value.
-    pub fn law_in(&self, language: Language, values: &[f64]) -> String {
-        self.written(&self.law, language, values)
+    /// The law as a function of speed `w` (rad/s), angle within the revolution `theta` (rad), current `i` and torque passed on `tau`
+    /// (both in V referred to the winding), command `u` (V) and the state `z`, and one of its state's rate where it has a state.
+    pub fn functions_in(&self, language: Language, values: &[f64]) -> String {
+        let law = self.function(language, &self.name, &self.law, values);
+        let rate = self.state.as_ref().map(|(_, rate, _)| {
+            let name = format!("{}_rate", self.name);
+            self.function(language, &name, rate, values)
+        });
+        law + &rate.unwrap_or_default()
     }
 
-    /// The state's rate as an expression.
-    pub fn rate_in(&self, language: Language, values: &[f64]) -> Option<String> {
-        let rate = self.state.as_ref().map(|(_, rate, _)| rate)?;
-        Some(self.written(rate, language, values))
+    fn function(
+        &self,
+        language: Language,
+        name: &str,
+        expression: &Expression,
+        values: &[f64],
+    ) -> String {
+        const ARGUMENTS: [&str; 6] = ["w", "theta", "i", "tau", "u", "z"];
+        let typed = |before: &str, behind: &str| {
+            ARGUMENTS
+                .map(|name| format!("{before}{name}{behind}"))
+                .join(", ")
+        };
+        let value = self.written(expression, language, values);
+        match language {
+            Language::C => format!(
+                "static inline double servoid_{name}({})\n{{\n    {}\n    return {value};\n}}\n",
+                typed("double ", ""),
+                ARGUMENTS.map(|name| format!("(void){name};")).join(" ")
+            ),
+            Language::Rust => format!(
+                "#[allow(unused_variables, unused_parens, clippy::all)]\npub fn {name}({}) -> f64 {{\n    {value}\n}}\n",
+                typed("", ": f64")
+            ),
+            Language::Modelica => format!(
+                "  function {name}\n{}    output Real value;\n  algorithm\n    value := {value};\n  end {name};\n",
+                ARGUMENTS
+                    .map(|name| format!("    input Real {name};\n"))
+                    .concat()
+            ),
+            Language::Python => {
+                format!(
+                    "def {name}({}):\n    return {value}\n",
+                    ARGUMENTS.join(", ")
+                )
+            }
+        }
     }
 
     fn written(&self, expression: &Expression, language: Language, values: &[f64]) -> String {
@@ -58,7 +97,7 @@ impl Definition {
                     Binary::Power => {
                         return match language {
                             Language::C => format!("pow({a}, {b})"),
-                            Language::Rust => format!("f64::powf({a}, {b})"),
+                            Language::Rust => format!("libm::pow({a}, {b})"),
                             Language::Modelica => format!("({a})^({b})"),
                             Language::Python => format!("({a})**({b})"),
                         };
@@ -72,7 +111,7 @@ impl Definition {
 
 fn called(function: Function, language: Language, arguments: &[String]) -> String {
     let (c, rust, modelica, python) = match function {
-        Function::Abs => ("fabs", "f64::abs", "abs", "np.abs"),
+        Function::Abs => ("fabs", "libm::fabs", "abs", "np.abs"),
         Function::Sign => {
             let x = &arguments[0];
             return match language {
@@ -82,13 +121,13 @@ fn called(function: Function, language: Language, arguments: &[String]) -> Strin
                 Language::Python => format!("np.sign({x})"),
             };
         }
-        Function::Min => ("fmin", "f64::min", "min", "np.minimum"),
-        Function::Max => ("fmax", "f64::max", "max", "np.maximum"),
-        Function::Exp => ("exp", "f64::exp", "exp", "np.exp"),
-        Function::Sqrt => ("sqrt", "f64::sqrt", "sqrt", "np.sqrt"),
-        Function::Sin => ("sin", "f64::sin", "sin", "np.sin"),
-        Function::Cos => ("cos", "f64::cos", "cos", "np.cos"),
-        Function::Tanh => ("tanh", "f64::tanh", "tanh", "np.tanh"),
+        Function::Min => ("fmin", "libm::fmin", "min", "np.minimum"),
+        Function::Max => ("fmax", "libm::fmax", "max", "np.maximum"),
+        Function::Exp => ("exp", "libm::exp", "exp", "np.exp"),
+        Function::Sqrt => ("sqrt", "libm::sqrt", "sqrt", "np.sqrt"),
+        Function::Sin => ("sin", "libm::sin", "sin", "np.sin"),
+        Function::Cos => ("cos", "libm::cos", "cos", "np.cos"),
+        Function::Tanh => ("tanh", "libm::tanh", "tanh", "np.tanh"),
     };
     let name = match language {
         Language::C => c,

@@ -18,6 +18,7 @@
 //! | `compile` | an expression as a stack program |
 //! | `amplitude` | with which parameters a law vanishes |
 //! | `registry` | the laws that have been stated in this process |
+//! | `uses` | what a law depends on, and where it acts |
 //! | `code` | a law in other programs' languages |
 
 #![forbid(unsafe_code)]
@@ -29,6 +30,7 @@ mod dimension;
 mod fault;
 mod registry;
 mod syntax;
+mod uses;
 mod value;
 
 pub use code::Language;
@@ -36,4 +38,5 @@ pub use dimension::Dimension;
 pub use fault::Fault;
 pub use registry::{Law, by_name, define, law_of, text_of};
 pub use syntax::{Binary, Definition, Expression, Function, Parameter, Term};
+pub use uses::Used;
 pub use value::Point;

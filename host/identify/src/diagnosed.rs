@@ -1,8 +1,8 @@
 //! The front door of a diagnosis: every face comes through here.
 
 use crate::datasets::Datasets;
-use crate::diagnose::discovery::{Proposed, discover};
-use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, Verdict, pair};
+use crate::diagnose::discovery::{self, Proposed};
+use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, pair};
 use crate::error::Error;
 use crate::fit::recordings::recording_errors;
 use crate::fit::{Fit, Options, RecordingError};
@@ -101,14 +101,7 @@ pub fn diagnose_data(
 ) -> Result<Diagnosed, Error> {
     let stop = progress.stop();
     let tried = || progress.tried();
-    let mut diagnosis = diagnose::diagnose(fitted, held_out, options, budget, &tried)?;
-    let mut proposed = None;
-    if options.discover && diagnosis.verdict == Verdict::Unexplained {
-        let own = Budget::of(budget.most(), stop);
-        let laws;
-        (diagnosis, laws) = discover(diagnosis, fitted, held_out, options, &own, &tried)?;
-        proposed = Some(laws);
-    }
+    let (diagnosis, proposed) = discovery::diagnose(fitted, held_out, options, budget, &tried)?;
     let interrupted = stop.load(Ordering::Relaxed);
     let mut last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
     if !interrupted {

@@ -65,7 +65,7 @@ pub use coupling::Coupling;
 pub use error::BenchError;
 pub use hidden::Hidden;
 pub use machine::{Machine, PRESETS};
-pub use outside::{Outside, OutsideLaw};
+pub use outside::{Given, Outside, OutsideLaw, Variable};
 pub use position::PositionControl;
 pub use run::{Amplifier, Bench, Reading, Run};
 pub use stated::Stated;

@@ -4,6 +4,7 @@
 //! [`Bench::outside`](super::Bench::outside), beside effects of the catalogue or alone, and [`OutsideLaw::volts`] tells the truth.
 
 use super::effects::{At, Effect, Sliding};
+use super::run::Run;
 use super::{Chance, Machine};
 
 /// One form of law.
@@ -24,6 +25,30 @@ pub struct Outside {
     memory_rad: Option<fn(&[f64]) -> f64>,
     /// Speed at which the law jumps, rad/s.
     jump_rad_s: Option<fn(&[f64]) -> f64>,
+    /// What it depends on.
+    depends_on: &'static [Variable],
+}
+
+/// What a law may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Variable {
+    /// Speed.
+    Speed,
+    /// Angle within the revolution.
+    Angle,
+    /// Current or command.
+    Load,
+    /// The way since the last reversal.
+    Memory,
+}
+
+/// What a law gives, V referred to the winding.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Given {
+    /// As a torque on the shaft; dry friction is against the motion.
+    pub torque: f64,
+    /// As a voltage at the winding.
+    pub voltage: f64,
 }
 
 /// A form with its parameters.
@@ -42,6 +67,7 @@ const NOTHING: Outside = Outside {
     volts: |_, _| 0.0,
     memory_rad: None,
     jump_rad_s: None,
+    depends_on: &[Variable::Speed],
 };
 
 /// Parts of a machine's stall torque, as large as effects of the catalogue typically are.
@@ -112,6 +138,7 @@ impl Outside {
             about: "-c*i*|i|/i0^2, a torque lost to the square of the current",
             draw: |machine, chance| vec![2.0 * torque(machine, chance), machine.stall_current_a()],
             torque: |v, at| -v[0] * at.current * at.current.abs() / (v[1] * v[1]),
+            depends_on: &[Variable::Load],
             ..NOTHING
         },
         Outside {
@@ -123,6 +150,7 @@ impl Outside {
                 vec![c, machine.top_speed_rad_s(), order, phase]
             },
             torque: |v, at| -v[0] * at.speed / v[1] * (v[2] * at.angle + v[3]).cos(),
+            depends_on: &[Variable::Speed, Variable::Angle],
             ..NOTHING
         },
         Outside {
@@ -134,6 +162,7 @@ impl Outside {
                 vec![c, between(chance, 0.3, 0.9), order, phase]
             },
             friction: |v, sliding| v[0] * (1.0 + v[1] * (v[2] * sliding.angle + v[3]).cos()),
+            depends_on: &[Variable::Speed, Variable::Angle],
             ..NOTHING
         },
         Outside {
@@ -159,6 +188,7 @@ impl Outside {
                 -(v[0] * motor.abs() * at.memory + v[1] * motor * at.memory * at.memory)
             },
             memory_rad: Some(|v| v[2]),
+            depends_on: &[Variable::Load, Variable::Memory],
             ..NOTHING
         },
         Outside {
@@ -170,6 +200,7 @@ impl Outside {
                 vec![c, machine.top_speed_rad_s(), order, phase]
             },
             torque: |v, at| v[0] * (at.speed / v[1]).powi(2) * (v[2] * at.angle + v[3]).sin(),
+            depends_on: &[Variable::Speed, Variable::Angle],
             ..NOTHING
         },
         Outside {
@@ -216,6 +247,12 @@ impl Outside {
         let values = (self.draw)(machine, &mut Chance::new(seed, self.name));
         OutsideLaw { form: self, values }
     }
+
+    /// The form with these parameters, SI, in the order in which it states them; `None` where it has another number of them.
+    pub fn with(&'static self, machine: &Machine, values: Vec<f64>) -> Option<OutsideLaw> {
+        let drawn = self.draw(machine, 0);
+        (drawn.values.len() == values.len()).then_some(OutsideLaw { form: self, values })
+    }
 }
 
 impl OutsideLaw {
@@ -224,13 +261,18 @@ impl OutsideLaw {
         self.form.name
     }
 
+    /// What it depends on.
+    pub fn depends_on(&self) -> &'static [Variable] {
+        self.form.depends_on
+    }
+
     /// Its parameters, SI, in the order in which its form states them.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// What it adds to the shaft of a turning motor, V referred to the winding; dry friction is against the motion.
-    pub fn volts(&self, machine: &Machine, at: &At) -> f64 {
+    /// What it gives to a turning motor.
+    pub fn given(&self, machine: &Machine, at: &At) -> Given {
         let sliding = Sliding {
             direction: at.speed.signum(),
             speed: at.speed.abs(),
@@ -243,7 +285,49 @@ impl OutsideLaw {
             sliding.direction * (self.form.friction)(&self.values, &sliding)
         };
         let torque = (self.form.torque)(&self.values, at) - dry;
-        machine.winding_volts(torque) + (self.form.volts)(&self.values, at)
+        Given {
+            torque: machine.winding_volts(torque),
+            voltage: (self.form.volts)(&self.values, at),
+        }
+    }
+
+    /// What it gives in the interval that begins at each sample of a run under voltage, by the motion in the interval's middle and
+    /// the interval's mean current: a command that jumps makes the current jump within the interval.
+    pub fn along(&self, machine: &Machine, run: &Run) -> Vec<Given> {
+        let time_constant = machine.inductance_h / machine.resistance_ohm;
+        let (mut memory, mut current) = (0.0, 0.0);
+        let last = run.counts.len().saturating_sub(1);
+        (0..run.counts.len())
+            .map(|k| {
+                let next = (k + 1).min(last);
+                let middle = |of: &[f64]| 0.5 * (of[k] + of[next]);
+                let seconds = run.time_s[next] - run.time_s[k];
+                let at = At {
+                    angle: middle(&run.angle_rad),
+                    speed: middle(&run.speed_rad_s),
+                    current,
+                    memory,
+                };
+                let volts = run.voltage_v[k] + self.given(machine, &at).voltage;
+                let end = (volts - machine.kb_v_s_rad * at.speed) / machine.resistance_ohm;
+                let parts = seconds / time_constant.max(1e-9);
+                let left = current - end;
+                let mean = if parts > 0.0 {
+                    end - left * (-parts).exp_m1() / parts
+                } else {
+                    current
+                };
+                current = end + left * (-parts).exp();
+                memory = self.remembered(memory, at.speed, seconds);
+                self.given(
+                    machine,
+                    &At {
+                        current: mean,
+                        ..at
+                    },
+                )
+            })
+            .collect()
     }
 
     /// Its memory after the shaft has turned at `speed` rad/s for `dt` s, in closed form.
@@ -364,7 +448,8 @@ mod tests {
                 };
                 let total = machine.kb_v_s_rad + machine.winding_volts(machine.viscous_n_m_s);
                 let short = total * at.speed - volts;
-                let truth = law.volts(&machine, &at);
+                let given = law.given(&machine, &at);
+                let truth = given.torque + given.voltage;
                 assert!(
                     (truth - short).abs() < 1e-6,
                     "{}: {truth} {short}",

@@ -13,14 +13,14 @@ pub struct ProveArgs {
     pub cases: u64,
     /// In place of diagnoses: how often the standard errors of fits hold the truth, over --cases recordings of each of several
     /// drives and encoders, or with each --effect
-    #[arg(long, conflicts_with_all = ["hidden", "excite", "law", "only", "out", "resume"])]
+    #[arg(long, conflicts_with_all = ["hidden", "excite", "law", "discover", "only", "out", "resume"])]
     pub coverage: bool,
     /// What the fits of --coverage minimise: squares, or the likelihood of the cells that were read (interval), with noise before
     /// the counter
     #[arg(long, value_enum, default_value_t = CostName::Squared, requires = "coverage")]
     pub cost: CostName,
     /// How many effects a case hides
-    #[arg(long, value_enum, default_value_t = HowMany::Mix)]
+    #[arg(long, visible_alias = "hide", value_enum, default_value_t = HowMany::Mix)]
     pub hidden: HowMany,
     /// How the motor is driven
     #[arg(long, value_enum, default_value_t = Excite::Commissioning)]
@@ -31,6 +31,9 @@ pub struct ProveArgs {
     /// By which curves the hidden effects act: the model's own, or others that the field has for them
     #[arg(long, value_enum, default_value_t = Laws::Own)]
     pub law: Laws,
+    /// Propose laws for what the catalogue leaves, as `servoid diagnose --discover` does
+    #[arg(long)]
+    pub discover: bool,
     /// Do every n-th case only, beginning with the i-th
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -47,6 +50,6 @@ pub struct ProveArgs {
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Do nothing new: the joint table of these files of --out, or with --coverage of --json
-    #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["cases", "hidden", "excite", "effect", "law", "shard", "only", "out", "resume"])]
+    #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["cases", "hidden", "excite", "effect", "law", "discover", "shard", "only", "out", "resume"])]
     pub merge: Vec<PathBuf>,
 }

@@ -15,7 +15,7 @@ use servoid_results::schema::{Identified, ResultError, ResultFault};
 const RATIOS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 /// Formats that take a period.
-const SAMPLED: &[&str] = &["c", "rust", "gains", "ros2-control", "odrive"];
+const SAMPLED: &[&str] = &["c", "rust", "python", "gains", "ros2-control", "odrive"];
 /// Formats with a current loop.
 const CURRENT: &[&str] = &["gains", "odrive", "vesc", "moteus"];
 /// Formats with a speed loop.

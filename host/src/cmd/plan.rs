@@ -1,5 +1,6 @@
 //! `servoid simulate --plan`: what to record next, as commands.
 
+use super::formula;
 use crate::cli::{PlanArgs, SimulateArgs};
 use crate::error::Error;
 use crate::session::Session;
@@ -69,7 +70,7 @@ fn diagnosed(path: &Path) -> Result<(Vec<Hypothesis>, Setup), Error> {
     hypotheses::read(path).map_err(|error| Error::Failed(error.to_string()))
 }
 
-/// The effects of `--between` with typical values on the preset.
+/// The effects of `--between` with typical values on the preset, and the laws of `--effect` with those from which they start.
 fn typical(args: &SimulateArgs) -> Result<(Vec<Hypothesis>, Setup), Error> {
     let names = &args.plan.between;
     let refuse = |why: &str| {
@@ -81,14 +82,16 @@ fn typical(args: &SimulateArgs) -> Result<(Vec<Hypothesis>, Setup), Error> {
     if let Some(twice) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
         return refuse(&format!("{} is named twice", names[twice]));
     }
-    if names.len() < 2 {
+    let laws = formula::stated(&args.formulas)?;
+    if names.len() + laws.len() < 2 {
         return refuse(
-            "names one effect; name at least two that look alike, like --between coulomb,brush_drop",
+            "names one effect; name at least two that look alike, like --between coulomb,brush_drop, or state a law beside it with --effect",
         );
     }
     let machine =
         Machine::preset(&args.machine).map_err(|e| Error::Usage(format!("--machine: {e}")))?;
-    let hypotheses = (names.iter().filter_map(|name| Kind::by_name(name)))
+    let named = names.iter().filter_map(|name| Kind::by_name(name));
+    let hypotheses = (named.chain(laws))
         .map(|kind| Hypothesis::typical(kind, &machine))
         .collect();
     if args.counts_per_rev == 0 {

@@ -4,7 +4,9 @@ use crate::cli::{CostName, ProveArgs};
 use crate::coverage::{self, Condition};
 use crate::error::Error;
 use crate::prove::report::text;
-use crate::prove::{self, Content, Fault, Header, Outcome, SetUp, Shard, Store, StoreError};
+use crate::prove::{
+    self, Content, Fault, Header, HowMany, Outcome, SetUp, Shard, Store, StoreError,
+};
 use crate::session::Session;
 use servoid_results::plot::reliability;
 use servoid_results::schema::coverage::Coverage;
@@ -113,6 +115,7 @@ fn set_up(session: &Session, args: &ProveArgs) -> SetUp {
         excite: args.excite,
         effects: effects.into_iter().collect(),
         laws: args.law,
+        discover: args.discover || args.hidden == HowMany::Formula,
     }
 }
 

@@ -1,14 +1,15 @@
 //! One case: a motor on the virtual bench with what is hidden in it, and its two recordings.
 
 use super::draws::{Draws, rounded};
+use super::law::DrawnLaw;
 use super::motor::Motor;
-use super::{Excite, SetUp, hide};
+use super::{Excite, HowMany, SetUp, hide};
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_io::excitation;
 use servoid_io::record::Record;
-use servoid_plant::{Bench, BenchError, Hidden};
+use servoid_plant::{Bench, BenchError, DriveSample, Hidden};
 use shared::excite::Shape;
 
 /// Sample interval, s.
@@ -36,6 +37,9 @@ pub struct Drawn {
     pub motor: Motor,
     /// The hidden effects, as [`Hidden`] prints them.
     pub hidden: Vec<String>,
+    /// The hidden law that is none of the catalogue.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<DrawnLaw>,
     /// Encoder counts per revolution.
     pub counts_per_rev: u32,
     /// `commissioning` or the name of one of [`Shape::ALL`], never of rest.
@@ -123,10 +127,13 @@ impl Drawn {
                 Ok(hide::by_law(hidden, set_up.laws, &mut curves)?.to_string())
             })
             .collect::<Result<_, BenchError>>()?;
+        let law = (set_up.hidden == HowMany::Formula)
+            .then(|| DrawnLaw::draw(number, &machine, &mut draws));
         Ok(Drawn {
             redrawn,
             motor,
             hidden,
+            law: law.flatten(),
             counts_per_rev,
             excitation: excitation.to_owned(),
             amplitude: rounded(amplitude),
@@ -153,6 +160,13 @@ impl Drawn {
 
     /// Recording 0, to fit, or 1, to hold out.
     pub(super) fn data(&self, which: usize) -> Result<Data, Error> {
+        let (bench, drive) = self.bench(which)?;
+        let source = ["fitted recording", "held-out recording"][which];
+        Ok(Data::new(&bench.record(&drive, source, false)?)?)
+    }
+
+    /// The bench and the drive of a recording.
+    pub(super) fn bench(&self, which: usize) -> Result<(Bench, Vec<DriveSample>), BenchError> {
         let seed = self.recording_seeds[which];
         let machine = self.motor.machine;
         let mut bench = Bench::new(machine);
@@ -160,10 +174,10 @@ impl Drawn {
         bench.sample_s = INTERVAL_S;
         bench.seed = seed;
         bench.effects = self.hidden()?;
+        bench.outside = self.law.as_ref().and_then(|law| law.hidden(&machine));
         let usual = excitation::named(&self.excitation).unwrap_or_default();
         let plan = excitation::stretched(&usual, SECONDS, self.amplitude);
         let drive = excitation::drive(&plan, INTERVAL_S, seed, machine.supply_v);
-        let source = ["fitted recording", "held-out recording"][which];
-        Ok(Data::new(&bench.record(&drive, source, false)?)?)
+        Ok((bench, drive))
     }
 }

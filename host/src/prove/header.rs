@@ -46,6 +46,7 @@ impl Header {
             ("--excite", a.excite.name(), b.excite.name()),
             ("--effect", of(&a.effects), of(&b.effects)),
             ("--law", a.laws.name(), b.laws.name()),
+            ("--discover", a.discover.to_string(), b.discover.to_string()),
         ];
         let differences: Vec<String> = pairs
             .into_iter()

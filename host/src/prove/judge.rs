@@ -7,6 +7,9 @@ use super::{Naming, Outcome};
 /// with a fifth to spare.
 pub const COMPLETE_COUNTS: f64 = 0.35;
 
+/// How far what is named may be from a hidden law, as a part of the law.
+const NEAR: f64 = 0.1;
+
 impl Outcome {
     /// The effect named first.
     pub fn first(&self) -> Option<&str> {
@@ -72,6 +75,38 @@ impl Outcome {
     pub fn complete(&self) -> bool {
         let held_out = self.last.held_out;
         held_out.is_some_and(|rms| rms <= COMPLETE_COUNTS)
+    }
+
+    /// Whether a law outside the catalogue is named.
+    pub fn names_law(&self) -> bool {
+        self.law_found
+            .as_ref()
+            .is_some_and(|law| !law.named.is_empty())
+    }
+
+    /// Whether the laws that are named depend on what the hidden one does.
+    pub fn right_variables(&self) -> bool {
+        self.law_found
+            .as_ref()
+            .is_some_and(|law| law.right_variables)
+    }
+
+    /// How far all that is named is from the hidden law, as a part of the law.
+    pub fn departure(&self) -> Option<f64> {
+        self.law_found.as_ref()?.departure
+    }
+
+    /// Whether all that is named is near the hidden law.
+    pub fn right_curve(&self) -> bool {
+        self.departure().is_some_and(|part| part <= NEAR)
+    }
+
+    /// Whether the held-out error falls to a tenth of the linear motor's, or to twice the encoder's own.
+    pub fn error_falls(&self) -> bool {
+        let (last, base) = (self.last.held_out, self.base.held_out);
+        last.zip(base).is_some_and(|(last, base)| {
+            last <= 0.1 * base || last <= 2.0 * shared::encoder::FLOOR_RMS_COUNTS
+        })
     }
 
     /// Whether the model is worse on the held-out recording than the linear motor.

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `draws` | random draws from a stream that belongs to seed, case and purpose |
 //! | `motor`, `hide` | a random motor; random effects with random strength and shape |
+//! | `law` | a law outside the catalogue, and what was found of it |
 //! | `case` | all that is drawn for a case, and its recordings |
 //! | `report` | the table as text |
 //! | `outcome`, `judge` | the diagnosis of a case beside its truth, and what it got right |
@@ -25,6 +26,7 @@ mod header;
 mod hide;
 mod interval;
 mod judge;
+mod law;
 mod motor;
 #[cfg(test)]
 mod orders_law;
@@ -44,6 +46,7 @@ pub use header::Header;
 pub use hide::{draw as draw_hidden, surprise};
 pub(crate) use interval::Count;
 pub use judge::COMPLETE_COUNTS;
+pub use law::{DrawnLaw, FoundLaw};
 pub use motor::Motor;
 pub use outcome::{DETECTABLE_COUNTS, Errors, Naming, Outcome};
 pub use servoid_batch::{BadShard, Shard};
@@ -68,6 +71,8 @@ pub enum HowMany {
     Two,
     /// A fifth none, two fifths one, two fifths two
     Mix,
+    /// A law that is none of the catalogue; --discover is set
+    Formula,
 }
 
 /// How the motor is driven.
@@ -133,6 +138,9 @@ pub struct SetUp {
     /// By which curves they act.
     #[serde(default)]
     pub laws: Laws,
+    /// Whether laws are proposed for what the catalogue leaves.
+    #[serde(default)]
+    pub discover: bool,
 }
 
 /// Proves the cases of these `numbers`, each in one thread, as many at a time as there are threads (see

@@ -16,6 +16,7 @@ fn the_order_of_a_cogging_torque_is_the_first_line_beside_a_linear_motor_that_re
         excite: Excite::Commissioning,
         effects: vec!["cogging".to_owned()],
         laws: Laws::Own,
+        discover: false,
     };
     let mut found = 0;
     for number in 0..MOTORS {

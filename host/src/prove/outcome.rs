@@ -3,11 +3,12 @@
 use super::SetUp;
 use super::case::{Case, Drawn};
 use super::draws::rounded;
+use super::law::FoundLaw;
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
-use servoid_identify::diagnose::{self, Budget, Diagnosis, FittedModel};
+use servoid_identify::diagnose::{Budget, Diagnosis, FittedModel, discovery};
 use servoid_identify::fit::{self, Options};
 use servoid_identify::truth::{self, ParameterError};
 use servoid_results::schema::diagnosis::Hypothesis;
@@ -79,6 +80,9 @@ pub struct Outcome {
     pub refits: u64,
     /// Time that it took in one thread, s.
     pub seconds: f64,
+    /// What was found of a law outside the catalogue, where laws were looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law_found: Option<FoundLaw>,
     /// Why there is no diagnosis.
     pub failure: Option<String>,
 }
@@ -97,13 +101,16 @@ impl Outcome {
         let count = || {
             refits.fetch_add(1, Ordering::Relaxed);
         };
-        let options = Options::default();
+        let options = Options {
+            discover: set_up.discover,
+            ..Options::default()
+        };
         let began = Instant::now();
         // A fault of the diagnosis in one case of a thousand must not lose the others.
         let diagnosed = catch_unwind(AssertUnwindSafe(|| {
             pool.install(|| {
                 let budget = Budget::usual(stop);
-                diagnose::diagnose(&case.fitted, &case.held_out, &options, &budget, &count)
+                discovery::diagnose(&case.fitted, &case.held_out, &options, &budget, &count)
             })
         }));
         let outcome = Outcome {
@@ -123,10 +130,19 @@ impl Outcome {
             ran_out: false,
             refits: refits.load(Ordering::Relaxed),
             seconds: rounded(began.elapsed().as_secs_f64()),
+            law_found: None,
             failure: None,
         };
         match diagnosed {
-            Ok(Ok(diagnosis)) => outcome.with(&diagnosis, stop),
+            Ok(Ok((diagnosis, _))) => {
+                let found = || FoundLaw::of(case, &diagnosis.last);
+                let law_found = set_up.discover.then(found);
+                let outcome = outcome.with(&diagnosis, stop)?;
+                Ok(Outcome {
+                    law_found,
+                    ..outcome
+                })
+            }
             Ok(Err(error)) => Ok(outcome.failed(error.to_string())),
             Err(fault) => Ok(outcome.failed(format!("the diagnosis panicked: {}", said(&*fault)))),
         }
@@ -154,6 +170,7 @@ impl Outcome {
         });
         let base = Errors::of(&diagnosis.base);
         let alone = match &self.drawn.hidden[..] {
+            [] if self.drawn.law.is_some() => vec![base.fitted],
             [] => Vec::new(),
             [_] => vec![base.fitted],
             several => (0..several.len())

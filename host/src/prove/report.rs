@@ -5,7 +5,9 @@ use super::tally::words;
 use servoid_results::plot::{ReliabilityLine, Statement};
 use servoid_results::report::fold::folded_to;
 use servoid_results::schema::Proof;
-use servoid_results::schema::proof::{Confusion, Failure, Group, Rate, Reliability, Share, Spread};
+use servoid_results::schema::proof::{
+    Confusion, Failure, FormulaGroup, Group, Rate, Reliability, Share, Spread,
+};
 
 /// Width of the text, columns.
 const WIDTH: usize = 80;
@@ -34,6 +36,7 @@ pub fn text(proof: &Proof) -> String {
     for group in &proof.groups {
         out += &group_text(group);
     }
+    out += &proof.formula.as_ref().map_or(String::new(), formula_text);
     out += "\nall cases\n";
     for counted in &proof.shares {
         out += &share(
@@ -146,6 +149,41 @@ fn group_text(group: &Group) -> String {
             "  {:QUESTION$} {}\n",
             "candidates refitted: median, 90 %, most",
             three(&group.refits)
+        );
+    }
+    out
+}
+
+fn formula_text(group: &FormulaGroup) -> String {
+    let mut out = format!(
+        "\na law outside the catalogue hidden ({} of {} leave > {DETECTABLE_COUNTS} count to the linear motor)\n",
+        group.detectable,
+        cases(group.cases)
+    );
+    for counted in &group.shares {
+        out += &share(words(&counted.name), counted);
+    }
+    for (says, spread) in [
+        (
+            "all named less the law, % of it: median, 90 %, most",
+            &group.departure_percent,
+        ),
+        ("seconds a case: median, 90 %, most", &group.seconds),
+    ] {
+        out += &format!("  {says:QUESTION$} {}\n", three(spread));
+    }
+    out += &format!(
+        "\n{:22}{:>6}{:>11}{:>13}{:>17}\n",
+        "hidden law", "cases", "law named", "within 10 %", "% off: median"
+    );
+    for form in &group.forms {
+        out += &format!(
+            "{:22}{:>6}{:>11}{:>13}{:>17}\n",
+            form.form,
+            form.cases,
+            form.law_named,
+            form.right_curve,
+            number(form.departure_percent.median)
         );
     }
     out

@@ -18,6 +18,7 @@ fn set_up(hidden: HowMany, excite: Excite) -> SetUp {
         excite,
         effects: Vec::new(),
         laws: Laws::Own,
+        discover: false,
     }
 }
 
@@ -51,6 +52,7 @@ fn outcome(set_up: &SetUp, case: u64, named: &[&str]) -> Outcome {
         evaluations: None,
         refits: 0,
         seconds: 0.1,
+        law_found: None,
         failure: None,
     }
 }

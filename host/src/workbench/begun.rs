@@ -9,6 +9,7 @@ use axum::Json;
 use axum::extract::State;
 use serde::Deserialize;
 use servoid_identify::LEAST_SQUARES;
+use servoid_identify::fit::effects_by_name;
 use shared::effects::Kind;
 
 /// A piece of work.
@@ -138,14 +139,5 @@ fn within_minutes(seconds: f64) -> Result<f64, Error> {
 }
 
 fn kinds(names: &[String]) -> Result<Vec<Kind>, Error> {
-    let mut kinds = Vec::new();
-    for name in names {
-        let kind = servoid_formula::by_name(name)
-            .ok_or_else(|| Error::Usage(format!("there is no effect `{name}`")))?;
-        if kinds.contains(&kind) {
-            return Err(Error::Usage(format!("{name} is in the model already")));
-        }
-        kinds.push(kind);
-    }
-    Ok(kinds)
+    Ok(effects_by_name("the model", names)?)
 }

@@ -54,6 +54,7 @@ fn ending(format: &str) -> &str {
     match format {
         "c" => "h",
         "rust" => "rs",
+        "python" => "py",
         "mujoco" | "urdf" => "xml",
         "modelica" => "mo",
         "bam" => "json",

@@ -54,6 +54,7 @@ pub(super) fn files() -> Vec<File> {
         file!(SCRIPT, "js/keyboard.js"),
         file!(SCRIPT, "js/ladder.js"),
         file!(SCRIPT, "js/lanes.js"),
+        file!(SCRIPT, "js/law.js"),
         file!(SCRIPT, "js/live.js"),
         file!(SCRIPT, "js/mapping.js"),
         file!(SCRIPT, "js/names.js"),

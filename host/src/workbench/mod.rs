@@ -42,6 +42,7 @@ mod files;
 mod guard;
 mod history;
 mod job;
+mod law;
 mod live;
 mod loaded;
 mod lock;

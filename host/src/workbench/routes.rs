@@ -8,7 +8,9 @@ use super::job::Watch;
 use super::opened::{demo, free, motor, recording, roles, session, span};
 use super::preview::preview;
 use super::state::{Bench, Telling, Way};
-use super::{catalogue, details, download, failing, guard, live, remedy, series, shown, sliders};
+use super::{
+    catalogue, details, download, failing, guard, law, live, remedy, series, shown, sliders,
+};
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Path, Query, State};
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -62,6 +64,7 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/choose", post(choose))
         .route("/remove", post(remove))
         .route("/lock", post(lock))
+        .route("/law", post(law_read))
         .route("/trial", post(trial))
         .route("/export", get(export))
         .layer(DefaultBodyLimit::max(MOST_BYTES))
@@ -218,6 +221,12 @@ async fn remove(State(bench): Shared, Json(which): Json<Which>) -> Answer {
 struct Lock {
     effect: String,
     locked: bool,
+}
+
+/// Reads and draws a law that is being typed.
+async fn law_read(State(bench): Shared, text: String) -> Answer {
+    let found = aside(move || law::read(&bench, &text)).await?;
+    Ok(Json(found))
 }
 
 /// Takes an effect out of what is proposed, or lets it in again.

@@ -51,3 +51,29 @@ fn an_old_processor_gives_the_same_bytes() {
         );
     }
 }
+
+/// A lot's table, too: fits and diagnoses.
+#[cfg(all(target_arch = "x86_64", target_os = "linux"))]
+#[test]
+fn a_batch_gives_the_same_table_on_an_old_processor() {
+    if tool("qemu-x86_64").is_none() {
+        return;
+    }
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("lot")).expect("a folder");
+    for seed in 1..=3 {
+        desk.done(&format!(
+            "simulate --seconds 1.5 --hide coulomb --seed {seed} --out lot/{seed}.csv"
+        ));
+    }
+    let tasks = ["fit --with coulomb", "diagnose"];
+    for (k, task) in tasks.iter().enumerate().take(testing::length::cases(2, 1)) {
+        let line = format!("batch lot --do {task} --out OUT{k} --table OUT{k}.parquet");
+        desk.done(&line.replace("OUT", "native"));
+        let emulator = tool("qemu-x86_64").expect("it was there");
+        emulated(&desk, emulator, &line.replace("OUT", "emulated"));
+        let table =
+            |name: &str| std::fs::read(desk.path(&format!("{name}{k}.parquet"))).expect("a table");
+        assert!(table("native") == table("emulated"), "{task}: other bytes");
+    }
+}

@@ -26,6 +26,7 @@ fn hiding(effect: &str) -> SetUp {
         excite: Excite::Commissioning,
         effects: vec![effect.to_owned()],
         laws: Laws::Own,
+        discover: false,
     }
 }
 

@@ -19,6 +19,7 @@ fn case(hidden: &str) -> Case {
         excite: Excite::Commissioning,
         effects: vec![hidden.to_owned()],
         laws: Laws::Own,
+        discover: false,
     };
     Case::record(&set_up, 0).expect("a case")
 }

@@ -41,6 +41,8 @@ pub struct Options {
     pub start: Option<Candidate>,
     /// Whether the result has the errors of the models that lead to it, effect by effect.
     pub error_ladder: bool,
+    /// Effects of the catalogue that a diagnosis tries.
+    pub catalogue: Vec<Kind>,
     /// Laws that a diagnosis tries beside the effects of the catalogue.
     pub candidates: Vec<Kind>,
     /// Whether a diagnosis looks for a law of its own where the catalogue leaves something.
@@ -146,6 +148,7 @@ impl Default for Options {
             profile: false,
             start: None,
             error_ladder: false,
+            catalogue: Kind::ALL.to_vec(),
             candidates: Vec::new(),
             discover: false,
             force: false,

@@ -3,9 +3,11 @@
 use super::comment::{head, marked, plain};
 use super::constants::constants;
 use super::error::ExportError;
+use super::law_code::functions;
 use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
+use servoid_formula::Language;
 
 pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, ExportError> {
     let mut written = Written::new(subject);
@@ -22,7 +24,13 @@ pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, Exp
     }
     text += "\n/*\n";
     text += &marked(&constants.step, " * ");
-    text += " */\n\n#endif\n";
+    text += " */\n\n";
+    let laws = functions(subject, Language::C, "", &mut written);
+    if !laws.is_empty() {
+        text += "#include <math.h>\n\n";
+        text += &laws;
+    }
+    text += "#endif\n";
     for mapped in &mut written.mapping {
         mapped.to = format!("SERVOID_{}", mapped.to);
     }

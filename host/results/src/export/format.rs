@@ -5,7 +5,7 @@ use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
 use super::{
-    bam, c, csv, gains, json, mjlab, modelica, moteus, mujoco, odrive, ros2_control, rust,
+    bam, c, csv, gains, json, mjlab, modelica, moteus, mujoco, odrive, python, ros2_control, rust,
     simscape, toml, urdf, vesc, wpilib,
 };
 
@@ -45,6 +45,11 @@ pub const FORMATS: &[Format] = &[
         name: "rust",
         about: "a module with the same",
         write: rust::write,
+    },
+    Format {
+        name: "python",
+        about: "a module with the same",
+        write: python::write,
     },
     Format {
         name: "mujoco",

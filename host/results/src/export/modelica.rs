@@ -3,9 +3,11 @@
 
 use super::comment::{head, marked, plain};
 use super::error::ExportError;
+use super::law_code::functions;
 use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
+use servoid_formula::Language;
 use std::collections::HashSet;
 
 /// Types of the library by our unit.
@@ -86,6 +88,7 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
     text += "record Motor \"a motor identified by servoid\"\n  extends Modelica.Icons.Record;\n";
     text += &equations;
     text += &body;
+    text += &functions(subject, Language::Modelica, "  // ", &mut written);
     text += "end Motor;\n";
     written.text = text;
     Ok(written)

@@ -3,9 +3,11 @@
 use super::comment::{head, marked, plain};
 use super::constants::constants;
 use super::error::ExportError;
+use super::law_code::functions;
 use super::options::Options;
 use super::subject::Subject;
 use super::written::Written;
+use servoid_formula::Language;
 
 pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, ExportError> {
     let mut written = Written::new(subject);
@@ -20,6 +22,11 @@ pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, Exp
             "\n/// {about}.\npub const {}: f32 = {:?};\n",
             constant.name, constant.value
         );
+    }
+    let laws = functions(subject, Language::Rust, "/// ", &mut written);
+    if !laws.is_empty() {
+        text += "\n// The laws need the crate `libm`.\n";
+        text += &laws;
     }
     written.text = text;
     Ok(written)

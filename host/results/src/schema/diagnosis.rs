@@ -4,6 +4,7 @@ use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::{Bounded, Likelihood};
 use super::residual::{Residual, Where};
 use super::{Machine, Model, ModelParameter, PositionLoop, RecordingError, finite};
+use crate::schema::effect_curve::EffectCurve;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose;
@@ -252,6 +253,9 @@ pub struct Step {
     /// Where the recording asks for the effect: what the model with it misses without it, its other constants kept.
     #[serde(rename = "where")]
     pub whereabouts: Option<Where>,
+    /// The effect in the last model beside a curve that was found without its form; absent where no variable alone carries it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve: Option<EffectCurve>,
     /// Everything that was tried, best first.
     #[serde(default)]
     pub candidates: Vec<Candidate>,
@@ -353,8 +357,20 @@ pub struct ProposedLaw {
     pub law: String,
     /// Share of the missing volts on what was held out that it explains along the measured motion.
     pub explained_percent: Option<f64>,
+    /// The effect of the catalogue that gives most alike; absent where none does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resembles: Option<Resembles>,
     /// Whether it was named after simulation, by the rules of every effect.
     pub named: bool,
+}
+
+/// An effect that is like a law.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Resembles {
+    /// The effect.
+    pub effect: String,
+    /// Square of the correlation of what both give along the fitted recording, per cent.
+    pub percent: Option<f64>,
 }
 
 impl From<&Proposed> for ProposedLaw {
@@ -363,6 +379,10 @@ impl From<&Proposed> for ProposedLaw {
             name: law.name.clone(),
             law: law.text.clone(),
             explained_percent: finite(100.0 * law.explained),
+            resembles: law.resembles.map(|(kind, part)| Resembles {
+                effect: kind.name().to_owned(),
+                percent: finite(100.0 * part),
+            }),
             named: law.named,
         }
     }

@@ -32,6 +32,7 @@ pub mod coverage;
 pub mod device;
 pub mod diagnosis;
 mod document;
+pub mod effect_curve;
 pub mod effects;
 pub mod estimate;
 pub mod fit;

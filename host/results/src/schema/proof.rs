@@ -20,6 +20,9 @@ pub struct Proof {
     pub shares: Vec<Share>,
     /// The cases that hide nothing, one and two effects.
     pub groups: Vec<Group>,
+    /// The cases that hide a law outside the catalogue; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formula: Option<FormulaGroup>,
     /// Errors of parameters that are sizes of effects named rightly, per cent.
     pub size_errors_percent: Spread,
     /// Errors of those that are shapes, per cent.
@@ -48,6 +51,9 @@ pub struct SetUp {
     /// By which curves they act, where not by their own: `other` or `any`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub laws: Option<String>,
+    /// Whether laws were proposed for what the catalogue leaves; absent where not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub discover: bool,
 }
 
 /// A case without a diagnosis.
@@ -74,6 +80,40 @@ pub struct Group {
     pub seconds: Spread,
     /// Candidates refitted.
     pub refits: Spread,
+}
+
+/// The cases that hide a law outside the catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FormulaGroup {
+    /// How many cases.
+    pub cases: u64,
+    /// Of these, with more than one count RMS left to the linear motor.
+    pub detectable: u64,
+    /// Over the detectable cases.
+    pub shares: Vec<Share>,
+    /// RMS of what is named less the hidden law along the held-out recording, per cent of the law.
+    pub departure_percent: Spread,
+    /// Time of the diagnosis in one thread, s.
+    pub seconds: Spread,
+    /// The forms of law, over the detectable cases.
+    pub forms: Vec<Form>,
+}
+
+/// One form of law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Form {
+    /// Its name on the bench.
+    pub form: String,
+    /// Detectable cases that hide it.
+    pub cases: u64,
+    /// Of these, with a law named.
+    pub law_named: u64,
+    /// Of these, with everything that is named within a tenth of the hidden law.
+    pub right_curve: u64,
+    /// As for all forms, of this one.
+    pub departure_percent: Spread,
+    /// Numbers of the cases in which it is not.
+    pub missed_cases: Vec<u64>,
 }
 
 /// How often the answer to one question is yes.

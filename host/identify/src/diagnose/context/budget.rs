@@ -39,6 +39,11 @@ impl<'a> Budget<'a> {
         }
     }
 
+    /// Half as many steps, until the same flag is set.
+    pub fn half(&self) -> Self {
+        Budget::of(self.most / 2, self.stop)
+    }
+
     /// Steps that were taken.
     pub fn spent(&self) -> u64 {
         self.spent.load(Ordering::Relaxed)

@@ -61,11 +61,7 @@ impl<'a> Context<'a> {
                 substeps: 1,
                 ..options.method
             },
-            candidates: Kind::ALL
-                .iter()
-                .chain(&options.candidates)
-                .copied()
-                .collect(),
+            candidates: [&options.catalogue[..], &options.candidates].concat(),
             budget,
         }
     }

@@ -1,14 +1,19 @@
 //! Proposed laws, tried as effects of the catalogue are.
 
-use super::propose;
-use crate::diagnose::{Budget, Diagnosis, diagnose};
+use super::{Law, propose};
+use crate::diagnose::{self, Budget, Diagnosis, Errors, FittedModel, Verdict};
 use crate::error::Error;
 use crate::fit::Options;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
 
-/// Laws that are tried by simulation.
-const MOST: usize = 3;
+/// Effects that together are suspected to stand in for a law.
+const STAND_INS: usize = 3;
+/// Logarithms of both errors' product: what counts as more, and what as equal.
+const GAIN: f64 = 0.2;
+const TIE: f64 = 0.05;
+/// Effects of each step that stand against laws.
+const NEAREST: usize = 4;
 
 /// A law that was proposed, and what became of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,16 +24,36 @@ pub struct Proposed {
     pub name: String,
     /// Share of the missing volts on the held-out recording that it explains.
     pub explained: f64,
+    /// The effect of the catalogue that is most like it, with the square of their correlation along the fitted recording.
+    pub resembles: Option<(Kind, f64)>,
     /// Whether it was named, by the rules that every effect is named by.
     pub named: bool,
 }
 
-/// Proposes laws for what a diagnosis leaves, and diagnoses again with them beside the catalogue. The new diagnosis is given where
-/// it names one of them; a law that is not confirmed by simulation changes nothing.
+/// Diagnoses; where the catalogue leaves something and the options ask for it, laws are proposed for that, and the recordings
+/// are diagnosed again with them beside the effects that came nearest. A law that simulation does not confirm changes nothing.
+///
+/// Returns the diagnosis and the laws, `None` where they were not looked for.
 ///
 /// # Errors
-/// As [`diagnose`].
-pub fn discover(
+/// As [`diagnose::diagnose`].
+pub fn diagnose(
+    data: &Data,
+    held_out: &Data,
+    options: &Options,
+    budget: &Budget<'_>,
+    done: &(dyn Fn() + Sync),
+) -> Result<(Diagnosis, Option<Vec<Proposed>>), Error> {
+    let diagnosis = diagnose::diagnose(data, held_out, options, budget, done)?;
+    if !options.discover || !leaves_something(&diagnosis) {
+        return Ok((diagnosis, None));
+    }
+    let again = budget.half();
+    let (diagnosis, laws) = discover(diagnosis, data, held_out, options, &again, done)?;
+    Ok((diagnosis, Some(laws)))
+}
+
+fn discover(
     before: Diagnosis,
     data: &Data,
     held_out: &Data,
@@ -36,10 +61,9 @@ pub fn discover(
     budget: &Budget<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, Vec<Proposed>), Error> {
-    let laws = propose(data, held_out, &before.last.candidate, MOST);
-    let mut proposed = Vec::new();
+    let mut proposed: Vec<Proposed> = Vec::new();
     let mut kinds: Vec<Kind> = Vec::new();
-    for law in laws {
+    for law in laws(&before, data, held_out) {
         let name = format!("law{}", proposed.len() + 1);
         let text = law.formula(&name);
         // What no number format can compute is no proposal.
@@ -51,6 +75,7 @@ pub fn discover(
             text,
             name,
             explained: law.explained,
+            resembles: law.resembles,
             named: false,
         });
     }
@@ -59,10 +84,75 @@ pub fn discover(
     }
     let mut with = options.clone();
     with.candidates.extend(&kinds);
-    let after = diagnose(data, held_out, &with, budget, done)?;
+    with.catalogue = contenders(&before);
+    let after = diagnose::diagnose(data, held_out, &with, budget, done)?;
     for (kind, law) in kinds.iter().zip(&mut proposed) {
         law.named = after.steps.iter().any(|step| step.added == *kind);
     }
-    let named = proposed.iter().any(|law| law.named);
-    Ok((if named { after } else { before }, proposed))
+    if kinds.iter().any(|kind| after.last.effects.contains(kind)) && is_better(&after, &before) {
+        return Ok((after, proposed));
+    }
+    proposed.iter_mut().for_each(|law| law.named = false);
+    Ok((before, proposed))
+}
+
+/// Whether the catalogue leaves something: an error that the encoder does not explain, or one that so many effects were needed for that
+/// they may stand in for a law.
+fn leaves_something(diagnosis: &Diagnosis) -> bool {
+    let at_floor = diagnosis.last.free().at_floor();
+    let stand_ins = diagnosis.steps.len() >= STAND_INS;
+    diagnosis.verdict == Verdict::Unexplained
+        || (!diagnosis.steps.is_empty() && (stand_ins || !at_floor))
+}
+
+/// Whether a diagnosis with laws explains more than the one without, or as much with fewer numbers: by the errors that models are
+/// judged by, and no worse over whole runs.
+fn is_better(after: &Diagnosis, before: &Diagnosis) -> bool {
+    let gain = |errors: fn(&FittedModel) -> Errors| {
+        errors(&before.last).score() - errors(&after.last).score()
+    };
+    let (judged, free) = (gain(FittedModel::judged), gain(FittedModel::free));
+    let as_good = judged > -TIE && free > -TIE;
+    let fewer = after.last.freedom() < before.last.freedom();
+    as_good && (judged > GAIN || free > GAIN || fewer)
+}
+
+/// The effects that came nearest without laws: all others of the catalogue were tried, and gave less.
+fn contenders(before: &Diagnosis) -> Vec<Kind> {
+    let mut kinds: Vec<Kind> = Vec::new();
+    let mut add = |kind: Kind| {
+        // Laws of the user's own stand among the candidates.
+        if Kind::ALL.contains(&kind) && !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    };
+    for step in &before.steps {
+        add(step.added);
+        step.indistinguishable_from
+            .iter()
+            .for_each(|kind| add(*kind));
+        let nearest = step.candidates.iter().take(NEAREST);
+        nearest
+            .filter_map(|model| model.effects.last())
+            .for_each(|kind| add(*kind));
+    }
+    before.not_named.into_iter().for_each(&mut add);
+    let sets = before.hypotheses.iter().flat_map(|set| &set.effects);
+    sets.for_each(|kind| add(*kind));
+    // The frictions that nearly every motor has.
+    [Kind::Coulomb, Kind::OffsetVoltage]
+        .into_iter()
+        .for_each(add);
+    kinds
+}
+
+/// Laws for what the linear motor lacks, and for what the named effects leave: an effect that stands in for a law takes a part of it.
+fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
+    let of = |candidate| propose(data, held_out, candidate);
+    let mut laws = of(&before.base.candidate);
+    if !before.steps.is_empty() {
+        let further = of(&before.last.candidate);
+        laws.extend(further);
+    }
+    laws
 }

@@ -8,6 +8,7 @@ use crate::fit::filter::filtered;
 use crate::fit::scores::{EquationResidual, equation_residuals};
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
+use shared::effects::{Kind, Parameter};
 
 /// Filter time, sample intervals: as in the drawings of the residual.
 const FILTER_SAMPLES: f64 = 5.0;
@@ -98,8 +99,13 @@ impl<'a> Equation<'a> {
         Some(equation)
     }
 
+    /// What another candidate misses at the rows, V.
+    pub fn missing_by(&self, candidate: &Candidate) -> Option<Vec<f64>> {
+        missing_at(self.data, candidate, self.time, &self.rows)
+    }
+
     /// What a signal that is held from sample to sample gives at the rows.
-    fn seen(&self, signal: &[f64], place: Place) -> Vec<f64> {
+    pub fn seen(&self, signal: &[f64], place: Place) -> Vec<f64> {
         let filtered = filtered(self.data, self.time, signal, true);
         // A torque passes the winding's lag backwards: its volts lead.
         let lead = match place {
@@ -108,6 +114,26 @@ impl<'a> Equation<'a> {
         };
         let at = |&k: &usize| filtered[k].value + lead * filtered[k].rate;
         self.rows.iter().map(at).collect()
+    }
+
+    /// The angle at the rows, rad, as late as the volts.
+    pub fn angle(&self) -> Vec<f64> {
+        let per_count = core::f64::consts::TAU / self.data.units.counts_per_rev;
+        let first = self.data.centre(0);
+        let turned: Vec<f64> = (0..self.data.len())
+            .map(|k| (self.data.centre(k) - first) * per_count)
+            .collect();
+        let filtered = filtered(self.data, self.time, &turned, false);
+        let at = |&row: &usize| filtered[row].value + first * per_count;
+        self.rows.iter().map(at).collect()
+    }
+
+    /// Typical parameters of an effect, SI.
+    pub fn typical(&self, kind: Kind) -> Vec<f64> {
+        let usual = |parameter: &Parameter| {
+            parameter.scaled(parameter.typical, self.data.supply, self.data.units.speed)
+        };
+        kind.parameters().iter().map(usual).collect()
     }
 
     /// The columns of a term, one for each amplitude.
@@ -197,20 +223,22 @@ fn jerk(data: &Data, time: f64, used: &[&EquationResidual]) -> Vec<f64> {
     used.iter().map(|r| filtered[r.sample].jerk).collect()
 }
 
+/// What a candidate misses at some samples, V.
+fn missing_at(data: &Data, candidate: &Candidate, time: f64, rows: &[usize]) -> Option<Vec<f64>> {
+    let residuals = equation_residuals(data, candidate, time);
+    let mut next = residuals.iter().peekable();
+    let find = |&row: &usize| {
+        while next.peek().is_some_and(|r| r.sample < row) {
+            next.next();
+        }
+        next.peek().filter(|r| r.sample == row).map(|r| -r.volts)
+    };
+    rows.iter().map(find).collect()
+}
+
 /// Derivatives of the missing volts by the parameters of the model's effects.
 fn own_columns(data: &Data, candidate: &Candidate, time: f64, rows: &[usize]) -> Vec<Vec<f64>> {
-    let at_rows = |candidate: &Candidate| -> Option<Vec<f64>> {
-        let residuals = equation_residuals(data, candidate, time);
-        let mut next = residuals.iter().peekable();
-        let find = |&row: &usize| {
-            while next.peek().is_some_and(|r| r.sample < row) {
-                next.next();
-            }
-            next.peek().filter(|r| r.sample == row).map(|r| -r.volts)
-        };
-        rows.iter().map(find).collect()
-    };
-    let here = at_rows(candidate).unwrap_or_else(|| vec![0.0; rows.len()]);
+    let here = missing_at(data, candidate, time, rows).unwrap_or_else(|| vec![0.0; rows.len()]);
     let mut columns = Vec::new();
     let effects: Vec<_> = candidate.effects.iter().collect();
     for (index, (kind, values)) in effects.iter().enumerate() {
@@ -230,7 +258,7 @@ fn own_columns(data: &Data, candidate: &Candidate, time: f64, rows: &[usize]) ->
                 let _ = moved.effects.push(*kind, &values);
             }
             // As many columns for every recording: one of zeros takes nothing.
-            let there = at_rows(&moved).unwrap_or_else(|| here.clone());
+            let there = missing_at(data, &moved, time, rows).unwrap_or_else(|| here.clone());
             let pairs = there.iter().zip(&here);
             columns.push(pairs.map(|(there, here)| (there - here) / step).collect());
         }

@@ -138,7 +138,7 @@ fn chance(base: &Trial, trial: &Trial) -> f64 {
 }
 
 /// Part of the rows that are independent.
-fn independent_part(left: &[f64]) -> f64 {
+pub fn independent_part(left: &[f64]) -> f64 {
     let square: f64 = left.iter().map(|x| x * x).sum();
     if square <= 0.0 {
         return 1.0;

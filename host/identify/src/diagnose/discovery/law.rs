@@ -2,6 +2,7 @@
 
 use super::formula::formula;
 use super::term::Term;
+use shared::effects::Kind;
 
 /// A law, by what is known of it from the measured motion alone.
 #[derive(Clone, Debug)]
@@ -11,6 +12,8 @@ pub struct Law {
     /// Share that it explains of the variance of the volts that the model misses on the held-out recording, beyond what a
     /// perfect model would miss.
     pub explained: f64,
+    /// The effect of the catalogue that gives most alike along the fitted recording, with the square of their correlation.
+    pub resembles: Option<(Kind, f64)>,
 }
 
 impl Law {

@@ -19,14 +19,20 @@
 //! | `propose` | the stages in their order |
 //! | `law`, `formula` | a law, and its text |
 //! | `discover` | the proposed laws beside the catalogue |
+//! | `curve` | an effect beside a curve of no stated form |
+//! | `likeness` | the effect of the catalogue that a law is most like |
+//! | `departure` | how far a model's effects are from a known truth, for proofs |
 
 mod blocks;
+mod curve;
+mod departure;
 mod discover;
 mod equation;
 mod formula;
 mod judge;
 mod law;
 mod library;
+mod likeness;
 mod motion;
 mod polish;
 mod propose;
@@ -35,7 +41,9 @@ mod search;
 mod state;
 mod term;
 
-pub use discover::{Proposed, discover};
+pub use curve::{Carrier, Curve, CurvePoint};
+pub use departure::{Known, departure};
+pub use discover::{Proposed, diagnose};
 pub use law::Law;
 pub use propose::propose;
 pub use term::{Load, Memory, Place, Shape, Speed, Term};

@@ -3,6 +3,7 @@
 use super::judge::{Judge, Trial};
 use super::law::Law;
 use super::library::library;
+use super::likeness::likeness;
 use super::polish::Polish;
 use super::search::{Found, Search};
 use super::term::Term;
@@ -12,13 +13,19 @@ use servoid_engine::problem::{Candidate, Data};
 /// Laws of one term whose numbers are polished, and of two.
 const SINGLE: usize = 12;
 const PAIRS: usize = 10;
+/// Laws of one term and of two that are proposed.
+const LAWS_OF_ONE: usize = 2;
+const LAWS_OF_TWO: usize = 1;
 /// Part of what one term leaves unexplained that two must explain.
 const SECOND_TERM: f64 = 0.3;
 
-/// Proposes at most so many laws for what `candidate` lacks, the best first; none where nothing simple explains it.
+/// Proposes laws for what `candidate` lacks: the best of one term, then the best of two if the second is worth its numbers; none where
+/// nothing simple explains it.
 ///
-/// A law is believed where it predicts blocks of `data` that it was not fitted on, and `held_out`, which nothing is fitted on.
-pub fn propose(data: &Data, held_out: &Data, candidate: &Candidate, most: usize) -> Vec<Law> {
+/// A law is believed where it predicts blocks of `data` that it was not fitted on, and `held_out`, which nothing is fitted on. Along
+/// the measured motion a second term soon takes up what speeds from counts are in error by, so that simulation has the last word
+/// on it.
+pub fn propose(data: &Data, held_out: &Data, candidate: &Candidate) -> Vec<Law> {
     let Some(judge) = Judge::new(data, held_out, candidate) else {
         return Vec::new();
     };
@@ -49,14 +56,16 @@ pub fn propose(data: &Data, held_out: &Data, candidate: &Candidate, most: usize)
                 .first()
                 .is_none_or(|one| explains_more(&judge, one, pair))
     });
-    let pairs: Vec<Trial> = pairs.collect();
-    believed.extend(pairs);
-    sort(&mut believed);
-    let laws = believed.into_iter().take(most).map(|trial| Law {
+    let mut pairs: Vec<Trial> = pairs.collect();
+    sort(&mut pairs);
+    let single = believed.into_iter().take(LAWS_OF_ONE);
+    let laws = single.chain(pairs.into_iter().take(LAWS_OF_TWO));
+    laws.map(|trial| Law {
         explained: judge.explained(&base, &trial),
+        resembles: likeness(&judge.fitted, candidate, &trial.terms),
         terms: trial.terms,
-    });
-    laws.collect()
+    })
+    .collect()
 }
 
 /// Whether a second term is worth its numbers.

@@ -1,6 +1,7 @@
 //! Where the models of a diagnosis fail, and whether the last one leaves anything but the encoder's steps.
 
 use super::evidence;
+use crate::diagnose::discovery::Curve;
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
 use crate::diagnose::residual_analysis::{
@@ -16,6 +17,8 @@ pub struct Findings {
     pub base: ResidualAnalysis,
     /// Of each step's model without the effect that it adds, with its other constants.
     pub steps: Vec<Option<ResidualAnalysis>>,
+    /// The effect of each step in the last model beside a curve of no stated form; `None` where no variable alone carries it.
+    pub curves: Vec<Option<Curve>>,
     /// Of the last model.
     pub last: ResidualAnalysis,
     /// Of the last model, on what was held out.
@@ -52,6 +55,9 @@ pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<F
         steps: steps
             .map(|index| evidence::asked_for(diagnosis, index, data))
             .collect::<Result<_, _>>()?,
+        curves: (diagnosis.steps.iter())
+            .map(|step| Curve::of(data, complete, step.added))
+            .collect(),
         last: look(&diagnosis.last)?,
         held_out: analyse_residual(held_out, complete, complete, diagnosis.last.method)?,
         base_whiteness: whiteness(data, &base_errors),

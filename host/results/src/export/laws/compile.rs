@@ -1,11 +1,13 @@
 //! What is for compilers goes through them, and does what the model does.
 
-use super::super::samples::{Known, linear, subject};
+use super::super::samples::{Known, linear, result, subject};
 use super::super::{Format, Side};
 use super::numbers::{STEPS, command, speeds};
-use super::{texts, write};
+use super::{stated, texts, write};
+use servoid_formula::Point;
 use servoid_plant as bench;
 use std::fs;
+use std::path::PathBuf;
 use std::process::Command;
 use testing::left_out::tool;
 
@@ -22,7 +24,7 @@ fn passes(mut command: Command, case: &str, text: &str) {
 fn headers_and_modules_compile_without_a_warning() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
-    let (mut c, mut rust) = (String::new(), String::new());
+    let (mut c, mut rust, mut python) = (String::new(), String::new(), Vec::new());
     for (k, (format, _, _, written)) in texts().into_iter().enumerate() {
         // All in one, since a compiler takes longer to start than to read them.
         match format {
@@ -49,8 +51,19 @@ fn headers_and_modules_compile_without_a_warning() {
                     written.text
                 )
             }
+            "python" => {
+                let name = format!("m{k}.py");
+                fs::write(path(&name), &written.text).expect("a file");
+                python.push(path(&name));
+            }
             _ => {}
         }
+    }
+    if let Some(mut interpreter) = tool("python3") {
+        interpreter
+            .args(["-W", "error", "-m", "py_compile"])
+            .args(&python);
+        passes(interpreter, "python", "");
     }
     if let Some(mut gcc) = tool("gcc") {
         fs::write(path("all.c"), &c).expect("a file");
@@ -78,8 +91,126 @@ fn headers_and_modules_compile_without_a_warning() {
             "metadata",
             "-o",
         ]);
+        rustc
+            .arg("--extern")
+            .arg(format!("libm={}", libm().display()));
         rustc.arg(path("all.rmeta")).arg(path("all.rs"));
         passes(rustc, "rust", "");
+    }
+}
+
+/// The crate that the laws in Rust need, as it was built for this test.
+fn libm() -> PathBuf {
+    let own = std::env::current_exe().expect("this test");
+    let folder = own.parent().expect("its folder");
+    let files = fs::read_dir(folder).expect("its folder");
+    let paths = files.map(|file| file.expect("a file").path());
+    let is_libm = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with("liblibm-") && name.ends_with(".rmeta")
+    };
+    paths.into_iter().find(is_libm).expect("libm was built")
+}
+
+#[test]
+fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
+    let kind = stated();
+    let found = result(&bench::Machine::gearmotor(), &[kind], Known::All);
+    let subject = subject(&found, Side::Motor);
+    let values = &subject.terms[0].values;
+    let definition = &servoid_formula::law_of(kind).expect("a law").definition;
+    let mut points = Vec::new();
+    for speed in [-30.0, -2.0, 0.0, 5.0, 40.0] {
+        for angle in [0.0, 1.0, 4.0] {
+            for current in [-3.0, 0.5, 1.9] {
+                points.push(Point {
+                    speed,
+                    angle,
+                    current,
+                    transmitted: current,
+                    command: 1.0,
+                    state: 0.3,
+                });
+            }
+        }
+    }
+    let expected: Vec<f64> = points
+        .iter()
+        .flat_map(|point| {
+            [
+                definition.value(values, point),
+                definition.rate(values, point),
+            ]
+        })
+        .collect();
+    let arguments = |p: &Point| {
+        let all = [
+            p.speed,
+            p.angle,
+            p.current,
+            p.transmitted,
+            p.command,
+            p.state,
+        ];
+        all.map(|x| format!("{x:?}")).join(", ")
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let text = |name: &str| {
+        write(Format::by_name(name).expect("a format"), &subject)
+            .expect(name)
+            .text
+    };
+    let matches = |out: Vec<u8>, language: &str| {
+        let out = String::from_utf8(out).expect("text");
+        let got: Vec<f64> = out
+            .split_whitespace()
+            .map(|x| x.parse().expect("a number"))
+            .collect();
+        assert_eq!(got.len(), expected.len(), "{language}");
+        for (got, expected) in got.iter().zip(&expected) {
+            assert!(
+                (got - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+                "{language}: {got} {expected}"
+            );
+        }
+    };
+    if let Some(mut gcc) = tool("gcc") {
+        fs::write(path("motor.h"), text("c")).expect("a header");
+        let calls = points.iter().map(arguments).map(|a| {
+            format!("printf(\"%.17g %.17g\\n\", servoid_swing({a}), servoid_swing_rate({a}));\n")
+        });
+        let main = format!(
+            "#include <stdio.h>\n#include \"motor.h\"\nint main(void) {{\n{}return 0; }}\n",
+            calls.collect::<String>()
+        );
+        fs::write(path("main.c"), main).expect("a program");
+        gcc.args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o"]);
+        gcc.arg(path("main")).arg(path("main.c")).arg("-lm");
+        passes(gcc, "c", "");
+        matches(
+            Command::new(path("main")).output().expect("it runs").stdout,
+            "c",
+        );
+    }
+    if let Some(mut interpreter) = tool("python3") {
+        // What of numpy the law calls, where numpy is not installed.
+        fs::write(
+            path("numpy.py"),
+            "from math import *\nabs, minimum, maximum = abs, min, max\n\n\ndef sign(x):\n    return (x > 0) - (x < 0)\n",
+        )
+        .expect("a stand-in");
+        let calls = points
+            .iter()
+            .map(arguments)
+            .map(|a| format!("print(swing({a}), swing_rate({a}))\n"));
+        fs::write(
+            path("motor.py"),
+            text("python") + &calls.collect::<String>(),
+        )
+        .expect("a program");
+        interpreter.arg(path("motor.py"));
+        matches(interpreter.output().expect("it runs").stdout, "python");
     }
 }
 

@@ -28,10 +28,20 @@ fn results() -> Vec<(String, Identified)> {
             let name = format!("{}, {known:?}", kind.name());
             results.push((name, result(&motor, &[kind], known)));
         }
+        let law = result(&motor, &[stated()], known);
+        results.push((format!("a law, {known:?}"), law));
         let twice = [Kind::Cogging, Kind::Coulomb, Kind::Cogging];
         results.push((format!("twice, {known:?}"), result(&motor, &twice, known)));
     }
     results
+}
+
+/// A law with a state and every function.
+fn stated() -> Kind {
+    let text = "swing: z' = (w - abs(w)*z)/h; torque = -c*z*tanh(w/v)*exp(-abs(w)/v) + d*cos(3*theta)*sqrt(abs(i)/e) \
+                - d*sin(theta)*max(min(i/e, 1), 0)^p*sgn(w); c, d = 0.1 in [0, 1] V; h = 0.1 in [0.01, 1] rad; v = 20 rad/s; \
+                e = 2 V; p = 1.5 in [0.5, 3]";
+    servoid_formula::define(text).expect("a law")
 }
 
 fn write(format: &Format, subject: &Subject) -> Result<Written, ExportError> {
@@ -75,7 +85,9 @@ fn what_all_is_known_of_goes_into_every_format_and_a_current_loop_s_into_those_t
     }
     for format in FORMATS {
         let current = subject(&linear(&motor, Known::Current), Side::Motor);
-        let takes = ["toml", "json", "csv", "c", "rust", "modelica", "gains"];
+        let takes = [
+            "toml", "json", "csv", "c", "rust", "python", "modelica", "gains",
+        ];
         let refused = !takes.contains(&format.name) && format.name != "ros2-control";
         assert_eq!(write(format, &current).is_err(), refused, "{}", format.name);
         let nothing = subject(&linear(&motor, Known::Nothing), Side::Motor);
@@ -186,7 +198,7 @@ fn every_text_is_of_its_language() {
                     assert!(kind.is_none_or(|kind| kind == "Real"), "{case}: {line}");
                 }
             }
-            "c" | "rust" => {}
+            "c" | "rust" | "python" => {}
             "bam" | "mjlab" | "simscape" | "ros2-control" | "odrive" | "vesc" | "moteus" => {
                 makers::is_of_its_language(format, text).unwrap_or_else(|error| wrong(error));
             }

@@ -92,6 +92,9 @@ fn step(report: &DiagnosisReport<'_>, index: usize) -> Step {
         whereabouts: (report.findings.steps.get(index))
             .and_then(Option::as_ref)
             .map(Where::from),
+        curve: (report.findings.curves.get(index))
+            .and_then(Option::as_ref)
+            .map(Into::into),
         candidates: (step.candidates.iter().zip(&step.p_values))
             .map(|(refit, p_value)| Candidate::new(refit, *p_value))
             .collect(),

@@ -3,6 +3,7 @@
 use super::bars::{counts, sparkline};
 use super::residual::{table, whiteness_text};
 use super::{DiagnosisReport, names};
+use crate::number_text::short;
 use crate::report::fold::folded;
 use crate::report::likelihood;
 use crate::report::position_loop;
@@ -207,6 +208,19 @@ impl DiagnosisReport<'_> {
                 )?;
             }
         }
+        let curve = self.findings.curves.get(index).and_then(Option::as_ref);
+        if let Some((curve, [from, to])) = curve.and_then(|curve| Some((curve, curve.leaves()?))) {
+            let (variable, unit) = (curve.carrier.name(), curve.carrier.unit());
+            say(
+                "but",
+                &format!(
+                    "a curve of the {variable} that has no stated form leaves its band around the effect between {} and {} {unit}: \
+                     the effect is not the whole story",
+                    short(from),
+                    short(to)
+                ),
+            )?;
+        }
         say("confidence", &format!("{:.2}", step.confidence))?;
         if let Some(found) = self.findings.steps.get(index).and_then(Option::as_ref) {
             out.push_str(&table(found, evidence::axis(step.added)));
@@ -289,14 +303,18 @@ fn proposed_text(proposed: Option<&[Proposed]>) -> String {
     }
     for law in proposed {
         let percent = 100.0 * law.explained;
+        let like = law
+            .resembles
+            .map(|(kind, part)| format!("; {:.0} % like {}", 100.0 * part, kind.name()));
         let what = if law.named {
             "is named; before it was simulated, it explained"
         } else {
             "was simulated and is not confirmed; along the measured motion it explains"
         };
         out.push_str(&wrapped(&format!(
-            "{} {what} {percent:.0} % of the missing volts on what was held out",
-            law.name
+            "{} {what} {percent:.0} % of the missing volts on what was held out{}",
+            law.name,
+            like.unwrap_or_default()
         )));
         out.push_str(&wrapped(&format!("--effect \"{}\"", law.text)));
     }

@@ -175,6 +175,14 @@ fn effect(index: usize, step: &Step, stopped: bool) -> Section {
         );
     }
     section.blocks.push(Block::Table(String::new(), facts));
+    if let Some(curve) = &step.curve {
+        let id = format!("curve-{}", index + 1);
+        section.blocks.push(Block::Picture(picture::effect_curve(
+            &id,
+            &step.added,
+            curve,
+        )));
+    }
     if !step.candidates.is_empty() {
         section.blocks.push(Block::Table(
             "What was tried here, best first".to_owned(),

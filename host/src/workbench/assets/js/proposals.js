@@ -2,6 +2,7 @@
 
 import { colour, letter, spoken } from "./names.js";
 import { at, button, el, row } from "./elements.js";
+import { field } from "./law.js";
 import { counts, digits, estimate, usual } from "./numbers.js";
 import { shownOf } from "./parameters.js";
 import { signature } from "./signature.js";
@@ -227,6 +228,7 @@ function foot(bench, chosen, does) {
     parts.push(el("p", { class: "row", style: "flex-wrap:wrap" }, ...chosen.effects.map((effect) => button(`Remove ${spoken(effect)}`,
       () => does.fit(chosen.effects.filter((other) => other !== effect)), { class: "btn link", disabled: Boolean(bench.job) }))));
   }
+  parts.push(field(bench, chosen, colour(bench.next), does));
   parts.push(el("p", { class: "row" }, button("Find everything that is missing", does.diagnose, { id: "diagnose", disabled: Boolean(bench.job) })));
   if (chosen.effects.length) parts.push(twins(bench, chosen, does));
   if (bench.secret) {

@@ -1,0 +1,50 @@
+//! What a law depends on, and where it acts.
+
+use crate::syntax::{Definition, Expression, PLACES, Term};
+use shared::effects::formula::{Output, Variable};
+
+/// Something that a law depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Used {
+    /// A variable of the motor.
+    Variable(Variable),
+    /// The state.
+    State,
+}
+
+impl Definition {
+    /// The law's place, by the name under which it is stated.
+    pub fn place(&self) -> &'static str {
+        let place = PLACES.iter().find(|(_, output)| *output == self.output);
+        place.map_or("", |(name, _)| name)
+    }
+
+    /// What the law depends on, each once. A friction depends on the direction of the motion.
+    pub fn uses(&self) -> Vec<Used> {
+        let mut found = Vec::new();
+        if self.output == Output::Friction {
+            found.push(Used::Variable(Variable::Speed));
+        }
+        collect(&self.law, &mut found);
+        found
+    }
+}
+
+fn collect(expression: &Expression, found: &mut Vec<Used>) {
+    let mut add = |used: Used| {
+        if !found.contains(&used) {
+            found.push(used);
+        }
+    };
+    match &expression.term {
+        Term::Variable(variable) => add(Used::Variable(*variable)),
+        Term::State => add(Used::State),
+        Term::Negative(a) => collect(a, found),
+        Term::Call(_, arguments) => arguments.iter().for_each(|a| collect(a, found)),
+        Term::Binary(_, a, b) => {
+            collect(a, found);
+            collect(b, found);
+        }
+        Term::Number(_) | Term::Parameter(_) | Term::Fixed(_) | Term::Name(_) => {}
+    }
+}
