@@ -15,7 +15,16 @@ const ZSTD: &[u8] = &[0x28, 0xb5, 0x2f, 0xfd];
 /// # Errors
 /// The file cannot be read. What is damaged in it is an error of the reader, at its place.
 pub fn decompressed(path: &Path) -> io::Result<Box<dyn BufRead + Send>> {
-    let mut file = File::open(path)?;
+    decompressed_from(File::open(path)?)
+}
+
+/// As [`decompressed`], of the bytes of a file.
+///
+/// # Errors
+/// They cannot be read.
+pub fn decompressed_from(
+    mut file: impl Read + Send + 'static,
+) -> io::Result<Box<dyn BufRead + Send>> {
     let mut head = Vec::new();
     file.by_ref()
         .take(ZSTD.len() as u64)

@@ -50,7 +50,7 @@ mod together;
 mod window;
 mod wpilog;
 
-pub use compressed::decompressed;
+pub use compressed::{decompressed, decompressed_from};
 pub use detect::{Format, open};
 pub use error::{FormatError, FormatFault};
 pub use log::{Column, Kind, Log, Rows, Table};

@@ -1,7 +1,10 @@
 //! One recording, written as programs and people write it: read, it is always the same.
 
-use servoid_io::input::{MotorFile, PRESETS, read_recording, read_recordings};
+use servoid_io::input::{
+    MotorFile, PRESETS, read_recording, read_recordings, read_recordings_with,
+};
 use servoid_io::recording::Recording;
+use std::cell::Cell;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -350,6 +353,35 @@ fn a_span_of_it_is_read_from_its_first_row_on() {
         &motor(&format!("{known}[log]\nfrom_s = 0.02\nto_s = 0.06\n")),
     );
     assert_eq!(part.counts, whole.counts[10..=30]);
+}
+
+#[test]
+fn beyond_the_span_nothing_but_times_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("span.csv");
+    let known = "[log]\nfrom_s = 1\nto_s = 2\n";
+    let rows = "0,x,x\n1,5,10\n2,6,11\n3,x,x\n4,x,x\n5,x,x\n6,x,x\n7,x,x\n8,x,x\n9,x,x\n10,x,x\n";
+    fs::write(&path, format!("t_s,voltage_v,angle_counts\n{rows}{rows}"))
+        .expect("a file can be written");
+    let told = Cell::new(0.0);
+    let all = read_recordings_with(&path, &motor(known), &|reached| {
+        let part = reached.part.expect("a file has a length");
+        assert!((told.get()..=1.0).contains(&part), "{part}");
+        told.set(part);
+    });
+    let all = all.expect("two recordings").recordings;
+    assert_eq!(all.len(), 2);
+    for recording in all {
+        assert_eq!(recording.counts, [10.0, 11.0]);
+    }
+    // Times are, since another recording may begin.
+    fs::write(
+        &path,
+        "t_s,voltage_v,angle_counts\n0,5,1\n1,5,2\n2,5,3\n3,5,4\nx,5,5\n6,5,6\n",
+    )
+    .expect("a file can be written");
+    let error = read_recordings(&path, &motor(known)).expect_err("no time");
+    assert!(error.to_string().contains(":6:1"), "{error}");
 }
 
 #[test]

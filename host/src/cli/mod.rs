@@ -254,6 +254,9 @@ pub struct ModelArgs {
 pub struct OpenArgs {
     /// The log: a file of any format that is read, or a folder of LeRobot
     pub log: PathBuf,
+    /// Plot of the columns against time or rows (SVG)
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
     /// The motor.
     #[command(flatten)]
     pub motor: MotorArgs,

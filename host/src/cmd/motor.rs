@@ -1,11 +1,12 @@
 //! From flags and files to recordings: `motor.toml` beside the recording or named, then the flags.
 
 use super::motor_beside::write_motor;
+use super::progress::FileBar;
 use crate::cli::{MotorArgs, RecordingsArgs};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_io::input::{
-    Columns, DriveKind, MotorFile, Part, Preset, read_recording, read_recordings,
+    Columns, DriveKind, MotorFile, Part, Preset, read_recording, read_recordings_with,
 };
 use servoid_io::position_loop::LoopSettings;
 use servoid_io::recording::Recording;
@@ -209,7 +210,9 @@ pub(super) fn all_of(
     path: &Path,
 ) -> Result<(Vec<Recording>, MotorFile), Error> {
     let motor = motor_file(args, path)?;
-    let reading = read_recordings(path, &motor)?;
+    let bar = FileBar::new(session, "read");
+    let reading = read_recordings_with(path, &motor, &|reached| bar.reached(reached))?;
+    drop(bar);
     for note in &reading.notes {
         session.remark(note);
     }

@@ -1,20 +1,27 @@
-//! `servoid open`: what a log holds, and the command that would fit it.
+//! `servoid open`: what a log holds, drawn if asked for, and the command that would fit it.
 
 use super::motor;
+use super::progress::FileBar;
 use crate::cli::{MotorArgs, OpenArgs};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_io::input::{MotorFile, Survey, SurveyColumn, SurveyTable, for_shell, survey};
+use servoid_results::plot;
 use servoid_results::report::opened::text;
 use servoid_results::schema::opened::Opened;
 
 pub(super) fn run(session: &Session, args: &OpenArgs) -> Result<(), Error> {
-    motor::check_outputs(session, &[], &args.motor, &args.log, None)?;
+    let plot = args.plot.as_deref().map(|path| ("--plot", path));
+    motor::check_outputs(session, plot.as_slice(), &args.motor, &args.log, None)?;
     let motor = motor::motor_file(&args.motor, &args.log)?;
-    let bar = session.count("open", "rows");
-    let survey = survey(&args.log, &motor, &|rows| bar.inc(rows));
-    bar.finish_and_clear();
-    let survey = survey?;
+    let bar = FileBar::new(session, "open");
+    let survey = survey(&args.log, &motor, &|reached| bar.reached(reached))?;
+    drop(bar);
+    if let Some(path) = &args.plot {
+        let name = args.log.file_name().unwrap_or(args.log.as_os_str());
+        let drawing = plot::columns(&name.to_string_lossy(), &survey)?;
+        session.write_plot(path, &drawing)?;
+    }
     let file = args.log.display().to_string();
     let (command, needs) = fitting(&file, &survey, &motor, &given(&args.motor));
     let opened = Opened::new(&file, &survey, command, needs);

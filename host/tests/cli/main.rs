@@ -28,6 +28,7 @@ mod known_facts;
 mod likelihoods;
 mod main_job;
 mod open;
+mod open_plot;
 mod paper;
 mod pipes;
 mod plan;

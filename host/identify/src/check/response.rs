@@ -111,27 +111,72 @@ pub(crate) fn drive_response(driven: &Driven<'_>) -> DriveResponse {
     }
 }
 
-/// The motion over blocks of samples, those left out in which the bridge was open or the motor stood still.
-struct Blocks {
+/// A stretch of samples in motion.
+struct Block {
     /// Command, speed, its sign, one, and gravity's sine and cosine.
-    rows: Vec<[f64; 6]>,
-    accelerations: Vec<f64>,
+    row: [f64; 6],
+    acceleration: f64,
+}
+
+/// A regression on some columns of the blocks.
+struct Regression {
+    solution: DVector<f64>,
+    /// Of the columns' products.
+    inverse: DMatrix<f64>,
+    /// The squares that it leaves.
+    left: f64,
+    blocks: usize,
+}
+
+impl Regression {
+    /// Of what `of` says of a block; `None` where there are too few. Sums are all that is kept: a recording may have millions of blocks.
+    fn new(
+        driven: &Driven<'_>,
+        block: usize,
+        columns: &[usize],
+        of: &dyn Fn(&Block) -> f64,
+    ) -> Option<Self> {
+        let width = columns.len();
+        let (mut products, mut right) = (DMatrix::zeros(width, width), DVector::zeros(width));
+        let mut count = 0;
+        each_block(driven, block, &mut |block| {
+            count += 1;
+            for (i, &one) in columns.iter().enumerate() {
+                right[i] += block.row[one] * of(block);
+                for (j, &other) in columns.iter().enumerate() {
+                    products[(i, j)] += block.row[one] * block.row[other];
+                }
+            }
+        });
+        if count < FEWEST {
+            return None;
+        }
+        let inverse = products.pseudo_inverse(1e-12).ok()?;
+        let solution: DVector<f64> = &inverse * right;
+        let mut left = 0.0;
+        each_block(driven, block, &mut |block| {
+            let parts = columns.iter().zip(solution.iter());
+            let explained: f64 = parts.map(|(&k, part)| block.row[k] * part).sum();
+            left += (of(block) - explained).powi(2);
+        });
+        Some(Regression {
+            solution,
+            inverse,
+            left,
+            blocks: count,
+        })
+    }
 }
 
 /// Whether the motion explains most of the command, at a steady speed that rises with it or by a weight.
 fn motion_explains(driven: &Driven<'_>, block: usize) -> bool {
-    let Some(Blocks { rows, .. }) = blocks(driven, block) else {
+    // The speed may be left out; then gravity and friction alone must do. What a constant leaves is the spread.
+    let command = |columns: &[usize]| Regression::new(driven, block, columns, &|b| b.row[0]);
+    let Some(spread) = command(&[3]).map(|constant| constant.left) else {
         return false;
     };
-    let commands = DVector::from_iterator(rows.len(), rows.iter().map(|row| row[0]));
-    let spread = commands.add_scalar(-commands.mean()).norm_squared();
-    // The speed may be left out; then gravity and friction alone must do.
-    let explained = |columns: &[usize]| -> Option<(f64, f64)> {
-        let matrix = DMatrix::from_fn(rows.len(), columns.len(), |i, j| rows[i][columns[j]]);
-        let inverse = (matrix.transpose() * &matrix).pseudo_inverse(1e-12).ok()?;
-        let solution = inverse * (matrix.transpose() * &commands);
-        let left = (&commands - matrix * &solution).norm_squared();
-        Some((1.0 - left / spread, solution[0]))
+    let explained = |columns: &[usize]| {
+        command(columns).map(|found| (1.0 - found.left / spread, found.solution[0]))
     };
     let moving = explained(&[1, 2, 3]).is_some_and(|(part, damping)| part > MOST && damping > 0.0);
     let lifting = explained(&[2, 3, 4, 5]).is_some_and(|(part, _)| part > MOST);
@@ -140,29 +185,19 @@ fn motion_explains(driven: &Driven<'_>, block: usize) -> bool {
 
 /// The command's coefficient in the regression of the acceleration, over its standard error.
 fn command_score(driven: &Driven<'_>, block: usize) -> Option<f64> {
-    let Blocks {
-        rows,
-        accelerations,
-    } = blocks(driven, block)?;
-    let width = 6;
-    let matrix = DMatrix::from_fn(rows.len(), width, |i, j| rows[i][j]);
-    let right = DVector::from_vec(accelerations);
-    let inverse = (matrix.transpose() * &matrix).pseudo_inverse(1e-12).ok()?;
-    let solution = &inverse * (matrix.transpose() * &right);
-    let left = (&right - &matrix * &solution).norm_squared();
+    let columns = [0, 1, 2, 3, 4, 5];
+    let found = Regression::new(driven, block, &columns, &|block| block.acceleration)?;
     // Neighbouring blocks share half of their readings.
-    let freedom = 0.5 * (rows.len() - width) as f64;
-    let error = (left / freedom * inverse[(0, 0)]).sqrt();
-    let score = solution[0] / error;
+    let freedom = 0.5 * (found.blocks - columns.len()) as f64;
+    let error = (found.left / freedom * found.inverse[(0, 0)]).sqrt();
+    let score = found.solution[0] / error;
     score.is_finite().then_some(score)
 }
 
-/// The motion block by block; `None` where there are too few.
-fn blocks(driven: &Driven<'_>, block: usize) -> Option<Blocks> {
+/// The motion block by block, those left out in which the bridge was open or the motor stood still.
+fn each_block(driven: &Driven<'_>, block: usize, take: &mut dyn FnMut(&Block)) {
     let (time, counts, closed) = (driven.time_s, driven.counts, driven.closed);
     let radians = core::f64::consts::TAU / driven.counts_per_rev;
-    let mut rows: Vec<[f64; 6]> = Vec::new();
-    let mut accelerations = Vec::new();
     let mut begin = 0;
     while begin + 2 * block < counts.len() {
         let (middle, end) = (begin + block, begin + 2 * block);
@@ -177,22 +212,20 @@ fn blocks(driven: &Driven<'_>, block: usize) -> Option<Blocks> {
         let command = driven.command[from..to].iter().sum::<f64>() / (to - from) as f64;
         let (now, angle) = (0.5 * (before + after), counts[middle] * radians);
         if (begin..end).all(closed) && (before != 0.0 || after != 0.0) {
-            rows.push([
-                command,
-                now,
-                sign(now),
-                1.0,
-                libm::sin(angle),
-                libm::cos(angle),
-            ]);
-            accelerations.push((after - before) / apart);
+            take(&Block {
+                row: [
+                    command,
+                    now,
+                    sign(now),
+                    1.0,
+                    libm::sin(angle),
+                    libm::cos(angle),
+                ],
+                acceleration: (after - before) / apart,
+            });
         }
         begin = middle;
     }
-    (rows.len() >= FEWEST).then_some(Blocks {
-        rows,
-        accelerations,
-    })
 }
 
 fn sign(x: f64) -> f64 {

@@ -75,10 +75,14 @@ fn driven_standstill(recording: &Recording) -> Option<Standstill> {
     }
     let middle = moving.len() / 2;
     let usual = *moving.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // As long as the recording, and so are the steps.
+    drop(moving);
     let strong = usual.max(STRONG * largest);
     let mut steps: Vec<f64> = counts.windows(2).map(|p| (p[1] - p[0]).abs()).collect();
-    steps.sort_by(f64::total_cmp);
-    let fast = steps[steps.len() * 95 / 100].max(1.0);
+    let place = steps.len() * 95 / 100;
+    let (_, fast, _) = steps.select_nth_unstable_by(place, f64::total_cmp);
+    let fast = fast.max(1.0);
+    drop(steps);
     let mut begin = 0;
     for k in 1..=recording.len() {
         if k < recording.len() && counts[k] == counts[begin] {

@@ -64,19 +64,19 @@ impl<'m> Collector<'m> {
         Ok(())
     }
 
-    /// Takes the sample whose time was taken last, if it lies in the wanted span.
+    /// Whether the time that was taken last lies in the wanted span. Beyond it nothing but times is read: another recording may begin.
+    pub(super) fn wants(&self, time_s: f64) -> bool {
+        let since = self.span.map_or(0.0, |(first, _)| time_s - first);
+        let part = &self.motor.log;
+        part.from_s.is_none_or(|from| since >= from) && part.to_s.is_none_or(|to| since <= to)
+    }
+
+    /// Takes a sample that is wanted.
     ///
     /// # Errors
     /// There are too many, or no memory for more.
     pub(super) fn take(&mut self, sample: &Sample) -> Result<(), ReadFault> {
-        let since = self.span.map_or(0.0, |(first, _)| sample.time_s - first);
-        let part = &self.motor.log;
-        let wanted =
-            part.from_s.is_none_or(|from| since >= from) && part.to_s.is_none_or(|to| since <= to);
-        if wanted {
-            self.samples.push(sample)?;
-        }
-        Ok(())
+        self.samples.push(sample)
     }
 
     /// Whether no later sample is wanted: the span has ended in the only recording.

@@ -9,10 +9,11 @@ use super::layout::{Layout, header_names};
 use super::lines::Lines;
 use super::motor_file::MotorFile;
 use super::place::Place;
+use super::reached::ROWS_TO_TELL;
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
 use super::row::Row;
-use super::sample::{SampleReader, Taken};
+use super::sample::SampleReader;
 use super::scale::Scale;
 use crate::recording::Recording;
 
@@ -34,7 +35,7 @@ pub fn read_recording_from(
         several: false,
         lenient: false,
     };
-    let mut reading = read_text(reader, source, motor, how)?;
+    let mut reading = read_text(reader, source, motor, how, &|_| ())?;
     let few = || ReadError::new(Place::file(source), ReadFault::TooFewSamples(0));
     reading.recordings.pop().ok_or_else(few)
 }
@@ -48,12 +49,13 @@ pub(super) struct How {
     pub(super) lenient: bool,
 }
 
-/// Reads all recordings of a text with columns.
+/// Reads all recordings of a text with columns. `done` is told of the rows so far.
 pub(super) fn read_text(
     reader: impl BufRead,
     source: &str,
     motor: &MotorFile,
     how: How,
+    done: &dyn Fn(u64),
 ) -> Result<Reading, ReadError> {
     let whole = |fault| ReadError::new(Place::file(source), fault);
     let mut rows = TextRows::new(reader, source, motor, false)?;
@@ -74,19 +76,31 @@ pub(super) fn read_text(
         layout.current.is_some(),
         layout.enabled.is_some(),
     );
+    let mut passed = 0;
     while !collector.has_all() && rows.next_line()? {
+        passed += 1;
+        if passed % ROWS_TO_TELL == 0 {
+            done(passed);
+        }
         let line = rows.lines.number();
-        let read = rows.split().and_then(|()| reader.read(&rows.row, line));
-        let sample = match read {
-            Ok(Taken::Sample(sample)) => sample,
-            Ok(Taken::NotSelected) => continue,
+        let mut read = || {
+            rows.split()?;
+            let Some(time_s) = reader.time(&rows.row, line)? else {
+                return Ok(());
+            };
+            let timed = collector.time(time_s);
+            timed.map_err(|fault| reader.time_error(line, fault))?;
+            if !collector.wants(time_s) {
+                return Ok(());
+            }
+            let kept = collector.take(&reader.sample(&rows.row, line, time_s)?);
+            kept.map_err(|fault| ReadError::new(Place::line(source, line), fault))
+        };
+        match read() {
+            Ok(()) => {}
             Err(error) if how.lenient && rows.cut_short(&error) => break,
             Err(error) => return Err(error),
-        };
-        let timed = collector.time(sample.time_s);
-        timed.map_err(|fault| reader.time_error(line, fault))?;
-        let kept = collector.take(&sample);
-        kept.map_err(|fault| ReadError::new(Place::line(source, line), fault))?;
+        }
     }
     motor.log.check_met(reader.taken).map_err(whole)?;
     let recordings = collector.finish(source)?;

@@ -8,6 +8,7 @@ use super::motor_file::MotorFile;
 use super::motor_units::{AngleUnit, TimeUnit};
 use super::place::Place;
 use super::preset::Preset;
+use super::reached::Reached;
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
 use super::sample::{Sample, directed};
@@ -15,12 +16,14 @@ use super::scale::Scale;
 use servoid_formats::{FormatError, Kind, Log, Rows, Table};
 use std::ops::ControlFlow;
 
-/// Reads the recordings of a log: one of every table that has all columns, or one from columns of several tables.
+/// Reads the recordings of a log: one of every table that has all columns, or one from columns of several tables. `done` is told how
+/// far.
 pub(super) fn read_log(
     log: &mut dyn Log,
     source: &str,
     part: Option<&str>,
     motor: &MotorFile,
+    done: &dyn Fn(Reached),
 ) -> Result<Reading, ReadError> {
     let whole = |fault| ReadError::new(Place::file(source), fault);
     let tables = log.tables().to_vec();
@@ -37,7 +40,9 @@ pub(super) fn read_log(
     }
     if let Some(joined) = Joined::find(&tables, motor) {
         let scale = Scale::new(motor).map_err(whole)?;
-        let read = joined.map_err(whole)?.read(log, source, motor, &scale);
+        let read = joined
+            .map_err(whole)?
+            .read(log, source, motor, &scale, done);
         return read.and_then(|reading| reading.part(source, part).map_err(whole));
     }
     let mut found = Vec::new();
@@ -63,6 +68,8 @@ pub(super) fn read_log(
         notes: Vec::new(),
     };
     let alone = found.len() == 1;
+    let all = rows_of(found.iter().map(|(index, _)| &tables[*index]));
+    let mut before = 0;
     for (index, layout) in found {
         let name = if alone && part.is_none() {
             source.to_owned()
@@ -79,13 +86,23 @@ pub(super) fn read_log(
             motor: &motor,
             scale: &scale,
         };
-        let one = read.read()?;
+        let mut rows = before;
+        let one = read.read(&mut |more| {
+            rows += more;
+            done(Reached::of(rows, all));
+        })?;
+        before = rows;
         reading.recordings.extend(one.recordings);
         reading.notes.extend(one.notes);
     }
     let by_table = reading.recordings.len() == 1;
     let part = part.filter(|_| !by_table);
     reading.part(source, part).map_err(whole)
+}
+
+/// The rows of all these tables, where the file says how many each has.
+pub(super) fn rows_of<'t>(tables: impl Iterator<Item = &'t Table>) -> Option<u64> {
+    tables.map(|table| table.rows).sum()
 }
 
 /// How a table is called in messages, and its recording.
@@ -142,7 +159,8 @@ struct TableReader<'r> {
 }
 
 impl TableReader<'_> {
-    fn read(self) -> Result<Reading, ReadError> {
+    /// `done` is told of more rows.
+    fn read(self, done: &mut dyn FnMut(u64)) -> Result<Reading, ReadError> {
         let TableReader {
             log,
             index,
@@ -164,6 +182,7 @@ impl TableReader<'_> {
         let mut fault = None;
         let mut take = |rows: Rows<'_>| -> Result<bool, ReadError> {
             let samples = rows.first().map_or(0, Vec::len);
+            done(samples as u64);
             for k in 0..samples {
                 row += 1;
                 let cells = Cells {
@@ -189,8 +208,10 @@ impl TableReader<'_> {
                 taken += 1;
                 let timed = collector.time(time);
                 timed.map_err(|fault| cells.error(layout.time.as_ref(), fault))?;
-                let kept = collector.take(&cells.sample(time)?);
-                kept.map_err(|fault| cells.error(None, fault))?;
+                if collector.wants(time) {
+                    let kept = collector.take(&cells.sample(time)?);
+                    kept.map_err(|fault| cells.error(None, fault))?;
+                }
                 if collector.has_all() {
                     return Ok(false);
                 }

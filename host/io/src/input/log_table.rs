@@ -5,12 +5,14 @@ use super::collector::Collector;
 use super::log_file::of_format;
 use super::motor_file::MotorFile;
 use super::place::Place;
+use super::reached::Reached;
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
 use super::sample::Sample;
 use super::scale::Scale;
 use super::shown::quoted_list;
 use servoid_formats::{Kind, Log, Table};
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 /// The names of the tables, for messages.
@@ -71,10 +73,16 @@ impl Joined {
         source: &str,
         motor: &MotorFile,
         scale: &Scale<'_>,
+        done: &dyn Fn(Reached),
     ) -> Result<Reading, ReadError> {
-        let angle = self.angle.read(log, source)?;
-        let mut command = Held::new(self.command.read(log, source)?);
-        let current = self.current.as_ref().map(|series| series.read(log, source));
+        let rows = Cell::new(0);
+        let more = |count: u64| {
+            rows.set(rows.get() + count);
+            done(Reached::of(rows.get(), None));
+        };
+        let angle = self.angle.read(log, source, &more)?;
+        let mut command = Held::new(self.command.read(log, source, &more)?);
+        let current = (self.current.as_ref()).map(|series| series.read(log, source, &more));
         let mut current = current.transpose()?.map(Held::new);
         let whole = |fault| ReadError::new(Place::file(source), fault);
         let mut collector = Collector::new(motor, scale, false, current.is_some(), false);
@@ -86,6 +94,10 @@ impl Joined {
                 before += 1;
                 continue;
             };
+            collector.time(time).map_err(whole)?;
+            if !collector.wants(time) {
+                continue;
+            }
             let convert = |value: Result<f64, ReadFault>| value.and_then(checked).map_err(whole);
             let sample = Sample {
                 time_s: time,
@@ -97,7 +109,6 @@ impl Joined {
                     .transpose()?,
                 enabled: None,
             };
-            collector.time(time).map_err(whole)?;
             collector.take(&sample).map_err(whole)?;
         }
         let recordings = collector.finish(source)?;
@@ -145,14 +156,20 @@ impl Series {
         None
     }
 
-    /// Times and values, without those that are no numbers.
-    fn read(&self, log: &mut dyn Log, source: &str) -> Result<Vec<[f64; 2]>, ReadError> {
+    /// Times and values, without those that are no numbers. `more` is told of rows as they are read.
+    fn read(
+        &self,
+        log: &mut dyn Log,
+        source: &str,
+        more: &dyn Fn(u64),
+    ) -> Result<Vec<[f64; 2]>, ReadError> {
         let mut all: Vec<[f64; 2]> = Vec::new();
         let mut full = false;
         let read = log.read(self.table, &[self.time, self.column], &mut |rows| {
             let [times, values] = rows else {
                 return ControlFlow::Break(());
             };
+            more(times.len() as u64);
             let pairs = times
                 .iter()
                 .zip(values)

@@ -4,6 +4,7 @@ use super::csv_file::{How, read_text};
 use super::motor_file::MotorFile;
 use super::part::Part;
 use super::place::Place;
+use super::reached::{Count, CountedFile, Reached};
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
 use crate::recording::Recording;
@@ -19,27 +20,46 @@ use std::path::Path;
 /// # Errors
 /// The first fault found, with its place and the remedy: see [`ReadFault`].
 pub fn read_recordings(path: &Path, motor: &MotorFile) -> Result<Reading, ReadError> {
-    read(path, motor, true)
+    read_recordings_with(path, motor, &|_| ())
 }
 
-fn read(path: &Path, motor: &MotorFile, lenient: bool) -> Result<Reading, ReadError> {
+/// As [`read_recordings`]; `done` is told how far the file was read.
+///
+/// # Errors
+/// As [`read_recordings`].
+pub fn read_recordings_with(
+    path: &Path,
+    motor: &MotorFile,
+    done: &dyn Fn(Reached),
+) -> Result<Reading, ReadError> {
+    read(path, motor, true, done)
+}
+
+fn read(
+    path: &Path,
+    motor: &MotorFile,
+    lenient: bool,
+    done: &dyn Fn(Reached),
+) -> Result<Reading, ReadError> {
     let part = Part::of(path);
     let source = part.path.display().to_string();
     let whole = |fault| ReadError::new(Place::file(&source), fault);
     #[cfg(feature = "formats")]
     if let Some(mut log) = log_of(&part.path, &source)? {
         let name = part.name.as_deref();
-        return super::log_file::read_log(log.as_mut(), &source, name, motor);
+        return super::log_file::read_log(log.as_mut(), &source, name, motor, done);
     }
     if part.path.is_dir() {
         return Err(whole(ReadFault::Folder));
     }
-    let text = text_of(&part.path).map_err(|error| whole(ReadFault::Io(error)))?;
+    let (text, count) = text_of(&part.path).map_err(|error| whole(ReadFault::Io(error)))?;
     let how = How {
         several: true,
         lenient,
     };
-    let reading = read_text(text, &source, motor, how)?;
+    let reading = read_text(text, &source, motor, how, &|rows| {
+        done(count.reached(rows));
+    })?;
     reading.part(&source, part.name.as_deref()).map_err(whole)
 }
 
@@ -51,7 +71,7 @@ pub fn read_recording(path: &Path, motor: &MotorFile) -> Result<Recording, ReadE
     let source = Part::of(path).path.display().to_string();
     let whole = |fault| ReadError::new(Place::file(&source), fault);
     // Nobody sees the notes: a last row that was cut off is an error here.
-    let reading = read(path, motor, false)?.only(&source);
+    let reading = read(path, motor, false, &|_| ())?.only(&source);
     let recording = reading.map_err(whole)?.recordings.pop();
     recording.ok_or_else(|| whole(ReadFault::TooFewSamples(0)))
 }
@@ -62,14 +82,15 @@ pub(super) fn log_of(path: &Path, source: &str) -> Result<Option<Box<dyn Log>>, 
     servoid_formats::open(path).map_err(|error| super::log_file::of_format(source, error))
 }
 
-/// The text of a file in UTF-8, decompressed; UTF-16 is told by its byte order mark.
-pub(super) fn text_of(path: &Path) -> io::Result<Box<dyn BufRead>> {
+/// The text of a file in UTF-8, decompressed, and the count of the bytes of the file; UTF-16 is told by its byte order mark.
+pub(super) fn text_of(path: &Path) -> io::Result<(Box<dyn BufRead>, Count)> {
+    let (file, count) = CountedFile::open(path)?;
     #[cfg(feature = "formats")]
-    let bytes = servoid_formats::decompressed(path)?;
+    let bytes = servoid_formats::decompressed_from(file)?;
     #[cfg(not(feature = "formats"))]
-    let bytes = BufReader::with_capacity(1 << 16, std::fs::File::open(path)?);
+    let bytes = BufReader::with_capacity(1 << 16, file);
     let decoded = DecodeReaderBytesBuilder::new()
         .utf8_passthru(true)
         .build(bytes);
-    Ok(Box::new(BufReader::with_capacity(1 << 16, decoded)))
+    Ok((Box::new(BufReader::with_capacity(1 << 16, decoded)), count))
 }

@@ -78,7 +78,9 @@ pub enum ReadFault {
     )]
     OpenQuote,
     /// More rows than will be held in memory.
-    #[error("more than {limit} samples; split the recording, or keep every second row")]
+    #[error(
+        "more than {limit} samples; read a part of it by --from and --to (from_s and to_s under [log]), or keep every second row"
+    )]
     TooManyRows {
         /// The limit in rows.
         limit: usize,

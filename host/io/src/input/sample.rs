@@ -17,14 +17,6 @@ pub(super) struct Sample {
     pub(super) enabled: Option<bool>,
 }
 
-/// A row that is no sample.
-pub(super) enum Taken {
-    /// The row is one.
-    Sample(Sample),
-    /// The row is not among those selected.
-    NotSelected,
-}
-
 /// What every row of one file is read with.
 pub(super) struct SampleReader<'f> {
     pub(super) source: &'f str,
@@ -37,8 +29,8 @@ pub(super) struct SampleReader<'f> {
 }
 
 impl SampleReader<'_> {
-    /// Reads the row just split, which stood on `line`.
-    pub(super) fn read(&mut self, row: &Row, line: u64) -> Result<Taken, ReadError> {
+    /// The time of the row just split, which stood on `line`, s; none of a row that is not among those selected.
+    pub(super) fn time(&mut self, row: &Row, line: u64) -> Result<Option<f64>, ReadError> {
         let (layout, scale, source) = (self.layout, self.scale, self.source);
         if row.len() != layout.width {
             let fault = ReadFault::Ragged {
@@ -51,14 +43,9 @@ impl SampleReader<'_> {
             let cell = row.cell(column.index);
             let cell = cell.map_err(|fault| cell_error(source, line, column, fault))?;
             if !selection.holds(cell) {
-                return Ok(Taken::NotSelected);
+                return Ok(None);
             }
         }
-        let number = |column: &Column, convert: &dyn Fn(f64) -> Result<f64, ReadFault>| {
-            let read = |text: &str| finite(convert(number(text)?)?, text);
-            let read = row.cell(column.index).and_then(read);
-            read.map_err(|fault| cell_error(source, line, column, fault))
-        };
         let time_s = match &layout.time {
             Some(column) => {
                 let clock = &mut self.clock;
@@ -67,6 +54,18 @@ impl SampleReader<'_> {
                 read.map_err(|fault| cell_error(source, line, column, fault))?
             }
             None => self.taken as f64 / self.rate_hz.unwrap_or(1.0),
+        };
+        self.taken += 1;
+        Ok(Some(time_s))
+    }
+
+    /// The sample of the same row, whose time was read.
+    pub(super) fn sample(&self, row: &Row, line: u64, time_s: f64) -> Result<Sample, ReadError> {
+        let (layout, scale, source) = (self.layout, self.scale, self.source);
+        let number = |column: &Column, convert: &dyn Fn(f64) -> Result<f64, ReadFault>| {
+            let read = |text: &str| finite(convert(number(text)?)?, text);
+            let read = row.cell(column.index).and_then(read);
+            read.map_err(|fault| cell_error(source, line, column, fault))
         };
         let direction = layout.direction.as_ref();
         let direction = direction.map(|column| number(column, &Ok)).transpose()?;
@@ -85,14 +84,13 @@ impl SampleReader<'_> {
                 read.map_err(|fault| cell_error(source, line, column, fault))
             })
             .transpose()?;
-        self.taken += 1;
-        Ok(Taken::Sample(Sample {
+        Ok(Sample {
             time_s,
             command,
             counts,
             current_a,
             enabled,
-        }))
+        })
     }
 
     /// An error of the time of a row on `line`.

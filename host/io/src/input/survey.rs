@@ -1,10 +1,11 @@
 //! What a file holds: its tables, their columns with ranges, and what each is guessed to be. It reads the whole file, some rows at
-//! a time, and keeps none.
+//! a time, and keeps of them what a drawing shows.
 
 use super::csv_file::TextRows;
+use super::envelope::Envelope;
 use super::guess::{Sought, guess, speed};
 #[cfg(feature = "formats")]
-use super::log_file::of_format;
+use super::log_file::{of_format, rows_of};
 use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 #[cfg(feature = "formats")]
@@ -13,6 +14,7 @@ use super::open::text_of;
 use super::part::Part;
 use super::place::Place;
 use super::preset::{PRESETS, Preset};
+use super::reached::{ROWS_TO_TELL, Reached};
 use super::read_error::{ReadError, ReadFault};
 #[cfg(feature = "formats")]
 use servoid_formats::{Kind, Log, Table};
@@ -25,6 +27,9 @@ use std::path::Path;
 const TABLES: usize = 64;
 /// Columns of a table whose values are looked at; further ones are listed.
 const COLUMNS: usize = 512;
+#[cfg(feature = "formats")]
+/// Columns of all tables whose envelopes are kept: 64 MB.
+const ENVELOPES: usize = 4096;
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,13 +78,15 @@ pub struct SurveyColumn {
     pub guess: Option<&'static str>,
     /// The unit that its name tells.
     pub guessed_unit: Option<&'static str>,
+    /// Its values over the rows, for a drawing; none of a column whose values are not looked at.
+    pub envelope: Option<Envelope>,
 }
 
-/// Looks at a file. `done` is told of rows as they are read.
+/// Looks at a file. `done` is told how far it was read.
 ///
 /// # Errors
 /// The file cannot be read, or is damaged.
-pub fn survey(path: &Path, motor: &MotorFile, done: &dyn Fn(u64)) -> Result<Survey, ReadError> {
+pub fn survey(path: &Path, motor: &MotorFile, done: &dyn Fn(Reached)) -> Result<Survey, ReadError> {
     let part = Part::of(path);
     let source = part.path.display().to_string();
     #[cfg(feature = "formats")]
@@ -129,12 +136,15 @@ fn of_log(
     log: &mut dyn Log,
     source: &str,
     wanted: Option<&str>,
-    done: &dyn Fn(u64),
+    done: &dyn Fn(Reached),
 ) -> Result<Survey, ReadError> {
     let listed: Vec<Table> = log.tables().to_vec();
+    let is_wanted = |table: &&Table| wanted.is_none_or(|name| table.name == name);
+    let all = rows_of(listed.iter().filter(is_wanted).take(TABLES));
+    let (mut passed, mut envelopes) = (0, ENVELOPES);
     let mut tables = Vec::new();
     for (index, table) in listed.iter().enumerate() {
-        if wanted.is_some_and(|name| table.name != name) {
+        if !is_wanted(&table) {
             continue;
         }
         let mut surveyed = SurveyTable::of(table);
@@ -143,12 +153,17 @@ fn of_log(
                 .filter(|k| table.columns[*k].kind != Kind::Text)
                 .take(COLUMNS)
                 .collect();
+            for k in columns.iter().take(envelopes) {
+                surveyed.columns[*k].envelope = Some(Envelope::default());
+            }
+            envelopes = envelopes.saturating_sub(columns.len());
             let mut clock = Clock::default();
             let time = table.columns.iter().position(|c| c.kind == Kind::Time);
             let read = log.read(index, &columns, &mut |rows| {
                 let count = rows.first().map_or(0, Vec::len);
                 surveyed.rows += count as u64;
-                done(count as u64);
+                passed += count as u64;
+                done(Reached::of(passed, all));
                 for (k, values) in columns.iter().zip(rows) {
                     let column = &mut surveyed.columns[*k];
                     values.iter().for_each(|value| column.take(*value));
@@ -185,13 +200,13 @@ fn of_text(
     path: &Path,
     source: &str,
     motor: &MotorFile,
-    done: &dyn Fn(u64),
+    done: &dyn Fn(Reached),
 ) -> Result<Survey, ReadError> {
     let whole = |error| ReadError::new(Place::file(source), ReadFault::Io(error));
     if path.is_dir() {
         return Err(ReadError::new(Place::file(source), ReadFault::Folder));
     }
-    let text = text_of(path).map_err(whole)?;
+    let (text, count) = text_of(path).map_err(whole)?;
     let mut rows = TextRows::new(text, source, motor, true)?;
     let mut table = SurveyTable {
         name: String::new(),
@@ -204,6 +219,9 @@ fn of_text(
             .map(|name| SurveyColumn::named(name))
             .collect(),
     };
+    for column in table.columns.iter_mut().take(COLUMNS) {
+        column.envelope = Some(Envelope::default());
+    }
     let header: Vec<String> = rows.names().to_vec();
     let sought = [Sought {
         key: "time",
@@ -216,9 +234,12 @@ fn of_text(
     let mut clock = Clock::default();
     while let Some(row) = rows.advance()? {
         table.rows += 1;
-        done(1);
+        if table.rows % ROWS_TO_TELL == 0 {
+            done(count.reached(table.rows));
+        }
         for (k, column) in table.columns.iter_mut().enumerate().take(COLUMNS) {
             let Some(cell) = row.get(k) else {
+                column.take(f64::NAN);
                 continue;
             };
             let number = cell.parse::<f64>();
@@ -314,6 +335,18 @@ impl SurveyTable {
 }
 
 impl SurveyColumn {
+    /// Its unit: as the file says it, as its name tells, or as recordings of our own have it.
+    pub fn any_unit(&self) -> Option<&str> {
+        let own = match (self.is_time, self.name.as_str()) {
+            (true, _) | (_, "t_s") => Some("s"),
+            (_, "voltage_v") => Some("V"),
+            (_, "angle_counts") => Some("counts"),
+            (_, "current_a") => Some("A"),
+            _ => None,
+        };
+        self.unit.as_deref().or(self.guessed_unit).or(own)
+    }
+
     fn named(name: &str) -> Self {
         SurveyColumn {
             name: name.to_owned(),
@@ -324,10 +357,14 @@ impl SurveyColumn {
             greatest: None,
             guess: None,
             guessed_unit: None,
+            envelope: None,
         }
     }
 
     fn take(&mut self, value: f64) {
+        if let Some(envelope) = &mut self.envelope {
+            envelope.take(value);
+        }
         if value.is_finite() {
             self.least = Some(self.least.map_or(value, |least| least.min(value)));
             self.greatest = Some(self.greatest.map_or(value, |greatest| greatest.max(value)));

@@ -1,11 +1,13 @@
-//! Drawings as SVG text: measured against model, cost curves, Bode plots, reliability.
+//! Drawings as SVG text: columns of a log, measured against model, cost curves, Bode plots, reliability.
 
 mod bode;
+mod columns;
 mod curves;
 mod overlay;
 mod reliability;
 
 pub use bode::bode;
+pub use columns::columns;
 pub use curves::cost_curves;
 pub use overlay::overlay;
 pub use reliability::{ReliabilityLine, Statement, reliability};
