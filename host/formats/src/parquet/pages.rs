@@ -65,7 +65,9 @@ fn values(thrift: &mut Thrift<'_>) -> Option<i64> {
     Some(values)
 }
 
-/// Refuses a column of a row group of which a page claims more than there can be. Where no head can be read, the crate says so itself.
+/// Refuses a column of a row group of which a page claims more than there can be, or has no head that can be read while values are still
+/// missing: the crate skips a list of a thousand million entries one by one, though the file has ended. What stands behind the last value is
+/// never read.
 pub(super) fn check(file: &mut File, chunk: &ColumnChunkMetaData) -> Result<(), FormatFault> {
     let start = chunk
         .dictionary_page_offset()
@@ -75,11 +77,16 @@ pub(super) fn check(file: &mut File, chunk: &ColumnChunkMetaData) -> Result<(), 
         return Ok(());
     };
     let end = at.saturating_add(length);
-    while at < end {
+    let mut missing = chunk.num_values();
+    while at < end && missing > 0 {
         let Some(head) = head(file, at, end - at)? else {
-            return Ok(());
+            let name = chunk.column_path().string();
+            return Err(damaged(format!(
+                "a page of the column {name} has no head that can be read"
+            )));
         };
         refuse(&head, chunk)?;
+        missing = missing.saturating_sub(head.data);
         let Ok(packed) = u64::try_from(head.packed) else {
             return Ok(());
         };
