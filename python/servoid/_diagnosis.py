@@ -66,6 +66,12 @@ class Diagnosis(Result["_servoid.Diagnosis"]):
         return parameters(self._document["final"]["parameters"])
 
     @property
+    def proposed(self) -> list[dict[str, Any]] | None:
+        """Laws that were proposed for what the catalogue leaves: `name`, `law`, `explained_percent`, `resembles`, `named`; None where none were
+        looked for."""
+        return self._document.get("proposed")
+
+    @property
     def advice(self) -> list[str]:
         """What to record next, or to do."""
         return list(self._document["advice"])
@@ -94,6 +100,8 @@ def diagnose(
     *,
     validate: Recording | Sequence[Recording] | None = None,
     known: Facts | None = None,
+    laws: Sequence[str] = (),
+    discover: bool = False,
     seed: int = 1,
     steps: int | None = None,
     force: bool = False,
@@ -105,6 +113,9 @@ def diagnose(
     validate : recordings of the same motor that are never fitted; without them the last of several is held out, or the end of
         the only one.
     known : facts about the motor, see `Recording`; without them those of the first recording.
+    laws : laws of your own that are tried beside the catalogue, as in
+        `"drag: torque = -c*w*abs(w); c in [0, 1e-3] V*s^2/rad^2"`.
+    discover : propose laws for what the catalogue leaves; see `proposed`.
     seed : seed of everything random.
     steps : steps of a model at most; what is best by then is the result.
     force : diagnose recordings that `servoid check` refuses.
@@ -116,6 +127,8 @@ def diagnose(
             some(recordings),
             validate=several(validate),
             known=known_toml(known),
+            laws=list(laws),
+            discover=discover,
             seed=seed,
             steps=steps,
             force=force,

@@ -136,7 +136,8 @@ def fit(
 
     Parameters
     ----------
-    effects : physical effects beside the linear motor, names of `servoid.EFFECTS`.
+    effects : physical effects beside the linear motor, names of `servoid.EFFECTS`, or laws of your own as in
+        `"drag: torque = -c*w*abs(w); c in [0, 1e-3] V*s^2/rad^2"`.
     validate : recordings of the same motor that are scored and never fitted.
     known : facts about the motor, see `Recording`; without them those of the first recording.
     algorithm, cost, seed, budget : as `servoid fit` has them: search method, what is minimised, seed, model evaluations at most.

@@ -125,6 +125,8 @@ def diagnose(
     *,
     validate: list[Recording],
     known: str | None,
+    laws: list[str],
+    discover: bool,
     seed: int,
     steps: int | None,
     force: bool,

@@ -7,7 +7,7 @@ use super::recording::Recording;
 use super::watch::watched;
 use pyo3::prelude::*;
 use servoid_identify::diagnose::Budget;
-use servoid_identify::fit::Options;
+use servoid_identify::fit::{Options, effects_by_name};
 use servoid_identify::{Datasets, Progress, diagnose_datasets};
 use servoid_results::report::diagnosis::DiagnosisReport;
 use servoid_results::report::html;
@@ -22,20 +22,25 @@ pub(crate) struct Diagnosis {
     interrupted: bool,
 }
 
-/// Names the missing effects. Lists of recordings are of one motor; `known` is TOML; `steps` bounds the steps of a model.
+/// Names the missing effects. Lists of recordings are of one motor; `known` is TOML; `laws` are tried beside the catalogue; `steps` bounds the steps of a model.
 #[pyfunction]
-#[pyo3(signature = (recordings, *, validate, known, seed, steps, force))]
+#[pyo3(signature = (recordings, *, validate, known, laws, discover, seed, steps, force))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 pub(crate) fn diagnose(
     py: Python<'_>,
     recordings: Vec<PyRef<'_, Recording>>,
     validate: Vec<PyRef<'_, Recording>>,
     known: Option<&str>,
+    laws: Vec<String>,
+    discover: bool,
     seed: u64,
     steps: Option<u64>,
     force: bool,
 ) -> PyResult<Diagnosis> {
     let options = Options {
         known: self::known(known, &recordings)?,
+        candidates: effects_by_name("laws", &laws).map_err(identify)?,
+        discover,
         seed,
         force,
         ..Options::default()

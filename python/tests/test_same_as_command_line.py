@@ -37,6 +37,15 @@ def test_a_diagnosis(desk):
     assert errors[0] > 10 * errors[1]
 
 
+def test_a_law_of_ones_own(desk):
+    law = "drag:torque=-c*w*abs(w);c=1e-5in[0,1e-3]V*s^2/rad^2"
+    found = sv.diagnose(sv.read("rec.csv"), validate=sv.read("other.csv"), laws=[law], discover=True)
+    assert found.to_dict() == desk.json(f"diagnose rec.csv --validate other.csv --effect {law} --discover")
+    assert found.proposed is None, "coulomb explains it: nothing is left to look for"
+    fit = sv.fit(sv.read("rec.csv"), effects=[law])
+    assert fit.to_dict()["model"]["formulas"] == [law]
+
+
 def test_known_facts(desk):
     facts = {"resistance_ohm": (2.0, 0.05), "kt_equals_kb": True}
     found = sv.fit(sv.read("rec.csv"), known=facts)

@@ -74,7 +74,7 @@ fn carriers(definition: &Definition) -> impl Iterator<Item = Carrier> + use<> {
     })
 }
 
-/// The law along one variable, with the others at half of their greatest value.
+/// The drive that a law asks for along one variable, with the others at half of their greatest value.
 fn curve(
     definition: &Definition,
     values: &[f64],
@@ -112,11 +112,11 @@ fn curve(
         };
         let value = definition.value(values, &point);
         // A friction stands against the motion.
-        let given = match definition.output {
-            Output::Friction => -speed.signum() * value.max(0.0),
-            _ => value,
+        let asked = match definition.output {
+            Output::Friction => speed.signum() * value.max(0.0),
+            _ => -value,
         };
-        (x, given)
+        (x, asked)
     });
     points.filter(|(_, y)| y.is_finite()).collect()
 }

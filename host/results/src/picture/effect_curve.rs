@@ -47,7 +47,7 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
     plot.set_layout(
         layout(360)
             .x_axis(axis(&format!("{variable}, {}", curve.unit)))
-            .y_axis(axis("given to the shaft, V").zero_line(true)),
+            .y_axis(axis("drive asked for, V").zero_line(true)),
     );
     let mut table = Table::new(&[
         &format!("{}, {}", curve.variable, curve.unit),
@@ -73,7 +73,7 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
         id: id.to_owned(),
         title: format!("{effect} and the measured curve"),
         caption: format!(
-            "What the effect gives along the {}, and what the recording asks for there when no form is stated. {says}",
+            "The drive that the effect asks for along the {}, and that the recording asks for there when no form is stated. {says}",
             curve.variable
         ),
         drawing: Drawing::Chart(Box::new(plot)),

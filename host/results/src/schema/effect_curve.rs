@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose::discovery::{Curve, CurvePoint as Point};
 
-/// What an effect gives along the variable that carries it, beside what the fitted recording gives without its form.
+/// Drive that an effect asks for along the variable that carries it, beside what the fitted recording asks for without its form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EffectCurve {
     /// The variable: `speed`, `angle` or `current` (as the voltage across the resistance).
@@ -25,9 +25,9 @@ pub struct EffectCurve {
 pub struct CurvePoint {
     /// Value of the variable.
     pub at: f64,
-    /// What the law gives, V referred to the winding.
+    /// Drive that the law asks for, V: a torque against positive rotation counts positive.
     pub law_v: f64,
-    /// What the recording gives, V.
+    /// Drive that the recording asks for, V.
     pub found_v: f64,
     /// Half of the band of 95 % around it, V.
     pub band_v: f64,

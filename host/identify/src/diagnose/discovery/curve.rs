@@ -1,7 +1,8 @@
-//! A second opinion on an effect: what the shaft is given as a curve of the variable that carries it, of no stated form.
+//! A second opinion on an effect: the drive that it asks for as a curve of the variable that carries it, of no stated form. A torque
+//! against positive rotation counts positive, as in every drawing of what a model misses.
 //!
 //! ```text
-//! law = missing volts without the effect − missing volts with it,    found = law + missing volts with it
+//! law = drive missing without the effect − drive missing with it,    found = law + drive missing with it
 //! ```
 //!
 //! Both pass the same filter, and both are smoothed alike, by lines between knots beside the linear motor's own columns: a partial
@@ -45,9 +46,9 @@ pub enum Carrier {
 pub struct CurvePoint {
     /// Value of the variable.
     pub at: f64,
-    /// What the law gives there, V.
+    /// Drive that the law asks for there, V.
     pub law: f64,
-    /// What the recording gives there, V.
+    /// Drive that the recording asks for there, V.
     pub found: f64,
     /// Half of the band of 95 % around `found`, V.
     pub band: f64,
@@ -96,7 +97,9 @@ impl Curve {
         let equation = Equation::new(data, &linear(candidate))?;
         let with = equation.missing_by(candidate)?;
         let without = equation.missing_by(&less(candidate, effect))?;
-        let law: Vec<f64> = without.iter().zip(&with).map(|(a, b)| a - b).collect();
+        // What the shaft is given is asked of the drive with the other sign.
+        let law: Vec<f64> = without.iter().zip(&with).map(|(a, b)| b - a).collect();
+        let with: Vec<f64> = with.iter().map(|volts| -volts).collect();
         let curves = Carrier::ALL.iter().filter_map(|&carrier| {
             let (carried, points) = smoothed(&equation, &law, &with, carrier)?;
             Some(Curve {
@@ -120,6 +123,7 @@ impl Curve {
     ) -> Option<Vec<CurvePoint>> {
         let equation = Equation::new(data, &linear(candidate))?;
         let left = equation.missing_by(candidate)?;
+        let left: Vec<f64> = left.iter().map(|volts| -volts).collect();
         let nothing = vec![0.0; left.len()];
         Some(smoothed(&equation, &nothing, &left, carrier)?.1)
     }

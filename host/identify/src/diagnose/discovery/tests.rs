@@ -11,7 +11,7 @@ use servoid_io::recording::Recording;
 use servoid_plant::{Bench, Machine, Outside, OutsideLaw, Run};
 use shared::effects::Kind;
 use shared::excite::COMMISSIONING;
-use testing::length::{cases, long};
+use testing::length::cases;
 
 /// A recording with the true motion behind it.
 struct Known {
@@ -146,7 +146,7 @@ const FALSE: usize = 1;
 fn hidden_laws_are_proposed() {
     let machine = Machine::gearmotor();
     let seeds = cases(3, 1);
-    let forms = if long() { Outside::ALL.len() } else { 4 };
+    let forms = cases(Outside::ALL.len(), 2);
     let (mut near, mut all) = (0, 0);
     for form in Outside::ALL.iter().take(forms) {
         for seed in 0..seeds {
