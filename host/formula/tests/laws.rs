@@ -265,7 +265,8 @@ proptest! {
             let written = law.definition.value(&[c], &point);
             let runs = law.formula.value(&[c], &plan(&[]).units, [point.speed, point.angle, point.current]);
             let size = 1.0 + written.abs();
-            prop_assert!((written - runs).abs() < 1e-6 * size || !written.is_finite(), "{}: {written} as written, {runs} as it runs at {point:?}", text);
+            // Beyond 7 the hyperbolic tangent is one, which it is to 2e-6.
+            prop_assert!((written - runs).abs() < 2e-6 * size || !written.is_finite(), "{}: {written} as written, {runs} as it runs at {point:?}", text);
         }
     }
 

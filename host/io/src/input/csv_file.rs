@@ -76,10 +76,10 @@ pub(super) fn read_text(
         layout.current.is_some(),
         layout.enabled.is_some(),
     );
-    let mut passed = 0;
+    let mut passed: u64 = 0;
     while !collector.has_all() && rows.next_line()? {
         passed += 1;
-        if passed % ROWS_TO_TELL == 0 {
+        if passed.is_multiple_of(ROWS_TO_TELL) {
             done(passed);
         }
         let line = rows.lines.number();

@@ -234,7 +234,7 @@ fn of_text(
     let mut clock = Clock::default();
     while let Some(row) = rows.advance()? {
         table.rows += 1;
-        if table.rows % ROWS_TO_TELL == 0 {
+        if table.rows.is_multiple_of(ROWS_TO_TELL) {
             done(count.reached(table.rows));
         }
         for (k, column) in table.columns.iter_mut().enumerate().take(COLUMNS) {

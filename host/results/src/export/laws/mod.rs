@@ -36,11 +36,10 @@ fn results() -> Vec<(String, Identified)> {
     results
 }
 
-/// A law with a state and every function.
+/// A law with a state and functions.
 fn stated() -> Kind {
-    let text = "swing: z' = (w - abs(w)*z)/h; torque = -c*z*tanh(w/v)*exp(-abs(w)/v) + d*cos(3*theta)*sqrt(abs(i)/e) \
-                - d*sin(theta)*max(min(i/e, 1), 0)^p*sgn(w); c, d = 0.1 in [0, 1] V; h = 0.1 in [0.01, 1] rad; v = 20 rad/s; \
-                e = 2 V; p = 1.5 in [0.5, 3]";
+    let text = "swing: z' = (w - abs(w)*z)/h; torque = -c*z*tanh(w/v)*exp(-abs(w)/v) + c*cos(theta)*max(i/e, 0)^p; \
+                c = 0.1 in [0, 1] V; h = 0.1 in [0.01, 1] rad; v = 20 rad/s; e = 2 V; p = 1.5 in [0.5, 3]";
     servoid_formula::define(text).expect("a law")
 }
 
