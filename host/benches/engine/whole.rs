@@ -23,6 +23,7 @@ fn case(hidden: HowMany, number: u64) -> Case {
         excite: Excite::Commissioning,
         effects: Vec::new(),
         laws: Laws::Own,
+        discover: false,
     };
     Case::record(&set_up, number).expect("a case")
 }

@@ -63,13 +63,18 @@ fn carriers(definition: &Definition) -> impl Iterator<Item = Carrier> + use<> {
     let shaft = matches!(definition.output, Output::Torque | Output::Friction);
     Carrier::ALL.into_iter().filter(move |carrier| {
         shaft
-            && uses.iter().any(|used| match (carrier, used) {
-                (Carrier::Speed, Used::Variable(Variable::Speed) | Used::State) => true,
-                (Carrier::Angle, Used::Variable(Variable::Angle)) => true,
-                (Carrier::Current, Used::Variable(Variable::Current | Variable::Transmitted)) => {
-                    true
-                }
-                _ => false,
+            && uses.iter().any(|used| {
+                matches!(
+                    (carrier, used),
+                    (
+                        Carrier::Speed,
+                        Used::Variable(Variable::Speed) | Used::State
+                    ) | (Carrier::Angle, Used::Variable(Variable::Angle))
+                        | (
+                            Carrier::Current,
+                            Used::Variable(Variable::Current | Variable::Transmitted)
+                        )
+                )
             })
     })
 }
