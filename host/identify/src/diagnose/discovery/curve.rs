@@ -94,8 +94,9 @@ impl Curve {
     /// Of an effect of a candidate, along a recording. `None` where the motor turned too little, or no variable alone carries
     /// the effect.
     pub fn of(data: &Data, candidate: &Candidate, effect: Kind) -> Option<Curve> {
-        let equation = Equation::new(data, &linear(candidate))?;
-        let with = equation.missing_by(candidate)?;
+        // A friction leaves out where the shaft may rest, so that the rows are the whole model's.
+        let equation = Equation::new(data, candidate)?;
+        let with = equation.missing.clone();
         let without = equation.missing_by(&less(candidate, effect))?;
         // What the shaft is given is asked of the drive with the other sign.
         let law: Vec<f64> = without.iter().zip(&with).map(|(a, b)| b - a).collect();
@@ -121,9 +122,8 @@ impl Curve {
         candidate: &Candidate,
         carrier: Carrier,
     ) -> Option<Vec<CurvePoint>> {
-        let equation = Equation::new(data, &linear(candidate))?;
-        let left = equation.missing_by(candidate)?;
-        let left: Vec<f64> = left.iter().map(|volts| -volts).collect();
+        let equation = Equation::new(data, candidate)?;
+        let left: Vec<f64> = equation.missing.iter().map(|volts| -volts).collect();
         let nothing = vec![0.0; left.len()];
         Some(smoothed(&equation, &nothing, &left, carrier)?.1)
     }
@@ -178,7 +178,7 @@ fn smoothed(
             columns[knot][row] = weight;
         }
     }
-    let own = orthonormal(&equation.own);
+    let own = orthonormal(equation.linear());
     // The law's curve is told beside what a linear motor could give of it, which is told as nothing: what is left of the volts
     // is put to the law.
     let mut rest = left.to_vec();

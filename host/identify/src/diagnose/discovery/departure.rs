@@ -20,16 +20,17 @@ pub fn departure(data: &Data, candidate: &Candidate, known: &Known) -> Option<f6
         effects: Default::default(),
         ..*candidate
     };
-    let equation = Equation::new(data, &linear)?;
+    // A friction leaves out where the shaft may rest, so that the rows are the whole model's.
+    let equation = Equation::new(data, candidate)?;
     let mut truth = equation.seen(&known.torque, Place::Torque);
     let voltage = equation.seen(&known.voltage, Place::Voltage);
     for (sum, volts) in truth.iter_mut().zip(voltage) {
         *sum += volts;
     }
-    let left = equation.missing_by(candidate)?;
-    let pairs = equation.missing.iter().zip(&left);
+    let without = equation.missing_by(&linear)?;
+    let pairs = without.iter().zip(&equation.missing);
     let mut found: Vec<f64> = pairs.map(|(without, with)| without - with).collect();
-    let basis = orthonormal(&equation.own);
+    let basis = orthonormal(equation.linear());
     take_out(&basis, &mut truth);
     take_out(&basis, &mut found);
     let off: Vec<f64> = truth.iter().zip(&found).map(|(a, b)| a - b).collect();

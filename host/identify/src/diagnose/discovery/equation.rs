@@ -99,6 +99,11 @@ impl<'a> Equation<'a> {
         Some(equation)
     }
 
+    /// What changes of the linear motor would give: speed, acceleration, jerk.
+    pub fn linear(&self) -> &[Vec<f64>] {
+        &self.own[..3]
+    }
+
     /// What another candidate misses at the rows, V.
     pub fn missing_by(&self, candidate: &Candidate) -> Option<Vec<f64>> {
         missing_at(self.data, candidate, self.time, &self.rows)
