@@ -1,7 +1,7 @@
 //! Laws outside the catalogue: what a motor may hide that no effect of the catalogue states.
 //!
 //! They serve to judge whether a program finds the law itself from a recording. A law is hidden by
-//! [`Bench::outside`](super::Bench::outside), beside effects of the catalogue or alone, and [`OutsideLaw::volts`] tells the truth.
+//! [`Bench::outside`](super::Bench::outside), beside effects of the catalogue or alone, and [`OutsideLaw::given`] tells the truth.
 
 use super::effects::{At, Effect, Sliding};
 use super::run::Run;

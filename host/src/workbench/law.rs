@@ -14,15 +14,16 @@ const POINTS: usize = 81;
 /// Where a variable stands that is not drawn, parts of its greatest value.
 const ELSEWHERE: f64 = 0.5;
 
-/// What a law's text says, or what is wrong with it and at which character.
-pub(super) fn read(bench: &Bench, text: &str) -> Result<Value, Error> {
-    let definition = match Definition::parse(text.trim()) {
-        Ok(definition) => definition,
-        Err(Fault { text, at, what }) => {
-            let at = text.get(..at).map_or(0, |before| before.chars().count());
-            return Ok(json!({ "fault": { "at": at, "what": what } }));
-        }
-    };
+/// A law's text as it is understood, or what is wrong with it and at which character.
+pub(super) fn read(text: &str) -> Result<Definition, Value> {
+    Definition::parse(text.trim()).map_err(|Fault { text, at, what }| {
+        let at = text.get(..at).map_or(0, |before| before.chars().count());
+        json!({ "fault": { "at": at, "what": what } })
+    })
+}
+
+/// What the chosen model misses along each variable, as points with half of their bands.
+pub(super) fn missing(bench: &Bench) -> Result<Value, Error> {
     let (recordings, model) = {
         let state = bench.state();
         let chosen = state
@@ -31,24 +32,36 @@ pub(super) fn read(bench: &Bench, text: &str) -> Result<Value, Error> {
             .transpose()?;
         (state.recordings()?, chosen)
     };
+    let curves = model.map(|model| Curve::missing(recordings.shown(), &model.fit.candidate));
+    let along = curves.unwrap_or_default().into_iter();
+    let along = along.map(|(carrier, points)| {
+        let bins = points.iter().map(|p| json!([p.at, p.found, 0.5 * p.band]));
+        (carrier.name().to_owned(), bins.collect())
+    });
+    Ok(Value::Object(along.collect()))
+}
+
+/// A law over what the chosen model misses.
+pub(super) fn drawn(
+    bench: &Bench,
+    definition: &Definition,
+    missing: &Value,
+) -> Result<Value, Error> {
+    let recordings = bench.state().recordings()?;
     let data = recordings.shown();
     let values: Vec<f64> = definition.parameters.iter().map(|own| own.start).collect();
-    let curves = carriers(&definition).map(|carrier| {
-        let missing = model
-            .as_ref()
-            .and_then(|model| Curve::missing(data, &model.fit.candidate, carrier));
-        let bins = missing.unwrap_or_default();
-        let bins: Vec<_> = bins.iter().map(|p| (p.at, p.found, 0.5 * p.band)).collect();
+    let curves = carriers(definition).map(|carrier| {
+        let bins = missing.get(carrier.name());
         json!({
             "against": carrier.name(),
             "unit": carrier.unit(),
-            "curve": curve(&definition, &values, data, carrier),
-            "bins": bins,
+            "curve": curve(definition, &values, data, carrier),
+            "bins": bins.cloned().unwrap_or_else(|| json!([])),
         })
     });
-    let parameters = definition.parameters.iter().map(|own| {
-        json!({ "name": own.name, "start": own.start, "low": own.range.0, "high": own.range.1, "unit": own.unit })
-    });
+    let parameters = definition.parameters.iter().map(
+        |own| json!({ "name": own.name, "low": own.range.0, "high": own.range.1, "unit": own.unit }),
+    );
     Ok(json!({
         "name": definition.name,
         "place": definition.place(),

@@ -225,7 +225,12 @@ struct Lock {
 
 /// Reads and draws a law that is being typed.
 async fn law_read(State(bench): Shared, text: String) -> Answer {
-    let found = aside(move || law::read(&bench, &text)).await?;
+    let definition = match law::read(&text) {
+        Ok(definition) => definition,
+        Err(fault) => return Ok(Json(fault)),
+    };
+    let Json(missing) = drawn(&bench, "missing", law::missing).await?;
+    let found = aside(move || law::drawn(&bench, &definition, &missing)).await?;
     Ok(Json(found))
 }
 

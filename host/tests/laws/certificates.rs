@@ -47,7 +47,7 @@ fn holds(certificate: &Certificate, name: &str, value: f64) {
 fn one_motor_reproduces_every_reading_and_the_true_one_is_within_the_bounds() {
     let machine = showcase::machine();
     let Response { gain, a1, a2 } = truth::physical(&machine).machine().response();
-    for seed in 1..=cases(4, 1) {
+    for seed in 1..=cases(2, 1) {
         for name in EFFECTS {
             let hidden = Hidden::typical(name, &machine).unwrap();
             let recording = showcase::record(&hidden, seed, "bench").unwrap();

@@ -16,7 +16,7 @@ const CHAOTIC_CASES: u64 = 10;
 const FOLLOWED: f64 = 1.5;
 
 /// Drawn pairs of cogging and another effect.
-const PAIRS: u64 = 6;
+const PAIRS: u64 = 4;
 
 /// The commissioning of motors with one hidden effect.
 fn hiding(effect: &str) -> SetUp {

@@ -69,7 +69,7 @@ pub(super) fn read_log(
     };
     let alone = found.len() == 1;
     let all = rows_of(found.iter().map(|(index, _)| &tables[*index]));
-    let mut before = 0;
+    let mut rows = 0;
     for (index, layout) in found {
         let name = if alone && part.is_none() {
             source.to_owned()
@@ -86,12 +86,10 @@ pub(super) fn read_log(
             motor: &motor,
             scale: &scale,
         };
-        let mut rows = before;
         let one = read.read(&mut |more| {
             rows += more;
             done(Reached::of(rows, all));
         })?;
-        before = rows;
         reading.recordings.extend(one.recordings);
         reading.notes.extend(one.notes);
     }

@@ -20,7 +20,16 @@ pub struct Stated<S: Scalar> {
     rate: S::Coefficient,
     /// Speed by travel in turns, of one interval.
     per_turn: S::Coefficient,
+    /// How many pairs of points its mean over a part takes.
+    pairs: usize,
 }
+
+/// Gauss's rules over a part, by their points' reach from the middle and their weights: of two points, and of four.
+const TWO: [(f64, f64); 1] = [(0.288_675_134_594_812_9, 0.5)];
+const FOUR: [(f64, f64); 2] = [
+    (0.169_990_521_792_428_13, 0.326_072_577_431_273_07),
+    (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
 
 lanes!(Stated {
     program,
@@ -28,7 +37,8 @@ lanes!(Stated {
     rate_from,
     law,
     rate,
-    per_turn
+    per_turn,
+    pairs
 });
 
 impl<const N: usize> FromLanes<&'static Program, N> for &'static Program {
@@ -80,7 +90,10 @@ impl<S: Scalar> Stated<S> {
     ) -> Self {
         let numbers = Numbers::new(formula, values, units);
         let turn = units.lower(units.base(Quantity::Angle), Quantity::Speed) / units.interval;
+        // Several waves along the angle may pass within a part.
+        let waves = formula.program.looks_at(Variable::Angle);
         Stated {
+            pairs: if waves { FOUR.len() } else { TWO.len() },
             program: &formula.program,
             numbers: numbers.lowered::<S>(),
             rate_from: numbers.rate_from,
@@ -129,15 +142,10 @@ impl<S: Scalar> Stated<S> {
         }
     }
 
-    /// Mean over the part by Gauss's rule of two points; of four where several waves along the angle may pass within it.
+    /// Mean over the part.
     #[inline(always)]
     fn mean(&self, shaft: &Shaft<S>) -> S {
-        const TWO: [(f64, f64); 1] = [(0.288_675_134_594_812_9, 0.5)];
-        const FOUR: [(f64, f64); 2] = [
-            (0.169_990_521_792_428_13, 0.326_072_577_431_273_07),
-            (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
-        ];
-        let nodes = if self.program.looks_at(Variable::Angle) {
+        let nodes = if self.pairs == FOUR.len() {
             &FOUR[..]
         } else {
             &TWO[..]

@@ -91,18 +91,21 @@ impl Carrier {
 }
 
 impl Curve {
-    /// Of an effect of a candidate, along a recording. `None` where the motor turned too little, or no variable alone carries
-    /// the effect.
-    pub fn of(data: &Data, candidate: &Candidate, effect: Kind) -> Option<Curve> {
+    /// Of each of some effects of a candidate, along a recording. `None` where the motor turned too little, or no variable alone
+    /// carries the effect.
+    pub fn of_each(data: &Data, candidate: &Candidate, effects: &[Kind]) -> Vec<Option<Curve>> {
         // A friction leaves out where the shaft may rest, so that the rows are the whole model's.
-        let equation = Equation::new(data, candidate)?;
-        let with = equation.missing.clone();
-        let without = equation.missing_by(&less(candidate, effect))?;
-        // What the shaft is given is asked of the drive with the other sign.
-        let law: Vec<f64> = without.iter().zip(&with).map(|(a, b)| b - a).collect();
-        let with: Vec<f64> = with.iter().map(|volts| -volts).collect();
+        let equation = Equation::new(data, candidate);
+        let of = |&effect: &Kind| Curve::of(equation.as_ref()?, candidate, effect);
+        effects.iter().map(of).collect()
+    }
+
+    fn of(equation: &Equation<'_>, candidate: &Candidate, effect: Kind) -> Option<Curve> {
+        let left = asked(&equation.missing);
+        let without = asked(&equation.missing_by(&candidate.without(effect))?);
+        let law: Vec<f64> = without.iter().zip(&left).map(|(a, b)| a - b).collect();
         let curves = Carrier::ALL.iter().filter_map(|&carrier| {
-            let (carried, points) = smoothed(&equation, &law, &with, carrier)?;
+            let (carried, points) = smoothed(equation, &law, &left, carrier)?;
             Some(Curve {
                 effect,
                 carrier,
@@ -115,17 +118,19 @@ impl Curve {
             .max_by(|a, b| a.carried.total_cmp(&b.carried))
     }
 
-    /// What a candidate misses along a variable, as a curve of no stated form beside a law that gives nothing. `None` where the motor
+    /// What a candidate misses along each variable, as a curve of no stated form beside a law that gives nothing; none where the motor
     /// turned too little.
-    pub fn missing(
-        data: &Data,
-        candidate: &Candidate,
-        carrier: Carrier,
-    ) -> Option<Vec<CurvePoint>> {
-        let equation = Equation::new(data, candidate)?;
-        let left: Vec<f64> = equation.missing.iter().map(|volts| -volts).collect();
+    pub fn missing(data: &Data, candidate: &Candidate) -> Vec<(Carrier, Vec<CurvePoint>)> {
+        let Some(equation) = Equation::new(data, candidate) else {
+            return Vec::new();
+        };
+        let left = asked(&equation.missing);
         let nothing = vec![0.0; left.len()];
-        Some(smoothed(&equation, &nothing, &left, carrier)?.1)
+        let along = |&carrier: &Carrier| {
+            let (_, points) = smoothed(&equation, &nothing, &left, carrier)?;
+            Some((carrier, points))
+        };
+        Carrier::ALL.iter().filter_map(along).collect()
     }
 
     /// The range of the variable in which the curve leaves its band, if that is more than chance and noticeable.
@@ -142,22 +147,9 @@ impl Curve {
     }
 }
 
-/// The candidate without effects.
-fn linear(candidate: &Candidate) -> Candidate {
-    Candidate {
-        effects: Default::default(),
-        ..*candidate
-    }
-}
-
-/// The candidate without one of its effects.
-fn less(candidate: &Candidate, effect: Kind) -> Candidate {
-    let mut rest = linear(candidate);
-    for (kind, values) in candidate.effects.iter().filter(|(kind, _)| *kind != effect) {
-        // They fitted in before.
-        let _ = rest.effects.push(kind, values);
-    }
-    rest
+/// What the shaft is given is asked of the drive with the other sign.
+fn asked(given: &[f64]) -> Vec<f64> {
+    given.iter().map(|volts| -volts).collect()
 }
 
 /// Part of the law that the variable carries (not a number of no law), and both curves.

@@ -44,8 +44,6 @@ pub struct Equation<'a> {
     /// would fit perfectly, and whatever is like the command would seem to explain all.
     basis: Vec<Vec<f64>>,
     own_directions: usize,
-    /// Mean square of what a perfect model would leave, V², beside `own`.
-    pub noise: f64,
 }
 
 impl<'a> Equation<'a> {
@@ -87,7 +85,6 @@ impl<'a> Equation<'a> {
             own,
             basis: Vec::new(),
             own_directions: 0,
-            noise: 0.0,
         };
         let mut linear = equation.own.clone();
         equation.own_directions = orthonormal(&linear).len();
@@ -95,7 +92,6 @@ impl<'a> Equation<'a> {
         linear.push(equation.seen(&equation.motion.current, Place::Torque));
         linear.push(equation.seen(&equation.motion.speed, Place::Torque));
         equation.basis = orthonormal(&linear);
-        equation.noise = equation.perfect(candidate).unwrap_or(0.0);
         Some(equation)
     }
 
@@ -187,8 +183,8 @@ impl<'a> Equation<'a> {
         self.seen(torque, Place::Torque)
     }
 
-    /// What the model leaves of its own run, floored to counts.
-    fn perfect(&self, candidate: &Candidate) -> Option<f64> {
+    /// Mean square of what a perfect model would leave, V²: of what this one leaves of its own run, floored to counts.
+    pub fn perfect(&self, candidate: &Candidate) -> Option<f64> {
         if !self.data.quantised {
             return None;
         }
@@ -250,10 +246,7 @@ fn own_columns(data: &Data, candidate: &Candidate, time: f64, rows: &[usize]) ->
         for (slot, parameter) in kind.parameters().iter().enumerate() {
             let usual = parameter.scaled(parameter.typical, data.supply, data.units.speed);
             let step = MOVE * values[slot].abs().max(usual.abs()).max(1e-12);
-            let mut moved = Candidate {
-                effects: Default::default(),
-                ..*candidate
-            };
+            let mut moved = candidate.keeping(|_| false);
             for (other, (kind, values)) in effects.iter().enumerate() {
                 let mut values = values.to_vec();
                 if other == index {

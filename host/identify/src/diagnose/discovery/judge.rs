@@ -21,6 +21,10 @@ pub struct Judge<'a> {
     pub fitted: Equation<'a>,
     /// The one that no coefficient comes from.
     pub held: Equation<'a>,
+    /// Mean squares that a perfect model would leave of the fitted one, V².
+    pub fitted_noise: f64,
+    /// The same of the other.
+    pub held_noise: f64,
 }
 
 /// What the model with some terms leaves, mean squares in V².
@@ -56,9 +60,13 @@ impl<'a> Judge<'a> {
     /// Of two recordings. `None` where either shows too little motion.
     pub fn new(data: &'a Data, held_out: &'a Data, candidate: &Candidate) -> Option<Self> {
         let candidate = refined(data, candidate);
+        let fitted = Equation::new(data, &candidate)?;
+        let held = Equation::new(held_out, &candidate)?;
         Some(Judge {
-            fitted: Equation::new(data, &candidate)?,
-            held: Equation::new(held_out, &candidate)?,
+            fitted_noise: fitted.perfect(&candidate).unwrap_or(0.0),
+            held_noise: held.perfect(&candidate).unwrap_or(0.0),
+            fitted,
+            held,
         })
     }
 
@@ -107,7 +115,7 @@ impl<'a> Judge<'a> {
 
     /// Share of what is missing on the held-out recording, beyond what a perfect model would leave, that `trial` explains.
     pub fn explained(&self, base: &Trial, trial: &Trial) -> f64 {
-        let noise = self.held.noise.min(trial.held);
+        let noise = self.held_noise.min(trial.held);
         let beyond = (base.held - noise).max(f64::MIN_POSITIVE);
         ((base.held - trial.held) / beyond).clamp(0.0, 1.0)
     }
@@ -115,8 +123,8 @@ impl<'a> Judge<'a> {
     /// Whether `trial` says more than `base` does, of which it is one of `tried`.
     pub fn believes(&self, base: &Trial, trial: &Trial, tried: usize) -> bool {
         let gains = trial.crossed < base.crossed && trial.held < base.held;
-        let noticed = base.held - trial.held > NOTICED * self.held.noise
-            && base.fitted - trial.fitted > NOTICED * self.fitted.noise;
+        let noticed = base.held - trial.held > NOTICED * self.held_noise
+            && base.fitted - trial.fitted > NOTICED * self.fitted_noise;
         gains
             && noticed
             && chance(base, trial) * (tried as f64) < CHANCE

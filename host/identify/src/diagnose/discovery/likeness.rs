@@ -25,10 +25,7 @@ pub fn likeness(
         }
     }
     take_out(&own, &mut law);
-    let linear = Candidate {
-        effects: Default::default(),
-        ..*candidate
-    };
+    let linear = candidate.keeping(|_| false);
     let without = equation.missing_by(&linear)?;
     let alike = Kind::ALL.iter().filter_map(|&kind| {
         let mut with = linear;

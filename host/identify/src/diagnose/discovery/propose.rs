@@ -74,8 +74,8 @@ fn explains_more(judge: &Judge<'_>, one: &Trial, two: &Trial) -> bool {
         let noise = noise.min(after);
         (before - after) / (before - noise).max(f64::MIN_POSITIVE)
     };
-    part(one.held, two.held, judge.held.noise) > SECOND_TERM
-        && part(one.crossed, two.crossed, judge.fitted.noise) > SECOND_TERM
+    part(one.held, two.held, judge.held_noise) > SECOND_TERM
+        && part(one.crossed, two.crossed, judge.fitted_noise) > SECOND_TERM
 }
 
 /// Best first.

@@ -10,6 +10,7 @@ use crate::diagnose::residual_analysis::{
 use crate::error::Error;
 use crate::fit::scores;
 use servoid_engine::problem::Data;
+use shared::effects::Kind;
 
 /// What the drawings show.
 pub struct Findings {
@@ -50,14 +51,13 @@ pub fn findings(diagnosis: &Diagnosis, data: &Data, held_out: &Data) -> Result<F
     let base_errors = errors(&diagnosis.base)?;
     let last_errors = errors(&diagnosis.last)?;
     let steps = 0..diagnosis.steps.len();
+    let added: Vec<Kind> = diagnosis.steps.iter().map(|step| step.added).collect();
     Ok(Findings {
         base: look(&diagnosis.base)?,
         steps: steps
             .map(|index| evidence::asked_for(diagnosis, index, data))
             .collect::<Result<_, _>>()?,
-        curves: (diagnosis.steps.iter())
-            .map(|step| Curve::of(data, complete, step.added))
-            .collect(),
+        curves: Curve::of_each(data, complete, &added),
         last: look(&diagnosis.last)?,
         held_out: analyse_residual(held_out, complete, complete, diagnosis.last.method)?,
         base_whiteness: whiteness(data, &base_errors),

@@ -91,12 +91,10 @@ fn headers_and_modules_compile_without_a_warning() {
             "lib",
             "--emit",
             "metadata",
-            "-o",
+            "--extern",
         ]);
-        rustc
-            .arg("--extern")
-            .arg(format!("libm={}", libm().display()));
-        rustc.arg(path("all.rmeta")).arg(path("all.rs"));
+        rustc.arg(format!("libm={}", libm().display()));
+        rustc.arg("-o").arg(path("all.rmeta")).arg(path("all.rs"));
         passes(rustc, "rust", "");
     }
 }
