@@ -5,16 +5,23 @@ use crate::quantity::Scale;
 use crate::summary::{Fleet, Summary};
 use crate::text::{effects, findings, lead};
 use servoid_results::number_text::short;
-use servoid_results::page::{Block, Page, Section};
+use servoid_results::page::{Block, Page, Section, Unfold};
 use servoid_results::picture::{Distribution, Table, distribution};
+use std::collections::HashMap;
 
 /// Odd units that the page lists.
-const LISTED: usize = 200;
+pub const LISTED: usize = 200;
 
-/// The page of a fleet, with its population where there are motors enough for one.
-pub fn page(fleet: &Fleet, summary: &Summary, population: Option<&Population>) -> Page {
+/// The page of a fleet, with its population where there are motors enough for one. `own` are the pages of its odd recordings by their
+/// names, of which the words and tables unfold.
+pub fn page(
+    fleet: &Fleet,
+    summary: &Summary,
+    population: Option<&Population>,
+    own: Vec<(String, Page)>,
+) -> Page {
     let mut sections = vec![distributions(fleet, population)];
-    sections.extend(odd(summary));
+    sections.extend(odd(summary, own));
     sections.extend(population.map(of_population));
     sections.extend(named(summary));
     sections.extend(compared(summary));
@@ -42,7 +49,7 @@ fn distributions(fleet: &Fleet, population: Option<&Population>) -> Section {
     let mut section = Section::new("parameters", "Parameters");
     section.blocks.push(Block::Text(
         "Each bar counts recordings. The line is the population with each recording's own uncertainty taken off; diamonds are \
-         recordings that are odd by this parameter."
+         recordings that are odd by this parameter, and a click on one unfolds what was found of it."
             .to_owned(),
     ));
     let table = fleet.table();
@@ -75,37 +82,33 @@ fn distributions(fleet: &Fleet, population: Option<&Population>) -> Section {
     section
 }
 
-fn odd(summary: &Summary) -> Option<Section> {
+fn odd(summary: &Summary, own: Vec<(String, Page)>) -> Option<Section> {
     if summary.odd.is_empty() {
         return None;
     }
     let mut section = Section::new("odd", "Recordings that are not like the others");
+    let listed = match summary.odd.len().checked_sub(LISTED) {
+        Some(more) if more > 0 => format!("The oddest {LISTED}; {more} more are in the JSON."),
+        _ => "The oddest first.".to_owned(),
+    };
     section.blocks.push(Block::Text(format!(
-        "At most one in twenty of these is expected to be a usual one. A page of each: servoid fleet {} --unit NAME --report FILE",
+        "At most one in twenty of these is expected to be a usual one. {listed} A click on one unfolds what was found of it; its page \
+         with the drawings: servoid fleet {} --unit NAME --report FILE",
         summary.results
     )));
-    let serials = summary.odd.iter().any(|odd| odd.serial.is_some());
-    let mut table = Table::new(&["recording", "p", "why"]);
-    if serials {
-        table.head.insert(1, "motor".to_owned());
-    }
-    for odd in summary.odd.iter().take(LISTED) {
-        let reasons = odd.reasons.iter().map(|reason| reason.text.as_str());
-        let mut row = vec![
-            odd.unit.clone(),
-            odd.p_value.map_or_else(String::new, |p| format!("{p:.0e}")),
-            reasons.collect::<Vec<_>>().join("; "),
-        ];
-        if serials {
-            row.insert(1, odd.serial.clone().unwrap_or_default());
+    let mut own: HashMap<String, Page> = own.into_iter().collect();
+    let unfolds = summary.odd.iter().take(LISTED).map(|odd| {
+        let motor = odd.serial.as_ref().map(|serial| format!("motor {serial}"));
+        let p = odd.p_value.map(|p| format!("p {p:.0e}"));
+        let reasons = odd.reasons.iter().map(|reason| reason.text.clone());
+        let line: Vec<String> = motor.into_iter().chain(reasons).chain(p).collect();
+        Unfold {
+            name: odd.unit.clone(),
+            line: line.join("; "),
+            blocks: own.remove(&odd.unit).map_or_else(Vec::new, Page::words),
         }
-        table.row(row);
-    }
-    let caption = match summary.odd.len().checked_sub(LISTED) {
-        Some(more) if more > 0 => format!("The oddest {LISTED}; {more} more are in the JSON"),
-        _ => "The oddest first".to_owned(),
-    };
-    section.blocks.push(Block::Table(caption, table));
+    });
+    section.blocks.push(Block::Unfolds(unfolds.collect()));
     Some(section)
 }
 

@@ -12,7 +12,7 @@ use crate::robust::{centre, quantile};
 use crate::unit::{Unit, Units, read, results};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// What a fleet calls itself.
@@ -192,6 +192,19 @@ impl Fleet {
                 known.join(", ")
             ))
         })
+    }
+
+    /// The whole results of the recordings that are odd, at most so many, in the order in which the summary names them.
+    ///
+    /// # Errors
+    /// A folder that cannot be read any more.
+    pub fn odd_results(&self, most: usize) -> Result<Vec<(String, String)>, Error> {
+        let listed = self.odd.iter().take(most);
+        let names: Vec<&str> = listed.map(|(_, odd)| odd.unit.as_str()).collect();
+        let wanted: HashSet<&str> = names.iter().copied().collect();
+        let mut found = results(&self.folder, &self.units, |unit| wanted.contains(unit))?;
+        let each = names.into_iter();
+        Ok(each.filter_map(|name| found.remove_entry(name)).collect())
     }
 
     /// The population of its motors.

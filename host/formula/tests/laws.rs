@@ -4,11 +4,10 @@ use proptest::prelude::*;
 use servoid_formula::{Point, define, law_of};
 use shared::effects::formula::Output;
 use shared::effects::{EffectSet, Kind};
-use shared::model::{Model, Plan, State};
+use shared::model::{Plan, State};
 use shared::motor::Machine;
-use shared::scalar::Fixed;
-use shared::scalar::Readable as _;
 use shared::units::PerUnit;
+use testing::motion;
 
 const SUPPLY: f64 = 24.0;
 const FASTEST: f64 = 800.0;
@@ -40,14 +39,9 @@ fn command(k: usize) -> f64 {
 const SAMPLES: usize = 2400;
 
 fn angles(plan: &Plan<f64>) -> Vec<f64> {
-    let model = Model::<f64>::new(plan).unwrap();
-    let mut state = State::default();
-    (0..SAMPLES)
-        .map(|k| {
-            model.step(&mut state, command(k), false);
-            model.reading(&state)
-        })
-        .collect()
+    let commands: Vec<(f64, bool)> = (0..SAMPLES).map(|k| (command(k), false)).collect();
+    let motion = motion::exact(plan, State::default(), &commands).unwrap();
+    motion.readings[1..].to_vec()
 }
 
 fn furthest(a: &[f64], b: &[f64]) -> f64 {
@@ -127,9 +121,9 @@ fn every_number_format_moves_alike_or_refuses() {
         let stated = define(text).unwrap();
         let plan = plan(&[(stated, values)]);
         let exact = angles(&plan);
-        let mut narrow = (State::default(), State::default());
-        let single = Model::<f32>::new(&plan).unwrap();
-        let fixed = Model::<Fixed>::new(&plan);
+        let commands: Vec<f64> = (0..SAMPLES).map(command).collect();
+        let single = motion::single(&plan, &commands).unwrap();
+        let fixed = motion::fixed(&plan, &commands);
         if law_of(stated).unwrap().definition.state.is_some() {
             let refused = fixed
                 .err()
@@ -140,16 +134,7 @@ fn every_number_format_moves_alike_or_refuses() {
         }
         let fixed = fixed.unwrap();
         for (k, exact) in exact.iter().enumerate() {
-            single.step(&mut narrow.0, command(k) as f32, false);
-            fixed.step(
-                &mut narrow.1,
-                shared::scalar::Scalar::from_f64(command(k)),
-                false,
-            );
-            let off = [
-                f64::from(single.reading(&narrow.0).floor()) - exact.floor(),
-                f64::from(fixed.reading(&narrow.1).floor()) - exact.floor(),
-            ];
+            let off = [single[k], fixed[k]].map(|counts| f64::from(counts) - exact.floor());
             assert!(
                 off.iter().all(|off| off.abs() <= 8.0),
                 "{text}, sample {k}: {off:?} counts"

@@ -90,9 +90,9 @@ fn fitting(
 
 /// The table of which most is guessed.
 fn most_guessed(survey: &Survey) -> Option<&SurveyTable> {
-    let guessed = |table: &&SurveyTable| table.columns.iter().filter(|c| c.guess.is_some()).count();
     // Of equals the first.
-    survey.tables.iter().rev().max_by_key(guessed)
+    let tables = survey.tables.iter().rev();
+    tables.max_by_key(|table| table.guessed())
 }
 
 /// Whether the user has named the column for a key.

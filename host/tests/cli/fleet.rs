@@ -61,6 +61,10 @@ fn the_odd_motor_is_named_with_the_reason_and_the_others_are_a_population() {
     assert_eq!(list(&fleet, "lots").len(), 2);
     let page = desk.read("fleet.html");
     assert!(page.contains("17.csv") && page.contains("coulomb.torque"));
+    // What was found of it unfolds there.
+    let (_, own) = page.split_once("data-name=\"17.csv\"").expect("it unfolds");
+    let (own, _) = own.split_once("</details>").expect("its end");
+    assert!(own.contains("<td>coulomb.torque</td>"), "{own}");
     // Its own page and its own result.
     let unit = desk.json("fleet results --unit 17.csv --report unit.html");
     assert_eq!(unit["schema"], "servoid.fit/1");

@@ -5,7 +5,7 @@ use servoid_identify::diagnose::{Budget, diagnose};
 use servoid_identify::fit::Options;
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
-use testing::length::{cases, long};
+use testing::length::{cases, long_minutes, many_minutes};
 
 const SEED: u64 = 20_261_121;
 const CASES: u64 = 8;
@@ -16,7 +16,7 @@ const CHAOTIC_CASES: u64 = 10;
 const FOLLOWED: f64 = 1.5;
 
 /// Drawn pairs of cogging and another effect.
-const PAIRS: u64 = 4;
+const PAIRS: u64 = 6;
 
 /// The commissioning of motors with one hidden effect.
 fn hiding(effect: &str) -> SetUp {
@@ -32,7 +32,7 @@ fn hiding(effect: &str) -> SetUp {
 
 /// Three of four; of a few, all but one.
 fn most(right: usize, all: usize) -> bool {
-    right * 4 >= all * 3 || (!long() && right + 1 >= all)
+    right * 4 >= all * 3 || (!long_minutes() && right + 1 >= all)
 }
 
 /// Whatever its order: a wave that turns quickly beside the filter is seen, too; and cogging is not attributed to a friction
@@ -48,7 +48,7 @@ fn cogging_is_named_beside_another_effect() {
     };
     let stop = AtomicBool::new(false);
     let (mut pairs, mut both, mut foreign) = (0, 0, 0);
-    for number in 0..cases(PAIRS, 2) {
+    for number in 0..many_minutes(PAIRS, 2) {
         let case = Case::record(&set_up, number).unwrap();
         if !case
             .drawn
@@ -88,7 +88,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
     let set_up = hiding("cogging");
     let stop = AtomicBool::new(false);
     let (mut chaotic, mut followed) = (0, 0);
-    for number in 0..cases(CHAOTIC_CASES, 3) {
+    for number in 0..many_minutes(CHAOTIC_CASES, 3) {
         let case = Case::record(&set_up, number).unwrap();
         let (options, budget) = (Options::default(), Budget::usual(&stop));
         let found = diagnose(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
@@ -104,7 +104,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
         }
     }
     println!("{followed} of {chaotic}");
-    assert!(!long() || chaotic >= 3, "{chaotic}");
+    assert!(!long_minutes() || chaotic >= 3, "{chaotic}");
     assert!(most(followed, chaotic), "{followed} of {chaotic}");
 }
 

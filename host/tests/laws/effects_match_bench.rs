@@ -13,10 +13,11 @@ use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::excite::{COMMISSIONING, Experiment};
-use shared::model::{Model, Plan, State};
+use shared::model::{Plan, State};
 use shared::units::PerUnit;
 use std::f64::consts::TAU;
 use std::ops::Range;
+use testing::motion;
 
 const COUNTS_PER_REV: u32 = 2000;
 const INTERVAL_S: f64 = 1e-3;
@@ -56,18 +57,15 @@ fn rms(machine: &Machine, effects: &[Hidden], run: &Run, substeps: u16) -> f64 {
         substeps,
         ..Plan::linear(truth::physical(machine).machine(), units)
     };
-    let model = Model::<f64>::new(&plan).expect("a valid model");
-    let mut state = State::at(START_RAD * f64::from(COUNTS_PER_REV) / TAU, 0.0);
-    let errors: Vec<f64> = (0..run.counts.len())
-        .map(|k| {
-            let error = model.reading(&state) - run.counts[k] as f64 - FLOOR_OFFSET_COUNTS;
-            model.step(
-                &mut state,
-                run.voltage_v[k] / machine.supply_v,
-                !run.enabled[k],
-            );
-            error
-        })
+    let start = State::at(START_RAD * f64::from(COUNTS_PER_REV) / TAU, 0.0);
+    let commands = run.voltage_v.iter().zip(&run.enabled);
+    let commands: Vec<(f64, bool)> = commands
+        .map(|(volts, enabled)| (volts / machine.supply_v, !enabled))
+        .collect();
+    let motion = motion::exact(&plan, start, &commands).expect("a valid model");
+    let pairs = motion.readings.iter().zip(&run.counts);
+    let errors: Vec<f64> = pairs
+        .map(|(reading, &counts)| reading - counts as f64 - FLOOR_OFFSET_COUNTS)
         .collect();
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
     let squares = errors.iter().map(|e| (e - mean).powi(2)).sum();

@@ -6,7 +6,7 @@ use servoid_io::recording::Recording;
 use servoid_io::showcase;
 use servoid_plant::Hidden;
 use shared::effects::Kind;
-use testing::length::cases;
+use testing::length::many_minutes;
 
 /// Effects whose torque changes within a sample, of those that a fit finds from regression.
 const EFFECTS: [&str; 4] = ["unbalance", "stribeck", "windage", "torque_sat"];
@@ -24,7 +24,7 @@ fn fit(recording: &Recording, effect: &str, substeps: u16) -> Fit {
 
 #[test]
 fn the_steps_that_a_fit_begins_with_do_not_change_its_parameters() {
-    for seed in 1..=cases(2, 1) {
+    for seed in 1..=many_minutes(2, 1) {
         for effect in EFFECTS {
             let hidden = Hidden::typical(effect, &showcase::machine()).unwrap();
             let recording = showcase::record(&hidden, seed, "bench").unwrap();

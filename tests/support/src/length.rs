@@ -1,22 +1,40 @@
 //! How much of a long law is tried.
 //!
-//! Laws over many seeds are tried over all of them with `SERVOID_LONG=1`, which `scripts/test --require-all` sets; otherwise over
-//! the first few, and that is said.
+//! Laws over many seeds are tried over all of them where `SERVOID_LONG` is 1, which `scripts/test --require-all` sets, and those that
+//! then take minutes where it is 2, which `--long` sets. Otherwise they are tried over the first few, and that is said.
 
 use crate::left_out::note;
 
-/// Whether laws are tried at full length.
+fn level() -> u8 {
+    let said = std::env::var("SERVOID_LONG").unwrap_or_default();
+    said.parse().unwrap_or(0)
+}
+
+/// Of laws that take minutes: how many of `all` cases are tried, all of them or the first `few`.
 #[must_use]
-pub fn long() -> bool {
-    std::env::var_os("SERVOID_LONG").is_some_and(|value| value == "1")
+pub fn many_minutes<N: std::fmt::Display>(all: N, few: N) -> N {
+    if long_minutes() {
+        return all;
+    }
+    said(all, few)
+}
+
+/// Whether laws that take minutes are tried at full length.
+#[must_use]
+pub fn long_minutes() -> bool {
+    level() >= 2
 }
 
 /// How many of `all` cases are tried: all of them, or the first `few`.
 #[must_use]
 pub fn cases<N: std::fmt::Display>(all: N, few: N) -> N {
-    if long() {
+    if level() >= 1 {
         return all;
     }
+    said(all, few)
+}
+
+fn said<N: std::fmt::Display>(all: N, few: N) -> N {
     note("SHORT", &format!("{few} of {all} cases"));
     few
 }

@@ -59,6 +59,14 @@ pub struct SurveyTable {
     pub columns: Vec<SurveyColumn>,
 }
 
+impl SurveyTable {
+    /// How many of its columns look like something that a recording needs.
+    pub fn guessed(&self) -> usize {
+        let guesses = self.columns.iter().filter(|column| column.guess.is_some());
+        guesses.count()
+    }
+}
+
 /// One column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurveyColumn {

@@ -1,6 +1,6 @@
 //! Words, tables and pictures as HTML.
 
-use super::{Block, Section};
+use super::{Block, Section, Unfold};
 use crate::picture::{Drawing, Picture, Table};
 
 /// Text made safe inside HTML.
@@ -50,6 +50,7 @@ pub fn section(section: &Section) -> String {
 
 fn block(block: &Block) -> String {
     match block {
+        Block::Heading(text) => format!("<h3>{}</h3>\n", escaped(text)),
         Block::Text(text) => format!("<p>{}</p>\n", escaped(text)),
         Block::List(points) => {
             let points: String = points
@@ -65,7 +66,18 @@ fn block(block: &Block) -> String {
             let pictures: String = several.iter().map(picture).collect();
             format!("<div class=\"pictures\">{pictures}</div>\n")
         }
+        Block::Unfolds(several) => several.iter().map(unfold).collect(),
     }
+}
+
+/// A line that unfolds.
+fn unfold(unfold: &Unfold) -> String {
+    let name = escaped(&unfold.name);
+    let blocks: String = unfold.blocks.iter().map(block).collect();
+    format!(
+        "<details class=\"unfold\" data-name=\"{name}\"><summary><b>{name}</b> {}</summary>\n{blocks}</details>\n",
+        escaped(&unfold.line)
+    )
 }
 
 /// A table under its caption.

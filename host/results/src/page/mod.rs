@@ -49,6 +49,8 @@ impl Section {
 
 /// A piece of a section.
 pub enum Block {
+    /// A heading within a section.
+    Heading(String),
     /// A paragraph.
     Text(String),
     /// Points.
@@ -61,12 +63,54 @@ pub enum Block {
     Picture(Picture),
     /// Small drawings side by side.
     Pictures(Vec<Picture>),
+    /// What unfolds when it is clicked, one below the other.
+    Unfolds(Vec<Unfold>),
+}
+
+/// Something of which a line is shown until it is clicked. A point in a drawing that has its name as its text opens it as well.
+pub struct Unfold {
+    /// Unique on the page.
+    pub name: String,
+    /// The line behind its name.
+    pub line: String,
+    /// What is folded.
+    pub blocks: Vec<Block>,
+}
+
+impl Block {
+    /// Whether it is without drawings.
+    fn is_words(&self) -> bool {
+        match self {
+            Block::Picture(_) | Block::Pictures(_) => false,
+            Block::Unfolds(unfolds) => unfolds
+                .iter()
+                .all(|one| one.blocks.iter().all(Block::is_words)),
+            _ => true,
+        }
+    }
 }
 
 /// Nothing may be fetched, whatever the file is asked to do.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
 
 impl Page {
+    /// Its words and tables, to stand in another page: without title, drawings and links.
+    pub fn words(self) -> Vec<Block> {
+        let mut facts = Table::new(&["what", "value"]);
+        for (name, value) in self.facts {
+            facts.row([name, value]);
+        }
+        let lead = self.lead.into_iter().map(Block::Text);
+        let facts = (!facts.rows.is_empty()).then(|| Block::Table(String::new(), facts));
+        let blocks = self.sections.into_iter().flat_map(|section| {
+            let words = section.blocks.into_iter().filter(Block::is_words);
+            let words: Vec<Block> = words.collect();
+            let heading = (!words.is_empty()).then_some(Block::Heading(section.heading));
+            heading.into_iter().chain(words)
+        });
+        lead.chain(facts).chain(blocks).collect()
+    }
+
     /// The page as HTML.
     pub fn render(&self) -> String {
         let title = escaped(&self.title);

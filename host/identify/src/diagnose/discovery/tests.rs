@@ -13,7 +13,7 @@ use servoid_plant::{Bench, Machine, Outside, OutsideLaw, Run};
 use shared::effects::Kind;
 use shared::excite::COMMISSIONING;
 use std::sync::atomic::AtomicBool;
-use testing::length::cases;
+use testing::length::{cases, many_minutes};
 
 /// A recording with the true motion behind it.
 struct Known {
@@ -143,8 +143,8 @@ const FOUND: f64 = 0.7;
 #[test]
 fn hidden_laws_are_proposed() {
     let machine = Machine::gearmotor();
-    let seeds = cases(2, 1);
-    let forms = cases(Outside::ALL.len(), 2);
+    let seeds = many_minutes(3, 1);
+    let forms = many_minutes(Outside::ALL.len(), 2);
     let (mut near, mut all) = (0, 0);
     for form in Outside::ALL.iter().take(forms) {
         for seed in 0..seeds {

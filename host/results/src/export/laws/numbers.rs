@@ -7,8 +7,9 @@ use super::super::{Format, Side, Subject, Written};
 use super::{OUTPUT, write};
 use servoid_plant as bench;
 use shared::effects::Kind;
-use shared::model::{Model, Plan, State};
+use shared::model::{Plan, State};
 use shared::units::PerUnit;
+use testing::motion;
 
 /// Steps of 1 ms.
 pub(super) const STEPS: usize = 400;
@@ -27,13 +28,12 @@ pub(super) fn speeds(subject: &Subject) -> Vec<f64> {
             .push(term.kind, &term.values)
             .expect("an effect");
     }
-    let model: Model<f64> = Model::new(&plan).expect("a model");
-    let mut state = State::default();
-    let step = |k: usize| {
-        model.step(&mut state, command(k) / 12.0, false);
-        state.motion.speed * 700.0
-    };
-    (0..STEPS).map(step).collect()
+    let commands: Vec<(f64, bool)> = (0..STEPS).map(|k| (command(k) / 12.0, false)).collect();
+    let motion = motion::exact(&plan, State::default(), &commands).expect("a model");
+    motion.speeds[1..]
+        .iter()
+        .map(|speed| speed * 700.0)
+        .collect()
 }
 
 #[test]

@@ -21,6 +21,15 @@
     div.dataset.drawn = "yes";
     await ready;
     await servoid.draw(div, drawings[div.id]);
+    div.on("plotly_click", ({ points }) => unfold(points[0].text));
+  };
+  // What is folded on this page under the name that a point bears.
+  const unfold = (name) => {
+    const folded = Array.from(document.querySelectorAll("details.unfold")).find((one) => one.dataset.name === name);
+    if (!folded) return;
+    folded.open = true;
+    folded.scrollIntoView({ block: "nearest" });
+    folded.querySelector("summary").focus({ preventScroll: true });
   };
   const seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {

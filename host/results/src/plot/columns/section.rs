@@ -33,11 +33,7 @@ impl<'s> Section<'s> {
     /// The tables in the order in which they are drawn, and what is to be said of what is left out.
     pub(super) fn of(survey: &'s Survey) -> (Vec<Self>, String) {
         let mut tables: Vec<&SurveyTable> = survey.tables.iter().collect();
-        let guessed = |table: &&SurveyTable| {
-            let guessed = table.columns.iter().filter(|c| c.guess.is_some());
-            std::cmp::Reverse(guessed.count())
-        };
-        tables.sort_by_key(guessed);
+        tables.sort_by_key(|table| std::cmp::Reverse(table.guessed()));
         let mut sections = Vec::new();
         let (mut room, mut columns, mut left_out) = (PANELS, 0, 0);
         for table in tables {

@@ -1,0 +1,66 @@
+//! The model in motion, in each number format.
+//!
+//! A test that steps a model has the compiler make the whole model, which takes it up to some minutes: it is made once, here.
+
+use shared::error::ModelError;
+use shared::model::{Model, Plan, State};
+use shared::scalar::{Fixed, Readable, Scalar};
+
+/// What a model does.
+pub struct Motion {
+    /// Encoder readings before each step and after the last, counts.
+    pub readings: Vec<f64>,
+    /// Speeds likewise, per unit.
+    pub speeds: Vec<f64>,
+}
+
+/// Takes a step a command, per unit, which comes with whether the bridge is open.
+///
+/// # Errors
+/// A plan that is no model.
+pub fn exact(
+    plan: &Plan<f64>,
+    mut state: State<f64>,
+    commands: &[(f64, bool)],
+) -> Result<Motion, ModelError> {
+    let model = Model::<f64>::new(plan)?;
+    let mut motion = Motion {
+        readings: vec![model.reading(&state)],
+        speeds: vec![state.motion.speed],
+    };
+    for &(command, open) in commands {
+        model.step(&mut state, command, open);
+        motion.readings.push(model.reading(&state));
+        motion.speeds.push(state.motion.speed);
+    }
+    Ok(motion)
+}
+
+/// Counts after each command, from rest, in f32.
+///
+/// # Errors
+/// A plan that is no model in this format.
+pub fn single(plan: &Plan<f64>, commands: &[f64]) -> Result<Vec<i32>, ModelError> {
+    counts::<f32>(plan, commands)
+}
+
+/// Counts after each command, from rest, in fixed point.
+///
+/// # Errors
+/// A plan that is no model in this format.
+pub fn fixed(plan: &Plan<f64>, commands: &[f64]) -> Result<Vec<i32>, ModelError> {
+    counts::<Fixed>(plan, commands)
+}
+
+fn counts<S: Scalar<Angle: Readable<S>>>(
+    plan: &Plan<f64>,
+    commands: &[f64],
+) -> Result<Vec<i32>, ModelError> {
+    let model = Model::<S>::new(plan)?;
+    let mut state = State::default();
+    let after = |&command: &f64| {
+        model.step(&mut state, S::from_f64(command), false);
+        model.reading(&state).floor()
+    };
+    Ok(commands.iter().map(after).collect())
+}
