@@ -34,7 +34,7 @@ pub(crate) fn fleet(
         .detach(|| {
             let fleet = read(&results, labels.as_deref())?;
             let summary = fleet.summary();
-            let page = page(&fleet, &summary, fleet.population().ok().as_ref());
+            let page = page(&fleet, &summary, fleet.population().ok().as_ref())?;
             Ok((summary, page.render()))
         })
         .map_err(failed)?;

@@ -4,13 +4,14 @@ import { mkdirSync } from "node:fs";
 import { open, outside, test, workplace } from "./bench.mjs";
 
 const at = workplace();
-const ODD = "05.csv";
+const MOTORS = 30;
+const ODD = "17.csv";
 
 test("an odd motor unfolds what was found of it, from the list and from a drawing", async () => {
   mkdirSync(at.desk.path("logs"));
-  for (let motor = 0; motor < 14; motor += 1) {
+  for (let motor = 0; motor < MOTORS; motor += 1) {
     const name = `${String(motor).padStart(2, "0")}.csv`;
-    const torque = name === ODD ? 0.009 : 0.003 * (1 + 0.02 * ((motor * 5) % 14));
+    const torque = name === ODD ? 0.009 : 0.003 * (1 + 0.2 * (((motor * 7) % MOTORS) / MOTORS - 0.5));
     at.desk.run(`simulate --seconds 3 --hide coulomb:torque=${torque} --seed ${motor} --out logs/${name}`);
   }
   at.desk.run("batch logs --out results --do fit --with coulomb");

@@ -1,5 +1,6 @@
 //! The fleet as a page.
 
+use crate::error::{Error, content};
 use crate::population::Population;
 use crate::quantity::Scale;
 use crate::summary::{Fleet, Summary};
@@ -7,28 +8,31 @@ use crate::text::{effects, findings, lead};
 use servoid_results::number_text::short;
 use servoid_results::page::{Block, Page, Section, Unfold};
 use servoid_results::picture::{Distribution, Table, distribution};
+use servoid_results::report::html::{self, Recordings};
+use servoid_results::schema::Document;
 use std::collections::HashMap;
 
 /// Odd units that the page lists.
-pub const LISTED: usize = 200;
+const LISTED: usize = 200;
 
-/// The page of a fleet, with its population where there are motors enough for one. `own` are the pages of its odd recordings by their
-/// names, of which the words and tables unfold.
+/// The page of a fleet, with its population where there are motors enough for one. What was found of its odd recordings unfolds there.
+///
+/// # Errors
+/// A folder that cannot be read any more, or a result in it that is none.
 pub fn page(
     fleet: &Fleet,
     summary: &Summary,
     population: Option<&Population>,
-    own: Vec<(String, Page)>,
-) -> Page {
+) -> Result<Page, Error> {
     let mut sections = vec![distributions(fleet, population)];
-    sections.extend(odd(summary, own));
+    sections.extend(odd(summary, own_pages(fleet)?));
     sections.extend(population.map(of_population));
     sections.extend(named(summary));
     sections.extend(compared(summary));
     sections.extend(gauge(summary));
     sections.extend(refused(summary));
     let refused: usize = summary.refused.iter().map(|cause| cause.recordings).sum();
-    Page {
+    Ok(Page {
         title: "Fleet".to_owned(),
         lead: lead(summary),
         facts: [
@@ -42,7 +46,21 @@ pub fn page(
         .map(|(name, value)| (name.to_owned(), value))
         .to_vec(),
         sections,
-    }
+    })
+}
+
+/// The pages of the listed odd recordings, by their names.
+fn own_pages(fleet: &Fleet) -> Result<HashMap<String, Page>, Error> {
+    let own = fleet.odd_results(LISTED)?.into_iter();
+    own.map(|(name, text)| {
+        let result = serde_json::from_str(&text).map_err(content(&name))?;
+        let document = Document::from_json(result).map_err(content(&name))?;
+        let mut page = html::page(&document, Recordings::default()).map_err(content(&name))?;
+        // Where the motion is drawn, which is not at hand here.
+        page.sections.retain(|section| section.id != html::OVERLAY);
+        Ok((name, page))
+    })
+    .collect()
 }
 
 fn distributions(fleet: &Fleet, population: Option<&Population>) -> Section {
@@ -82,7 +100,7 @@ fn distributions(fleet: &Fleet, population: Option<&Population>) -> Section {
     section
 }
 
-fn odd(summary: &Summary, own: Vec<(String, Page)>) -> Option<Section> {
+fn odd(summary: &Summary, mut own: HashMap<String, Page>) -> Option<Section> {
     if summary.odd.is_empty() {
         return None;
     }
@@ -96,7 +114,6 @@ fn odd(summary: &Summary, own: Vec<(String, Page)>) -> Option<Section> {
          with the drawings: servoid fleet {} --unit NAME --report FILE",
         summary.results
     )));
-    let mut own: HashMap<String, Page> = own.into_iter().collect();
     let unfolds = summary.odd.iter().take(LISTED).map(|odd| {
         let motor = odd.serial.as_ref().map(|serial| format!("motor {serial}"));
         let p = odd.p_value.map(|p| format!("p {p:.0e}"));

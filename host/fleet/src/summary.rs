@@ -198,7 +198,7 @@ impl Fleet {
     ///
     /// # Errors
     /// A folder that cannot be read any more.
-    pub fn odd_results(&self, most: usize) -> Result<Vec<(String, String)>, Error> {
+    pub(crate) fn odd_results(&self, most: usize) -> Result<Vec<(String, String)>, Error> {
         let listed = self.odd.iter().take(most);
         let names: Vec<&str> = listed.map(|(_, odd)| odd.unit.as_str()).collect();
         let wanted: HashSet<&str> = names.iter().copied().collect();

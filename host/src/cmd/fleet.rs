@@ -7,10 +7,9 @@ use crate::session::Session;
 use crate::titled::titled;
 use serde::Serialize;
 use servoid_fleet::{
-    Fleet, LISTED, LabelFile, Population, draw as draw_motors, page, population_text, summary_text,
+    Fleet, LabelFile, Population, draw as draw_motors, page, population_text, summary_text,
 };
 use servoid_io::output::write_whole;
-use servoid_results::page::Page;
 use std::fs;
 use std::path::Path;
 
@@ -48,13 +47,7 @@ pub(super) fn fleet(session: &Session, args: &FleetArgs) -> Result<(), Error> {
     if let Some(path) = &args.report {
         // Too few motors for a population are enough for a page.
         let population = fleet.population().ok();
-        let odd = fleet.odd_results(LISTED)?.into_iter();
-        let own = odd.map(|(name, result)| {
-            let (_, page) = own_page(&name, &result)?;
-            Ok((name, page))
-        });
-        let own = own.collect::<Result<_, Error>>()?;
-        let page = titled(page(&fleet, &summary, population.as_ref(), own), None);
+        let page = titled(page(&fleet, &summary, population.as_ref())?, None);
         write_whole(path, |out| out.write_all(page.render().as_bytes()))?;
         text += &format!("\npage with the drawings: {}\n", path.display());
     }
@@ -63,7 +56,10 @@ pub(super) fn fleet(session: &Session, args: &FleetArgs) -> Result<(), Error> {
 
 /// One recording's own result.
 fn unit(session: &Session, args: &FleetArgs, fleet: &Fleet, name: &str) -> Result<(), Error> {
-    let (value, page) = own_page(name, &fleet.result(name)?)?;
+    let result = fleet.result(name)?;
+    let failed = |error: &dyn std::fmt::Display| Error::Failed(format!("{name}: {error}"));
+    let value: serde_json::Value = serde_json::from_str(&result).map_err(|error| failed(&error))?;
+    let page = document_page(&value)?;
     let mut text = format!("{name}\n");
     for words in &page.lead {
         text += &format!("{words}\n");
@@ -73,14 +69,6 @@ fn unit(session: &Session, args: &FleetArgs, fleet: &Fleet, name: &str) -> Resul
         text += &format!("page: {}\n", path.display());
     }
     session.deliver(&text, &value)
-}
-
-/// A recording's result with its page.
-fn own_page(name: &str, result: &str) -> Result<(serde_json::Value, Page), Error> {
-    let value: serde_json::Value =
-        serde_json::from_str(result).map_err(|error| Error::Failed(format!("{name}: {error}")))?;
-    let page = document_page(&value)?;
-    Ok((value, page))
 }
 
 pub(super) fn population(session: &Session, args: &PopulationArgs) -> Result<(), Error> {

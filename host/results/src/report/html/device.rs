@@ -1,7 +1,8 @@
 //! The page of a motor that commissioned itself, and of the host's check of it.
 
 use super::{
-    Model, Recordings, diagnosis, failing, no_recording, parameters, recording_facts, timelines,
+    Model, OVERLAY, Recordings, diagnosis, failing, no_recording, parameters, recording_facts,
+    timelines,
 };
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
@@ -18,7 +19,7 @@ pub(super) fn page(run: &DeviceRun, recordings: Recordings<'_>) -> Result<Page, 
     let mut sections = Vec::new();
     if let Some(outcome) = &run.outcome {
         let model = model(outcome)?;
-        let mut seen = Section::new("overlay", "Measured and the device's model");
+        let mut seen = Section::new(OVERLAY, "Measured and the device's model");
         if recordings.fitted.is_none() {
             seen.blocks.push(Block::Text(no_recording("fitted.csv")));
         }

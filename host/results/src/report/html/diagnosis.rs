@@ -2,7 +2,8 @@
 
 use super::fit::{model, named};
 use super::{
-    Model, Recordings, failing, found, no_recording, parameters, recording_facts, timelines,
+    Model, OVERLAY, Recordings, failing, found, no_recording, parameters, recording_facts,
+    timelines,
 };
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
@@ -126,7 +127,7 @@ fn seen(
     recordings: Recordings<'_>,
     models: &[Model],
 ) -> Result<Section, Error> {
-    let mut section = Section::new("overlay", "Measured and model");
+    let mut section = Section::new(OVERLAY, "Measured and model");
     let titles = [
         "The fitted recording",
         "The recording that was never fitted",

@@ -1,7 +1,8 @@
 //! The page of a fit.
 
 use super::{
-    Model, Recordings, failing, found, no_recording, parameters, recording_facts, timelines,
+    Model, OVERLAY, Recordings, failing, found, no_recording, parameters, recording_facts,
+    timelines,
 };
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
@@ -15,7 +16,7 @@ use shared::encoder::FLOOR_RMS_COUNTS;
 
 pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error> {
     let model = model(&fit.name(), &fit.model, "model")?;
-    let mut seen = Section::new("overlay", "Measured and model");
+    let mut seen = Section::new(OVERLAY, "Measured and model");
     let models = [model];
     if recordings.fitted.is_some() {
         let titles = [

@@ -33,6 +33,9 @@ use servoid_engine::problem::Data;
 use servoid_identify::fit::Cause;
 use servoid_identify::fit::margins::Loop;
 
+/// Id of the section in which the motion is drawn, of a page of one model.
+pub const OVERLAY: &str = "overlay";
+
 /// The recordings that a result was made from, as far as they are at hand.
 #[derive(Clone, Copy, Default)]
 pub struct Recordings<'a> {
