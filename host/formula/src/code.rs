@@ -15,6 +15,16 @@ pub enum Language {
     Python,
 }
 
+/// A line that says what stands below it.
+fn remark(language: Language, says: &str) -> String {
+    match language {
+        Language::C => format!("/* {says} */\n"),
+        Language::Rust => format!("/// {says}\n"),
+        Language::Modelica => format!("  // {says}\n"),
+        Language::Python => format!("# {says}\n"),
+    }
+}
+
 impl Definition {
     /// The law as a function of speed `w` (rad/s), angle within the revolution `theta` (rad), current `i` and torque passed on `tau`
     /// (both in V referred to the winding), command `u` (V) and the state `z`, and one of its state's rate where it has a state.
@@ -22,7 +32,11 @@ impl Definition {
         let law = self.function(language, &self.name, &self.law, values);
         let rate = self.state.as_ref().map(|(_, rate, _)| {
             let name = format!("{}_rate", self.name);
-            self.function(language, &name, rate, values)
+            let says = format!(
+                "How fast the state of {} changes, by the second.",
+                self.name
+            );
+            remark(language, &says) + &self.function(language, &name, rate, values)
         });
         law + &rate.unwrap_or_default()
     }
