@@ -1,9 +1,9 @@
 //! A law that the user states, on the virtual bench: its text is evaluated as it stands, by none of the code that the model runs.
 
-use servoid_formula::{Law, Point};
+use servoid_formula::{Law, Point, Used};
 use servoid_plant::Machine;
 use servoid_plant::effects::{At, Effect, Sliding};
-use shared::effects::formula::Output;
+use shared::effects::formula::{Output, Variable};
 use std::f64::consts::TAU;
 
 /// A law with the values of its parameters, in a machine.
@@ -11,6 +11,8 @@ pub struct StatedLaw {
     law: &'static Law,
     values: Vec<f64>,
     machine: Machine,
+    /// Whether it goes with the time, which it then remembers.
+    ages: bool,
 }
 
 impl StatedLaw {
@@ -21,6 +23,10 @@ impl StatedLaw {
             law,
             values,
             machine,
+            ages: law
+                .definition
+                .uses()
+                .contains(&Used::Variable(Variable::Time)),
         }
     }
 
@@ -43,12 +49,13 @@ impl StatedLaw {
             current,
             transmitted: current,
             command: 0.0,
+            time: if self.ages { at.memory } else { 0.0 },
             state: at.memory,
         }
     }
 }
 
-/// Step of the state by which its rate is differentiated.
+/// Step of the state or of the angle, rad, by which a law is differentiated.
 const STEP: f64 = 1e-4;
 
 impl Effect for StatedLaw {
@@ -80,11 +87,28 @@ impl Effect for StatedLaw {
         self.torque_n_m(budget.max(0.0))
     }
 
+    fn inertia(&self, angle: f64) -> [f64; 2] {
+        let at = |angle: f64| {
+            let point = Point {
+                angle: angle.rem_euclid(TAU),
+                ..Point::default()
+            };
+            let part = self.value(Output::Inertia, &point).unwrap_or(0.0);
+            part.max(0.0) * self.machine.inertia_kg_m2
+        };
+        let slope = (at(angle + STEP) - at(angle - STEP)) / (2.0 * STEP);
+        [at(angle), slope]
+    }
+
     fn memory(&self) -> Option<f64> {
-        self.law.definition.state.as_ref().map(|_| 0.0)
+        let remembers = self.law.definition.state.is_some() || self.ages;
+        remembers.then_some(0.0)
     }
 
     fn memory_rate(&self, at: &At) -> f64 {
+        if self.ages {
+            return 1.0;
+        }
         self.law.definition.rate(&self.values, &self.point(at))
     }
 

@@ -43,7 +43,7 @@ pub use gauge::Gauge;
 pub use group::{Difference, Group};
 pub use labels::LabelFile;
 pub use odd::{Odd, Reason};
-pub use page::page;
+pub use page::{page, unit_page};
 pub use population::{Bounded, Member, Population};
 pub use quantity::{Quantity, Scale};
 pub use summary::{Fleet, Spread, Summary};

@@ -5,6 +5,7 @@ use crate::population::Population;
 use crate::quantity::Scale;
 use crate::summary::{Fleet, Summary};
 use crate::text::{effects, findings, lead};
+use serde_json::Value;
 use servoid_results::number_text::short;
 use servoid_results::page::{Block, Page, Section, Unfold};
 use servoid_results::picture::{Distribution, Table, distribution};
@@ -49,18 +50,26 @@ pub fn page(
     })
 }
 
+/// The page of one recording's own result, without drawings of its motion.
+///
+/// # Errors
+/// What is no result.
+pub fn unit_page(name: &str, result: &Value) -> Result<Page, Error> {
+    let document = Document::from_json(result.clone()).map_err(content(name))?;
+    html::page(&document, Recordings::default()).map_err(content(name))
+}
+
 /// The pages of the listed odd recordings, by their names.
 fn own_pages(fleet: &Fleet) -> Result<HashMap<String, Page>, Error> {
-    let own = fleet.odd_results(LISTED)?.into_iter();
-    own.map(|(name, text)| {
+    let results = fleet.odd_results(LISTED)?.into_iter();
+    let page_of = |(name, text): (String, String)| {
         let result = serde_json::from_str(&text).map_err(content(&name))?;
-        let document = Document::from_json(result).map_err(content(&name))?;
-        let mut page = html::page(&document, Recordings::default()).map_err(content(&name))?;
+        let mut page = unit_page(&name, &result)?;
         // Where the motion is drawn, which is not at hand here.
         page.sections.retain(|section| section.id != html::OVERLAY);
         Ok((name, page))
-    })
-    .collect()
+    };
+    results.map(page_of).collect()
 }
 
 fn distributions(fleet: &Fleet, population: Option<&Population>) -> Section {

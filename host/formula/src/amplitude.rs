@@ -65,6 +65,7 @@ fn point(k: usize) -> Point {
         current: 12.0 * spread(0.569_840_290_9),
         transmitted: 12.0 * spread(0.819_172_513_4),
         command: 12.0 * spread(0.671_043_606_7),
+        time: 10.0 * (1.0 + spread(0.450_869_376_1)),
         state: spread(0.549_700_477_9),
     }
 }

@@ -1,6 +1,8 @@
 //! A law in other programs' languages.
 
 use crate::syntax::{Binary, Definition, Expression, Function, Term, VARIABLES};
+use crate::uses::Used;
+use shared::effects::formula::Variable;
 
 /// A language in which a law can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +29,8 @@ fn remark(language: Language, says: &str) -> String {
 
 impl Definition {
     /// The law as a function of speed `w` (rad/s), angle within the revolution `theta` (rad), current `i` and torque passed on `tau`
-    /// (both in V referred to the winding), command `u` (V) and the state `z`, and one of its state's rate where it has a state.
+    /// (both in V referred to the winding), command `u` (V), the state `z` and, of a law that goes with it, the time `t` (s); and one of
+    /// its state's rate where it has a state.
     pub fn functions_in(&self, language: Language, values: &[f64]) -> String {
         let law = self.function(language, &self.name, &self.law, values);
         let rate = self.state.as_ref().map(|(_, rate, _)| {
@@ -48,18 +51,21 @@ impl Definition {
         expression: &Expression,
         values: &[f64],
     ) -> String {
-        const ARGUMENTS: [&str; 6] = ["w", "theta", "i", "tau", "u", "z"];
-        let typed = |before: &str, behind: &str| {
-            ARGUMENTS
-                .map(|name| format!("{before}{name}{behind}"))
-                .join(", ")
+        let ages = self.uses().contains(&Used::Variable(Variable::Time));
+        let arguments = ["w", "theta", "i", "tau", "u", "z"];
+        let arguments: Vec<&str> = arguments.into_iter().chain(ages.then_some("t")).collect();
+        let each = |text: &dyn Fn(&str) -> String, between: &str| {
+            let texts: Vec<String> = arguments.iter().map(|name| text(name)).collect();
+            texts.join(between)
         };
+        let typed =
+            |before: &str, behind: &str| each(&|name| format!("{before}{name}{behind}"), ", ");
         let value = self.written(expression, language, values);
         match language {
             Language::C => format!(
                 "static inline double servoid_{name}({})\n{{\n    {}\n    return {value};\n}}\n",
                 typed("double ", ""),
-                ARGUMENTS.map(|name| format!("(void){name};")).join(" ")
+                each(&|name| format!("(void){name};"), " ")
             ),
             Language::Rust => format!(
                 "#[allow(unused_variables, unused_parens, clippy::all)]\npub fn {name}({}) -> f64 {{\n    {value}\n}}\n",
@@ -67,14 +73,12 @@ impl Definition {
             ),
             Language::Modelica => format!(
                 "  function {name}\n{}    output Real value;\n  algorithm\n    value := {value};\n  end {name};\n",
-                ARGUMENTS
-                    .map(|name| format!("    input Real {name};\n"))
-                    .concat()
+                each(&|name| format!("    input Real {name};\n"), "")
             ),
             Language::Python => {
                 format!(
                     "def {name}({}):\n    return {value}\n",
-                    ARGUMENTS.join(", ")
+                    arguments.join(", ")
                 )
             }
         }

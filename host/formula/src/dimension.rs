@@ -112,6 +112,7 @@ pub(crate) fn check(definition: &Definition) -> Result<(), (usize, String)> {
             "torque_constant is a part of the motor's, without a unit",
         ),
         Output::Angle => (RADIAN, "an angle is in rad"),
+        Output::Inertia => (ONE, "inertia is a part of the motor's, without a unit"),
     };
     same(definition, &definition.law, expected.0, expected.1)?;
     if let Some((name, rate, _)) = &definition.state {
@@ -150,6 +151,7 @@ fn of(definition: &Definition, expression: &Expression) -> Found {
             Variable::Speed => SPEED,
             Variable::Angle => RADIAN,
             Variable::Current | Variable::Transmitted | Variable::Command => VOLT,
+            Variable::Time => SECOND,
         })),
         Term::State => Ok(Some(ONE)),
         Term::Parameter(place) => Ok(Some(definition.parameters[*place].dimension)),

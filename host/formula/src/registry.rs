@@ -173,7 +173,7 @@ fn describe(definition: &Definition) -> Description {
     Description {
         name: leaked(&definition.name),
         place: match definition.output {
-            Output::Torque | Output::TorqueConstant => Place::Torque,
+            Output::Torque | Output::TorqueConstant | Output::Inertia => Place::Torque,
             Output::Friction => Place::Friction,
             Output::Voltage => Place::Drive,
             Output::Angle => Place::Sensed,
@@ -186,7 +186,8 @@ fn describe(definition: &Definition) -> Description {
         look_alikes: &[],
         source: "stated by the user",
         facts: Facts {
-            series_parallel: definition.state.is_none(),
+            // What is solved for with the motion takes no measured one.
+            series_parallel: definition.state.is_none() && definition.output != Output::Inertia,
             ..Facts::PLAIN
         },
     }

@@ -124,21 +124,23 @@ impl Function {
 }
 
 /// Variables by name.
-pub(crate) const VARIABLES: [(&str, Variable); 5] = [
+pub(crate) const VARIABLES: [(&str, Variable); 6] = [
     ("w", Variable::Speed),
     ("theta", Variable::Angle),
     ("i", Variable::Current),
     ("tau", Variable::Transmitted),
     ("u", Variable::Command),
+    ("t", Variable::Time),
 ];
 
 /// Places by name.
-pub(crate) const PLACES: [(&str, Output); 5] = [
+pub(crate) const PLACES: [(&str, Output); 6] = [
     ("torque", Output::Torque),
     ("friction", Output::Friction),
     ("voltage", Output::Voltage),
     ("torque_constant", Output::TorqueConstant),
     ("angle", Output::Angle),
+    ("inertia", Output::Inertia),
 ];
 
 fn found<T: Copy>(list: &[(&str, T)], name: &str) -> Option<T> {
@@ -600,14 +602,30 @@ impl Definition {
             .or_else(|| fixed().map(Term::Fixed))
     }
 
+    /// Whether the law may depend on the time, which it remembers in its state's place.
+    fn may_age(&self) -> Result<(), String> {
+        if self.state.is_some() {
+            return Err("a law with a state has no t".to_owned());
+        }
+        match self.output {
+            Output::Torque | Output::TorqueConstant => Ok(()),
+            _ => {
+                Err("t, the time, belongs to `torque = ...` or `torque_constant = ...`".to_owned())
+            }
+        }
+    }
+
     /// Whether the place sees a variable.
     fn is_at_hand(&self, variable: Variable) -> Result<(), String> {
         let voltage = self.output == Output::Voltage;
-        let angle = self.output == Output::Angle;
+        let along_angle = matches!(self.output, Output::Angle | Output::Inertia);
+        if variable == Variable::Time {
+            return self.may_age();
+        }
         let seen = match variable {
             Variable::Command => voltage,
             Variable::Angle => !voltage,
-            _ => !voltage && !angle,
+            _ => !voltage && !along_angle,
         };
         if seen {
             return Ok(());
@@ -615,6 +633,7 @@ impl Definition {
         Err(match self.output {
             Output::Voltage => "a voltage depends on u, the command, alone",
             Output::Angle => "an error of the angle depends on theta alone",
+            Output::Inertia => "an inertia depends on theta alone",
             _ => "u, the command, belongs to `voltage = ...`",
         }
         .to_owned())

@@ -17,6 +17,8 @@ pub struct Point {
     pub transmitted: f64,
     /// Command, V.
     pub command: f64,
+    /// Time since the recording began, s.
+    pub time: f64,
     /// The state.
     pub state: f64,
 }
@@ -61,6 +63,7 @@ impl Definition {
                 Variable::Transmitted if self.output == Output::Friction => point.transmitted,
                 Variable::Transmitted => point.current,
                 Variable::Command => point.command,
+                Variable::Time => point.time,
             },
             Term::State => point.state,
             Term::Parameter(place) => values.get(*place).copied().unwrap_or(0.0),
@@ -82,6 +85,7 @@ impl Definition {
         match &expression.term {
             Term::Number(x) => Interval::point(*x),
             Term::Variable(Variable::Angle) => Interval::new(0.0, TAU),
+            Term::Variable(Variable::Time) => Interval::new(0.0, f64::INFINITY),
             Term::Variable(_) | Term::Name(_) => everything,
             Term::State => (self.state.as_ref())
                 .map_or(everything, |(.., range)| Interval::new(range.0, range.1)),

@@ -115,6 +115,26 @@ fn a_formula_moves_as_the_effect_of_the_catalogue_that_it_states() {
     }
 }
 
+/// A mass that no angle changes is the motor's own, whatever moves it. A friction stops the shaft within a part under the torque that
+/// was predicted for the whole of it.
+#[test]
+fn an_inertia_that_is_added_is_a_heavier_motor() {
+    let stated = define("mass: inertia = a; a in [0, 4]").unwrap();
+    for (dry, most) in [(0.0, 1.0), (0.9, 6.0)] {
+        for more in [0.1, 0.5, 3.0] {
+            let friction = (Kind::by_name("coulomb").unwrap(), vec![dry]);
+            let mut heavier = plan(std::slice::from_ref(&friction));
+            heavier.machine.inertia *= 1.0 + more;
+            let (one, other) = (
+                angles(&plan(&[friction, (stated, vec![more])])),
+                angles(&heavier),
+            );
+            let off = furthest(&one, &other);
+            assert!(off < most, "{more} more beside {dry} V: {off} counts");
+        }
+    }
+}
+
 #[test]
 fn every_number_format_moves_alike_or_refuses() {
     for (text, values, ..) in twins() {

@@ -21,6 +21,8 @@ pub struct Outside {
     friction: fn(&[f64], &Sliding) -> f64,
     /// Voltage added at the winding, V.
     volts: fn(&[f64], &At) -> f64,
+    /// Moment of inertia added at an angle, kg·m², and its slope along the angle.
+    inertia: fn(&[f64], f64) -> [f64; 2],
     /// Distance over which a memory follows the motion, rad; `None` without a memory.
     memory_rad: Option<fn(&[f64]) -> f64>,
     /// Speed at which the law jumps, rad/s.
@@ -65,6 +67,7 @@ const NOTHING: Outside = Outside {
     torque: |_, _| 0.0,
     friction: |_, _| 0.0,
     volts: |_, _| 0.0,
+    inertia: |_, _| [0.0; 2],
     memory_rad: None,
     jump_rad_s: None,
     depends_on: &[Variable::Speed],
@@ -204,6 +207,21 @@ impl Outside {
             ..NOTHING
         },
         Outside {
+            name: "crank_inertia",
+            about: "inertia J*(1 + a*(1 + cos(k*theta + phase)))",
+            draw: |machine, chance| {
+                let [order, phase] = order_and_phase(chance, 3.0);
+                let a = 0.1 * 4f64.powf(chance.uniform());
+                vec![a * machine.inertia_kg_m2, order, phase]
+            },
+            inertia: |v, angle| {
+                let (sine, cosine) = (v[1] * angle + v[2]).sin_cos();
+                [v[0] * (1.0 + cosine), -v[0] * v[1] * sine]
+            },
+            depends_on: &[Variable::Speed, Variable::Angle],
+            ..NOTHING
+        },
+        Outside {
             name: "step_above",
             about: "-c*sgn(w) where |w| > w1",
             draw: |machine, chance| {
@@ -271,7 +289,7 @@ impl OutsideLaw {
         &self.values
     }
 
-    /// What it gives to a turning motor.
+    /// What it gives to a turning motor; an inertia gives at a steady speed.
     pub fn given(&self, machine: &Machine, at: &At) -> Given {
         let sliding = Sliding {
             direction: at.speed.signum(),
@@ -284,7 +302,9 @@ impl OutsideLaw {
         } else {
             sliding.direction * (self.form.friction)(&self.values, &sliding)
         };
-        let torque = (self.form.torque)(&self.values, at) - dry;
+        let [_, slope] = (self.form.inertia)(&self.values, at.angle);
+        let heavier = 0.5 * slope * at.speed * at.speed;
+        let torque = (self.form.torque)(&self.values, at) - dry - heavier;
         Given {
             torque: machine.winding_volts(torque),
             voltage: (self.form.volts)(&self.values, at),
@@ -319,13 +339,19 @@ impl OutsideLaw {
                 };
                 current = end + left * (-parts).exp();
                 memory = self.remembered(memory, at.speed, seconds);
-                self.given(
+                let mut given = self.given(
                     machine,
                     &At {
                         current: mean,
                         ..at
                     },
-                )
+                );
+                let gained = run.speed_rad_s[next] - run.speed_rad_s[k];
+                if seconds > 0.0 {
+                    let [more, _] = (self.form.inertia)(&self.values, at.angle);
+                    given.torque -= machine.winding_volts(more * gained / seconds);
+                }
+                given
             })
             .collect()
     }
@@ -360,6 +386,10 @@ impl Effect for OutsideLaw {
 
     fn friction(&self, sliding: &Sliding) -> f64 {
         (self.form.friction)(&self.values, sliding)
+    }
+
+    fn inertia(&self, angle: f64) -> [f64; 2] {
+        (self.form.inertia)(&self.values, angle)
     }
 
     fn memory(&self) -> Option<f64> {
@@ -428,7 +458,7 @@ mod tests {
         let machine = Machine::gearmotor();
         for form in Outside::ALL
             .iter()
-            .filter(|form| !["viscous_by_angle", "coulomb_by_angle", "crank"].contains(&form.name))
+            .filter(|form| !form.depends_on.contains(&Variable::Angle))
         {
             for level in [0.7, -0.9] {
                 let law = form.draw(&machine, 1);

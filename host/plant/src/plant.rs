@@ -3,6 +3,7 @@
 //! ```text
 //! L di/dt   = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
 //! J dω/dt   = Kt i − b ω + ΣT − Tshaft − F sgn ω    Machinery": machine with a constant field)
+//!             − ½ ω² dJ/dθ                           for a J that the angle changes
 //! Jl dωl/dt = Tshaft                               load side, if there is one
 //! ```
 //!
@@ -164,9 +165,15 @@ impl<'a> Plant<'a> {
                 memory[slot] = effect.memory_rate(&self.at(index, state));
             }
         }
+        let [mut inertia, mut by_angle] = [self.motor_inertia_kg_m2, 0.0];
+        for effect in self.effects {
+            let [more, slope] = effect.inertia(state.angle);
+            inertia += more;
+            by_angle += slope;
+        }
         State {
             angle: state.speed,
-            speed: accelerating / self.motor_inertia_kg_m2,
+            speed: (accelerating - 0.5 * by_angle * state.speed * state.speed) / inertia,
             current: self.current_rate(feed, state, &winding),
             load_angle: state.load_speed,
             load_speed: self

@@ -27,6 +27,10 @@ impl Effect for Stated {
         self.0.friction(sliding)
     }
 
+    fn inertia(&self, angle: f64) -> [f64; 2] {
+        self.0.inertia(angle)
+    }
+
     fn memory(&self) -> Option<f64> {
         self.0.memory()
     }

@@ -1,6 +1,5 @@
 //! `servoid fleet`, `servoid population` and `servoid draw`: what a batch says of all motors together.
 
-use super::report::document_page;
 use crate::cli::{DrawArgs, DrawFormat, FleetArgs, PopulationArgs, ResultsArgs};
 use crate::error::Error;
 use crate::session::Session;
@@ -8,6 +7,7 @@ use crate::titled::titled;
 use serde::Serialize;
 use servoid_fleet::{
     Fleet, LabelFile, Population, draw as draw_motors, page, population_text, summary_text,
+    unit_page,
 };
 use servoid_io::output::write_whole;
 use std::fs;
@@ -57,9 +57,9 @@ pub(super) fn fleet(session: &Session, args: &FleetArgs) -> Result<(), Error> {
 /// One recording's own result.
 fn unit(session: &Session, args: &FleetArgs, fleet: &Fleet, name: &str) -> Result<(), Error> {
     let result = fleet.result(name)?;
-    let failed = |error: &dyn std::fmt::Display| Error::Failed(format!("{name}: {error}"));
-    let value: serde_json::Value = serde_json::from_str(&result).map_err(|error| failed(&error))?;
-    let page = document_page(&value)?;
+    let value: serde_json::Value =
+        serde_json::from_str(&result).map_err(|error| Error::Failed(format!("{name}: {error}")))?;
+    let page = titled(unit_page(name, &value)?, None);
     let mut text = format!("{name}\n");
     for words in &page.lead {
         text += &format!("{words}\n");

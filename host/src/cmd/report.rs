@@ -10,7 +10,6 @@ use servoid_engine::problem::Data;
 use servoid_io::output::write_whole;
 use servoid_io::recording::Recording;
 use servoid_results::device_run::Folder;
-use servoid_results::page::Page;
 use servoid_results::report::fold::folded;
 use servoid_results::report::html::{self, Recordings};
 use servoid_results::schema::{Diagnosis, Document, Fit};
@@ -102,15 +101,6 @@ pub(super) fn write(
     write_whole(path, |out| out.write_all(page.render().as_bytes()))?;
     session.remark(&format!("page: {}", path.display()));
     Ok(())
-}
-
-/// The page of a result that another verb wrote as JSON, without its recordings.
-pub(super) fn document_page(json: &impl Serialize) -> Result<Page, Error> {
-    let recordings = Recordings {
-        fitted: None,
-        held_out: None,
-    };
-    Ok(titled(html::page(&document(json)?, recordings)?, None))
 }
 
 /// A result as it will be read again from its file: a page made now is the page made from the file.

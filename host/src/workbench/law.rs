@@ -126,6 +126,7 @@ fn curve(
             current,
             transmitted: current,
             command: current,
+            time: 0.0,
             state: speed.signum(),
         };
         let value = definition.value(values, &point);

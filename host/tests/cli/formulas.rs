@@ -13,6 +13,11 @@ const FALLING: &str =
     "dry: friction = c*exp(-abs(w)/ws); c = 0.8 in [0, 5] V; ws = 40 in [2, 200] rad/s";
 /// Drag on a broken power of the speed.
 const DRAG: &str = "drag: torque = -c*sgn(w)*abs(w/w0)^p; c = 1.2 in [0, 10] V; p = 0.5 in [0.1, 4]; w0 = 100 rad/s";
+/// The inertia of a crank, which passes two dead centres in a revolution.
+const CRANK: &str =
+    "crank: inertia = a*(1 + cos(2*theta - f)); a = 0.3 in [0, 4]; f = 0.7 in [-6.3, 6.3] rad";
+/// Drag that sets in as the bearings' grease gives way.
+const AGEING: &str = "ageing: torque = -c*w/w0*(1 - exp(-t/t0)); c = 1.5 in [0, 10] V; t0 = 5 in [0.1, 100] s; w0 = 300 rad/s";
 /// The loss of a gear that follows its teeth (MuJoCo issue 3528).
 const GEAR: &str = "gear: z' = (w - abs(w)*z)/h; torque = -(ma*abs(tau)*z + md*tau*z^2); h = 0.05 in [1e-3, 1] rad; ma = 0.2 in [0, 1]; md = 0.1 in [0, 1]";
 
@@ -39,6 +44,8 @@ fn a_law_that_is_hidden_is_found_again_by_its_text_and_read_from_its_result() {
     for (law, known) in [
         (FALLING, &[("dry.c", 0.8), ("dry.ws", 40.0)][..]),
         (DRAG, &[("drag.c", 1.2), ("drag.p", 0.5)][..]),
+        (CRANK, &[("crank.a", 0.3), ("crank.f", 0.7)][..]),
+        (AGEING, &[("ageing.c", 1.5), ("ageing.t0", 5.0)][..]),
     ] {
         let desk = Desk::new();
         recorded(&desk, law);
@@ -105,6 +112,8 @@ fn faults_name_the_flag_the_character_and_the_remedy() {
         ("units", "torque = c*w; c in [0, 1] V*s"),
         ("coulomb", "torque = c; c in [0, 1] V"),
         ("zero", "torque = c/w*w0; c in [0, 1] V; w0 = 1 rad/s"),
+        ("mass", "inertia = a*w/w0; a in [0, 1]; w0 = 1 rad/s"),
+        ("dry", "friction = c*t/t0; c in [0, 1] V; t0 = 1 s"),
     ] {
         desk.write(
             &format!("{name}.toml"),
@@ -117,6 +126,8 @@ fn faults_name_the_flag_the_character_and_the_remedy() {
         ("--effects units.toml", "expected V, found"),
         ("--effects coulomb.toml", "catalogue"),
         ("--effects zero.toml", "divisor can be zero"),
+        ("--effects mass.toml", "theta alone"),
+        ("--effects dry.toml", "belongs to"),
         ("--effects bad.toml", "`x` is neither"),
         ("--effects empty.toml", "[effects]"),
         ("--effects none.toml", "none.toml"),

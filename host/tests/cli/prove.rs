@@ -4,6 +4,7 @@
 use crate::contract::{has, list};
 use crate::desk::Desk;
 use serde_json::Value;
+use testing::length::many_minutes;
 
 const CASES: &str = "prove --hidden none --cases 2";
 
@@ -145,7 +146,8 @@ const SPREAD: f64 = 1.6;
 #[test]
 fn stated_intervals_hold_the_truth_as_often_as_they_say() {
     let desk = Desk::new();
-    for what in ["", "--effect coulomb windage delay offset_voltage"] {
+    let effects = many_minutes("coulomb windage delay offset_voltage", "coulomb");
+    for what in [String::new(), format!("--effect {effects}")] {
         let line = format!("prove --coverage --cases 30 --seed 20261125 --json c.json {what}");
         let outcome = desk.done(&line);
         println!("{outcome}");

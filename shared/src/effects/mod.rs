@@ -351,7 +351,7 @@ macro_rules! kinds {
             fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
                 match self {
                     $(Any::$kind(effect) => effect.torque(shaft, memory),)*
-                    Any::Formula(effect) => effect.torque(shaft),
+                    Any::Formula(effect) => effect.torque(shaft, memory),
                 }
             }
             #[inline(always)]
@@ -365,7 +365,7 @@ macro_rules! kinds {
             fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
                 match self {
                     $(Any::$kind(effect) => effect.lost_torque(shaft, memory),)*
-                    Any::Formula(effect) => effect.lost_torque(shaft),
+                    Any::Formula(effect) => effect.lost_torque(shaft, memory),
                 }
             }
             #[inline(always)]

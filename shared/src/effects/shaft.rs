@@ -27,6 +27,8 @@ pub struct Shaft<S: Scalar> {
     pub transmitted: S,
     /// By how much the travel falls per torque against it, turns.
     pub compliance: S,
+    /// Torque that changes the speed by one within the part, without back-EMF and friction.
+    pub inertia: S::Coefficient,
     /// Length of the part in intervals.
     pub length: S::Coefficient,
     /// One over that.
@@ -48,6 +50,7 @@ impl<S: Scalar> Shaft<S> {
             current_change: zero,
             transmitted: current,
             compliance: zero,
+            inertia: S::coefficient(0.0),
             length: S::coefficient(0.0),
             per_length: S::coefficient(0.0),
         }

@@ -68,6 +68,7 @@ impl<S: Scalar> Model<S> {
         Shaft {
             travel: ahead.times(self.turns_per_unit),
             compliance: timing.compliance.times(self.turns_per_unit),
+            inertia: timing.inertia,
             length: timing.length,
             per_length: timing.per_length,
             ..Shaft::at(turns, motion.speed, current)

@@ -24,6 +24,8 @@ pub struct SubstepTiming<S: Scalar> {
     pub gain: S,
     /// Angle by which a held torque shortens the travel, per torque, in base speed × interval.
     pub compliance: S,
+    /// Moment of inertia by the length.
+    pub inertia: S::Coefficient,
 }
 
 lanes!(SubstepTiming {
@@ -32,7 +34,8 @@ lanes!(SubstepTiming {
     lag,
     kb,
     gain,
-    compliance
+    compliance,
+    inertia
 });
 
 impl<S: Scalar> SubstepTiming<S> {
@@ -49,6 +52,7 @@ impl<S: Scalar> SubstepTiming<S> {
             kb: S::coefficient(machine.kb.to_f64()),
             gain: S::from_f64(gain.to_f64()),
             compliance: S::from_f64(-angle[1].to_f64()),
+            inertia: S::coefficient((machine.inertia * per_length).to_f64()),
         }
     }
 }
@@ -76,6 +80,7 @@ impl<S: Scalar> SubstepMap<S> {
                 kb: none,
                 gain: S::zero(),
                 compliance: S::zero(),
+                inertia: none,
             },
         }
     }

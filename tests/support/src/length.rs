@@ -5,18 +5,16 @@
 
 use crate::left_out::note;
 
-fn level() -> u8 {
-    let said = std::env::var("SERVOID_LONG").unwrap_or_default();
-    said.parse().unwrap_or(0)
+/// How many of `all` cases are tried: all of them, or the first `few`.
+#[must_use]
+pub fn cases<N: std::fmt::Display>(all: N, few: N) -> N {
+    tried(level() >= 1, all, few)
 }
 
-/// Of laws that take minutes: how many of `all` cases are tried, all of them or the first `few`.
+/// The same of laws that take minutes.
 #[must_use]
 pub fn many_minutes<N: std::fmt::Display>(all: N, few: N) -> N {
-    if long_minutes() {
-        return all;
-    }
-    said(all, few)
+    tried(long_minutes(), all, few)
 }
 
 /// Whether laws that take minutes are tried at full length.
@@ -25,16 +23,15 @@ pub fn long_minutes() -> bool {
     level() >= 2
 }
 
-/// How many of `all` cases are tried: all of them, or the first `few`.
-#[must_use]
-pub fn cases<N: std::fmt::Display>(all: N, few: N) -> N {
-    if level() >= 1 {
-        return all;
-    }
-    said(all, few)
+fn level() -> u8 {
+    let said = std::env::var("SERVOID_LONG").unwrap_or_default();
+    said.parse().unwrap_or(0)
 }
 
-fn said<N: std::fmt::Display>(all: N, few: N) -> N {
+fn tried<N: std::fmt::Display>(whole: bool, all: N, few: N) -> N {
+    if whole {
+        return all;
+    }
     note("SHORT", &format!("{few} of {all} cases"));
     few
 }

@@ -222,6 +222,12 @@ pub trait Effect: Send + Sync {
         0.0
     }
 
+    /// Moment of inertia that the shaft carries at an angle beyond its own, kg·m², and by how much that grows by the radian. The
+    /// machine's own is what it is at least.
+    fn inertia(&self, _angle: f64) -> [f64; 2] {
+        [0.0; 2]
+    }
+
     /// The coupling to a second inertia, if this effect puts one on the shaft.
     fn coupling(&self) -> Option<Coupling> {
         None

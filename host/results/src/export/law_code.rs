@@ -7,7 +7,7 @@ use servoid_formula::{Language, law_of};
 
 /// What the arguments and the value of a function are.
 const ABOUT: &str = "w is the motor's speed in rad/s, theta its angle within the revolution in rad, i and tau current and torque as volts at the \
-                     winding (R*i, T*R/Kt), u the command in V, z the state; the value is in V at the winding, or what the law's place says";
+                     winding (R*i, T*R/Kt), u the command in V, z the state, t the time in s; the value is in V at the winding, or what the law's place says";
 
 /// The functions, each with lines that say what it is. A law of which a number is not determined is left out, and said to be.
 pub(super) fn functions(

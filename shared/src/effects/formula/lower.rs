@@ -5,7 +5,7 @@
 //! and costs nothing when the program runs.
 
 use super::power;
-use super::{Formula, Interval, MAX_CONSTANTS, MAX_DEPTH, Op, Output, Variable};
+use super::{Formula, Interval, MAX_CONSTANTS, MAX_DEPTH, Op, Variable};
 use crate::error::ModelError;
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
@@ -55,12 +55,7 @@ impl Numbers {
         };
         let state = Interval::new(program.state.0, program.state.1);
         let law = numbers.walk(program.law, &constants, state, units);
-        let quantity = match program.output {
-            Output::Torque | Output::Friction | Output::Voltage => Quantity::Voltage,
-            Output::TorqueConstant => Quantity::Ratio,
-            Output::Angle => Quantity::Angle,
-        };
-        numbers.law = law.base / units.base(quantity).to_f64();
+        numbers.law = law.base / units.base(program.output.quantity()).to_f64();
         numbers.rate_from = numbers.used;
         let rate = numbers.walk(program.rate, &constants, state, units);
         numbers.rate = rate.base * units.interval.to_f64() / state.most();
@@ -246,6 +241,7 @@ fn variable_range<R: Real>(variable: Variable, units: &PerUnit<R>) -> (Quantity,
         Variable::Speed => reached(Quantity::Speed),
         Variable::Angle => (Quantity::Angle, Interval::new(0.0, TAU)),
         Variable::Current | Variable::Transmitted | Variable::Command => reached(Quantity::Voltage),
+        Variable::Time => (Quantity::Time, Interval::new(0.0, LONGEST)),
     }
 }
 
@@ -302,8 +298,8 @@ pub(super) fn check<S: Scalar, R: Real>(
     if S::LIMIT.is_infinite() {
         return Ok(());
     }
-    // Rates of a state are far beyond one where it follows within a sample.
-    let limit = if formula.program.has_state() {
+    // Rates of a state are far beyond one where it follows within a sample; so is a count of intervals.
+    let limit = if formula.program.remembers() {
         0.0
     } else {
         LARGEST_MULTIPLIER
@@ -321,5 +317,7 @@ pub(super) fn check<S: Scalar, R: Real>(
     })
 }
 
+/// Longest run that a law of the time is asked for, s.
+const LONGEST: f64 = 1e5;
 /// Multipliers of fixed point are below this.
 const LARGEST_MULTIPLIER: f64 = 1_073_741_824.0;

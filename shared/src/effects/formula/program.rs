@@ -1,5 +1,7 @@
 //! The operations of a formula, and what it says of itself.
 
+use crate::units::Quantity;
+
 /// Most constants of a program: what depends on the parameters alone.
 pub const MAX_CONSTANTS: usize = 16;
 /// Most numbers that wait on the stack.
@@ -18,6 +20,8 @@ pub enum Variable {
     Transmitted,
     /// Command, V; of a voltage only.
     Command,
+    /// Time since the recording began, s; of a torque or a torque constant without a state.
+    Time,
 }
 
 /// What a formula gives.
@@ -33,6 +37,19 @@ pub enum Output {
     TorqueConstant,
     /// An angle added to what the encoder sees, rad.
     Angle,
+    /// Moment of inertia added to the motor's, as a part of it; what is below zero is none.
+    Inertia,
+}
+
+impl Output {
+    /// What its numbers are.
+    pub(super) fn quantity(self) -> Quantity {
+        match self {
+            Output::Torque | Output::Friction | Output::Voltage => Quantity::Voltage,
+            Output::TorqueConstant | Output::Inertia => Quantity::Ratio,
+            Output::Angle => Quantity::Angle,
+        }
+    }
 }
 
 /// One operation. It takes its operands from the stack and puts its result there.
@@ -106,8 +123,13 @@ impl Program {
         ops.any(|op| *op == Op::Variable(variable))
     }
 
-    /// Whether it remembers a number.
+    /// Whether it has a state.
     pub fn has_state(&self) -> bool {
         !self.rate.is_empty()
+    }
+
+    /// Whether it remembers a number: its state, or how long it has run.
+    pub fn remembers(&self) -> bool {
+        self.has_state() || self.looks_at(Variable::Time)
     }
 }

@@ -56,6 +56,8 @@ struct At<N> {
     current: N,
     transmitted: N,
     command: N,
+    /// In intervals.
+    time: N,
     state: N,
 }
 
@@ -64,18 +66,21 @@ impl Program {
     pub(in crate::effects) fn needs(&self) -> Needs {
         let torque = self.output == Output::Torque;
         let lost = self.output == Output::TorqueConstant;
+        let inertia = self.output == Output::Inertia;
         let current = self.looks_at(Variable::Current) || self.looks_at(Variable::Transmitted);
         let sensed = self.output == Output::Angle;
-        let varies = current || self.looks_at(Variable::Speed) || self.looks_at(Variable::Angle);
+        let time = self.looks_at(Variable::Time);
+        let varies =
+            current || time || self.looks_at(Variable::Speed) || self.looks_at(Variable::Angle);
         Needs {
-            mean: (varies && !sensed) || lost || self.has_state(),
+            mean: (varies && !sensed) || lost || inertia || self.has_state(),
             current: current || lost,
             angle: self.looks_at(Variable::Angle) && !sensed,
             friction: self.output == Output::Friction,
             torque: torque && !self.has_state(),
-            stiff: torque && self.has_state(),
+            stiff: (torque && self.has_state()) || inertia,
             lost_torque: lost,
-            memory: self.has_state(),
+            memory: self.remembers(),
             sensed,
             ..Needs::NOTHING
         }
@@ -130,32 +135,37 @@ impl<S: Scalar> Stated<S> {
 
     /// What it sees a part `reach` of the changes after the middle.
     #[inline(always)]
-    fn seen(&self, shaft: &Shaft<S>, reach: f64, state: S) -> At<S> {
+    fn seen(&self, shaft: &Shaft<S>, reach: f64, began: S) -> At<S> {
         let reach = S::from_f64(reach);
+        let gone = (S::from_f64(0.5) + reach).times(shaft.length);
         At {
             speed: shaft.speed + shaft.speed_change * reach,
             turns: shaft.turns + shaft.travel * reach,
             current: shaft.current + shaft.current_change * reach,
             transmitted: shaft.transmitted + shaft.current_change * reach,
             command: S::zero(),
-            state,
+            time: began + gone,
+            state: S::zero(),
         }
     }
 
-    /// Mean over the part.
+    /// Mean over the part, which began at a time in intervals.
     #[inline(always)]
-    fn mean(&self, shaft: &Shaft<S>) -> S {
+    fn mean(&self, shaft: &Shaft<S>, began: S) -> S {
+        self.mean_of(&|reach| self.law(&self.seen(shaft, reach, began)))
+    }
+
+    /// Mean over the part of what is `at` a part `reach` of it after its middle.
+    #[inline(always)]
+    fn mean_of(&self, at: &impl Fn(f64) -> S) -> S {
         let nodes = if self.pairs == FOUR.len() {
             &FOUR[..]
         } else {
             &TWO[..]
         };
-        let zero = S::zero();
-        let mut sum = zero;
+        let mut sum = S::zero();
         for (reach, weight) in nodes {
-            let before = self.law(&self.seen(shaft, -reach, zero));
-            let after = self.law(&self.seen(shaft, *reach, zero));
-            sum = sum + (before + after) * S::from_f64(*weight);
+            sum = sum + (at(-reach) + at(*reach)) * S::from_f64(*weight);
         }
         sum
     }
@@ -175,6 +185,7 @@ impl<S: Scalar> Stated<S> {
                     current: zero,
                     transmitted: zero,
                     command: volts,
+                    time: zero,
                     state: zero,
                 };
                 volts + self.law(&at)
@@ -183,24 +194,24 @@ impl<S: Scalar> Stated<S> {
     }
 
     #[inline(never)]
-    pub(in crate::effects) fn torque(&self, shaft: &Shaft<S>) -> S {
+    pub(in crate::effects) fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
         if self.program.output != Output::Torque || self.program.has_state() {
             return S::zero();
         }
         S::routine(
             #[inline(always)]
-            || -self.mean(shaft),
+            || -self.mean(shaft, memory),
         )
     }
 
     #[inline(never)]
-    pub(in crate::effects) fn lost_torque(&self, shaft: &Shaft<S>) -> S {
+    pub(in crate::effects) fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
         if self.program.output != Output::TorqueConstant {
             return S::zero();
         }
         S::routine(
             #[inline(always)]
-            || shaft.current * (S::one() - self.mean(shaft)),
+            || shaft.current * (S::one() - self.mean(shaft, memory)),
         )
     }
 
@@ -230,6 +241,7 @@ impl<S: Scalar> Stated<S> {
                     current: zero,
                     transmitted: zero,
                     command: zero,
+                    time: zero,
                     state: zero,
                 })
             },
@@ -238,9 +250,38 @@ impl<S: Scalar> Stated<S> {
 
     #[inline(never)]
     pub(in crate::effects) fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
-        if self.program.output != Output::Torque || !self.program.has_state() {
-            return Stiff::default();
+        match self.program.output {
+            Output::Torque if self.program.has_state() => self.stiff_by_state(shaft, memory),
+            Output::Inertia => self.inertia(shaft),
+            _ => Stiff::default(),
         }
+    }
+
+    /// Torque that takes the mass `m·g(θ)` along: `d/dt ∂L/∂ω − ∂L/∂θ = m·(g·dω/dt + ω²/2·dg/dθ)` of `L = m·g·ω²/2` (Goldstein, Poole,
+    /// Safko, *Classical Mechanics*, 1.4), as a mean over the part.
+    #[inline(always)]
+    fn inertia(&self, shaft: &Shaft<S>) -> Stiff<S> {
+        S::routine(
+            #[inline(always)]
+            || {
+                let zero = S::zero();
+                let half = S::from_f64(0.5);
+                let at = |reach: f64| self.law(&self.seen(shaft, reach, zero)).max(zero);
+                let mean = self.mean_of(&at);
+                let gathered =
+                    mean * shaft.speed_change + half * shaft.speed * (at(0.5) - at(-0.5));
+                Stiff {
+                    torque: gathered.times(shaft.inertia),
+                    // As far as a torque changes the speed, the mass takes its part of it.
+                    slope: mean,
+                    doubt: zero,
+                }
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn stiff_by_state(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
         S::routine(
             #[inline(always)]
             || {
@@ -266,7 +307,7 @@ impl<S: Scalar> Stated<S> {
     #[inline(never)]
     pub(in crate::effects) fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
         if !self.program.has_state() {
-            return memory;
+            return memory + S::one().times(shaft.length);
         }
         S::routine(
             #[inline(always)]
@@ -286,6 +327,7 @@ impl<S: Scalar> Stated<S> {
             current: own(shaft.current),
             transmitted: own(shaft.transmitted),
             command: own(S::zero()),
+            time: own(S::zero()),
             state: Dual {
                 by_state: S::one(),
                 ..own(state)
@@ -333,14 +375,10 @@ impl Stated<f64> {
             current: volts,
             transmitted: volts,
             command: volts,
+            time: 0.0,
             state: 0.0,
         };
-        let quantity = match self.program.output {
-            Output::Torque | Output::Friction | Output::Voltage => Quantity::Voltage,
-            Output::TorqueConstant => Quantity::Ratio,
-            Output::Angle => Quantity::Angle,
-        };
-        units.raise(self.law(&at), quantity)
+        units.raise(self.law(&at), self.program.output.quantity())
     }
 }
 
@@ -385,6 +423,7 @@ fn step<S: Scalar, N: Number<S>>(
                 Variable::Current => at.current,
                 Variable::Transmitted => at.transmitted,
                 Variable::Command => at.command,
+                Variable::Time => at.time,
             };
             let [k] = numbers.take();
             Some(value.scaled(k))

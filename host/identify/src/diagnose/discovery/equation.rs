@@ -27,11 +27,15 @@ const OWN_PART: f64 = 1e-6;
 /// The same of a law beside the linear motor: with less, differences between filters count as much as a law.
 const LAW_PART: f64 = 0.05;
 
+/// A function of the angle.
+type Wave = fn(f64) -> f64;
+
 /// The regression's rows of one recording.
 pub struct Equation<'a> {
     data: &'a Data,
     time: f64,
     lead: f64,
+    inertia: f64,
     /// The measured motion.
     pub motion: Motion,
     /// Samples of the rows.
@@ -79,6 +83,7 @@ impl<'a> Equation<'a> {
             data,
             time,
             lead: candidate.machine.electrical,
+            inertia: candidate.machine.inertia,
             motion,
             rows,
             missing,
@@ -110,7 +115,7 @@ impl<'a> Equation<'a> {
         let filtered = filtered(self.data, self.time, signal, true);
         // A torque passes the winding's lag backwards: its volts lead.
         let lead = match place {
-            Place::Torque => self.lead,
+            Place::Torque | Place::Inertia => self.lead,
             Place::Voltage => 0.0,
         };
         let at = |&k: &usize| filtered[k].value + lead * filtered[k].rate;
@@ -139,8 +144,42 @@ impl<'a> Equation<'a> {
 
     /// The columns of a term, one for each amplitude.
     pub fn columns(&self, term: &Term) -> Vec<Vec<f64>> {
+        if let (Place::Inertia, Some(order)) = (term.place, term.order) {
+            return self.inertia_columns(f64::from(order));
+        }
         let factors = term.factors(&self.motion);
         factors.iter().map(|f| self.seen(f, term.place)).collect()
+    }
+
+    /// Of inertias `m·cos kθ` and `m·sin kθ`, `m` the motor's: each, `m·g(θ)`, takes `m·(g·dω/dt + ω²/2·dg/dθ)` from the shaft, which is
+    /// `m·(d²G/dt² − ω²/2·dg/dθ)` with `dG/dθ = g`. So the acceleration is taken of readings alone, as the motor's own is.
+    fn inertia_columns(&self, order: f64) -> Vec<Vec<f64>> {
+        let per_count = core::f64::consts::TAU / self.data.units.counts_per_rev;
+        let angle = |k: usize| order * self.data.centre(k) * per_count;
+        let pairs = self.motion.speed.iter().zip(&self.motion.angle);
+        let squares: Vec<(f64, f64)> = pairs.map(|(w, angle)| (w * w, order * angle)).collect();
+        // G and dg/dθ.
+        let waves: [[Wave; 2]; 2] = [
+            [libm::sin, |x| -libm::sin(x)],
+            [|x| -libm::cos(x), libm::cos],
+        ];
+        let column = |[gathered, slope]: [Wave; 2]| -> Vec<f64> {
+            let gathered: Vec<f64> = (0..self.data.len())
+                .map(|k| gathered(angle(k)) / order)
+                .collect();
+            let gathered = filtered(self.data, self.time, &gathered, false);
+            let squares: Vec<f64> = (squares.iter())
+                .map(|(square, angle)| 0.5 * order * slope(*angle) * square)
+                .collect();
+            let squares = self.seen(&squares, Place::Inertia);
+            let rows = self.rows.iter().zip(squares);
+            rows.map(|(&row, square)| {
+                let second = gathered[row].acceleration + self.lead * gathered[row].jerk;
+                self.inertia * (square - second)
+            })
+            .collect()
+        };
+        waves.map(column).into()
     }
 
     /// What the model's own parameters can make, as orthonormal directions.

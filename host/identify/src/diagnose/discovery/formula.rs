@@ -4,6 +4,8 @@ use super::term::{Load, Place, Speed, Term};
 
 /// Greatest amplitude, times the one that was found.
 const MOST: f64 = 10.0;
+/// Largest amplitude of an inertia from which a search starts, as a part of its mean.
+const LARGEST_PART: f64 = 0.9;
 
 /// Parameters that are collected while a text grows.
 struct Parameters {
@@ -67,6 +69,7 @@ pub fn formula(terms: &[Term], name: &str) -> String {
     let dry = budget(terms);
     let place = match (terms.first().map(|term| term.place), dry) {
         (Some(Place::Voltage), _) => "voltage",
+        (Some(Place::Inertia), _) => "inertia",
         (_, true) => "friction",
         _ => "torque",
     };
@@ -113,6 +116,30 @@ fn budget(terms: &[Term]) -> bool {
         && (waves == 0.0 || (constant >= waves && terms.iter().all(plain)))
 }
 
+/// An inertia that the angle changes, above the least, which is the motor's own.
+fn inertia(order: u32, [cosine, sine]: [f64; 2], parameters: &mut Parameters) -> String {
+    let part = libm::hypot(cosine, sine).min(LARGEST_PART);
+    let above = part / (1.0 - part);
+    let a = parameters.add("a", above, 0.0, MOST * above, "");
+    let phase = libm::atan2(sine, cosine);
+    let f = parameters.add(
+        "f",
+        phase,
+        -core::f64::consts::TAU,
+        core::f64::consts::TAU,
+        "rad",
+    );
+    format!("{a}*(1 + cos({} - {f}))", multiple(order))
+}
+
+/// A multiple of the angle.
+fn multiple(order: u32) -> String {
+    if order == 1 {
+        return "theta".to_owned();
+    }
+    format!("{order}*theta")
+}
+
 /// A term without the sign before it, and whether that is a minus.
 fn product(
     term: &Term,
@@ -120,9 +147,14 @@ fn product(
     state: &mut Option<String>,
     parameters: &mut Parameters,
 ) -> (bool, String) {
-    let unit = match (term.load, term.place) {
-        (Load::One | Load::Power { .. }, _) => "V",
-        _ => "",
+    if let (Place::Inertia, Some(order), [cosine, sine]) =
+        (term.place, term.order, term.amplitudes.as_slice())
+    {
+        return (false, inertia(order, [*cosine, *sine], parameters));
+    }
+    let unit = match term.load {
+        Load::One | Load::Power { .. } => "V",
+        Load::Plain | Load::Size => "",
     };
     let mut minus = false;
     let mut factors = Vec::new();
@@ -131,11 +163,7 @@ fn product(
         let most = MOST * libm::hypot(*cosine, *sine);
         let a = parameters.add("a", turned * cosine, -most, most, unit);
         let b = parameters.add("b", turned * sine, -most, most, unit);
-        let angle = if order == 1 {
-            "theta".to_owned()
-        } else {
-            format!("{order}*theta")
-        };
+        let angle = multiple(order);
         factors.push(format!("({a}*cos({angle}) + {b}*sin({angle}))"));
     } else {
         let amplitude = term.amplitudes.first().copied().unwrap_or_default();
@@ -231,7 +259,7 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
 
 fn load(term: &Term, factors: &mut Vec<String>, parameters: &mut Parameters) {
     let name = match term.place {
-        Place::Torque => "i",
+        Place::Torque | Place::Inertia => "i",
         Place::Voltage => "u",
     };
     match term.load {

@@ -19,6 +19,7 @@ pub fn library(data: &Data) -> Vec<Term> {
     let mut terms = by_speed(fastest);
     terms.extend(by_load(fastest, supply));
     terms.extend(by_angle(fastest));
+    terms.extend((1..=ORDERS).map(Term::inertia));
     terms.extend(by_state());
     terms.extend(by_command(supply));
     terms

@@ -10,6 +10,8 @@ pub enum Place {
     Torque,
     /// A voltage beside the commanded one; the term's load is the command instead of the current.
     Voltage,
+    /// A moment of inertia that goes with the angle, as a part of the motor's; the term depends on nothing else.
+    Inertia,
 }
 
 /// A term's dependence on the speed. Powers are of the speed as a part of `reference`, rad/s.
@@ -202,6 +204,14 @@ impl Term {
         }
     }
 
+    /// An inertia that goes with cosine and sine of a multiple of the angle.
+    pub fn inertia(order: u32) -> Self {
+        Term {
+            place: Place::Inertia,
+            ..Term::torque(Speed::One, Load::One).by_angle(order)
+        }
+    }
+
     /// The same, going with cosine and sine of a multiple of the angle.
     pub fn by_angle(self, order: u32) -> Self {
         Term {
@@ -222,7 +232,7 @@ impl Term {
     /// The factors along a motion, one for each amplitude.
     pub fn factors(&self, motion: &Motion) -> Vec<Vec<f64>> {
         let load = match self.place {
-            Place::Torque => &motion.current,
+            Place::Torque | Place::Inertia => &motion.current,
             Place::Voltage => &motion.command,
         };
         let pairs = motion.speed.iter().zip(load);

@@ -129,6 +129,7 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
                     current,
                     transmitted: current,
                     command: 1.0,
+                    time: 0.0,
                     state: 0.3,
                 });
             }

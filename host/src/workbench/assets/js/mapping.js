@@ -88,6 +88,9 @@ async function open() {
   const standing = Boolean(does.bench()?.recording);
   at("role").replaceChildren(el("legend", {}, "Use it as"), ...ROLES.filter(([name]) => standing || name === "fitted").map(([name, title, what], k) =>
     el("label", {}, el("input", { type: "radio", name: "role", value: name, checked: k === 0 }), el("strong", {}, title), el("span", { class: "quiet" }, what))));
+  // Nothing is known of this file yet; what was said of the one before is not of this one.
+  show("");
+  at("load").disabled = true;
   if (!at("columns").open) at("columns").showModal();
   await check();
 }
