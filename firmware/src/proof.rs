@@ -21,6 +21,8 @@ mod laws;
 
 /// Laws that use every operation between them.
 const STATED: &[&Formula] = &[
+    &laws::AGEING,
+    &laws::CRANK,
     &laws::DRAG,
     &laws::FALLING,
     &laws::GEAR,

@@ -375,3 +375,127 @@ pub static WEAK: Formula = Formula {
         state: (-1.0, 1.0),
     },
 };
+
+/// `ageing: torque = -c*w/w0*(1 - exp(-t/t0)); c = 1.5 in [0, 10] V; t0 = 5 in [0.1, 100] s; w0 = 300 rad/s`
+pub static AGEING: Formula = Formula {
+    description: Description {
+        name: "ageing",
+        place: Place::Torque,
+        title: "law as stated",
+        parameters: &[
+            Parameter {
+                name: "c",
+                quantity: Quantity::Stated("V"),
+                range: (0.0, 10.0),
+                widest: 10.0,
+                typical: 1.5,
+                amplitude: true,
+                neutral: Some(0.0),
+                form: false,
+            },
+            Parameter {
+                name: "t0",
+                quantity: Quantity::Stated("s"),
+                range: (0.1, 100.0),
+                widest: 100.0,
+                typical: 5.0,
+                amplitude: false,
+                neutral: None,
+                form: false,
+            },
+        ],
+        equation: "ageing: torque = -c*w/w0*(1 - exp(-t/t0)); c = 1.5 in [0, 10] V; t0 = 5 in [0.1, 100] s; w0 = 300 rad/s",
+        signature: "as its equation says",
+        exposed_by: "what makes its variables large and small apart from each other",
+        look_alikes: &[],
+        source: "stated by the user",
+        facts: Facts {
+            series_parallel: true,
+            ..Facts::PLAIN
+        },
+    },
+    program: Program {
+        output: Output::Torque,
+        constants: &[
+            &[Op::Parameter(0), Op::Neg],
+            &[Op::Number(1.0), Op::Number(300.0), Op::Div],
+            &[Op::Number(1.0), Op::Parameter(1), Op::Div],
+            &[Op::Number(1.0)],
+        ],
+        law: &[
+            Op::Variable(Variable::Speed),
+            Op::Scale(0),
+            Op::Scale(1),
+            Op::Constant(3),
+            Op::Variable(Variable::Time),
+            Op::Neg,
+            Op::Scale(2),
+            Op::Exp,
+            Op::Sub,
+            Op::Mul,
+        ],
+        rate: &[],
+        state: (-1.0, 1.0),
+    },
+};
+
+/// `crank: inertia = a*(1 + cos(2*theta - f)); a = 0.3 in [0, 4]; f = 0.7 in [-6.3, 6.3] rad`
+pub static CRANK: Formula = Formula {
+    description: Description {
+        name: "crank",
+        place: Place::Torque,
+        title: "law as stated",
+        parameters: &[
+            Parameter {
+                name: "a",
+                quantity: Quantity::Stated("1"),
+                range: (0.0, 4.0),
+                widest: 4.0,
+                typical: 0.3,
+                amplitude: true,
+                neutral: Some(0.0),
+                form: false,
+            },
+            Parameter {
+                name: "f",
+                quantity: Quantity::Stated("rad"),
+                range: (-6.3, 6.3),
+                widest: 6.3,
+                typical: 0.7,
+                amplitude: false,
+                neutral: None,
+                form: false,
+            },
+        ],
+        equation: "crank: inertia = a*(1 + cos(2*theta - f)); a = 0.3 in [0, 4]; f = 0.7 in [-6.3, 6.3] rad",
+        signature: "as its equation says",
+        exposed_by: "what makes its variables large and small apart from each other",
+        look_alikes: &[],
+        source: "stated by the user",
+        facts: Facts {
+            series_parallel: true,
+            ..Facts::PLAIN
+        },
+    },
+    program: Program {
+        output: Output::Inertia,
+        constants: &[
+            &[Op::Number(2.0)],
+            &[Op::Parameter(1)],
+            &[Op::Number(1.0)],
+            &[Op::Parameter(0)],
+        ],
+        law: &[
+            Op::Constant(2),
+            Op::Variable(Variable::Angle),
+            Op::Scale(0),
+            Op::Constant(1),
+            Op::Sub,
+            Op::Cos,
+            Op::Add,
+            Op::Scale(3),
+        ],
+        rate: &[],
+        state: (-1.0, 1.0),
+    },
+};

@@ -186,8 +186,7 @@ fn describe(definition: &Definition) -> Description {
         look_alikes: &[],
         source: "stated by the user",
         facts: Facts {
-            // What is solved for with the motion takes no measured one.
-            series_parallel: definition.state.is_none() && definition.output != Output::Inertia,
+            series_parallel: definition.state.is_none(),
             ..Facts::PLAIN
         },
     }

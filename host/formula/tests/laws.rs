@@ -7,6 +7,7 @@ use shared::effects::{EffectSet, Kind};
 use shared::model::{Plan, State};
 use shared::motor::Machine;
 use shared::units::PerUnit;
+use std::f64::consts::TAU;
 use testing::motion;
 
 const SUPPLY: f64 = 24.0;
@@ -132,6 +133,59 @@ fn an_inertia_that_is_added_is_a_heavier_motor() {
             let off = furthest(&one, &other);
             assert!(off < most, "{more} more beside {dry} V: {off} counts");
         }
+    }
+}
+
+/// Classical Runge–Kutta steps within a sample.
+const FINE: usize = 200;
+
+/// Counts by which two motions may part that begin alike: where the mass changes much they part exponentially.
+const MOST_OFF: f64 = 25.0;
+
+/// Lagrange's equation of a shaft with the inertia `m·(1 + a·(1 + cos(kθ − f)))`, in steps so fine that they leave nothing.
+#[test]
+fn an_inertia_that_the_angle_changes_moves_as_its_equation_does() {
+    for (a, k, f) in [(0.05, 1.0, 0.0), (0.3, 2.0, 0.7), (0.6, 1.0, -2.0)] {
+        let text = format!(
+            "crank: inertia = a*(1 + cos({k}*theta - f)); a in [0, 4]; f in [-6.3, 6.3] rad"
+        );
+        let plan = plan(&[(define(&text).unwrap(), vec![a, f])]);
+        let machine = plan.machine;
+        let rate = |[angle, speed, current]: [f64; 3], volts: f64| {
+            let (sine, cosine) = (k * angle - f).sin_cos();
+            let (part, slope) = (1.0 + a * (1.0 + cosine), -a * k * sine);
+            let torque = current - machine.damping * speed;
+            let gained = torque / machine.inertia - 0.5 * slope * speed * speed;
+            [
+                speed,
+                gained / part,
+                (volts - current - machine.kb * speed) / machine.electrical,
+            ]
+        };
+        let mut state = [0.0; 3];
+        let ahead = |state: [f64; 3], by: [f64; 3], h: f64| -> [f64; 3] {
+            std::array::from_fn(|n| state[n] + h * by[n])
+        };
+        let h = INTERVAL / FINE as f64;
+        let truth: Vec<f64> = (0..SAMPLES)
+            .map(|sample| {
+                let volts = command(sample) * SUPPLY;
+                for _ in 0..FINE {
+                    let one = rate(state, volts);
+                    let two = rate(ahead(state, one, 0.5 * h), volts);
+                    let three = rate(ahead(state, two, 0.5 * h), volts);
+                    let four = rate(ahead(state, three, h), volts);
+                    let mean = std::array::from_fn(|n| {
+                        (one[n] + 2.0 * two[n] + 2.0 * three[n] + four[n]) / 6.0
+                    });
+                    state = ahead(state, mean, h);
+                }
+                state[0] * COUNTS / TAU
+            })
+            .collect();
+        let off = furthest(&angles(&plan), &truth);
+        println!("{text}: {off} counts off");
+        assert!(off < MOST_OFF, "{text}: {off} counts off its equation");
     }
 }
 

@@ -47,6 +47,7 @@ impl<S: Scalar> Model<S> {
                 .times(timing.length)
                 .times(self.turns_per_unit),
             speed_change: measured.speed_change,
+            inertia: timing.inertia,
             length: timing.length,
             per_length: timing.per_length,
             ..Shaft::at(measured.turns, measured.speed, zero)
@@ -61,7 +62,13 @@ impl<S: Scalar> Model<S> {
             extra = self.extra_volts(state, volts, &shaft, &shaft, timing);
             shaft.current = shaft.current + timing.gain * extra;
         }
-        let forces = self.forces(state, &shaft, volts, zero, open);
+        // Nothing is left to solve for where the motion is known.
+        let stiff = if effects.needs.stiff {
+            effects.stiff(&shaft, &state.memory).torque
+        } else {
+            zero
+        };
+        let forces = self.forces(state, &shaft, volts, stiff, open);
         let mut torque = forces.torque;
         if effects.needs.friction {
             let budget = &forces.budget;

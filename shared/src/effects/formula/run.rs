@@ -31,6 +31,9 @@ const FOUR: [(f64, f64); 2] = [
     (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
+/// Part of a torque of inertia that is doubted, of the part of the mass that has grown meanwhile.
+const GROWN: f64 = 1.0 / 12.0;
+
 lanes!(Stated {
     program,
     numbers,
@@ -268,13 +271,19 @@ impl<S: Scalar> Stated<S> {
                 let half = S::from_f64(0.5);
                 let at = |reach: f64| self.law(&self.seen(shaft, reach, zero)).max(zero);
                 let mean = self.mean_of(&at);
-                let gathered =
-                    mean * shaft.speed_change + half * shaft.speed * (at(0.5) - at(-0.5));
+                let grown = at(0.5) - at(-0.5);
+                let gathered = mean * shaft.speed_change + half * shaft.speed * grown;
+                let torque = gathered.times(shaft.inertia);
+                // A friction may stop the shaft within the part, whose speed then changes by less; and the mass that has grown gathers
+                // less speed at the end than at the beginning.
+                let turn = half * shaft.speed_change;
+                let reverses = ((shaft.speed - turn) * (shaft.speed + turn)).less(zero);
+                let part = S::select(reverses, S::one(), grown.abs() * S::from_f64(GROWN));
                 Stiff {
-                    torque: gathered.times(shaft.inertia),
+                    torque,
                     // As far as a torque changes the speed, the mass takes its part of it.
                     slope: mean,
-                    doubt: zero,
+                    doubt: torque.abs() * part,
                 }
             },
         )
