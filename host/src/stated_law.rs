@@ -1,9 +1,9 @@
 //! A law that the user states, on the virtual bench: its text is evaluated as it stands, by none of the code that the model runs.
 
-use servoid_formula::{Law, Point, Used};
+use servoid_formula::{Law, Point};
 use servoid_plant::Machine;
 use servoid_plant::effects::{At, Effect, Sliding};
-use shared::effects::formula::{Output, Variable};
+use shared::effects::formula::Output;
 use std::f64::consts::TAU;
 
 /// A law with the values of its parameters, in a machine.
@@ -23,10 +23,7 @@ impl StatedLaw {
             law,
             values,
             machine,
-            ages: law
-                .definition
-                .uses()
-                .contains(&Used::Variable(Variable::Time)),
+            ages: law.definition.ages(),
         }
     }
 

@@ -1,8 +1,6 @@
 //! A law in other programs' languages.
 
 use crate::syntax::{Binary, Definition, Expression, Function, Term, VARIABLES};
-use crate::uses::Used;
-use shared::effects::formula::Variable;
 
 /// A language in which a law can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,9 +49,11 @@ impl Definition {
         expression: &Expression,
         values: &[f64],
     ) -> String {
-        let ages = self.uses().contains(&Used::Variable(Variable::Time));
         let arguments = ["w", "theta", "i", "tau", "u", "z"];
-        let arguments: Vec<&str> = arguments.into_iter().chain(ages.then_some("t")).collect();
+        let arguments: Vec<&str> = arguments
+            .into_iter()
+            .chain(self.ages().then_some("t"))
+            .collect();
         let each = |text: &dyn Fn(&str) -> String, between: &str| {
             let texts: Vec<String> = arguments.iter().map(|name| text(name)).collect();
             texts.join(between)

@@ -617,11 +617,11 @@ impl Definition {
 
     /// Whether the place sees a variable.
     fn is_at_hand(&self, variable: Variable) -> Result<(), String> {
-        let voltage = self.output == Output::Voltage;
-        let along_angle = matches!(self.output, Output::Angle | Output::Inertia);
         if variable == Variable::Time {
             return self.may_age();
         }
+        let voltage = self.output == Output::Voltage;
+        let along_angle = matches!(self.output, Output::Angle | Output::Inertia);
         let seen = match variable {
             Variable::Command => voltage,
             Variable::Angle => !voltage,

@@ -19,6 +19,11 @@ impl Definition {
         place.map_or("", |(name, _)| name)
     }
 
+    /// Whether the law goes with the time.
+    pub fn ages(&self) -> bool {
+        self.uses().contains(&Used::Variable(Variable::Time))
+    }
+
     /// What the law depends on, each once. A friction depends on the direction of the motion.
     pub fn uses(&self) -> Vec<Used> {
         let mut found = Vec::new();

@@ -315,6 +315,9 @@ impl<S: Scalar> Stated<S> {
 
     #[inline(never)]
     pub(in crate::effects) fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
+        if !self.program.remembers() {
+            return memory;
+        }
         if !self.program.has_state() {
             return memory + S::one().times(shaft.length);
         }
