@@ -45,7 +45,7 @@ impl StatedLaw {
             angle: at.angle.rem_euclid(TAU),
             current,
             transmitted: current,
-            command: 0.0,
+            command: at.volts,
             time: if self.ages { at.memory } else { 0.0 },
             state: at.memory,
         }
@@ -56,12 +56,9 @@ impl StatedLaw {
 const STEP: f64 = 1e-4;
 
 impl Effect for StatedLaw {
-    fn volts(&self, volts: f64, _: &At) -> f64 {
-        let point = Point {
-            command: volts,
-            ..Point::default()
-        };
-        volts + self.value(Output::Voltage, &point).unwrap_or(0.0)
+    fn volts(&self, volts: f64, at: &At) -> f64 {
+        let added = self.value(Output::Voltage, &self.point(at));
+        volts + added.unwrap_or(0.0)
     }
 
     fn torque(&self, at: &At) -> f64 {

@@ -204,6 +204,8 @@ test("from answer to remedy, and motors like this one", async () => {
 test("a blind demonstration: find what is missing, then reveal it", async () => {
   const bench = await at.desk.bench("");
   const page = await open(at.chrome, bench.url);
+  // One motor in place of any: some take far longer to diagnose than others.
+  await page.route("**/demo", (route) => route.continue({ postData: JSON.stringify({ seed: 11 }) }));
   // By the keyboard alone.
   await page.focus("#demo");
   await page.keyboard.press("Enter");

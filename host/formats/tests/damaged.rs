@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use testing::length::many_minutes;
+use testing::length::{fuzzed, many_minutes, setting};
 
 const SEED: u64 = 0x5e70_1d0a;
 /// For one file of some kilobytes, on a busy machine.
@@ -30,10 +30,6 @@ const MOST_TABLES: usize = 30;
 const MOST_NUMBERS: usize = 1 << 22;
 /// Cases that fail until a file is given up.
 const MOST_FAILURES: usize = 5;
-
-fn setting(name: &str) -> Option<u64> {
-    std::env::var(name).ok()?.parse().ok()
-}
 
 /// All files of a folder that are fixtures.
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -182,7 +178,7 @@ impl Law<'_> {
 /// The law for all fixtures of a format; those of a `dataset` are files of one log.
 fn holds(format: &str, dataset: bool) {
     let seed = setting("SERVOID_SEED").unwrap_or(SEED);
-    let count = setting("SERVOID_CASES").unwrap_or_else(|| many_minutes(2_000, 400));
+    let count = fuzzed(many_minutes(2_000, 400));
     let from = fixture(format);
     let found = files(&from);
     let contents: Vec<Vec<u8>> = found.iter().map(|p| std::fs::read(p).unwrap()).collect();

@@ -1,6 +1,6 @@
 //! With which parameters a law vanishes.
 
-use crate::syntax::Definition;
+use crate::definition::Definition;
 use crate::value::Point;
 use shared::effects::formula::Output;
 

@@ -1,6 +1,7 @@
 //! A law in other programs' languages.
 
-use crate::syntax::{Binary, Definition, Expression, Function, Term, VARIABLES};
+use crate::definition::Definition;
+use crate::syntax::{Binary, Expression, Function, Term, VARIABLES};
 
 /// A language in which a law can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +32,8 @@ impl Definition {
     /// its state's rate where it has a state.
     pub fn functions_in(&self, language: Language, values: &[f64]) -> String {
         let law = self.function(language, &self.name, &self.law, values);
-        let rate = self.state.as_ref().map(|(_, rate, _)| {
+        let rate = self.state.as_ref().map(|state| {
+            let rate = &state.rate;
             let name = format!("{}_rate", self.name);
             let says = format!(
                 "How fast the state of {} changes, by the second.",

@@ -1,6 +1,7 @@
 //! An expression as a stack program. What depends on parameters and numbers alone is computed once, when a model is made.
 
-use crate::syntax::{Binary, Definition, Expression, Function, Term};
+use crate::definition::{Definition, State};
+use crate::syntax::{Binary, Expression, Function, Term};
 use shared::effects::formula::{MAX_CONSTANTS, MAX_DEPTH, MAX_NUMBERS, Op, Program, Variable};
 
 /// Code of an expression.
@@ -27,13 +28,13 @@ pub(crate) fn compile(definition: &Definition) -> Result<Program, Refused> {
     };
     let law = compiler.program(&definition.law)?;
     let rate = match &definition.state {
-        Some((_, rate, _)) => compiler.program(rate)?,
+        Some(State { rate, .. }) => compiler.program(rate)?,
         None => Vec::new(),
     };
     let state = definition
         .state
         .as_ref()
-        .map_or((-1.0, 1.0), |(.., range)| *range);
+        .map_or((-1.0, 1.0), |state| state.range);
     let refused = |what: String| (0, what);
     if compiler.constants.len() > MAX_CONSTANTS {
         let what =

@@ -1,6 +1,7 @@
 //! Units of a law: powers of volt, radian and second.
 
-use crate::syntax::{Binary, Definition, Expression, Function, Term};
+use crate::definition::Definition;
+use crate::syntax::{Binary, Expression, Function, Term};
 use shared::effects::formula::{Output, Variable};
 use std::fmt;
 
@@ -115,10 +116,13 @@ pub(crate) fn check(definition: &Definition) -> Result<(), (usize, String)> {
         Output::Inertia => (ONE, "inertia is a part of the motor's, without a unit"),
     };
     same(definition, &definition.law, expected.0, expected.1)?;
-    if let Some((name, rate, _)) = &definition.state {
-        let by_second = ONE.times(SECOND, -1.0);
-        let what = format!("the rate of {name}, which has no unit, is in 1/s");
-        same(definition, rate, by_second, &what)?;
+    if let Some(state) = &definition.state {
+        let by_second = state.dimension.times(SECOND, -1.0);
+        let what = format!(
+            "the rate of {}, which is in {}, by the second; its range states its unit",
+            state.name, state.dimension
+        );
+        same(definition, &state.rate, by_second, &what)?;
     }
     Ok(())
 }
@@ -153,7 +157,7 @@ fn of(definition: &Definition, expression: &Expression) -> Found {
             Variable::Current | Variable::Transmitted | Variable::Command => VOLT,
             Variable::Time => SECOND,
         })),
-        Term::State => Ok(Some(ONE)),
+        Term::State => Ok(definition.state.as_ref().map(|state| state.dimension)),
         Term::Parameter(place) => Ok(Some(definition.parameters[*place].dimension)),
         Term::Fixed(place) => Ok(Some(definition.fixed[*place].dimension)),
         Term::Name(_) => Ok(None),

@@ -12,7 +12,8 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `syntax` | text to a [`Definition`]: places, parameters, expressions |
+//! | `syntax` | the grammar: statements and expressions |
+//! | `definition` | statements to a [`Definition`]: what its names mean, and which a place sees |
 //! | `dimension` | units, and what is wrong with those of a law |
 //! | `value` | an expression's value, and the range in which it lies |
 //! | `compile` | an expression as a stack program |
@@ -26,6 +27,7 @@
 mod amplitude;
 mod code;
 mod compile;
+mod definition;
 mod dimension;
 mod fault;
 mod registry;
@@ -34,9 +36,10 @@ mod uses;
 mod value;
 
 pub use code::Language;
+pub use definition::{Definition, Parameter, State};
 pub use dimension::Dimension;
 pub use fault::Fault;
 pub use registry::{Law, by_name, define, law_of, text_of};
-pub use syntax::{Binary, Definition, Expression, Function, Parameter, Term};
+pub use syntax::{Binary, Expression, Function, Term};
 pub use uses::Used;
 pub use value::Point;

@@ -3,8 +3,8 @@
 
 use crate::amplitude::amplitudes;
 use crate::compile::compile;
+use crate::definition::Definition;
 use crate::fault::Fault;
-use crate::syntax::Definition;
 use shared::effects::formula::{Formula, Op, Output};
 use shared::effects::{Description, Facts, Kind, Parameter, Place};
 use shared::units::Quantity;

@@ -6,13 +6,11 @@
 //!            | state "'" "=" expression
 //!            | names ["=" number] "in" "[" number "," number "]" [unit]
 //!            | name "=" number [unit]
-//! place      = "torque" | "friction" | "voltage" | "torque_constant" | "angle"
+//! place      = "torque" | "friction" | "voltage" | "torque_constant" | "angle" | "inertia"
 //! expression = sums and products of numbers, names, functions; "^" binds tightest and to the right
 //! ```
 
-use crate::dimension::{self, Dimension};
 use crate::fault::Fault;
-use shared::effects::MAX_PARAMETERS;
 use shared::effects::formula::{Output, Variable};
 use winnow::LocatingSlice;
 use winnow::ascii::{float, multispace0};
@@ -143,50 +141,9 @@ pub(crate) const PLACES: [(&str, Output); 6] = [
     ("inertia", Output::Inertia),
 ];
 
-fn found<T: Copy>(list: &[(&str, T)], name: &str) -> Option<T> {
+pub(crate) fn found<T: Copy>(list: &[(&str, T)], name: &str) -> Option<T> {
     let mut list = list.iter();
     list.find(|(own, _)| *own == name).map(|(_, value)| *value)
-}
-
-/// A parameter of a law.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// Its name.
-    pub name: String,
-    /// Value from which a search starts, and with which a simulation runs.
-    pub start: f64,
-    /// Range of the search.
-    pub range: (f64, f64),
-    /// Its unit, as it was written.
-    pub unit: String,
-    /// The same.
-    pub dimension: Dimension,
-}
-
-/// A number with a unit and a name.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Fixed {
-    pub(crate) name: String,
-    pub(crate) value: f64,
-    pub(crate) unit: String,
-    pub(crate) dimension: Dimension,
-}
-
-/// A law as it was stated.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Definition {
-    /// Its name.
-    pub name: String,
-    /// What it gives.
-    pub output: Output,
-    /// How that depends on the motion.
-    pub law: Expression,
-    /// Name of the state, its rate by the second, and its range.
-    pub state: Option<(String, Expression, (f64, f64))>,
-    /// Parameters in the order in which they were stated.
-    pub parameters: Vec<Parameter>,
-    pub(crate) fixed: Vec<Fixed>,
-    pub(crate) text: String,
 }
 
 type Input<'a> = LocatingSlice<&'a str>;
@@ -310,8 +267,8 @@ fn join(binary: Binary, a: Expression, b: Expression) -> Expression {
     }
 }
 
-/// A statement as it stands.
-enum Statement {
+/// A statement as it stands, with places in the text.
+pub(crate) enum Statement {
     Place(usize, Output, Expression),
     Rate(usize, String, Expression),
     Range {
@@ -392,261 +349,29 @@ fn law(input: &mut Input<'_>) -> Parsed<(String, Vec<Statement>)> {
     Ok((name, statements))
 }
 
-impl Definition {
-    /// Reads a law.
-    ///
-    /// # Errors
-    /// Text that is no law, with the place and what was expected there.
-    pub fn parse(text: &str) -> Result<Self, Fault> {
-        let fault = |at: usize, what: String| Fault::new(text, at, what);
-        if text.len() > LONGEST {
-            return Err(fault(
-                LONGEST,
-                format!("the law is longer than {LONGEST} characters"),
-            ));
-        }
-        nesting(text)?;
-        let (name, statements) = law.parse(LocatingSlice::new(text)).map_err(|error| {
-            let at = error.offset();
-            let expected: Vec<String> = (error.inner().context())
-                .filter_map(|context| match context {
-                    StrContext::Expected(what) => Some(what.to_string()),
-                    _ => None,
-                })
-                .collect();
-            let found = text.get(at..).and_then(|rest| rest.chars().next());
-            let found = found.map_or("the end".to_owned(), |c| format!("`{c}`"));
-            let expected = expected.first().map_or("something else", |first| first);
-            Fault::new(text, at, format!("expected {expected}, found {found}"))
-        })?;
-        let mut definition = Definition {
-            name,
-            output: Output::Torque,
-            law: Expression {
-                term: Term::Number(0.0),
-                at: 0,
-            },
-            state: None,
-            parameters: Vec::new(),
-            fixed: Vec::new(),
-            text: text.trim().to_owned(),
-        };
-        definition.take(text, statements)?;
-        definition.resolve(text)?;
-        dimension::check(&definition).map_err(|(at, what)| fault(at, what))?;
-        Ok(definition)
+/// Reads a law's name and its statements.
+///
+/// # Errors
+/// Text that is no law, with the place and what was expected there.
+pub(crate) fn statements(text: &str) -> Result<(String, Vec<Statement>), Fault> {
+    if text.len() > LONGEST {
+        let what = format!("the law is longer than {LONGEST} characters");
+        return Err(Fault::new(text, LONGEST, what));
     }
-
-    fn take(&mut self, text: &str, statements: Vec<Statement>) -> Result<(), Fault> {
-        let mut output = None;
-        let mut ranges = Vec::new();
-        for statement in statements {
-            match statement {
-                Statement::Place(at, place, law) => {
-                    if output.is_some() {
-                        let what = "a law has one place; state the other one as a law of its own";
-                        return Err(Fault::new(text, at, what));
-                    }
-                    output = Some(place);
-                    self.law = law;
-                }
-                Statement::Rate(at, name, rate) => {
-                    if self.state.is_some() {
-                        return Err(Fault::new(text, at, "a law has one state"));
-                    }
-                    self.state = Some((name, rate, (-1.0, 1.0)));
-                }
-                Statement::Fixed(at, name, value, (unit_at, unit)) => {
-                    self.new_name(text, at, &name)?;
-                    let dimension =
-                        Dimension::parse(&unit).map_err(|what| Fault::new(text, unit_at, what))?;
-                    self.fixed.push(Fixed {
-                        name,
-                        value,
-                        unit,
-                        dimension,
-                    });
-                }
-                Statement::Range {
-                    names,
-                    start,
-                    range,
-                    unit,
-                } => ranges.push((names, start, range, unit)),
-            }
-        }
-        self.output = output.ok_or_else(|| {
-            let places: Vec<&str> = PLACES.iter().map(|(name, _)| *name).collect();
-            let what = format!(
-                "the law has no place; add one of {} = ...",
-                places.join(", ")
-            );
-            Fault::new(text, text.len(), what)
-        })?;
-        for (names, start, range, (unit_at, unit)) in ranges {
-            for (at, name) in names {
-                let (low, high) = range;
-                if low >= high {
-                    let what = format!("the range of {name} is empty: [{low}, {high}]");
-                    return Err(Fault::new(text, at, what));
-                }
-                if let Some(start) = start.filter(|x| !(low..=high).contains(x)) {
-                    let what = format!("{name} = {start} is outside of its range [{low}, {high}]");
-                    return Err(Fault::new(text, at, what));
-                }
-                if let Some((state, _, range)) = &mut self.state
-                    && *state == name
-                {
-                    *range = (low, high);
-                    continue;
-                }
-                self.new_name(text, at, &name)?;
-                let dimension =
-                    Dimension::parse(&unit).map_err(|what| Fault::new(text, unit_at, what))?;
-                self.parameters.push(Parameter {
-                    name,
-                    start: start.unwrap_or_else(|| middle(low, high)),
-                    range,
-                    unit: if unit.is_empty() {
-                        "1".to_owned()
-                    } else {
-                        unit.clone()
-                    },
-                    dimension,
-                });
-            }
-        }
-        if self.parameters.len() > MAX_PARAMETERS {
-            let what = format!("a law has at most {MAX_PARAMETERS} parameters");
-            return Err(Fault::new(text, text.len(), what));
-        }
-        if let Some((_, rate, _)) = &self.state
-            && self.output != Output::Torque
-        {
-            let what = "a state belongs to a torque; friction, voltage, torque_constant and angle have none";
-            return Err(Fault::new(text, rate.at, what));
-        }
-        Ok(())
-    }
-
-    fn new_name(&self, text: &str, at: usize, name: &str) -> Result<(), Fault> {
-        let taken = found(&VARIABLES, name).is_some()
-            || found(&FUNCTIONS, name).is_some()
-            || found(&PLACES, name).is_some()
-            || self.state.as_ref().is_some_and(|(state, ..)| state == name)
-            || self.parameters.iter().any(|p| p.name == name)
-            || self.fixed.iter().any(|p| p.name == name);
-        if taken {
-            return Err(Fault::new(text, at, format!("`{name}` is a name already")));
-        }
-        Ok(())
-    }
-
-    /// Says what the names mean.
-    fn resolve(&mut self, text: &str) -> Result<(), Fault> {
-        let mut law = self.law.clone();
-        self.meant(text, &mut law)?;
-        self.law = law;
-        if let Some((name, mut rate, range)) = self.state.take() {
-            self.state = Some((name.clone(), rate.clone(), range));
-            self.meant(text, &mut rate)?;
-            self.state = Some((name, rate, range));
-        }
-        Ok(())
-    }
-
-    fn meant(&self, text: &str, expression: &mut Expression) -> Result<(), Fault> {
-        let at = expression.at;
-        match &mut expression.term {
-            Term::Name(name) => {
-                let term = self.term(name).ok_or_else(|| {
-                    let variables: Vec<&str> = VARIABLES.iter().map(|(name, _)| *name).collect();
-                    let what = format!(
-                        "`{name}` is neither a variable ({}) nor a parameter; state its range: {name} in [low, high] unit",
-                        variables.join(", ")
-                    );
-                    Fault::new(text, at, what)
-                })?;
-                if let Term::Variable(variable) = term {
-                    self.is_at_hand(variable)
-                        .map_err(|what| Fault::new(text, at, what))?;
-                }
-                expression.term = term;
-            }
-            Term::Negative(inner) => self.meant(text, inner)?,
-            Term::Call(_, arguments) => {
-                for argument in arguments {
-                    self.meant(text, argument)?;
-                }
-            }
-            Term::Binary(_, a, b) => {
-                self.meant(text, a)?;
-                self.meant(text, b)?;
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn term(&self, name: &str) -> Option<Term> {
-        if let Some(variable) = found(&VARIABLES, name) {
-            return Some(Term::Variable(variable));
-        }
-        if self.state.as_ref().is_some_and(|(state, ..)| state == name) {
-            return Some(Term::State);
-        }
-        let parameter = self.parameters.iter().position(|p| p.name == name);
-        let fixed = || self.fixed.iter().position(|p| p.name == name);
-        parameter
-            .map(Term::Parameter)
-            .or_else(|| fixed().map(Term::Fixed))
-    }
-
-    /// Whether the law may depend on the time, which it remembers in its state's place.
-    fn may_age(&self) -> Result<(), String> {
-        if self.state.is_some() {
-            return Err("a law with a state has no t".to_owned());
-        }
-        match self.output {
-            Output::Torque | Output::TorqueConstant => Ok(()),
-            _ => {
-                Err("t, the time, belongs to `torque = ...` or `torque_constant = ...`".to_owned())
-            }
-        }
-    }
-
-    /// Whether the place sees a variable.
-    fn is_at_hand(&self, variable: Variable) -> Result<(), String> {
-        if variable == Variable::Time {
-            return self.may_age();
-        }
-        let voltage = self.output == Output::Voltage;
-        let along_angle = matches!(self.output, Output::Angle | Output::Inertia);
-        let seen = match variable {
-            Variable::Command => voltage,
-            Variable::Angle => !voltage,
-            _ => !voltage && !along_angle,
-        };
-        if seen {
-            return Ok(());
-        }
-        Err(match self.output {
-            Output::Voltage => "a voltage depends on u, the command, alone",
-            Output::Angle => "an error of the angle depends on theta alone",
-            Output::Inertia => "an inertia depends on theta alone",
-            _ => "u, the command, belongs to `voltage = ...`",
-        }
-        .to_owned())
-    }
-}
-
-/// A start for a search where none is stated.
-fn middle(low: f64, high: f64) -> f64 {
-    if low > 0.0 {
-        (low * high).sqrt()
-    } else {
-        low.max(0.0).max(0.1 * high).min(high)
-    }
+    nesting(text)?;
+    law.parse(LocatingSlice::new(text)).map_err(|error| {
+        let at = error.offset();
+        let expected: Vec<String> = (error.inner().context())
+            .filter_map(|context| match context {
+                StrContext::Expected(what) => Some(what.to_string()),
+                _ => None,
+            })
+            .collect();
+        let found = text.get(at..).and_then(|rest| rest.chars().next());
+        let found = found.map_or("the end".to_owned(), |c| format!("`{c}`"));
+        let expected = expected.first().map_or("something else", |first| first);
+        Fault::new(text, at, format!("expected {expected}, found {found}"))
+    })
 }
 
 /// Refuses what is nested too deeply to be read.

@@ -1,6 +1,7 @@
 //! What a law depends on, and where it acts.
 
-use crate::syntax::{Definition, Expression, PLACES, Term};
+use crate::definition::Definition;
+use crate::syntax::{Expression, PLACES, Term};
 use shared::effects::formula::{Output, Variable};
 
 /// Something that a law depends on.

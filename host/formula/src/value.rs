@@ -1,6 +1,7 @@
 //! An expression's value, and the range in which it lies.
 
-use crate::syntax::{Binary, Definition, Expression, Function, Term};
+use crate::definition::Definition;
+use crate::syntax::{Binary, Expression, Function, Term};
 use shared::effects::formula::{Interval, Output, Variable};
 use std::f64::consts::TAU;
 
@@ -48,7 +49,7 @@ impl Definition {
 
     /// The rate of the state there, by the second; zero where there is none.
     pub fn rate(&self, values: &[f64], point: &Point) -> f64 {
-        let rate = self.state.as_ref().map(|(_, rate, _)| rate);
+        let rate = self.state.as_ref().map(|state| &state.rate);
         rate.map_or(0.0, |rate| self.value_of(rate, values, point))
     }
 
@@ -87,8 +88,9 @@ impl Definition {
             Term::Variable(Variable::Angle) => Interval::new(0.0, TAU),
             Term::Variable(Variable::Time) => Interval::new(0.0, f64::INFINITY),
             Term::Variable(_) | Term::Name(_) => everything,
-            Term::State => (self.state.as_ref())
-                .map_or(everything, |(.., range)| Interval::new(range.0, range.1)),
+            Term::State => (self.state.as_ref()).map_or(everything, |state| {
+                Interval::new(state.range.0, state.range.1)
+            }),
             Term::Parameter(place) => {
                 let (low, high) = self.parameters[*place].range;
                 Interval::new(low, high)

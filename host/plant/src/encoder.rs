@@ -3,17 +3,18 @@
 use super::chance::Chance;
 use super::effects::Effect;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Floor-quantises the sensed angle and subtracts the counts lost so far.
 pub(super) struct Encoder<'a> {
-    effects: &'a [Box<dyn Effect>],
+    effects: &'a [Arc<dyn Effect>],
     counts_per_rad: f64,
     chance: Chance,
     lost: i64,
 }
 
 impl<'a> Encoder<'a> {
-    pub(super) fn new(effects: &'a [Box<dyn Effect>], counts_per_rev: u32, seed: u64) -> Self {
+    pub(super) fn new(effects: &'a [Arc<dyn Effect>], counts_per_rev: u32, seed: u64) -> Self {
         Encoder {
             effects,
             counts_per_rad: f64::from(counts_per_rev) / TAU,

@@ -23,8 +23,8 @@ pub struct Outside {
     volts: fn(&[f64], &At) -> f64,
     /// Moment of inertia added at an angle, kg·m², and its slope along the angle.
     inertia: fn(&[f64], f64) -> [f64; 2],
-    /// Distance over which a memory follows the motion, rad; `None` without a memory.
-    memory_rad: Option<fn(&[f64]) -> f64>,
+    /// What it remembers.
+    memory: Option<Remembered>,
     /// Speed at which the law jumps, rad/s.
     jump_rad_s: Option<fn(&[f64]) -> f64>,
     /// What it depends on.
@@ -40,8 +40,17 @@ pub enum Variable {
     Angle,
     /// Current or command.
     Load,
-    /// The way since the last reversal.
+    /// The way since the last reversal, or the command before.
     Memory,
+}
+
+/// What a law remembers, from its parameters.
+#[derive(Clone, Copy)]
+enum Remembered {
+    /// The way since the last reversal: `z' = (w - |w|*z)/h` with the distance `h`, rad.
+    Way(fn(&[f64]) -> f64),
+    /// The command as far as it could be followed: `z' = (u - z)*stiffness` with its greatest rate, V/s, and its stiffness, 1/s.
+    Command(fn(&[f64]) -> [f64; 2]),
 }
 
 /// What a law gives, V referred to the winding.
@@ -68,7 +77,7 @@ const NOTHING: Outside = Outside {
     friction: |_, _| 0.0,
     volts: |_, _| 0.0,
     inertia: |_, _| [0.0; 2],
-    memory_rad: None,
+    memory: None,
     jump_rad_s: None,
     depends_on: &[Variable::Speed],
 };
@@ -176,6 +185,18 @@ impl Outside {
             ..NOTHING
         },
         Outside {
+            name: "slew_limit",
+            about: "a drive that changes by r volts a second at most",
+            draw: |machine, chance| {
+                let supply = machine.supply_v;
+                vec![supply * 10.0 * 10f64.powf(chance.uniform()), 0.01 * supply]
+            },
+            volts: |_, at| at.memory - at.volts,
+            memory: Some(Remembered::Command(|v| [v[0], v[0] / v[1]])),
+            depends_on: &[Variable::Load, Variable::Memory],
+            ..NOTHING
+        },
+        Outside {
             name: "gear_loss",
             about: "-(ma*|tau|*z + md*tau*z^2), z' = (w - |w|*z)/h",
             draw: |machine, chance| {
@@ -190,7 +211,7 @@ impl Outside {
                 let motor = v[3] * at.current;
                 -(v[0] * motor.abs() * at.memory + v[1] * motor * at.memory * at.memory)
             },
-            memory_rad: Some(|v| v[2]),
+            memory: Some(Remembered::Way(|v| v[2])),
             depends_on: &[Variable::Load, Variable::Memory],
             ..NOTHING
         },
@@ -326,6 +347,7 @@ impl OutsideLaw {
                     angle: middle(&run.angle_rad),
                     speed: middle(&run.speed_rad_s),
                     current,
+                    volts: run.voltage_v[k],
                     memory,
                 };
                 let volts = run.voltage_v[k] + self.given(machine, &at).voltage;
@@ -338,11 +360,12 @@ impl OutsideLaw {
                     current
                 };
                 current = end + left * (-parts).exp();
-                memory = self.remembered(memory, at.speed, seconds);
+                memory = self.remembered(&at, seconds);
                 let mut given = self.given(
                     machine,
                     &At {
                         current: mean,
+                        memory: 0.5 * (at.memory + memory),
                         ..at
                     },
                 );
@@ -356,16 +379,24 @@ impl OutsideLaw {
             .collect()
     }
 
-    /// Its memory after the shaft has turned at `speed` rad/s for `dt` s, in closed form.
-    pub fn remembered(&self, memory: f64, speed: f64, dt: f64) -> f64 {
-        let Some(distance) = self.form.memory_rad else {
-            return 0.0;
-        };
-        if speed == 0.0 {
-            return memory;
+    /// Its memory after `dt` s as they are `at` the beginning, in closed form.
+    pub fn remembered(&self, at: &At, dt: f64) -> f64 {
+        match self.form.memory {
+            None => 0.0,
+            Some(Remembered::Way(_)) if at.speed == 0.0 => at.memory,
+            Some(Remembered::Way(distance)) => {
+                let kept = (-(at.speed * dt).abs() / distance(&self.values)).exp();
+                at.speed.signum() + (at.memory - at.speed.signum()) * kept
+            }
+            Some(Remembered::Command(limits)) => {
+                let [rate, stiffness] = limits(&self.values);
+                let (missing, bend) = (at.volts - at.memory, rate / stiffness);
+                // At the greatest rate up to the bend, and from there on ever slower.
+                let full = ((missing.abs() - bend) / rate).clamp(0.0, dt);
+                let left = missing - missing.signum() * rate * full;
+                at.volts - left * (-stiffness * (dt - full)).exp()
+            }
         }
-        let kept = (-(speed * dt).abs() / distance(&self.values)).exp();
-        speed.signum() + (memory - speed.signum()) * kept
     }
 }
 
@@ -393,19 +424,28 @@ impl Effect for OutsideLaw {
     }
 
     fn memory(&self) -> Option<f64> {
-        self.form.memory_rad.map(|_| 0.0)
+        self.form.memory.map(|_| 0.0)
     }
 
     fn memory_rate(&self, at: &At) -> f64 {
-        let distance = self.form.memory_rad;
-        distance.map_or(0.0, |distance| {
-            (at.speed - at.speed.abs() * at.memory) / distance(&self.values)
-        })
+        match self.form.memory {
+            None => 0.0,
+            Some(Remembered::Way(distance)) => {
+                (at.speed - at.speed.abs() * at.memory) / distance(&self.values)
+            }
+            Some(Remembered::Command(limits)) => {
+                let [rate, stiffness] = limits(&self.values);
+                ((at.volts - at.memory) * stiffness).clamp(-rate, rate)
+            }
+        }
     }
 
     fn stiffness_per_s(&self, at: &At) -> f64 {
-        let distance = self.form.memory_rad;
-        distance.map_or(0.0, |distance| at.speed.abs() / distance(&self.values))
+        match self.form.memory {
+            None => 0.0,
+            Some(Remembered::Way(distance)) => at.speed.abs() / distance(&self.values),
+            Some(Remembered::Command(limits)) => limits(&self.values)[1],
+        }
     }
 
     fn piece(&self, at: &At, _transmitted: f64) -> i8 {
@@ -470,11 +510,16 @@ mod tests {
                     enabled: true,
                 };
                 let run = bench.run(&[sample; 800]).unwrap();
+                let memory = match form.memory {
+                    Some(Remembered::Command(_)) => volts,
+                    _ => level.signum(),
+                };
                 let at = At {
                     angle: 0.0,
                     speed: run.speed_rad_s[799],
                     current: run.current_a[799],
-                    memory: level.signum(),
+                    volts,
+                    memory,
                 };
                 let total = machine.kb_v_s_rad + machine.winding_volts(machine.viscous_n_m_s);
                 let short = total * at.speed - volts;

@@ -15,6 +15,7 @@
 use super::coupling::{Flank, Shaft};
 use super::effects::{At, Effect, Sliding, Winding};
 use super::{Coupling, Machine};
+use std::sync::Arc;
 
 /// Most effects with a memory that can act at once, one from outside the catalogue and one of the caller's among them; a law checks it against the catalogue.
 const MEMORIES: usize = 6;
@@ -78,7 +79,7 @@ pub(super) struct Torques {
 /// The machine with its effects, in motion.
 pub(super) struct Plant<'a> {
     pub(super) machine: Machine,
-    pub(super) effects: &'a [Box<dyn Effect>],
+    pub(super) effects: &'a [Arc<dyn Effect>],
     /// Index into the state's memory, for each effect.
     memory_of: Vec<Option<usize>>,
     pub(super) shaft: Option<Shaft>,
@@ -96,7 +97,7 @@ impl<'a> Plant<'a> {
     /// The machine at rest at `angle` rad, without current.
     pub(super) fn new(
         machine: Machine,
-        effects: &'a [Box<dyn Effect>],
+        effects: &'a [Arc<dyn Effect>],
         substep_hz: f64,
         angle: f64,
     ) -> Self {
@@ -159,11 +160,20 @@ impl<'a> Plant<'a> {
             }
             Grip::Held => 0.0,
         };
+        let mut volts = match feed {
+            Feed::Volts(command) => command,
+            Feed::Amps(_) | Feed::Open => 0.0,
+        };
         let mut memory = [0.0; MEMORIES];
         for (index, effect) in self.effects.iter().enumerate() {
+            let at = At {
+                volts,
+                ..self.at(index, state)
+            };
             if let Some(slot) = self.memory_of[index] {
-                memory[slot] = effect.memory_rate(&self.at(index, state));
+                memory[slot] = effect.memory_rate(&at);
             }
+            volts = effect.volts(volts, &at);
         }
         let [mut inertia, mut by_angle] = [self.motor_inertia_kg_m2, 0.0];
         for effect in self.effects {
@@ -174,7 +184,10 @@ impl<'a> Plant<'a> {
         State {
             angle: state.speed,
             speed: (accelerating - 0.5 * by_angle * state.speed * state.speed) / inertia,
-            current: self.current_rate(feed, state, &winding),
+            current: match feed {
+                Feed::Volts(_) => Self::current_rate(volts, state, &winding),
+                Feed::Amps(_) | Feed::Open => 0.0,
+            },
             load_angle: state.load_speed,
             load_speed: self
                 .shaft
@@ -183,14 +196,7 @@ impl<'a> Plant<'a> {
         }
     }
 
-    fn current_rate(&self, feed: Feed, state: &State, winding: &Winding) -> f64 {
-        let Feed::Volts(command) = feed else {
-            return 0.0;
-        };
-        let mut volts = command;
-        for (index, effect) in self.effects.iter().enumerate() {
-            volts = effect.volts(volts, &self.at(index, state));
-        }
+    fn current_rate(volts: f64, state: &State, winding: &Winding) -> f64 {
         let back_emf = winding.kb_v_s_rad * state.speed;
         (volts - winding.resistance_ohm * state.current - back_emf) / winding.inductance_h
     }
@@ -262,6 +268,7 @@ impl<'a> Plant<'a> {
             angle: state.angle,
             speed: state.speed,
             current: state.current,
+            volts: 0.0,
             memory: self.memory_of[index].map_or(0.0, |slot| state.memory[slot]),
         }
     }

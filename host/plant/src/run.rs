@@ -9,6 +9,7 @@ use super::position::{Controller, PositionControl};
 use super::timeline::Timeline;
 use super::{BenchError, DriveSample, Hidden, Machine, OutsideLaw, Stated};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// What the command sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -230,26 +231,25 @@ impl Bench {
     }
 
     /// The effects in the order of the catalogue, and the law from outside it.
-    fn assemble(&self) -> Result<Vec<Box<dyn Effect>>, BenchError> {
-        let mut effects = Vec::new();
+    fn assemble(&self) -> Result<Vec<Arc<dyn Effect>>, BenchError> {
+        let mut effects: Vec<Arc<dyn Effect>> = Vec::new();
         for kind in CATALOGUE {
             let mut orders = self
                 .effects
                 .iter()
                 .filter(|hidden| hidden.name() == kind.name);
             if let Some(hidden) = orders.next() {
-                effects.push(hidden.build(&self.machine)?);
+                effects.push(hidden.build(&self.machine)?.into());
             }
             if orders.next().is_some() {
                 return Err(BenchError::Twice(kind.name));
             }
         }
         if let Some(law) = &self.outside {
-            effects.push(Box::new(law.clone()));
+            effects.push(Arc::new(law.clone()));
         }
-        for effect in &self.stated {
-            effects.push(Box::new(effect.clone()));
-        }
+        let stated = self.stated.iter().map(|Stated(effect)| effect.clone());
+        effects.extend(stated);
         Ok(effects)
     }
 

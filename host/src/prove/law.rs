@@ -5,7 +5,7 @@ use super::draws::{Draws, rounded};
 use serde::{Deserialize, Serialize};
 use servoid_formula::{law_of, text_of};
 use servoid_identify::diagnose::FittedModel;
-use servoid_identify::diagnose::discovery::{Known, departure};
+use servoid_identify::diagnose::discovery::{Given, departure};
 use servoid_plant::{Machine, Outside, OutsideLaw, Variable};
 use shared::effects::formula;
 
@@ -70,7 +70,7 @@ impl FoundLaw {
             let (bench, drive) = case.drawn.bench(1).ok()?;
             let run = bench.run(&drive).ok()?;
             let given = hidden.along(&machine, &run);
-            let known = Known {
+            let known = Given {
                 torque: given.iter().map(|given| given.torque).collect(),
                 voltage: given.iter().map(|given| given.voltage).collect(),
             };

@@ -59,12 +59,12 @@ impl<S: Scalar> Effect<S> for Heating<S> {
     }
 
     #[inline(always)]
-    fn winding(&self, _volts: S, shaft: &Shaft<S>, memory: S) -> Winding<S> {
+    fn winding(&self, shaft: &Shaft<S>, memory: S) -> Winding<S> {
         let rise = self.rise(memory, shaft);
         Winding {
             resistance: rise,
-            rate: S::zero(),
             back_emf: -rise.times(self.magnets),
+            ..Winding::default()
         }
     }
 

@@ -68,7 +68,7 @@ impl<S: Scalar> Effect<S> for LSat<S> {
     }
 
     #[inline(always)]
-    fn winding(&self, _volts: S, shaft: &Shaft<S>, _memory: S) -> Winding<S> {
+    fn winding(&self, shaft: &Shaft<S>, _memory: S) -> Winding<S> {
         let square = shaft.mean_over_current(
             #[inline(always)]
             |current| current * current,

@@ -62,12 +62,12 @@ impl<S: Scalar> Lowered<S> {
         volts
     }
 
-    /// Changes of the winding with `volts` from the drive.
+    /// Changes of the winding.
     #[inline(always)]
-    pub fn winding(&self, volts: S, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Winding<S> {
+    pub fn winding(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Winding<S> {
         let mut sum = Winding::default();
         for (effect, memory) in self.each().zip(memory) {
-            sum = sum.and(effect.winding(volts, shaft, *memory));
+            sum = sum.and(effect.winding(shaft, *memory));
         }
         sum
     }

@@ -157,9 +157,9 @@ pub trait Effect<S: Scalar>: Copy {
     fn brush(&self) -> Brush<S> {
         Brush::default()
     }
-    /// Changes of the winding, with `volts` from the drive.
+    /// Changes of the winding.
     #[inline(always)]
-    fn winding(&self, _volts: S, _shaft: &Shaft<S>, _memory: S) -> Winding<S> {
+    fn winding(&self, _shaft: &Shaft<S>, _memory: S) -> Winding<S> {
         Winding::default()
     }
     /// Torque against positive rotation, in volts referred to the winding.
@@ -341,10 +341,10 @@ macro_rules! kinds {
                 }
             }
             #[inline(always)]
-            fn winding(&self, volts: S, shaft: &Shaft<S>, memory: S) -> Winding<S> {
+            fn winding(&self, shaft: &Shaft<S>, memory: S) -> Winding<S> {
                 match self {
-                    $(Any::$kind(effect) => effect.winding(volts, shaft, memory),)*
-                    Any::Formula(_) => Winding::default(),
+                    $(Any::$kind(effect) => effect.winding(shaft, memory),)*
+                    Any::Formula(effect) => effect.winding(shaft, memory),
                 }
             }
             #[inline(always)]

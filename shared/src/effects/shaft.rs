@@ -22,6 +22,8 @@ pub struct Shaft<S: Scalar> {
     pub current: S,
     /// By how much the current changes.
     pub current_change: S,
+    /// Volts from the drive, which are held.
+    pub volts: S,
     /// Torque that the motor and its load pass to each other, without dry friction; only in
     /// [`Effect::friction`](super::Effect::friction).
     pub transmitted: S,
@@ -48,6 +50,7 @@ impl<S: Scalar> Shaft<S> {
             speed_change: zero,
             current,
             current_change: zero,
+            volts: zero,
             transmitted: current,
             compliance: zero,
             inertia: S::coefficient(0.0),
@@ -154,7 +157,7 @@ impl<S: Scalar> Stiff<S> {
     }
 }
 
-/// Changes of the winding, as shares of its own constants; zero where nothing changes.
+/// Changes of the winding, as shares of its own constants, and volts at it; zero where nothing changes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Winding<S> {
     /// Extra resistance.
@@ -163,9 +166,23 @@ pub struct Winding<S> {
     pub rate: S,
     /// Extra back-EMF.
     pub back_emf: S,
+    /// Volts beside those of the drive.
+    pub volts: S,
+    /// What may be wrong with them; not negative.
+    pub doubt: S,
 }
 
 impl<S: Scalar> Winding<S> {
+    /// No change but volts beside those of the drive.
+    #[inline(always)]
+    pub fn volts(volts: S, doubt: S) -> Self {
+        Winding {
+            volts,
+            doubt,
+            ..Winding::default()
+        }
+    }
+
     /// Both.
     #[inline(always)]
     pub fn and(self, other: Self) -> Self {
@@ -173,6 +190,8 @@ impl<S: Scalar> Winding<S> {
             resistance: self.resistance + other.resistance,
             rate: self.rate + other.rate,
             back_emf: self.back_emf + other.back_emf,
+            volts: self.volts + other.volts,
+            doubt: self.doubt + other.doubt,
         }
     }
 }

@@ -57,9 +57,9 @@ impl<S: Scalar> Effect<S> for SupplySag<S> {
     }
 
     #[inline(always)]
-    fn winding(&self, volts: S, _shaft: &Shaft<S>, _memory: S) -> Winding<S> {
+    fn winding(&self, shaft: &Shaft<S>, _memory: S) -> Winding<S> {
         Winding {
-            resistance: (volts * volts).times(self.sag),
+            resistance: (shaft.volts * shaft.volts).times(self.sag),
             ..Winding::default()
         }
     }

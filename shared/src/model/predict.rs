@@ -50,11 +50,12 @@ impl<S: Scalar> Model<S> {
         }
     }
 
-    /// The shaft at the start of a substep.
+    /// The shaft at the start of a substep, with the drive at `volts`.
     #[inline(always)]
     pub(super) fn start(
         &self,
         motion: &Motion<S>,
+        volts: S,
         timing: &SubstepTiming<S>,
         open: bool,
     ) -> Shaft<S> {
@@ -67,6 +68,7 @@ impl<S: Scalar> Model<S> {
         let ahead = motion.speed.times(timing.length);
         Shaft {
             travel: ahead.times(self.turns_per_unit),
+            volts,
             compliance: timing.compliance.times(self.turns_per_unit),
             inertia: timing.inertia,
             length: timing.length,
@@ -153,7 +155,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Volts that the changed winding `at` a shaft adds to those of the drive, with which alone the
-    /// shaft would be `free`.
+    /// shaft would be `free`; and what may be wrong with them.
     #[inline]
     pub(super) fn extra_volts(
         &self,
@@ -162,12 +164,13 @@ impl<S: Scalar> Model<S> {
         at: &Shaft<S>,
         free: &Shaft<S>,
         timing: &SubstepTiming<S>,
-    ) -> S {
+    ) -> (S, S) {
         S::routine(
             #[inline(always)]
             || {
-                let changed = self.effects.winding(volts, at, &state.memory);
-                extra_volts(&changed, &self.effects.brush, volts, free, timing)
+                let changed = self.effects.winding(at, &state.memory);
+                let extra = extra_volts(&changed, &self.effects.brush, volts, free, timing);
+                (extra, changed.doubt)
             },
         )
     }
@@ -203,7 +206,7 @@ impl<S: Scalar> Model<S> {
         let mut shaft = substep.step_free(zero, torque);
         let mut extra = zero;
         if winding {
-            extra = substep.extra_volts(start, &shaft);
+            (extra, _) = substep.extra_volts(start, &shaft);
             shaft = substep.step_free(extra, torque);
         }
         let mut stiff = zero;
@@ -218,10 +221,10 @@ impl<S: Scalar> Model<S> {
         if winding {
             let gain = mechanics.timing(level).gain;
             let current = shaft.current - gain * extra;
-            let again = substep.extra_volts(&shaft, &Shaft { current, ..shaft });
+            let (again, doubt) = substep.extra_volts(&shaft, &Shaft { current, ..shaft });
             shaft.current = current + gain * again;
             bent = bends(&effects.brush, start, &shaft);
-            change = change + (again - extra).abs();
+            change = change + (again - extra).abs() + doubt;
             extra = again;
         }
         if effects.needs.stiff {
@@ -298,7 +301,7 @@ impl<S: Scalar, M: Mechanics<S>> Substep<'_, S, M> {
 
     /// [`Model::extra_volts`] of this substep.
     #[inline(always)]
-    fn extra_volts(&self, at: &Shaft<S>, free: &Shaft<S>) -> S {
+    fn extra_volts(&self, at: &Shaft<S>, free: &Shaft<S>) -> (S, S) {
         let timing = self.mechanics.timing(self.level);
         self.model
             .extra_volts(self.state, self.volts, at, free, timing)

@@ -47,6 +47,7 @@ impl<S: Scalar> Model<S> {
                 .times(timing.length)
                 .times(self.turns_per_unit),
             speed_change: measured.speed_change,
+            volts,
             inertia: timing.inertia,
             length: timing.length,
             per_length: timing.per_length,
@@ -59,7 +60,7 @@ impl<S: Scalar> Model<S> {
         }
         let mut extra = zero;
         if effects.needs.winding && !open {
-            extra = self.extra_volts(state, volts, &shaft, &shaft, timing);
+            (extra, _) = self.extra_volts(state, volts, &shaft, &shaft, timing);
             shaft.current = shaft.current + timing.gain * extra;
         }
         // Nothing is left to solve for where the motion is known.

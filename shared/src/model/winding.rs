@@ -1,10 +1,10 @@
 //! Changes of the winding, and the drop of its brushes, as volts added to the drive.
 //!
-//! With resistance `1 + r`, inductance `1/(1 + l)`, back-EMF `1 + e` times their own and a drop `D`
+//! With resistance `1 + r`, inductance `1/(1 + l)`, back-EMF `1 + e` times their own, volts `a` beside the drive's and a drop `D`
 //! of the brushes, all held over the substep,
 //!
 //! ```text
-//! τe·dc/dt = (1 + l)·(v − (1 + r)·c − (1 + e)·kb·ω − D(c))  =  v + E − c − kb·ω
+//! τe·dc/dt = (1 + l)·(v + a − (1 + r)·c − (1 + e)·kb·ω − D(c))  =  v + E − c − kb·ω
 //! ```
 //!
 //! defines the volts `E` that the plain winding must see instead. Its mean is solved for, with the
@@ -30,12 +30,13 @@ pub fn extra_volts<S: Scalar>(
         resistance,
         rate,
         back_emf,
+        volts: added,
         ..
     } = *changed;
     let gain = timing.gain;
     let emf = free.speed.times(timing.kb);
     let inductive = volts - free.current - emf;
-    let lost = resistance * free.current + back_emf * emf;
+    let lost = resistance * free.current + back_emf * emf - added;
     let given = bounded(rate, inductive) - lost - bounded(rate, lost);
     let stiffness = one + gain * (rate + resistance + rate * resistance);
     let scale = one.part_of(stiffness);

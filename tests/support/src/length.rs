@@ -17,6 +17,18 @@ pub fn many_minutes<N: std::fmt::Display>(all: N, few: N) -> N {
     tried(long_minutes(), all, few)
 }
 
+/// How many inputs a law tries that may be tried with any number of them: `SERVOID_CASES`, or as many as is `usual`.
+#[must_use]
+pub fn fuzzed<N: std::str::FromStr>(usual: N) -> N {
+    setting("SERVOID_CASES").unwrap_or(usual)
+}
+
+/// A number that the environment sets.
+#[must_use]
+pub fn setting<N: std::str::FromStr>(name: &str) -> Option<N> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
 /// Whether laws that take minutes are tried at full length.
 #[must_use]
 pub fn long_minutes() -> bool {
@@ -24,8 +36,7 @@ pub fn long_minutes() -> bool {
 }
 
 fn level() -> u8 {
-    let said = std::env::var("SERVOID_LONG").unwrap_or_default();
-    said.parse().unwrap_or(0)
+    setting("SERVOID_LONG").unwrap_or(0)
 }
 
 fn tried<N: std::fmt::Display>(whole: bool, all: N, few: N) -> N {

@@ -167,6 +167,8 @@ pub struct At {
     pub speed: f64,
     /// Armature current, A.
     pub current: f64,
+    /// Voltage before the effect, V; in [`Effect::volts`] and [`Effect::memory_rate`] alone.
+    pub volts: f64,
     /// The effect's own memory, in its own unit.
     pub memory: f64,
 }

@@ -11,8 +11,10 @@
 //! | `lower` | scales and constants for the values of the parameters |
 //! | `number` | what is computed with: a number, or a number with its derivatives |
 //! | `power` | powers, which number formats have not |
+//! | `interpret` | its operations on a stack |
 //! | `run` | the program along the shaft |
 
+mod interpret;
 mod interval;
 mod lower;
 mod number;

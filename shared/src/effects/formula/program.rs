@@ -18,9 +18,9 @@ pub enum Variable {
     Current,
     /// Torque that motor and load pass to each other, V; of a friction budget only.
     Transmitted,
-    /// Command, V; of a voltage only.
+    /// Command, V; of a voltage only: what the drive gives, behind the effects before it.
     Command,
-    /// Time since the recording began, s; of a torque or a torque constant without a state.
+    /// Time since the recording began, s; of a torque, a torque constant or a voltage without a state.
     Time,
 }
 
@@ -126,6 +126,13 @@ impl Program {
     /// Whether it has a state.
     pub fn has_state(&self) -> bool {
         !self.rate.is_empty()
+    }
+
+    /// Whether it is a voltage that changes within an interval: by a state, the motion or the time, and not by the command alone.
+    pub fn acts_within_a_part(&self) -> bool {
+        let seen = [Variable::Speed, Variable::Angle, Variable::Time];
+        self.output == Output::Voltage
+            && (self.has_state() || seen.iter().any(|variable| self.looks_at(*variable)))
     }
 
     /// Whether it remembers a number: its state, or how long it has run.

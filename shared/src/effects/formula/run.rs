@@ -1,10 +1,10 @@
 //! A formula along the shaft.
 
-use super::lower::{MAX_NUMBERS, Numbers, TANH_ENDS};
+use super::interpret::{At, result};
+use super::lower::{MAX_NUMBERS, Numbers};
 use super::number::{Dual, Number};
-use super::{Formula, MAX_DEPTH, Op, Output, Program, Variable, power};
-use crate::effects::tangent::tanh;
-use crate::effects::{Budget, Needs, Shaft, Stiff};
+use super::{Formula, Op, Output, Program, Variable};
+use crate::effects::{Budget, Needs, Shaft, Stiff, Winding};
 use crate::scalar::{FromLanes, Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -51,19 +51,6 @@ impl<const N: usize> FromLanes<&'static Program, N> for &'static Program {
     }
 }
 
-/// What a formula may look at.
-#[derive(Clone, Copy)]
-struct At<N> {
-    speed: N,
-    turns: N,
-    current: N,
-    transmitted: N,
-    command: N,
-    /// In intervals.
-    time: N,
-    state: N,
-}
-
 impl Program {
     /// What it needs of the model.
     pub(in crate::effects) fn needs(&self) -> Needs {
@@ -72,6 +59,7 @@ impl Program {
         let inertia = self.output == Output::Inertia;
         let current = self.looks_at(Variable::Current) || self.looks_at(Variable::Transmitted);
         let sensed = self.output == Output::Angle;
+        let winding = self.acts_within_a_part();
         let time = self.looks_at(Variable::Time);
         let varies =
             current || time || self.looks_at(Variable::Speed) || self.looks_at(Variable::Angle);
@@ -81,11 +69,11 @@ impl Program {
             angle: self.looks_at(Variable::Angle) && !sensed,
             friction: self.output == Output::Friction,
             torque: torque && !self.has_state(),
+            winding,
             stiff: (torque && self.has_state()) || inertia,
             lost_torque: lost,
             memory: self.remembers(),
             sensed,
-            ..Needs::NOTHING
         }
     }
 }
@@ -117,17 +105,7 @@ impl<S: Scalar> Stated<S> {
     fn run<N: Number<S>>(&self, ops: &[Op], from: usize, at: &At<N>) -> N {
         S::routine(
             #[inline(always)]
-            || {
-                let mut numbers = Taken {
-                    left: &self.numbers[from..],
-                };
-                let mut stack = [N::constant(S::zero()); MAX_DEPTH];
-                let mut depth = 0;
-                for op in ops {
-                    depth = step(op, &mut stack, depth, &mut numbers, at);
-                }
-                stack[0]
-            },
+            || result(ops, &self.numbers[from..], at),
         )
     }
 
@@ -146,7 +124,7 @@ impl<S: Scalar> Stated<S> {
             turns: shaft.turns + shaft.travel * reach,
             current: shaft.current + shaft.current_change * reach,
             transmitted: shaft.transmitted + shaft.current_change * reach,
-            command: S::zero(),
+            command: shaft.volts,
             time: began + gone,
             state: S::zero(),
         }
@@ -175,23 +153,51 @@ impl<S: Scalar> Stated<S> {
 
     #[inline(never)]
     pub(in crate::effects) fn drive(&self, volts: S) -> S {
-        if self.program.output != Output::Voltage {
+        if self.program.output != Output::Voltage || self.program.acts_within_a_part() {
             return volts;
         }
         S::routine(
             #[inline(always)]
             || {
-                let zero = S::zero();
                 let at = At {
-                    speed: zero,
-                    turns: zero,
-                    current: zero,
-                    transmitted: zero,
                     command: volts,
-                    time: zero,
-                    state: zero,
+                    ..At::all(S::zero())
                 };
                 volts + self.law(&at)
+            },
+        )
+    }
+
+    /// A voltage that goes with the motion or has a state, as its mean over the part.
+    #[inline(never)]
+    pub(in crate::effects) fn winding(&self, shaft: &Shaft<S>, memory: S) -> Winding<S> {
+        if !self.program.acts_within_a_part() {
+            return Winding::default();
+        }
+        S::routine(
+            #[inline(always)]
+            || {
+                if !self.program.has_state() {
+                    return Winding::volts(self.mean(shaft, memory), S::zero());
+                }
+                let moved = self.moved(shaft, memory);
+                let at = At {
+                    state: moved.mean,
+                    ..self.seen(shaft, 0.0, S::zero())
+                };
+                let volts = self.law(&at);
+                // Where the rate bends, as at a limit, it is another one at the end than its slope at the beginning said.
+                let end = At {
+                    state: moved.end,
+                    ..at
+                };
+                let bent = (self.run(self.program.rate, self.rate_from, &end)).scaled(self.rate);
+                let bent = (bent.scaled(shaft.length) - moved.rate_at_end).abs();
+                let further = At {
+                    state: moved.mean + bent * S::from_f64(0.5),
+                    ..at
+                };
+                Winding::volts(volts, (self.law(&further) - volts).abs())
             },
         )
     }
@@ -237,15 +243,9 @@ impl<S: Scalar> Stated<S> {
         S::routine(
             #[inline(always)]
             || {
-                let zero = S::zero();
                 self.law(&At {
-                    speed: zero,
                     turns,
-                    current: zero,
-                    transmitted: zero,
-                    command: zero,
-                    time: zero,
-                    state: zero,
+                    ..At::all(S::zero())
                 })
             },
         )
@@ -338,7 +338,7 @@ impl<S: Scalar> Stated<S> {
             turns: own(shaft.turns),
             current: own(shaft.current),
             transmitted: own(shaft.transmitted),
-            command: own(S::zero()),
+            command: own(shaft.volts),
             time: own(S::zero()),
             state: Dual {
                 by_state: S::one(),
@@ -369,9 +369,11 @@ impl<S: Scalar> Stated<S> {
         let series = half - x * (sixth - x * (twelfth - x * S::from_f64(1.0 / 120.0)));
         let quotient = (one - first).part_of(x);
         let second = S::select(small, series, quotient);
+        let gone = rate.value * first;
         Moved {
             mean: state + rate.value * second,
-            end: state + rate.value * first,
+            end: state + gone,
+            rate_at_end: rate.value - x * gone,
             mean_by_speed: rate.by_speed * second,
         }
     }
@@ -387,8 +389,7 @@ impl Stated<f64> {
             current: volts,
             transmitted: volts,
             command: volts,
-            time: 0.0,
-            state: 0.0,
+            ..At::all(0.0)
         };
         units.raise(self.law(&at), self.program.output.quantity())
     }
@@ -398,131 +399,7 @@ impl Stated<f64> {
 struct Moved<S> {
     mean: S,
     end: S,
+    /// As its slope at the beginning has it, of the whole part.
+    rate_at_end: S,
     mean_by_speed: S,
-}
-
-/// Numbers that operations take one after the other.
-struct Taken<'a, S: Scalar> {
-    left: &'a [S::Coefficient],
-}
-
-impl<'a, S: Scalar> Taken<'a, S> {
-    #[inline(always)]
-    fn take<const K: usize>(&mut self) -> [S::Coefficient; K] {
-        let Some((taken, left)) = self.left.split_first_chunk::<K>() else {
-            return [S::Coefficient::default(); K];
-        };
-        self.left = left;
-        *taken
-    }
-}
-
-/// One operation; gives the new depth of the stack.
-#[inline(always)]
-fn step<S: Scalar, N: Number<S>>(
-    op: &Op,
-    stack: &mut [N; MAX_DEPTH],
-    depth: usize,
-    numbers: &mut Taken<'_, S>,
-    at: &At<N>,
-) -> usize {
-    // What is put on the stack.
-    let pushed = match *op {
-        Op::Variable(variable) => {
-            let value = match variable {
-                Variable::Speed => at.speed,
-                Variable::Angle => at.turns,
-                Variable::Current => at.current,
-                Variable::Transmitted => at.transmitted,
-                Variable::Command => at.command,
-                Variable::Time => at.time,
-            };
-            let [k] = numbers.take();
-            Some(value.scaled(k))
-        }
-        Op::State => Some(at.state),
-        Op::Constant(_) => Some(N::constant(S::one())),
-        _ => None,
-    };
-    if let Some(value) = pushed {
-        if let Some(place) = stack.get_mut(depth) {
-            *place = value;
-        }
-        return (depth + 1).min(MAX_DEPTH);
-    }
-    let top = depth.saturating_sub(1);
-    let under = depth.saturating_sub(2);
-    let (a, b) = (stack[under], stack[top]);
-    let zero = S::zero();
-    let less = |a: N, b: N| a.value().less(b.value());
-    let two = match *op {
-        Op::Add | Op::Sub | Op::Min | Op::Max => {
-            let [j, k] = numbers.take();
-            let (a, b) = (a.scaled(j), b.scaled(k));
-            Some(match *op {
-                Op::Min => N::choose(less(b, a), b, a),
-                Op::Max => N::choose(less(a, b), b, a),
-                _ => a.plus(b),
-            })
-        }
-        Op::Mul => Some(a.by(b)),
-        Op::Div => {
-            let [least, inverse] = numbers.take();
-            let divisor = {
-                let negative = b.value().less(zero);
-                N::choose(negative, b.negated(), b)
-            };
-            // Its inverse, as a part of the largest that there is.
-            let over = S::one().times(least).part_of(divisor.value());
-            let over = divisor.map(over, || -(over * over).times(inverse));
-            Some(a.by(over))
-        }
-        _ => None,
-    };
-    if let Some(value) = two {
-        stack[under] = value;
-        return depth.saturating_sub(1);
-    }
-    let x = b;
-    let value = x.value();
-    stack[top] = match *op {
-        Op::Abs => N::choose(value.less(zero), x.negated(), x),
-        Op::Sign => N::constant(value.signum()),
-        Op::Square => x.by(x),
-        Op::Exp => {
-            let [scale, shift, floor, most, base] = numbers.take();
-            // How far below its largest value it lies, as far as the format can say.
-            let mut below = value.times(scale) - S::one().times(shift);
-            if S::LIMIT.is_finite() {
-                below = below.max(-S::one().times(floor));
-            }
-            let below = below.times(most);
-            let result = below.min(zero).exp_decay();
-            x.map(result, || result.times(base))
-        }
-        Op::Raise(_) => {
-            let [exponent] = numbers.take();
-            let terms: [S::Coefficient; power::NUMBERS] = numbers.take();
-            let size = N::choose(value.less(zero), x.negated(), x);
-            power::raised(size, exponent, &terms)
-        }
-        Op::Sin | Op::Cos => {
-            let [turns, base] = numbers.take();
-            let (sine, cosine) = value.times(turns).sin_cos_turns();
-            match *op {
-                Op::Sin => x.map(sine, || cosine.times(base)),
-                _ => x.map(cosine, || -sine.times(base)),
-            }
-        }
-        Op::Tanh => {
-            let [end, base] = numbers.take();
-            let size = value.abs().min(S::one().times(end)).times(base);
-            let size = tanh(size.min(S::from_f64(TANH_ENDS)));
-            let result = S::select(value.less(zero), -size, size);
-            x.map(result, || (S::one() - size * size).times(base))
-        }
-        // A factor or a sign is in the base.
-        _ => x,
-    };
-    depth
 }

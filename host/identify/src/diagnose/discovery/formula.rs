@@ -7,6 +7,9 @@ const MOST: f64 = 10.0;
 /// Largest amplitude of an inertia from which a search starts, as a part of its mean.
 const LARGEST_PART: f64 = 0.9;
 
+/// Time in which a drive of limited rate ends at its command, s.
+const BEND: f64 = 2e-4;
+
 /// Parameters that are collected while a text grows.
 struct Parameters {
     texts: Vec<String>,
@@ -74,7 +77,7 @@ pub fn formula(terms: &[Term], name: &str) -> String {
         _ => "torque",
     };
     let mut expression = String::new();
-    let mut state = None;
+    let mut state: Option<Vec<String>> = None;
     for (index, term) in terms.iter().enumerate() {
         parameters.suffix = if index == 0 {
             String::new()
@@ -91,9 +94,7 @@ pub fn formula(terms: &[Term], name: &str) -> String {
         expression.push_str(&text);
     }
     let mut parts = vec![format!("{name}: {place} = {expression}")];
-    if let Some(distance) = state {
-        parts.push(format!("z' = (w - abs(w)*z)/{distance}"));
-    }
+    parts.extend(state.into_iter().flatten());
     parts.extend(parameters.texts);
     parts.join("; ")
 }
@@ -144,7 +145,7 @@ fn multiple(order: u32) -> String {
 fn product(
     term: &Term,
     dry: bool,
-    state: &mut Option<String>,
+    state: &mut Option<Vec<String>>,
     parameters: &mut Parameters,
 ) -> (bool, String) {
     if let (Place::Inertia, Some(order), [cosine, sine]) =
@@ -154,7 +155,7 @@ fn product(
     }
     let unit = match term.load {
         Load::One | Load::Power { .. } => "V",
-        Load::Plain | Load::Size => "",
+        Load::Plain | Load::Size | Load::Slewed { .. } | Load::Lagging { .. } => "",
     };
     let mut minus = false;
     let mut factors = Vec::new();
@@ -172,12 +173,13 @@ fn product(
         factors.push(parameters.add("c", size, 0.0, MOST * size, unit));
     }
     speed(term.speed, dry, &mut factors, parameters);
-    load(term, &mut factors, parameters);
+    load(term, &mut factors, state, parameters);
     if let Some(memory) = term.memory {
         if state.is_none() {
             let (low, high) = super::term::DISTANCES;
             let (low, high) = (low.min(memory.distance), high.max(memory.distance));
-            *state = Some(parameters.add("h", memory.distance, low, high, "rad"));
+            let h = parameters.add("h", memory.distance, low, high, "rad");
+            *state = Some(vec![format!("z' = (w - abs(w)*z)/{h}")]);
         }
         factors.push(if memory.squared { "z^2" } else { "z" }.to_owned());
     }
@@ -257,7 +259,21 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
     }
 }
 
-fn load(term: &Term, factors: &mut Vec<String>, parameters: &mut Parameters) {
+/// How far a drive is behind the command; the state is what it gives, far above any supply at most.
+fn behind(rate: String, factors: &mut Vec<String>, state: &mut Option<Vec<String>>) {
+    *state = Some(vec![
+        format!("z' = {rate}"),
+        "z in [-1000, 1000] V".to_owned(),
+    ]);
+    factors.push("(z - u)".to_owned());
+}
+
+fn load(
+    term: &Term,
+    factors: &mut Vec<String>,
+    state: &mut Option<Vec<String>>,
+    parameters: &mut Parameters,
+) {
     let name = match term.place {
         Place::Torque | Place::Inertia => "i",
         Place::Voltage => "u",
@@ -266,6 +282,21 @@ fn load(term: &Term, factors: &mut Vec<String>, parameters: &mut Parameters) {
         Load::One => {}
         Load::Plain => factors.push(name.to_owned()),
         Load::Size => factors.push(format!("abs({name})")),
+        Load::Slewed { rate } => {
+            let (low, high) = limits(rate);
+            let r = parameters.add("r", rate, low, high, "V/s");
+            let bend = parameters.fix("s", BEND, "s");
+            behind(
+                format!("max(-{r}, min({r}, (u - z)/{bend}))"),
+                factors,
+                state,
+            );
+        }
+        Load::Lagging { time } => {
+            let (low, high) = limits(time);
+            let s = parameters.add("s", time, low, high, "s");
+            behind(format!("(u - z)/{s}"), factors, state);
+        }
         Load::Power {
             exponent: p,
             odd,

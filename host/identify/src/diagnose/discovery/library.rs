@@ -9,6 +9,9 @@ const EXPONENTS: [f64; 6] = [0.25, 0.5, 1.5, 2.0, 3.0, 4.0];
 const SCALES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8];
 /// Distances of the state, rad.
 const DISTANCES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
+/// Greatest rates of a drive, supplies by the second, and its time constants, s.
+const RATES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
+const TIMES: [f64; 6] = [3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1];
 /// Most cycles in a revolution.
 const ORDERS: u32 = 12;
 
@@ -161,5 +164,10 @@ fn by_command(reference: f64) -> Vec<Term> {
             reference,
         }));
     }
+    let rates = RATES.map(|rate| Load::Slewed {
+        rate: rate * reference,
+    });
+    let times = TIMES.map(|time| Load::Lagging { time });
+    loads.extend(rates.into_iter().chain(times));
     loads.into_iter().map(voltage).collect()
 }

@@ -21,7 +21,8 @@
 //! | `discover` | the proposed laws beside the catalogue |
 //! | `curve` | an effect beside a curve of no stated form |
 //! | `likeness` | the effect of the catalogue that a law is most like |
-//! | `departure` | how far a model's effects are from a known truth, for proofs |
+//! | `given` | what a model's effects give along the measured motion |
+//! | `departure` | how far that is from a known truth, for proofs |
 
 mod blocks;
 mod curve;
@@ -29,6 +30,7 @@ mod departure;
 mod discover;
 mod equation;
 mod formula;
+mod given;
 mod judge;
 mod law;
 mod library;
@@ -42,8 +44,9 @@ mod state;
 mod term;
 
 pub use curve::{Carrier, Curve, CurvePoint};
-pub use departure::{Known, departure};
+pub use departure::departure;
 pub use discover::{Proposed, diagnose};
+pub use given::Given;
 pub use law::Law;
 pub use propose::propose;
 pub use term::{Load, Memory, Place, Shape, Speed, Term};

@@ -115,6 +115,10 @@ fn together(a: &Term, b: &Term) -> bool {
         (Some(a), Some(b)) => a.distance == b.distance,
         _ => true,
     };
+    // A law has one state.
+    let remembers = |term: &Term| term.memory.is_some() || term.load.remembers();
+    let states =
+        states && !(a.load.remembers() && remembers(b) || b.load.remembers() && remembers(a));
     let both = |place| a.place == place && b.place == place;
     states && (both(Place::Torque) || both(Place::Voltage))
 }

@@ -48,7 +48,7 @@ pub enum Speed {
     Beyond { threshold: f64 },
 }
 
-/// A term's dependence on the current, V across the resistance, or on the command, V.
+/// A term's dependence on the current, V across the resistance, or on the command, V; or on how far a drive is behind the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Load {
@@ -64,6 +64,10 @@ pub enum Load {
         odd: bool,
         reference: f64,
     },
+    /// What a drive gives that changes by `rate` V/s at most, less the command.
+    Slewed { rate: f64 },
+    /// What a drive gives that follows with the time constant `time`, s, less the command.
+    Lagging { time: f64 },
 }
 
 /// A term's dependence on the state `z' = (w - |w|*z)/distance`.
@@ -166,29 +170,63 @@ impl Speed {
 }
 
 impl Load {
-    /// At a current or command, V.
-    pub fn at(self, i: f64) -> f64 {
+    /// Whether it goes with the commands before.
+    pub fn remembers(self) -> bool {
+        matches!(self, Load::Slewed { .. } | Load::Lagging { .. })
+    }
+
+    /// Along the currents or the commands, V, of intervals so many seconds long.
+    fn along(self, volts: &[f64], seconds: &[f64]) -> Vec<f64> {
+        let each = |at: &dyn Fn(f64) -> f64| volts.iter().map(|&i| at(i)).collect();
         match self {
-            Load::One => 1.0,
-            Load::Plain => i,
-            Load::Size => i.abs(),
+            Load::One => each(&|_| 1.0),
+            Load::Plain => each(&|i| i),
+            Load::Size => each(&f64::abs),
             Load::Power {
                 exponent,
                 odd,
                 reference,
-            } => {
+            } => each(&|i| {
                 let sign = if odd && i < 0.0 { -1.0 } else { 1.0 };
                 sign * libm::pow(i.abs() / reference, exponent)
-            }
+            }),
+            Load::Slewed { rate } => behind(volts, seconds, |missing, seconds| {
+                let full = (missing.abs() / rate).min(seconds);
+                let left = missing - missing.signum() * rate * full;
+                let sum = 0.5 * full * (missing + left) + (seconds - full) * left;
+                (left, sum)
+            }),
+            Load::Lagging { time } => behind(volts, seconds, |missing, seconds| {
+                let left = missing * libm::exp(-seconds / time);
+                (left, time * (missing - left))
+            }),
         }
     }
 
     fn shape(&mut self) -> Option<(&mut f64, (f64, f64))> {
         match self {
             Load::Power { exponent, .. } => Some((exponent, EXPONENTS)),
+            Load::Slewed { rate: scale } | Load::Lagging { time: scale } => {
+                let range = (SCALES.0 * *scale, SCALES.1 * *scale);
+                Some((scale, range))
+            }
             Load::One | Load::Plain | Load::Size => None,
         }
     }
+}
+
+/// How far a drive is behind the command, as a mean over each interval, less than zero where the command is the larger: from what it
+/// lacks, V, at an interval's begin and the interval's length to what it lacks at the end, and the integral between.
+fn behind(command: &[f64], seconds: &[f64], follows: impl Fn(f64, f64) -> (f64, f64)) -> Vec<f64> {
+    let mut drive = 0.0;
+    let pairs = command.iter().zip(seconds);
+    pairs
+        .map(|(&command, &seconds)| {
+            let (left, sum) = follows(command - drive, seconds);
+            drive = command - left;
+            if seconds > 0.0 { -sum / seconds } else { -left }
+        })
+        .collect()
 }
 
 impl Term {
@@ -235,10 +273,9 @@ impl Term {
             Place::Torque | Place::Inertia => &motion.current,
             Place::Voltage => &motion.command,
         };
+        let load = self.load.along(load, &motion.seconds);
         let pairs = motion.speed.iter().zip(load);
-        let mut product: Vec<f64> = pairs
-            .map(|(&w, &i)| self.speed.at(w) * self.load.at(i))
-            .collect();
+        let mut product: Vec<f64> = pairs.map(|(&w, load)| self.speed.at(w) * load).collect();
         if let Some(memory) = self.memory {
             for (value, z) in product.iter_mut().zip(along(motion, memory.distance)) {
                 *value *= if memory.squared { z * z } else { z };
@@ -307,7 +344,7 @@ impl Term {
         let even = match self.load {
             Load::One | Load::Size => true,
             Load::Power { odd, .. } => !odd,
-            Load::Plain => false,
+            Load::Plain | Load::Slewed { .. } | Load::Lagging { .. } => false,
         };
         dry && even && self.place == Place::Torque && self.memory.is_none()
     }

@@ -51,7 +51,7 @@ fn departure(
     let equation = Equation::new(&known.data, candidate).expect("motion");
     let run = &known.run;
     let given = truth.along(machine, run);
-    let truth = super::Known {
+    let truth = super::Given {
         torque: given.iter().map(|given| given.torque).collect(),
         voltage: given.iter().map(|given| given.voltage).collect(),
     };
