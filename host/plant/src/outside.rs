@@ -82,6 +82,9 @@ const NOTHING: Outside = Outside {
     depends_on: &[Variable::Speed],
 };
 
+/// Parts of an interval over which a law's mean is taken.
+const PARTS: usize = 8;
+
 /// Parts of a machine's stall torque, as large as effects of the catalogue typically are.
 fn torque(machine: &Machine, chance: &mut Chance) -> f64 {
     let part = 0.02 * 4f64.powf(chance.uniform());
@@ -332,8 +335,8 @@ impl OutsideLaw {
         }
     }
 
-    /// What it gives in the interval that begins at each sample of a run under voltage, by the motion in the interval's middle and
-    /// the interval's mean current: a command that jumps makes the current jump within the interval.
+    /// What it gives as a mean over the interval that begins at each sample of a run under voltage, by the interval's mean current: a
+    /// command that jumps makes the current jump within the interval.
     pub fn along(&self, machine: &Machine, run: &Run) -> Vec<Given> {
         let time_constant = machine.inductance_h / machine.resistance_ohm;
         let (mut memory, mut current) = (0.0, 0.0);
@@ -361,20 +364,29 @@ impl OutsideLaw {
                 };
                 current = end + left * (-parts).exp();
                 memory = self.remembered(&at, seconds);
-                let mut given = self.given(
-                    machine,
-                    &At {
-                        current: mean,
-                        memory: 0.5 * (at.memory + memory),
-                        ..at
-                    },
-                );
+                let remembered = memory - at.memory;
                 let gained = run.speed_rad_s[next] - run.speed_rad_s[k];
-                if seconds > 0.0 {
+                let mut sum = Given::default();
+                for part in 0..PARTS {
+                    let x = (part as f64 + 0.5) / PARTS as f64;
+                    let turned = (run.speed_rad_s[k] + 0.5 * gained * x) * seconds * x;
+                    let at = At {
+                        angle: run.angle_rad[k] + turned,
+                        speed: run.speed_rad_s[k] + gained * x,
+                        current: mean,
+                        memory: at.memory + remembered * x,
+                        ..at
+                    };
+                    let given = self.given(machine, &at);
                     let [more, _] = (self.form.inertia)(&self.values, at.angle);
-                    given.torque -= machine.winding_volts(more * gained / seconds);
+                    let faster = if seconds > 0.0 { gained / seconds } else { 0.0 };
+                    sum.torque += given.torque - machine.winding_volts(more * faster);
+                    sum.voltage += given.voltage;
                 }
-                given
+                Given {
+                    torque: sum.torque / PARTS as f64,
+                    voltage: sum.voltage / PARTS as f64,
+                }
             })
             .collect()
     }

@@ -24,8 +24,11 @@ const FEWEST: usize = 200;
 const MOVE: f64 = 1e-4;
 /// A column of which less than this part is its own repeats the others.
 const OWN_PART: f64 = 1e-6;
-/// The same of a law beside the linear motor: with less, differences between filters count as much as a law.
+/// The same of a law beside the model's own parameters: with less, differences between filters count as much as a law.
 const LAW_PART: f64 = 0.05;
+/// Factors by which a law may change the motor's back-EMF with its friction, and its inertia: the one, and both.
+const ONE_CHANGED: f64 = 1.5;
+const BOTH_CHANGED: f64 = 1.25;
 
 /// A function of the angle.
 type Wave = fn(f64) -> f64;
@@ -44,10 +47,10 @@ pub struct Equation<'a> {
     pub missing: Vec<f64>,
     /// What changes of the model's own parameters would give, V.
     pub own: Vec<Vec<f64>>,
-    /// An orthonormal basis of `own`, and after it of what makes the linear motor: with the command free, too, no motor at all
-    /// would fit perfectly, and whatever is like the command would seem to explain all.
+    /// An orthonormal basis of `own`.
     basis: Vec<Vec<f64>>,
-    own_directions: usize,
+    /// Coefficients of speed and acceleration in the motor's equation.
+    motor: [f64; 2],
 }
 
 impl<'a> Equation<'a> {
@@ -79,25 +82,22 @@ impl<'a> Equation<'a> {
         let rows: Vec<usize> = used.iter().map(|r| r.sample).collect();
         let missing = used.iter().map(|r| -r.volts).collect();
         own.extend(own_columns(data, candidate, time, &rows));
-        let mut equation = Equation {
+        let machine = &candidate.machine;
+        Some(Equation {
             data,
             time,
-            lead: candidate.machine.electrical,
-            inertia: candidate.machine.inertia,
+            lead: machine.electrical,
+            inertia: machine.inertia,
             motion,
             rows,
             missing,
+            basis: orthonormal(&own),
             own,
-            basis: Vec::new(),
-            own_directions: 0,
-        };
-        let mut linear = equation.own.clone();
-        equation.own_directions = orthonormal(&linear).len();
-        linear.push(equation.seen(&equation.motion.command, Place::Voltage));
-        linear.push(equation.seen(&equation.motion.current, Place::Torque));
-        linear.push(equation.seen(&equation.motion.speed, Place::Torque));
-        equation.basis = orthonormal(&linear);
-        Some(equation)
+            motor: [
+                machine.kb + machine.damping,
+                machine.inertia + machine.electrical * machine.damping,
+            ],
+        })
     }
 
     /// What changes of the linear motor would give: speed, acceleration, jerk.
@@ -182,12 +182,25 @@ impl<'a> Equation<'a> {
         waves.map(column).into()
     }
 
-    /// What the model's own parameters can make, as orthonormal directions.
-    pub fn own_basis(&self) -> &[Vec<f64>] {
-        &self.basis[..self.own_directions]
+    /// Whether changes of the first of the model's own columns, beside a law, leave a motor. A law that is like the command explains
+    /// all without one: it takes the drive away, and back-EMF and inertia with it.
+    pub fn leaves_a_motor(&self, changes: &[f64]) -> bool {
+        let pairs = self.motor.iter().zip(changes);
+        let factors = pairs.map(|(own, change)| {
+            let part = (own - change) / own;
+            if part > 0.0 {
+                part.max(1.0 / part)
+            } else {
+                f64::INFINITY
+            }
+        });
+        let (least, most) = factors.fold((f64::INFINITY, 1.0), |(least, most), factor| {
+            (factor.min(least), factor.max(most))
+        });
+        least <= BOTH_CHANGED && most <= ONE_CHANGED
     }
 
-    /// Whether columns say something that the linear motor and the ones before do not.
+    /// Whether columns say something that the model's own parameters and the ones before do not.
     pub fn are_distinct(&self, columns: &[Vec<f64>]) -> bool {
         let mut found: Vec<Vec<f64>> = Vec::new();
         columns.iter().all(|column| {

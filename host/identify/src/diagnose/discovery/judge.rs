@@ -89,6 +89,9 @@ impl<'a> Judge<'a> {
         let all: Vec<usize> = (0..references.len()).collect();
         let used = fitted.with(&all);
         let by = fitted.coefficients(&used)?;
+        if !self.fitted.leaves_a_motor(by.as_slice()) {
+            return None;
+        }
         let n = fitted.rows as f64;
         let mut amplitudes = by.iter().skip(fitted.own).copied();
         let amplified = terms.iter().map(|term| Term {

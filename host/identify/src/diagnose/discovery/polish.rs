@@ -1,6 +1,7 @@
 //! The numbers that shape a law, at which the fitted recording is left least of.
 
-use super::equation::{Equation, dot, orthonormal, take_out};
+use super::blocks::Blocks;
+use super::equation::Equation;
 use super::term::Term;
 
 /// Farthest that a number moves, as a factor.
@@ -12,36 +13,30 @@ const STEPS: usize = 9;
 /// Rounds over all numbers.
 const ROUNDS: usize = 2;
 
-/// The regression with the model's own columns taken out.
+/// The regression beside the model's own columns.
 pub struct Polish<'e> {
     equation: &'e Equation<'e>,
-    target: Vec<f64>,
 }
 
 impl<'e> Polish<'e> {
     /// Of a recording.
     pub fn new(equation: &'e Equation<'e>) -> Self {
-        let mut target = equation.missing.clone();
-        take_out(equation.own_basis(), &mut target);
-        Polish { equation, target }
+        Polish { equation }
     }
 
-    /// Squares that terms leave.
+    /// Squares that terms leave; infinite where they are no law.
     fn left(&self, terms: &[Term]) -> f64 {
         let columns = terms.iter().flat_map(|term| self.equation.columns(term));
-        let mut columns: Vec<Vec<f64>> = columns.collect();
+        let columns: Vec<Vec<f64>> = columns.collect();
         if !self.equation.are_distinct(&columns) {
             return f64::INFINITY;
         }
-        for column in &mut columns {
-            take_out(self.equation.own_basis(), column);
-        }
-        let directions = orthonormal(&columns);
-        let taken = directions.iter().map(|d| {
-            let along = dot(d, &self.target);
-            along * along
-        });
-        dot(&self.target, &self.target) - taken.sum::<f64>()
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let blocks = Blocks::new(self.equation, &columns);
+        let used = blocks.with(&(0..columns.len()).collect::<Vec<_>>());
+        let by = blocks.coefficients(&used);
+        let by = by.filter(|by| self.equation.leaves_a_motor(by.as_slice()));
+        by.map_or(f64::INFINITY, |by| blocks.left(&used, &by))
     }
 
     /// The terms with better numbers.

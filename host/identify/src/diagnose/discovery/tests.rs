@@ -39,6 +39,14 @@ fn fitted(data: &Data) -> Candidate {
     fit.candidate
 }
 
+fn given(truth: &OutsideLaw, machine: &Machine, run: &Run) -> Given {
+    let given = truth.along(machine, run);
+    Given {
+        torque: given.iter().map(|given| given.torque).collect(),
+        voltage: given.iter().map(|given| given.voltage).collect(),
+    }
+}
+
 /// RMS of the difference of a law from the truth as a part of the truth, along the motion of a recording, without what the
 /// model's own parameters can take.
 fn departure(
@@ -49,13 +57,7 @@ fn departure(
     candidate: &Candidate,
 ) -> f64 {
     let equation = Equation::new(&known.data, candidate).expect("motion");
-    let run = &known.run;
-    let given = truth.along(machine, run);
-    let truth = super::Given {
-        torque: given.iter().map(|given| given.torque).collect(),
-        voltage: given.iter().map(|given| given.voltage).collect(),
-    };
-    let mut target = truth.seen(&equation);
+    let mut target = given(truth, machine, &known.run).seen(&equation);
     let mut proposed = vec![0.0; target.len()];
     for term in &law.terms {
         for (column, by) in equation.columns(term).iter().zip(&term.amplitudes) {
@@ -204,6 +206,46 @@ fn a_curve_without_a_form_tells_a_right_law_from_a_wrong_one() {
             "{}: {:?}",
             kind.name(),
             curve.points
+        );
+    }
+}
+
+/// What may be left beside the truth: a part of what is missing, and times what the encoder's cells leave of a perfect model.
+const LEFT: f64 = 0.03;
+const CELLS: f64 = 1.5;
+
+/// What the exact linear motor misses along the measured motion is the hidden law, but for what a linear motor may take of either.
+#[test]
+fn what_the_equation_misses_is_the_truth() {
+    let machine = Machine::gearmotor();
+    for form in Outside::ALL {
+        let truth = form.draw(&machine, 10);
+        let one = known(Some(&truth), &machine, 10);
+        let mut exact = fitted(&one.data);
+        exact.machine.kb = machine.kb_v_s_rad;
+        exact.machine.damping = machine.winding_volts(machine.viscous_n_m_s);
+        exact.machine.inertia = machine.winding_volts(machine.inertia_kg_m2);
+        exact.machine.electrical = machine.inductance_h / machine.resistance_ohm;
+        let equation = Equation::new(&one.data, &exact).expect("motion");
+        let mut missing = equation.missing.clone();
+        let mut left = given(&truth, &machine, &one.run).seen(&equation);
+        left.iter_mut()
+            .zip(&missing)
+            .for_each(|(given, missing)| *given -= missing);
+        let basis = orthonormal(equation.linear());
+        take_out(&basis, &mut left);
+        take_out(&basis, &mut missing);
+        let rms = |of: &[f64]| (dot(of, of) / of.len() as f64).sqrt();
+        let noise = equation.perfect(&exact).expect("counts").sqrt();
+        let (left, missing) = (rms(&left), rms(&missing));
+        println!(
+            "{}: {left:.4} of {missing:.4} V, {noise:.4} by cells",
+            form.name
+        );
+        assert!(
+            left < LEFT * missing + CELLS * noise,
+            "{}: {left} of {missing}",
+            form.name
         );
     }
 }
