@@ -16,41 +16,65 @@ pub enum Place {
 
 /// A term's dependence on the speed. Powers are of the speed as a part of `reference`, rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub enum Speed {
     /// None.
     One,
     /// Direction of the motion.
     Sign,
     /// `w/reference`.
-    Plain { reference: f64 },
+    Plain {
+        /// Speed at which it is one, rad/s.
+        reference: f64,
+    },
     /// `|w/reference|^exponent`, with the motion's sign where `odd`.
     Power {
+        /// Power.
         exponent: f64,
+        /// Whether it has a sign.
         odd: bool,
+        /// Where its size is one.
         reference: f64,
     },
     /// `exp(-|w|/scale)`, with the motion's sign where `odd`.
-    Decay { scale: f64, odd: bool },
+    Decay {
+        /// Speed at which it is down to 1/e, rad/s.
+        scale: f64,
+        /// Whether it has the motion's sign.
+        odd: bool,
+    },
     /// `(w/scale)/(1 + |w|/scale)`.
-    Saturating { scale: f64 },
+    Saturating {
+        /// Speed at which it bends, rad/s.
+        scale: f64,
+    },
     /// `tanh(w/scale)`.
-    Tanh { scale: f64 },
+    Tanh {
+        /// Speed at which it bends, rad/s.
+        scale: f64,
+    },
     /// `(max(±w, 0)/reference)^exponent`.
     OneSided {
+        /// Power.
         exponent: f64,
+        /// Whether it acts forward.
         forward: bool,
+        /// Speed at which it is one, rad/s.
         reference: f64,
     },
     /// Direction of the motion, where it is faster than `threshold`.
-    Above { threshold: f64 },
+    Above {
+        /// Speed from which it acts, rad/s.
+        threshold: f64,
+    },
     /// By how much it is faster than `threshold`, as a part of that, with the motion's sign.
-    Beyond { threshold: f64 },
+    Beyond {
+        /// Speed from which it acts, rad/s.
+        threshold: f64,
+    },
 }
 
 /// A term's dependence on the current, V across the resistance, or on the command, V; or on how far a drive is behind the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub enum Load {
     /// None.
     One,
@@ -60,14 +84,23 @@ pub enum Load {
     Size,
     /// `|i/reference|^exponent`, with its sign where `odd`.
     Power {
+        /// Power.
         exponent: f64,
+        /// Whether it has a sign.
         odd: bool,
+        /// Where its size is one.
         reference: f64,
     },
     /// What a drive gives that changes by `rate` V/s at most, less the command.
-    Slewed { rate: f64 },
+    Slewed {
+        /// Most that it changes by the second, V/s.
+        rate: f64,
+    },
     /// What a drive gives that follows with the time constant `time`, s, less the command.
-    Lagging { time: f64 },
+    Lagging {
+        /// Its time constant, s.
+        time: f64,
+    },
 }
 
 /// A term's dependence on the state `z' = (w - |w|*z)/distance`.
