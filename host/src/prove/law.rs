@@ -69,11 +69,8 @@ impl FoundLaw {
         let off = hidden.as_ref().and_then(|hidden| {
             let (bench, drive) = case.drawn.bench(1).ok()?;
             let run = bench.run(&drive).ok()?;
-            let given = hidden.along(&machine, &run);
-            let known = Given {
-                torque: given.iter().map(|given| given.torque).collect(),
-                voltage: given.iter().map(|given| given.voltage).collect(),
-            };
+            let given = hidden.along(&machine, &run).into_iter();
+            let known: Given = given.map(|given| (given.torque, given.voltage)).collect();
             departure(&case.held_out, &model.candidate, &known)
         });
         FoundLaw {

@@ -91,11 +91,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
     let stop = AtomicBool::new(false);
     let (mut chaotic, mut followed) = (0, 0);
     let many = many_minutes(CHAOTIC_CASES, 1);
-    let first = if many == CHAOTIC_CASES {
-        0
-    } else {
-        FOLLOWED_CASE
-    };
+    let first = if long_minutes() { 0 } else { FOLLOWED_CASE };
     for number in first..first + many {
         let case = Case::record(&set_up, number).unwrap();
         let (options, budget) = (Options::default(), Budget::usual(&stop));

@@ -9,6 +9,7 @@ use servoid_engine::problem::{Horizon, errors};
 use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 use shared::effects::{Lowered, Place, Shaft};
+use shared::motor::Machine;
 
 /// Filter time of the equation error, sample intervals.
 const EQUATION_FILTER_SAMPLES: f64 = 5.0;
@@ -107,6 +108,15 @@ pub struct EquationResidual {
     pub acceleration: f64,
 }
 
+/// Coefficients of speed, acceleration and jerk in the linear motor's equation: what the volts at the winding are spent on.
+pub fn motor_coefficients(machine: &Machine<f64>) -> [f64; 3] {
+    [
+        machine.kb + machine.damping,
+        machine.inertia + machine.electrical * machine.damping,
+        machine.electrical * machine.inertia,
+    ]
+}
+
 /// Direction in which the shaft slides at a sample; zero where it may rest.
 fn sliding(data: &Data, k: usize) -> f64 {
     let near = data.recordings.around(k, SPEED_HALF_WIDTH);
@@ -166,8 +176,7 @@ fn each_equation_residual(
         .iter()
         .any(|(kind, _)| kind.description().place == Place::Friction);
     let m = &candidate.machine;
-    let (total, second) = (m.kb + m.damping, m.inertia + m.electrical * m.damping);
-    let third = m.electrical * m.inertia;
+    let [total, second, third] = motor_coefficients(m);
     let mut closed_since = 0.0;
     let (mut direction, mut slid_since) = (0.0, 0.0);
     let mut net_now = if data.is_empty() { 0.0 } else { net(0) };

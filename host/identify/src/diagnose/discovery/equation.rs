@@ -5,10 +5,11 @@ use super::motion::Motion;
 use super::term::{Place, Term};
 use crate::diagnose::residual_analysis::simulated;
 use crate::fit::filter::filtered;
-use crate::fit::scores::{EquationResidual, equation_residuals};
+use crate::fit::scores::{EquationResidual, equation_residuals, motor_coefficients};
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
 use shared::effects::{Kind, Parameter};
+use shared::motor::Machine;
 
 /// Filter time, sample intervals: as in the drawings of the residual.
 const FILTER_SAMPLES: f64 = 5.0;
@@ -37,8 +38,7 @@ type Wave = fn(f64) -> f64;
 pub struct Equation<'a> {
     data: &'a Data,
     time: f64,
-    lead: f64,
-    inertia: f64,
+    machine: Machine<f64>,
     /// The measured motion.
     pub motion: Motion,
     /// Samples of the rows.
@@ -49,8 +49,6 @@ pub struct Equation<'a> {
     pub own: Vec<Vec<f64>>,
     /// An orthonormal basis of `own`.
     basis: Vec<Vec<f64>>,
-    /// Coefficients of speed and acceleration in the motor's equation.
-    motor: [f64; 2],
 }
 
 impl<'a> Equation<'a> {
@@ -82,21 +80,15 @@ impl<'a> Equation<'a> {
         let rows: Vec<usize> = used.iter().map(|r| r.sample).collect();
         let missing = used.iter().map(|r| -r.volts).collect();
         own.extend(own_columns(data, candidate, time, &rows));
-        let machine = &candidate.machine;
         Some(Equation {
             data,
             time,
-            lead: machine.electrical,
-            inertia: machine.inertia,
+            machine: candidate.machine,
             motion,
             rows,
             missing,
             basis: orthonormal(&own),
             own,
-            motor: [
-                machine.kb + machine.damping,
-                machine.inertia + machine.electrical * machine.damping,
-            ],
         })
     }
 
@@ -115,7 +107,7 @@ impl<'a> Equation<'a> {
         let filtered = filtered(self.data, self.time, signal, true);
         // A torque passes the winding's lag backwards: its volts lead.
         let lead = match place {
-            Place::Torque | Place::Inertia => self.lead,
+            Place::Torque | Place::Inertia => self.machine.electrical,
             Place::Voltage => 0.0,
         };
         let at = |&k: &usize| filtered[k].value + lead * filtered[k].rate;
@@ -174,8 +166,9 @@ impl<'a> Equation<'a> {
             let squares = self.seen(&squares, Place::Inertia);
             let rows = self.rows.iter().zip(squares);
             rows.map(|(&row, square)| {
-                let second = gathered[row].acceleration + self.lead * gathered[row].jerk;
-                self.inertia * (square - second)
+                let second =
+                    gathered[row].acceleration + self.machine.electrical * gathered[row].jerk;
+                self.machine.inertia * (square - second)
             })
             .collect()
         };
@@ -185,15 +178,19 @@ impl<'a> Equation<'a> {
     /// Whether changes of the first of the model's own columns, beside a law, leave a motor. A law that is like the command explains
     /// all without one: it takes the drive away, and back-EMF and inertia with it.
     pub fn leaves_a_motor(&self, changes: &[f64]) -> bool {
-        let pairs = self.motor.iter().zip(changes);
-        let factors = pairs.map(|(own, change)| {
-            let part = (own - change) / own;
-            if part > 0.0 {
-                part.max(1.0 / part)
-            } else {
-                f64::INFINITY
-            }
-        });
+        // Of speed and acceleration.
+        let [total, second, _] = motor_coefficients(&self.machine);
+        let factors = [total, second]
+            .into_iter()
+            .zip(changes)
+            .map(|(own, change)| {
+                let part = (own - change) / own;
+                if part > 0.0 {
+                    part.max(1.0 / part)
+                } else {
+                    f64::INFINITY
+                }
+            });
         let (least, most) = factors.fold((f64::INFINITY, 1.0), |(least, most), factor| {
             (factor.min(least), factor.max(most))
         });

@@ -69,8 +69,7 @@ impl Given {
                 (volts - data.command[k] + winding.volts - taken) * units.volts,
             )
         });
-        let (torque, voltage) = each.unzip();
-        Given { torque, voltage }
+        each.collect()
     }
 
     /// What it gives at the rows of an equation.
@@ -78,5 +77,13 @@ impl Given {
         let torque = equation.seen(&self.torque, Place::Torque);
         let voltage = equation.seen(&self.voltage, Place::Voltage);
         torque.iter().zip(&voltage).map(|(a, b)| a + b).collect()
+    }
+}
+
+/// From the torque and the voltage of each interval.
+impl FromIterator<(f64, f64)> for Given {
+    fn from_iter<I: IntoIterator<Item = (f64, f64)>>(each: I) -> Self {
+        let (torque, voltage) = each.into_iter().unzip();
+        Given { torque, voltage }
     }
 }

@@ -2,6 +2,7 @@
 //! constants useless.
 
 use super::equation::Equation;
+use crate::fit::scores::motor_coefficients;
 use servoid_engine::problem::{Candidate, Data};
 use shared::motor::Machine;
 
@@ -37,14 +38,12 @@ pub fn refined(data: &Data, candidate: &Candidate) -> Candidate {
 
 /// The machine with other coefficients; `None` where no motor has them. Back-EMF and viscous friction share what they had.
 fn changed_by(machine: &Machine<f64>, by: [f64; 3]) -> Option<Machine<f64>> {
-    let before = machine.kb + machine.damping;
-    let total = before - by[0];
-    let second = machine.inertia + machine.electrical * machine.damping - by[1];
-    let third = machine.electrical * machine.inertia - by[2];
+    let before = motor_coefficients(machine);
+    let [total, second, third]: [f64; 3] = core::array::from_fn(|k| before[k] - by[k]);
     if !(total > 0.0 && second > 0.0 && third.is_finite()) {
         return None;
     }
-    let damping = machine.damping * total / before;
+    let damping = machine.damping * total / before[0];
     let electrical = (third / second).clamp(0.0, LONGEST * second / total);
     Some(Machine {
         kb: total - damping,

@@ -40,11 +40,8 @@ fn fitted(data: &Data) -> Candidate {
 }
 
 fn given(truth: &OutsideLaw, machine: &Machine, run: &Run) -> Given {
-    let given = truth.along(machine, run);
-    Given {
-        torque: given.iter().map(|given| given.torque).collect(),
-        voltage: given.iter().map(|given| given.voltage).collect(),
-    }
+    let given = truth.along(machine, run).into_iter();
+    given.map(|given| (given.torque, given.voltage)).collect()
 }
 
 /// RMS of the difference of a law from the truth as a part of the truth, along the motion of a recording, without what the
