@@ -5,8 +5,9 @@ use super::draws::{Draws, rounded};
 use serde::{Deserialize, Serialize};
 use servoid_formula::{law_of, text_of};
 use servoid_identify::diagnose::FittedModel;
-use servoid_identify::diagnose::discovery::{Given, departure};
+use servoid_identify::diagnose::discovery::{Given, Proposed, departure};
 use servoid_plant::{Machine, Outside, OutsideLaw, Variable};
+use servoid_results::schema::ProposedLaw;
 use shared::effects::formula;
 
 /// A law from outside the catalogue.
@@ -28,6 +29,9 @@ pub struct FoundLaw {
     /// RMS of the difference of all effects that it names from the hidden law along the held-out recording, as a part of the law, beside
     /// what a linear motor gives.
     pub departure: Option<f64>,
+    /// Every law that was proposed for what the catalogue leaves, and whether it was named.
+    #[serde(default)]
+    pub proposed: Vec<ProposedLaw>,
 }
 
 impl DrawnLaw {
@@ -48,8 +52,8 @@ impl DrawnLaw {
 }
 
 impl FoundLaw {
-    /// Of a case and the last model of its diagnosis.
-    pub fn of(case: &Case, model: &FittedModel) -> FoundLaw {
+    /// Of a case, the last model of its diagnosis and the laws that were proposed.
+    pub fn of(case: &Case, model: &FittedModel, proposed: &[Proposed]) -> FoundLaw {
         let laws = model
             .effects
             .iter()
@@ -81,6 +85,7 @@ impl FoundLaw {
                 .collect(),
             right_variables: hidden.is_some_and(|hidden| hidden.depends_on() == depends_on),
             departure: off.map(rounded),
+            proposed: proposed.iter().map(Into::into).collect(),
         }
     }
 }

@@ -134,8 +134,9 @@ impl Outcome {
             failure: None,
         };
         match diagnosed {
-            Ok(Ok((diagnosis, _))) => {
-                let found = || FoundLaw::of(case, &diagnosis.last);
+            Ok(Ok((diagnosis, proposed))) => {
+                let proposed = proposed.unwrap_or_default();
+                let found = || FoundLaw::of(case, &diagnosis.last, &proposed);
                 let law_found = set_up.discover.then(found);
                 let outcome = outcome.with(&diagnosis, stop)?;
                 Ok(Outcome {

@@ -349,7 +349,7 @@ pub struct Alternative {
 }
 
 /// A law that was proposed for what the catalogue leaves.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ProposedLaw {
     /// Its name as an effect.
     pub name: String,
@@ -365,7 +365,7 @@ pub struct ProposedLaw {
 }
 
 /// An effect that is like a law.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Resembles {
     /// The effect.
     pub effect: String,

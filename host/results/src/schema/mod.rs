@@ -56,7 +56,7 @@ pub mod verification;
 
 pub use contest::Contest;
 pub use device::DeviceRun;
-pub use diagnosis::Diagnosis;
+pub use diagnosis::{Diagnosis, ProposedLaw};
 pub use document::{Document, DocumentError, DocumentFault};
 pub use estimate::{Estimate, Margins};
 pub use fit::{Demo, Fit};

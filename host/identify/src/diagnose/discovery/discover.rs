@@ -147,12 +147,16 @@ fn contenders(before: &Diagnosis) -> Vec<Kind> {
 }
 
 /// Laws for what the linear motor lacks, and for what the named effects leave: an effect that stands in for a law takes a part of it.
+/// Of those that differ by their numbers alone the first: the fit finds its own.
 fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
     let of = |candidate| propose(data, held_out, candidate);
     let mut laws = of(&before.base.candidate);
     if !before.steps.is_empty() {
-        let further = of(&before.last.candidate);
-        laws.extend(further);
+        for law in of(&before.last.candidate) {
+            if !laws.iter().any(|other| other.is_alike(&law)) {
+                laws.push(law);
+            }
+        }
     }
     laws
 }

@@ -22,6 +22,12 @@ impl Law {
         formula(&self.terms, name)
     }
 
+    /// Whether another law differs by its numbers alone.
+    pub fn is_alike(&self, other: &Law) -> bool {
+        let mut pairs = self.terms.iter().zip(&other.terms);
+        self.terms.len() == other.terms.len() && pairs.all(|(own, other)| own.is_alike(other))
+    }
+
     /// Numbers that it has.
     pub fn freedom(&self) -> usize {
         let of = |term: &Term| term.amplitudes.len() + term.shapes().len();

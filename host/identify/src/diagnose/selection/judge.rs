@@ -40,11 +40,18 @@ pub fn replaces(simpler: &FittedModel, other: &FittedModel) -> bool {
         && !removes(simpler, other)
 }
 
+/// Whether one effect may stand for the other. Laws that are stated or proposed are tries at the same thing: one that holds another as a
+/// special case explains all that this does.
+fn look_alike(a: Kind, b: Kind) -> bool {
+    let laws = matches!((a, b), (Kind::Formula(_), Kind::Formula(_)));
+    laws || a.looks_like(b)
+}
+
 /// Whether two models differ in one effect only, and there by look-alikes.
 fn differ_by_look_alike(a: &FittedModel, b: &FittedModel) -> bool {
     let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
     match (own.next(), own.next()) {
-        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| place.looks_like(kind)),
+        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alike(place, kind)),
         _ => false,
     }
 }
@@ -98,7 +105,7 @@ impl Rivals {
         let strangers = self
             .equivalent
             .iter()
-            .filter(|&&kind| !place.looks_like(kind))
+            .filter(|&&kind| !look_alike(place, kind))
             .count();
         self.equivalent.len() <= MOST_EQUIVALENT && strangers <= 1
     }
