@@ -70,7 +70,7 @@ fn a_law_that_is_hidden_is_found_again_by_its_text_and_read_from_its_result() {
 #[test]
 fn the_loss_of_a_gear_predicts_and_the_linear_motor_does_not() {
     let desk = Desk::new();
-    recorded(&desk, GEAR, 20);
+    recorded(&desk, GEAR, 8);
     let error = |flags: &str| {
         desk.done(&format!(
             "fit rec.csv {flags} --validate other.csv --json fit.json"
@@ -88,7 +88,7 @@ fn the_loss_of_a_gear_predicts_and_the_linear_motor_does_not() {
 #[test]
 fn a_law_is_a_candidate_of_a_diagnosis() {
     let desk = Desk::new();
-    recorded(&desk, DRAG, 20);
+    recorded(&desk, DRAG, 8);
     let law = tight(DRAG);
     desk.done(&format!(
         "diagnose rec.csv --validate other.csv --effect {law} --json found.json"

@@ -1,7 +1,8 @@
 //! What the help shows is what a newcomer types first: every command of it runs as it is printed, one after the
-//! other in one folder. Those of `servoid device` need a device or its image.
+//! other in one folder, and fits a terminal. Those of `servoid device` need a device or its image.
 
 use crate::desk::Desk;
+use crate::width::fits_a_terminal;
 
 /// The commands that a help text shows, without the program's name.
 fn examples(desk: &Desk, help: &str) -> Vec<String> {
@@ -17,7 +18,7 @@ fn run(help: &str) {
     let examples = examples(&desk, help);
     assert!(!examples.is_empty(), "{help} shows no example");
     for example in &examples {
-        desk.done(example);
+        fits_a_terminal(example, &desk.done(example).stdout);
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::contract::{is_fit, number, parameter};
 use crate::desk::Desk;
 use crate::report::is_alone;
+use crate::width::fits_a_terminal;
 
 #[test]
 fn the_demo_writes_one_page_that_fetches_nothing() {
@@ -65,6 +66,7 @@ fn the_demo_hides_what_it_is_told_and_finds_it() {
 fn a_blind_demo_reveals_its_secret_at_the_end() {
     let line = "demo --blind --seed 4 --out page.html";
     let text = Desk::new().done(line).stdout;
+    fits_a_terminal(line, &text);
     let reveal = text.find("the bench knows the truth: hidden was heating");
     let reveal = reveal.unwrap_or_else(|| panic!("{text}"));
     assert!(

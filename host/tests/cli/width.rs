@@ -5,24 +5,26 @@ use crate::desk::Desk;
 /// Columns of a terminal that nobody has widened.
 const COLUMNS: usize = 80;
 
+/// No line of what a command printed is wider than a terminal.
+pub fn fits_a_terminal(command: &str, printed: &str) {
+    for line in printed.lines() {
+        assert!(line.chars().count() <= COLUMNS, "{command}: {line}");
+    }
+}
+
+/// Beside the examples of the help, of which the same is asked where they run.
 #[test]
 fn no_line_is_wider_than_a_terminal() {
-    let desk = Desk::with_recording();
+    let desk = Desk::new();
     desk.done("simulate --seconds 4 --hide coulomb --out friction.csv");
     desk.done("fit friction.csv --with coulomb --json fit.json");
     for line in [
-        "demo --hide enc_ecc",
-        "demo --blind --seed 5",
         "paper --seeds 1 --population 5 --iterations 10",
-        "compare rec.csv --seeds 2 --budget 40 --algorithm ga,pso,firefly",
         "fit friction.csv --with coulomb",
         "diagnose friction.csv --json diagnosis.json",
         "report fit.json",
         "report diagnosis.json",
     ] {
-        let output = desk.done(line).stdout;
-        for text in output.lines() {
-            assert!(text.chars().count() <= COLUMNS, "{line}: {text}");
-        }
+        fits_a_terminal(line, &desk.done(line).stdout);
     }
 }
