@@ -165,7 +165,12 @@ pub fn tally(header: &Header, outcomes: &[Outcome], interrupted: bool) -> Proof 
         size_errors_percent: errors(true),
         shape_errors_percent: errors(false),
         confusions: confusions(outcomes),
-        reliability: reliability(outcomes.iter().filter(|o| o.detectable)),
+        // A law outside the catalogue is no set of its effects, so that none could be said to be right.
+        reliability: reliability(
+            outcomes
+                .iter()
+                .filter(|o| o.detectable && o.drawn.law.is_none()),
+        ),
         interrupted,
     }
 }

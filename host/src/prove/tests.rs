@@ -347,7 +347,7 @@ fn the_table_counts_each_case_once() {
 #[test]
 fn probabilities_are_counted_against_the_truth() {
     let one = set_up(HowMany::One, Excite::Commissioning);
-    let outcomes: Vec<Outcome> = (0..50)
+    let mut outcomes: Vec<Outcome> = (0..50)
         .map(|case| {
             let mut outcome = outcome(&one, case, &[]);
             let truth = outcome.drawn.names()[0].to_owned();
@@ -373,4 +373,15 @@ fn probabilities_are_counted_against_the_truth() {
     assert_eq!((unlikely.right.count, unlikely.right.of), (0, 50));
     assert_eq!((likely.right.count, likely.right.of), (40, 50));
     assert!((likely.probability - 0.8).abs() < 1e-12);
+    // No set of the catalogue is right where a law outside of it is hidden.
+    for outcome in &mut outcomes {
+        outcome.drawn.law = Some(DrawnLaw {
+            form: "crank".to_owned(),
+            values: Vec::new(),
+        });
+    }
+    assert_eq!(
+        tally(&Header::new(&one), &outcomes, false).reliability,
+        None
+    );
 }
