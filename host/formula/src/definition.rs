@@ -100,7 +100,11 @@ impl Definition {
                 }
                 Statement::Rate(at, name, rate) => {
                     if self.state.is_some() {
-                        return Err(Fault::new(text, at, "a law has one state"));
+                        return Err(Fault::new(
+                            text,
+                            at,
+                            "a law has one state; what has a state of its own is a law of its own",
+                        ));
                     }
                     self.state = Some(State {
                         name,

@@ -141,6 +141,10 @@ pub(crate) const PLACES: [(&str, Output); 6] = [
     ("inertia", Output::Inertia),
 ];
 
+/// What is said where a name that is no place has a law.
+const NO_PLACE: &str = "a number, as laws belong to torque, friction, voltage, torque_constant, angle or inertia (a current that makes no torque is \
+    a torque that is lost)";
+
 pub(crate) fn found<T: Copy>(list: &[(&str, T)], name: &str) -> Option<T> {
     let mut list = list.iter();
     list.find(|(own, _)| *own == name).map(|(_, value)| *value)
@@ -304,13 +308,22 @@ fn rate(input: &mut Input<'_>) -> Parsed<Statement> {
     Ok(Statement::Rate(at, name, rate))
 }
 
+/// What a parameter is equal to. Whoever writes more there looks for a place that there is not.
+fn value(input: &mut Input<'_>) -> Parsed<f64> {
+    let begins = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
+    if !input.as_ref().starts_with(begins) {
+        return fail.context(expected(NO_PLACE)).parse_next(input);
+    }
+    number(input)
+}
+
 fn parameter(input: &mut Input<'_>) -> Parsed<Statement> {
     let own = |input: &mut Input<'_>| -> Parsed<(usize, String)> {
         let at = input.current_token_start();
         Ok((at, identifier(input)?.to_owned()))
     };
     let names: Vec<(usize, String)> = separated(1.., own, token(",")).parse_next(input)?;
-    let start = opt(preceded(token("="), cut_err(number))).parse_next(input)?;
+    let start = opt(preceded(token("="), cut_err(value))).parse_next(input)?;
     let within = opt(token("in")).parse_next(input)?;
     match (within, start, names.as_slice()) {
         (Some(_), ..) => {

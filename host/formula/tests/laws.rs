@@ -305,6 +305,16 @@ fn faults_point_at_the_character_and_say_what_was_expected() {
     for (text, at, words) in [
         ("torque = 1", 7, "`:`"),
         ("a: torque = c*w; c in [0, 1] V*s", 12, "expected V"),
+        (
+            "a: current = c*w; c in [0, 1] V",
+            13,
+            "laws belong to torque, friction,",
+        ),
+        (
+            "a: x' = w; y' = w; torque = c*y; c in [0, 1] V",
+            11,
+            "a law of its own",
+        ),
         ("a: torque = c*x; c in [0, 1] V", 14, "`x` is neither"),
         ("a: torque = c*(w; c in [0, 1] V", 16, "`)`"),
         ("a: torque = c*; c in [0, 1] V", 14, "a name"),

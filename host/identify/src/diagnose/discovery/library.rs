@@ -23,7 +23,7 @@ pub fn library(data: &Data) -> Vec<Term> {
     terms.extend(by_load(fastest, supply));
     terms.extend(by_angle(fastest));
     terms.extend((1..=ORDERS).map(Term::inertia));
-    terms.extend(by_state());
+    terms.extend(by_state(fastest));
     terms.extend(by_command(supply));
     terms
 }
@@ -110,6 +110,13 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
             (Speed::Sign, power(exponent, false)),
         ]);
     }
+    pairs.extend(SCALES.into_iter().flat_map(|part| {
+        let decay = |odd| Speed::Decay {
+            scale: part * reference,
+            odd,
+        };
+        [(decay(true), Load::Size), (decay(false), Load::Plain)]
+    }));
     let terms = pairs.into_iter();
     terms
         .map(|(speed, load)| Term::torque(speed, load))
@@ -128,8 +135,15 @@ fn by_angle(reference: f64) -> Vec<Term> {
         reference,
     };
     let plain = Speed::Plain { reference };
+    let fading = |part: f64| Speed::Decay {
+        scale: part * reference,
+        odd: false,
+    };
     let modulated = [
         (Speed::One, Load::One),
+        (fading(0.05), Load::One),
+        (fading(0.2), Load::One),
+        (fading(0.8), Load::One),
         (Speed::Sign, Load::One),
         (plain, Load::One),
         (size, Load::One),
@@ -143,10 +157,25 @@ fn by_angle(reference: f64) -> Vec<Term> {
     orders.flat_map(each).collect()
 }
 
-fn by_state() -> Vec<Term> {
-    let kinds = [(Load::One, false), (Load::Size, false), (Load::Plain, true)];
+fn by_state(reference: f64) -> Vec<Term> {
+    let size = Speed::Power {
+        exponent: 1.0,
+        odd: false,
+        reference,
+    };
+    let fading = Speed::Decay {
+        scale: 0.2 * reference,
+        odd: false,
+    };
+    let kinds = [
+        (Speed::One, Load::One, false),
+        (Speed::One, Load::Size, false),
+        (Speed::One, Load::Plain, true),
+        (size, Load::One, false),
+        (fading, Load::One, false),
+    ];
     let each = |distance| {
-        kinds.map(|(load, squared)| Term::torque(Speed::One, load).with_memory(distance, squared))
+        kinds.map(|(speed, load, squared)| Term::torque(speed, load).with_memory(distance, squared))
     };
     DISTANCES.into_iter().flat_map(each).collect()
 }

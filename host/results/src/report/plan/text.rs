@@ -1,7 +1,13 @@
 //! A plan as text for a terminal.
 
 use super::Plan;
+use crate::report::fold::folded;
 use servoid_identify::plan::{SEPARABLE_COUNTS, Separation};
+
+/// A sentence, folded to a terminal's width.
+fn line(sentence: &str) -> String {
+    folded(sentence, "  ") + "\n"
+}
 
 impl Plan<'_> {
     fn pair(&self, pair: &Separation) -> String {
@@ -15,32 +21,32 @@ impl Plan<'_> {
 
     /// As text for a terminal.
     pub fn text(&self) -> String {
-        let mut text = format!(
-            "to separate {}, RMS error left above the encoder's own when the wrong one is fitted:\n",
+        let mut text = line(&format!(
+            "to separate {}, RMS error left above the encoder's own when the wrong one is fitted:",
             self.names().join(", ")
-        );
+        ));
         for (place, ranked) in self.ranked.iter().enumerate() {
-            text += &format!("  {}. {}\n", place + 1, ranked.excitation);
+            text += &(folded(&format!("  {}. {}", place + 1, ranked.excitation), "     ") + "\n");
             for pair in &ranked.separations {
                 text += &self.pair(pair);
             }
         }
-        text += &format!("the best: {}\n", self.usage(&self.best().usage));
+        text += &line(&format!("the best: {}", self.usage(&self.best().usage)));
         if let Some(reason) = self.reason() {
-            text += &format!("why: {reason}\n");
-            text += &format!(
-                "{}: {} commands, {:.3} s; record them and run `servoid diagnose` on the recording\n",
+            text += &line(&format!("why: {reason}"));
+            text += &line(&format!(
+                "{}: {} commands, {:.3} s; record them and run `servoid diagnose` on the recording",
                 self.out.display(),
                 self.samples(),
                 self.samples() as f64 * self.work.setup.sample_s
-            );
+            ));
         } else {
-            text += &format!(
-                "even the best leaves less than {SEPARABLE_COUNTS} count: nothing was written\n"
-            );
+            text += &line(&format!(
+                "even the best leaves less than {SEPARABLE_COUNTS} count: nothing was written"
+            ));
         }
         for advice in self.advice() {
-            text += &format!("{advice}\n");
+            text += &line(&advice);
         }
         text
     }
