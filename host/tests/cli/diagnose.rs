@@ -2,6 +2,7 @@
 
 use crate::contract::{has, is_parameter, list, number};
 use crate::desk::Desk;
+use crate::width::{fits_a_terminal, unfolded};
 use serde_json::Value;
 
 /// A desk with `rec.csv` and `other.csv` of a gearmotor that hides `effect`.
@@ -85,8 +86,7 @@ fn a_hidden_friction_is_named_on_the_other_recording() {
     let residual = &diagnosis["residual"];
     assert_eq!(residual["base_whiteness"]["white"], false);
     assert_eq!(residual["final_whiteness"]["white"], true);
-    let wide = |line: &&str| line.chars().count() > 80;
-    assert_eq!(outcome.stdout.lines().find(wide), None, "{outcome}");
+    fits_a_terminal("diagnose", &outcome.stdout);
 }
 
 #[test]
@@ -118,8 +118,7 @@ fn the_plan_after_a_diagnosis_separates_what_it_could_not() {
     let alike = list(&diagnosis["steps"][0], "indistinguishable_from");
     assert!(!alike.is_empty(), "{diagnosis:#}");
     let command = diagnosis["next_command"].as_str().expect("a command");
-    let folded: Vec<&str> = outcome.stdout.split_whitespace().collect();
-    assert!(folded.join(" ").contains(command), "{outcome}");
+    assert!(unfolded(&outcome.stdout).contains(command), "{outcome}");
     let line = command.strip_prefix("servoid ").expect("its name");
     let plan = desk.json(&format!("{line} --seconds 3"));
     assert_eq!(plan["separable"], true, "{plan:#}");

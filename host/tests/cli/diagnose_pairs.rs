@@ -2,6 +2,7 @@
 
 use crate::desk::Desk;
 use crate::diagnose::is_diagnosis;
+use crate::width::unfolded;
 use serde_json::Value;
 
 /// A desk with `rec.csv` and `other.csv` of one motor that hides nothing.
@@ -113,9 +114,7 @@ fn a_stuck_encoder_is_said_of_either_recording() {
         "diagnose stuck.csv --validate rec.csv",
         "diagnose stuck.csv",
     ] {
-        let said = desk.run(line).to_string();
-        let said: Vec<&str> = said.split_whitespace().collect();
-        let said = said.join(" ");
+        let said = unfolded(&desk.run(line).to_string());
         for word in [
             "stuck.csv: the encoder is stuck from 0.400 to 2.399 s",
             "cut that part out",

@@ -2,6 +2,7 @@
 
 use crate::contract::{has, list, number};
 use crate::desk::Desk;
+use crate::width::fits_a_terminal;
 
 fn desk() -> Desk {
     let desk = Desk::new();
@@ -45,10 +46,7 @@ fn profiles_are_told_drawn_and_written() {
             text.contains("profile likelihood: 95 % intervals"),
             "{text}"
         );
-        assert!(
-            text.lines().all(|line| line.chars().count() <= 80),
-            "{text}"
-        );
+        fits_a_terminal("fit", &text);
         assert!(
             desk.read("page.html")
                 .contains("signed root of the deviance")

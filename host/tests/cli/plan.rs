@@ -2,6 +2,7 @@
 
 use crate::contract::{has, list, number};
 use crate::desk::Desk;
+use crate::width::unfolded;
 
 /// A plan that takes no time.
 const QUICK: &str = "simulate --plan --between coulomb,dead_zone --seconds 1 --out plan.csv";
@@ -119,9 +120,7 @@ fn what_cannot_be_separated_is_said_plainly_and_nothing_is_written() {
     assert_eq!(plan["separable"], false);
     assert!(plan["plan"].is_null() && plan["reason"].is_null());
     assert!(!desk.path("plan.csv").exists());
-    let text = desk.done(line).stdout;
-    let text: Vec<&str> = text.split_whitespace().collect();
-    let text = text.join(" ");
+    let text = unfolded(&desk.done(line).stdout);
     for word in [
         "cannot be separated with voltage and angle within these limits",
         "current sensor",

@@ -3,6 +3,7 @@
 
 use crate::contract::{has, list};
 use crate::desk::Desk;
+use crate::width::fits_a_terminal;
 use serde_json::Value;
 use testing::length::many_minutes;
 
@@ -151,9 +152,7 @@ fn stated_intervals_hold_the_truth_as_often_as_they_say() {
         let line = format!("prove --coverage --cases 30 --seed 20261125 --json c.json {what}");
         let outcome = desk.done(&line);
         println!("{outcome}");
-        for line in outcome.stdout.lines() {
-            assert!(line.chars().count() <= 80, "{line}");
-        }
+        fits_a_terminal(&line, &outcome.stdout);
         let json = desk.read_json("c.json");
         assert_eq!(json["schema"], "servoid.coverage/1");
         has(

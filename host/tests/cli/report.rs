@@ -1,6 +1,7 @@
 //! Results as pages.
 
 use crate::desk::Desk;
+use crate::width::unfolded;
 use serde_json::Value;
 
 /// Most bytes of the page of twenty seconds at 1 kHz.
@@ -232,7 +233,7 @@ fn a_page_calls_look_alikes_what_the_terminal_calls_them() {
         .stdout;
     let diagnosis = desk.read_json("diagnosis.json");
     let page = desk.read("page.html");
-    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = unfolded(&text);
     for step in diagnosis["steps"].as_array().expect("steps") {
         let names = |key: &str| -> Vec<&str> {
             let list = step[key].as_array().expect("names").iter();
@@ -289,8 +290,10 @@ fn terminal_and_page_say_the_same() {
         .as_str()
         .expect("a verdict")
         .to_owned();
-    let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let first = summary.split(". ").next().expect("a sentence");
-    assert!(flat(&text).contains(&flat(first)), "{first}: {text}");
+    assert!(
+        unfolded(&text).contains(&unfolded(first)),
+        "{first}: {text}"
+    );
     assert!(desk.read("page.html").contains(first), "{first}");
 }

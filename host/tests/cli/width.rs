@@ -12,6 +12,11 @@ pub fn fits_a_terminal(command: &str, printed: &str) {
     }
 }
 
+/// The words of a text that is folded to a terminal, on one line.
+pub fn unfolded(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Beside the examples of the help, of which the same is asked where they run.
 #[test]
 fn no_line_is_wider_than_a_terminal() {
