@@ -37,14 +37,22 @@ pub fn two_digits(value: f64) -> f64 {
     (value / unit).round() * unit
 }
 
-fn by_speed(reference: f64) -> Vec<Term> {
-    let mut speeds = vec![Speed::One, Speed::Sign];
-    let even = Speed::Power {
+/// The size of the speed.
+fn size(reference: f64) -> Speed {
+    Speed::Power {
         exponent: 1.0,
         odd: false,
         reference,
-    };
-    speeds.push(even);
+    }
+}
+
+fn decay(scale: f64, odd: bool) -> Speed {
+    Speed::Decay { scale, odd }
+}
+
+fn by_speed(reference: f64) -> Vec<Term> {
+    let mut speeds = vec![Speed::One, Speed::Sign];
+    speeds.push(size(reference));
     for exponent in EXPONENTS {
         for odd in [true, false] {
             speeds.push(Speed::Power {
@@ -64,8 +72,8 @@ fn by_speed(reference: f64) -> Vec<Term> {
     for part in SCALES {
         let scale = part * reference;
         speeds.extend([
-            Speed::Decay { scale, odd: true },
-            Speed::Decay { scale, odd: false },
+            decay(scale, true),
+            decay(scale, false),
             Speed::Saturating { scale },
             Speed::Tanh { scale },
             Speed::Above { threshold: scale },
@@ -88,11 +96,7 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
         odd,
         reference,
     };
-    let size = Speed::Power {
-        exponent: 1.0,
-        odd: false,
-        reference,
-    };
+    let size = size(reference);
     let mut pairs = vec![
         (Speed::One, Load::Size),
         (Speed::Sign, Load::Plain),
@@ -111,10 +115,7 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
         ]);
     }
     pairs.extend(SCALES.into_iter().flat_map(|part| {
-        let decay = |odd| Speed::Decay {
-            scale: part * reference,
-            odd,
-        };
+        let decay = |odd| decay(part * reference, odd);
         [(decay(true), Load::Size), (decay(false), Load::Plain)]
     }));
     let terms = pairs.into_iter();
@@ -129,16 +130,9 @@ fn by_angle(reference: f64) -> Vec<Term> {
         odd,
         reference,
     };
-    let size = Speed::Power {
-        exponent: 1.0,
-        odd: false,
-        reference,
-    };
+    let size = size(reference);
     let plain = Speed::Plain { reference };
-    let fading = |part: f64| Speed::Decay {
-        scale: part * reference,
-        odd: false,
-    };
+    let fading = |part: f64| decay(part * reference, false);
     let modulated = [
         (Speed::One, Load::One),
         (fading(0.05), Load::One),
@@ -158,15 +152,8 @@ fn by_angle(reference: f64) -> Vec<Term> {
 }
 
 fn by_state(reference: f64) -> Vec<Term> {
-    let size = Speed::Power {
-        exponent: 1.0,
-        odd: false,
-        reference,
-    };
-    let fading = Speed::Decay {
-        scale: 0.2 * reference,
-        odd: false,
-    };
+    let size = size(reference);
+    let fading = decay(0.2 * reference, false);
     let kinds = [
         (Speed::One, Load::One, false),
         (Speed::One, Load::Size, false),
