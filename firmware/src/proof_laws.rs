@@ -1,6 +1,6 @@
 //! Laws that were stated as text, as `servoid effects --emit-rust` writes them.
 
-use shared::effects::formula::{Formula, Op, Output, Program, Variable};
+use shared::effects::formula::{Formula, Op, Output, Program, State, Variable};
 use shared::effects::{Description, Facts, Parameter, Place};
 use shared::units::Quantity;
 
@@ -59,8 +59,7 @@ pub static DRAG: Formula = Formula {
             Op::Raise(2),
             Op::Mul,
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };
 
@@ -116,8 +115,7 @@ pub static FALLING: Formula = Formula {
             Op::Exp,
             Op::Scale(1),
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };
 
@@ -180,26 +178,28 @@ pub static GEAR: Formula = Formula {
             Op::Variable(Variable::Current),
             Op::Abs,
             Op::Scale(0),
-            Op::State,
+            Op::State(0),
             Op::Mul,
             Op::Variable(Variable::Current),
             Op::Scale(1),
-            Op::State,
+            Op::State(0),
             Op::Square,
             Op::Mul,
             Op::Add,
             Op::Neg,
         ],
-        rate: &[
-            Op::Variable(Variable::Speed),
-            Op::Variable(Variable::Speed),
-            Op::Abs,
-            Op::State,
-            Op::Mul,
-            Op::Sub,
-            Op::Scale(2),
-        ],
-        state: (-1.0, 1.0),
+        states: &[State {
+            rate: &[
+                Op::Variable(Variable::Speed),
+                Op::Variable(Variable::Speed),
+                Op::Abs,
+                Op::State(0),
+                Op::Mul,
+                Op::Sub,
+                Op::Scale(2),
+            ],
+            range: (-1.0, 1.0),
+        }],
     },
 };
 
@@ -247,8 +247,7 @@ pub static STEPS: Formula = Formula {
             Op::Sign,
             Op::Mul,
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };
 
@@ -313,8 +312,7 @@ pub static TEETH: Formula = Formula {
             Op::Add,
             Op::Neg,
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };
 
@@ -371,8 +369,7 @@ pub static WEAK: Formula = Formula {
             Op::Div,
             Op::Sub,
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };
 
@@ -434,8 +431,7 @@ pub static AGEING: Formula = Formula {
             Op::Sub,
             Op::Mul,
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };
 
@@ -495,7 +491,6 @@ pub static CRANK: Formula = Formula {
             Op::Add,
             Op::Scale(3),
         ],
-        rate: &[],
-        state: (-1.0, 1.0),
+        states: &[],
     },
 };

@@ -46,8 +46,8 @@ impl StatedLaw {
             current,
             transmitted: current,
             command: at.volts,
-            time: if self.ages { at.memory } else { 0.0 },
-            state: at.memory,
+            time: if self.ages { at.memory[0] } else { 0.0 },
+            states: at.memory,
         }
     }
 }
@@ -94,27 +94,32 @@ impl Effect for StatedLaw {
         [at(angle), slope]
     }
 
-    fn memory(&self) -> Option<f64> {
-        let remembers = self.law.definition.state.is_some() || self.ages;
-        remembers.then_some(0.0)
+    fn memories(&self) -> usize {
+        self.law.definition.states.len().max(usize::from(self.ages))
     }
 
-    fn memory_rate(&self, at: &At) -> f64 {
+    fn memory_rates(&self, at: &At) -> [f64; 2] {
         if self.ages {
-            return 1.0;
+            return [1.0, 0.0];
         }
-        self.law.definition.rate(&self.values, &self.point(at))
+        self.law.definition.rates(&self.values, &self.point(at))
     }
 
     fn stiffness_per_s(&self, at: &At) -> f64 {
-        if self.law.definition.state.is_none() {
-            return 0.0;
+        // The largest sum of a row bounds every eigenvalue (Gershgorin).
+        let mut rows = [0.0f64; 2];
+        for place in 0..self.law.definition.states.len() {
+            let rates = |step: f64| {
+                let mut memory = at.memory;
+                memory[place] += step;
+                self.memory_rates(&At { memory, ..*at })
+            };
+            let (more, less) = (rates(STEP), rates(-STEP));
+            for (row, (more, less)) in rows.iter_mut().zip(more.into_iter().zip(less)) {
+                *row += ((more - less) / (2.0 * STEP)).abs();
+            }
         }
-        let rate = |step: f64| {
-            let memory = at.memory + step;
-            self.memory_rate(&At { memory, ..*at })
-        };
-        ((rate(STEP) - rate(-STEP)) / (2.0 * STEP)).abs()
+        rows[0].max(rows[1])
     }
 
     fn sensed_angle(&self, angle: f64) -> f64 {

@@ -26,22 +26,27 @@ fn remark(language: Language, says: &str) -> String {
     }
 }
 
+/// What is behind the name of a state or its rate.
+fn numbered(place: usize) -> &'static str {
+    if place == 0 { "" } else { "2" }
+}
+
 impl Definition {
     /// The law as a function of speed `w` (rad/s), angle within the revolution `theta` (rad), current `i` and torque passed on `tau`
-    /// (both in V referred to the winding), command `u` (V), the state `z` and, of a law that goes with it, the time `t` (s); and one of
-    /// its state's rate where it has a state.
+    /// (both in V referred to the winding), command `u` (V), the state `z`, of a law with two states `z2`, and, of a law that goes with it,
+    /// the time `t` (s); and one of each state's rate.
     pub fn functions_in(&self, language: Language, values: &[f64]) -> String {
         let law = self.function(language, &self.name, &self.law, values);
-        let rate = self.state.as_ref().map(|state| {
-            let rate = &state.rate;
-            let name = format!("{}_rate", self.name);
+        let rates = self.states.iter().enumerate().map(|(place, state)| {
+            let number = numbered(place);
+            let name = format!("{}_rate{number}", self.name);
             let says = format!(
-                "How fast the state of {} changes, by the second.",
+                "How fast the state z{number} of {} changes, by the second.",
                 self.name
             );
-            remark(language, &says) + &self.function(language, &name, rate, values)
+            remark(language, &says) + &self.function(language, &name, &state.rate, values)
         });
-        law + &rate.unwrap_or_default()
+        law + &rates.collect::<String>()
     }
 
     fn function(
@@ -54,6 +59,7 @@ impl Definition {
         let arguments = ["w", "theta", "i", "tau", "u", "z"];
         let arguments: Vec<&str> = arguments
             .into_iter()
+            .chain((self.states.len() > 1).then_some("z2"))
             .chain(self.ages().then_some("t"))
             .collect();
         let each = |text: &dyn Fn(&str) -> String, between: &str| {
@@ -100,7 +106,7 @@ impl Definition {
                 let name = VARIABLES.iter().find(|(_, own)| own == variable);
                 name.map_or("w", |(name, _)| name).to_owned()
             }
-            Term::State => "z".to_owned(),
+            Term::State(place) => format!("z{}", numbered(*place)),
             Term::Name(name) => name.clone(),
             Term::Negative(a) => format!("(-{})", inner(a)),
             Term::Call(function, arguments) => {

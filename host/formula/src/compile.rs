@@ -1,8 +1,10 @@
 //! An expression as a stack program. What depends on parameters and numbers alone is computed once, when a model is made.
 
-use crate::definition::{Definition, State};
+use crate::definition::Definition;
 use crate::syntax::{Binary, Expression, Function, Term};
-use shared::effects::formula::{MAX_CONSTANTS, MAX_DEPTH, MAX_NUMBERS, Op, Program, Variable};
+use shared::effects::formula::{
+    MAX_CONSTANTS, MAX_DEPTH, MAX_NUMBERS, Op, Program, State, Variable,
+};
 
 /// Code of an expression.
 enum Code {
@@ -27,27 +29,26 @@ pub(crate) fn compile(definition: &Definition) -> Result<Program, Refused> {
         constants: Vec::new(),
     };
     let law = compiler.program(&definition.law)?;
-    let rate = match &definition.state {
-        Some(State { rate, .. }) => compiler.program(rate)?,
-        None => Vec::new(),
-    };
-    let state = definition
-        .state
-        .as_ref()
-        .map_or((-1.0, 1.0), |state| state.range);
+    let rates: Result<Vec<Vec<Op>>, Refused> = definition
+        .states
+        .iter()
+        .map(|state| compiler.program(&state.rate))
+        .collect();
+    let rates = rates?;
     let refused = |what: String| (0, what);
     if compiler.constants.len() > MAX_CONSTANTS {
         let what =
             format!("the law has more than {MAX_CONSTANTS} constants; a simpler one is needed");
         return Err(refused(what));
     }
-    let numbers: usize = law.iter().chain(&rate).map(numbers).sum();
+    let all = || rates.iter().chain([&law]);
+    let numbers: usize = all().flatten().map(numbers).sum();
     if numbers > MAX_NUMBERS {
         let what = format!("the law has more than {MAX_NUMBERS} numbers; a simpler one is needed");
         return Err(refused(what));
     }
-    let deepest = compiler.constants.iter().map(|ops| depth(ops)).max();
-    if deepest.unwrap_or(0).max(depth(&law)).max(depth(&rate)) > MAX_DEPTH {
+    let deepest = compiler.constants.iter().chain(all()).map(|ops| depth(ops));
+    if deepest.max().unwrap_or(0) > MAX_DEPTH {
         let what = format!(
             "the law needs more than {MAX_DEPTH} results at once; put brackets to the left"
         );
@@ -55,13 +56,19 @@ pub(crate) fn compile(definition: &Definition) -> Result<Program, Refused> {
     }
     // Laws live as long as the process: every effect is known by a reference of that life.
     let leaked = |ops: Vec<Op>| -> &'static [Op] { Box::leak(ops.into_boxed_slice()) };
+    let ranges = definition.states.iter().map(|state| state.range);
+    let states: Vec<State> = (rates.into_iter().zip(ranges))
+        .map(|(rate, range)| State {
+            rate: leaked(rate),
+            range,
+        })
+        .collect();
     let constants: Vec<&'static [Op]> = compiler.constants.into_iter().map(leaked).collect();
     Ok(Program {
         output: definition.output,
         constants: Box::leak(constants.into_boxed_slice()),
         law: leaked(law),
-        rate: leaked(rate),
-        state,
+        states: Box::leak(states.into_boxed_slice()),
     })
 }
 
@@ -81,7 +88,7 @@ fn depth(ops: &[Op]) -> usize {
     let (mut now, mut most) = (0usize, 0usize);
     for op in ops {
         match op {
-            Op::Number(_) | Op::Parameter(_) | Op::Variable(_) | Op::State | Op::Constant(_) => {
+            Op::Number(_) | Op::Parameter(_) | Op::Variable(_) | Op::State(_) | Op::Constant(_) => {
                 now += 1;
             }
             Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Min | Op::Max | Op::Power => {
@@ -146,7 +153,7 @@ impl Compiler<'_> {
                 };
                 Code::Varying(vec![Op::Variable(variable)])
             }
-            Term::State => Code::Varying(vec![Op::State]),
+            Term::State(place) => Code::Varying(vec![Op::State(*place as u8)]),
             Term::Name(_) => Code::Constant(vec![Op::Number(0.0)]),
             Term::Negative(a) => one(Op::Neg, self.code(a)?),
             Term::Call(function, arguments) => {

@@ -4,7 +4,7 @@ use crate::dimension::{self, Dimension};
 use crate::fault::Fault;
 use crate::syntax::{Expression, FUNCTIONS, PLACES, Statement, Term, VARIABLES, found, statements};
 use shared::effects::MAX_PARAMETERS;
-use shared::effects::formula::{Output, Variable};
+use shared::effects::formula::{MAX_STATES, Output, Variable};
 
 /// A parameter of a law.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +39,8 @@ pub struct Definition {
     pub output: Output,
     /// How that depends on the motion.
     pub law: Expression,
-    /// What it remembers.
-    pub state: Option<State>,
+    /// What it remembers: at most two numbers.
+    pub states: Vec<State>,
     /// Parameters in the order in which they were stated.
     pub parameters: Vec<Parameter>,
     pub(crate) fixed: Vec<Fixed>,
@@ -74,7 +74,7 @@ impl Definition {
                 term: Term::Number(0.0),
                 at: 0,
             },
-            state: None,
+            states: Vec::new(),
             parameters: Vec::new(),
             fixed: Vec::new(),
             text: text.trim().to_owned(),
@@ -99,14 +99,14 @@ impl Definition {
                     self.law = law;
                 }
                 Statement::Rate(at, name, rate) => {
-                    if self.state.is_some() {
-                        return Err(Fault::new(
-                            text,
-                            at,
-                            "a law has one state; what has a state of its own is a law of its own",
-                        ));
+                    if self.states.len() == MAX_STATES {
+                        let what = format!(
+                            "a law has at most {MAX_STATES} states; what has a state of its own is a law of its own"
+                        );
+                        return Err(Fault::new(text, at, what));
                     }
-                    self.state = Some(State {
+                    self.new_name(text, at, &name)?;
+                    self.states.push(State {
                         name,
                         rate,
                         range: (-1.0, 1.0),
@@ -153,7 +153,8 @@ impl Definition {
                 }
                 let dimension =
                     Dimension::parse(&unit).map_err(|what| Fault::new(text, unit_at, what))?;
-                if let Some(state) = self.state.as_mut().filter(|state| state.name == name) {
+                let state = self.states.iter_mut().find(|state| state.name == name);
+                if let Some(state) = state {
                     (state.range, state.dimension) = ((low, high), dimension);
                     continue;
                 }
@@ -175,7 +176,7 @@ impl Definition {
             let what = format!("a law has at most {MAX_PARAMETERS} parameters");
             return Err(Fault::new(text, text.len(), what));
         }
-        if let Some(State { rate, .. }) = &self.state
+        if let Some(State { rate, .. }) = self.states.first()
             && !matches!(self.output, Output::Torque | Output::Voltage)
         {
             let what = "a state belongs to a torque or a voltage; friction, torque_constant, angle and inertia have none";
@@ -184,15 +185,15 @@ impl Definition {
         Ok(())
     }
 
-    fn is_state(&self, name: &str) -> bool {
-        self.state.as_ref().is_some_and(|state| state.name == name)
+    fn state(&self, name: &str) -> Option<usize> {
+        self.states.iter().position(|state| state.name == name)
     }
 
     fn new_name(&self, text: &str, at: usize, name: &str) -> Result<(), Fault> {
         let taken = found(&VARIABLES, name).is_some()
             || found(&FUNCTIONS, name).is_some()
             || found(&PLACES, name).is_some()
-            || self.is_state(name)
+            || self.state(name).is_some()
             || self.parameters.iter().any(|p| p.name == name)
             || self.fixed.iter().any(|p| p.name == name);
         if taken {
@@ -206,10 +207,11 @@ impl Definition {
         let mut law = self.law.clone();
         self.meant(text, &mut law)?;
         self.law = law;
-        if let Some(mut state) = self.state.clone() {
+        let mut states = self.states.clone();
+        for state in &mut states {
             self.meant(text, &mut state.rate)?;
-            self.state = Some(state);
         }
+        self.states = states;
         Ok(())
     }
 
@@ -250,8 +252,8 @@ impl Definition {
         if let Some(variable) = found(&VARIABLES, name) {
             return Some(Term::Variable(variable));
         }
-        if self.is_state(name) {
-            return Some(Term::State);
+        if let Some(place) = self.state(name) {
+            return Some(Term::State(place));
         }
         let parameter = self.parameters.iter().position(|p| p.name == name);
         let fixed = || self.fixed.iter().position(|p| p.name == name);
@@ -262,7 +264,7 @@ impl Definition {
 
     /// Whether the law may depend on the time, which it remembers in its state's place.
     fn may_age(&self) -> Result<(), String> {
-        if self.state.is_some() {
+        if !self.states.is_empty() {
             return Err("a law with a state has no t".to_owned());
         }
         match self.output {

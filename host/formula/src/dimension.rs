@@ -116,7 +116,7 @@ pub(crate) fn check(definition: &Definition) -> Result<(), (usize, String)> {
         Output::Inertia => (ONE, "inertia is a part of the motor's, without a unit"),
     };
     same(definition, &definition.law, expected.0, expected.1)?;
-    if let Some(state) = &definition.state {
+    for state in &definition.states {
         let by_second = state.dimension.times(SECOND, -1.0);
         let what = format!(
             "the rate of {}, which is in {}, by the second; its range states its unit",
@@ -157,7 +157,7 @@ fn of(definition: &Definition, expression: &Expression) -> Found {
             Variable::Current | Variable::Transmitted | Variable::Command => VOLT,
             Variable::Time => SECOND,
         })),
-        Term::State => Ok(definition.state.as_ref().map(|state| state.dimension)),
+        Term::State(place) => Ok(Some(definition.states[*place].dimension)),
         Term::Parameter(place) => Ok(Some(definition.parameters[*place].dimension)),
         Term::Fixed(place) => Ok(Some(definition.fixed[*place].dimension)),
         Term::Name(_) => Ok(None),

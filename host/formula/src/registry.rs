@@ -38,6 +38,12 @@ impl Law {
             format!("&[{}]", ops.join(", "))
         };
         let constants: Vec<String> = program.constants.iter().map(|one| ops(one)).collect();
+        let states: Vec<String> = (program.states.iter())
+            .map(|state| {
+                let (rate, range) = (ops(state.rate), state.range);
+                format!("State {{ rate: {rate}, range: {range:?} }}")
+            })
+            .collect();
         let parameters: Vec<String> = (description.parameters.iter())
             .map(|parameter| {
                 format!(
@@ -56,8 +62,8 @@ impl Law {
             "/// `{}`\npub static {}: Formula = Formula {{\n    description: Description {{\n        name: {:?},\n        place: Place::{:?},\n        \
              title: {:?},\n        parameters: &[{}],\n        equation: {:?},\n        signature: {:?},\n        exposed_by: {:?},\n        \
              look_alikes: &[],\n        source: {:?},\n        facts: Facts {{ series_parallel: {}, ..Facts::PLAIN }},\n    }},\n    \
-             program: Program {{\n        output: Output::{:?},\n        constants: &[{}],\n        law: {},\n        rate: {},\n        \
-             state: {:?},\n    }},\n}};\n",
+             program: Program {{\n        output: Output::{:?},\n        constants: &[{}],\n        law: {},\n        \
+             states: &[{}],\n    }},\n}};\n",
             self.definition.text,
             self.definition.name.to_uppercase(),
             description.name,
@@ -72,8 +78,7 @@ impl Law {
             program.output,
             constants.join(", "),
             ops(program.law),
-            ops(program.rate),
-            program.state,
+            states.join(", "),
         )
     }
 }
@@ -186,7 +191,7 @@ fn describe(definition: &Definition) -> Description {
         look_alikes: &[],
         source: "stated by the user",
         facts: Facts {
-            series_parallel: definition.state.is_none(),
+            series_parallel: definition.states.is_empty(),
             ..Facts::PLAIN
         },
     }

@@ -44,8 +44,8 @@ pub enum Term {
     Number(f64),
     /// A variable.
     Variable(Variable),
-    /// The state.
-    State,
+    /// The state at this place.
+    State(usize),
     /// The parameter at this place.
     Parameter(usize),
     /// The fixed number at this place.

@@ -9,7 +9,7 @@ use shared::effects::formula::{Output, Variable};
 pub enum Used {
     /// A variable of the motor.
     Variable(Variable),
-    /// The state.
+    /// A state.
     State,
 }
 
@@ -44,7 +44,7 @@ fn collect(expression: &Expression, found: &mut Vec<Used>) {
     };
     match &expression.term {
         Term::Variable(variable) => add(Used::Variable(*variable)),
-        Term::State => add(Used::State),
+        Term::State(_) => add(Used::State),
         Term::Negative(a) => collect(a, found),
         Term::Call(_, arguments) => arguments.iter().for_each(|a| collect(a, found)),
         Term::Binary(_, a, b) => {

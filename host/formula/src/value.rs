@@ -2,7 +2,7 @@
 
 use crate::definition::Definition;
 use crate::syntax::{Binary, Expression, Function, Term};
-use shared::effects::formula::{Interval, Output, Variable};
+use shared::effects::formula::{Interval, MAX_STATES, Output, Variable};
 use std::f64::consts::TAU;
 
 /// Where a law is evaluated.
@@ -20,8 +20,8 @@ pub struct Point {
     pub command: f64,
     /// Time since the recording began, s.
     pub time: f64,
-    /// The state.
-    pub state: f64,
+    /// The states.
+    pub states: [f64; MAX_STATES],
 }
 
 impl Expression {
@@ -47,10 +47,13 @@ impl Definition {
         self.value_of(&self.law, values, point)
     }
 
-    /// The rate of the state there, by the second; zero where there is none.
-    pub fn rate(&self, values: &[f64], point: &Point) -> f64 {
-        let rate = self.state.as_ref().map(|state| &state.rate);
-        rate.map_or(0.0, |rate| self.value_of(rate, values, point))
+    /// The rates of the states there, by the second; zero where there is none.
+    pub fn rates(&self, values: &[f64], point: &Point) -> [f64; MAX_STATES] {
+        let mut rates = [0.0; MAX_STATES];
+        for (rate, state) in rates.iter_mut().zip(&self.states) {
+            *rate = self.value_of(&state.rate, values, point);
+        }
+        rates
     }
 
     pub(crate) fn value_of(&self, expression: &Expression, values: &[f64], point: &Point) -> f64 {
@@ -66,7 +69,7 @@ impl Definition {
                 Variable::Command => point.command,
                 Variable::Time => point.time,
             },
-            Term::State => point.state,
+            Term::State(place) => point.states[*place],
             Term::Parameter(place) => values.get(*place).copied().unwrap_or(0.0),
             Term::Fixed(place) => self.fixed[*place].value,
             Term::Name(_) => 0.0,
@@ -88,9 +91,10 @@ impl Definition {
             Term::Variable(Variable::Angle) => Interval::new(0.0, TAU),
             Term::Variable(Variable::Time) => Interval::new(0.0, f64::INFINITY),
             Term::Variable(_) | Term::Name(_) => everything,
-            Term::State => (self.state.as_ref()).map_or(everything, |state| {
-                Interval::new(state.range.0, state.range.1)
-            }),
+            Term::State(place) => {
+                let (low, high) = self.states[*place].range;
+                Interval::new(low, high)
+            }
             Term::Parameter(place) => {
                 let (low, high) = self.parameters[*place].range;
                 Interval::new(low, high)

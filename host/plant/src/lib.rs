@@ -66,6 +66,7 @@ pub use error::BenchError;
 pub use hidden::Hidden;
 pub use machine::{Machine, PRESETS};
 pub use outside::{Given, Outside, OutsideLaw, Variable};
+pub use plant::STATED_MEMORIES;
 pub use position::PositionControl;
 pub use run::{Amplifier, Bench, Reading, Run};
 pub use stated::Stated;

@@ -15,10 +15,13 @@
 use super::coupling::{Flank, Shaft};
 use super::effects::{At, Effect, Sliding, Winding};
 use super::{Coupling, Machine};
+use std::ops::Range;
 use std::sync::Arc;
 
-/// Most effects with a memory that can act at once, one from outside the catalogue and one of the caller's among them; a law checks it against the catalogue.
-const MEMORIES: usize = 6;
+/// Most numbers that effects remember at once: those of the catalogue, one from outside of it and the caller's.
+const MEMORIES: usize = 8;
+/// Most numbers that the caller's effects remember at once.
+pub const STATED_MEMORIES: usize = 4;
 /// What the bridge feeds to the armature.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Feed {
@@ -80,8 +83,8 @@ pub(super) struct Torques {
 pub(super) struct Plant<'a> {
     pub(super) machine: Machine,
     pub(super) effects: &'a [Arc<dyn Effect>],
-    /// Index into the state's memory, for each effect.
-    memory_of: Vec<Option<usize>>,
+    /// Indices into the state's memory, for each effect.
+    memory_of: Vec<Range<usize>>,
     pub(super) shaft: Option<Shaft>,
     pub(super) motor_inertia_kg_m2: f64,
     pub(super) substep_hz: f64,
@@ -106,7 +109,7 @@ impl<'a> Plant<'a> {
             .filter_map(|e| e.coupling())
             .reduce(Coupling::in_series_with);
         let shaft = coupling.map(|coupling| Shaft::new(coupling, machine.inertia_kg_m2));
-        let mut state = State {
+        let state = State {
             angle,
             speed: 0.0,
             current: 0.0,
@@ -114,14 +117,13 @@ impl<'a> Plant<'a> {
             load_speed: 0.0,
             memory: [0.0; MEMORIES],
         };
-        let mut slots = 0..MEMORIES;
+        let mut used = 0;
         let memory_of: Vec<_> = effects
             .iter()
             .map(|effect| {
-                let start = effect.memory()?;
-                let slot = slots.next()?;
-                state.memory[slot] = start;
-                Some(slot)
+                let own = used..used + effect.memories();
+                used = own.end;
+                own
             })
             .collect();
         let mut plant = Plant {
@@ -170,8 +172,10 @@ impl<'a> Plant<'a> {
                 volts,
                 ..self.at(index, state)
             };
-            if let Some(slot) = self.memory_of[index] {
-                memory[slot] = effect.memory_rate(&at);
+            let own = self.memory_of[index].clone();
+            if !own.is_empty() {
+                let rates = effect.memory_rates(&at);
+                memory[own.clone()].copy_from_slice(&rates[..own.len()]);
             }
             volts = effect.volts(volts, &at);
         }
@@ -269,7 +273,12 @@ impl<'a> Plant<'a> {
             speed: state.speed,
             current: state.current,
             volts: 0.0,
-            memory: self.memory_of[index].map_or(0.0, |slot| state.memory[slot]),
+            memory: {
+                let own = self.memory_of[index].clone();
+                let mut memory = [0.0; 2];
+                memory[..own.len()].copy_from_slice(&state.memory[own]);
+                memory
+            },
         }
     }
 }
@@ -290,6 +299,7 @@ mod tests {
                 .unwrap()
         };
         let effects = CATALOGUE.iter().map(|kind| build(kind.name));
-        assert!(effects.filter(|effect| effect.memory().is_some()).count() < MEMORIES);
+        let catalogue: usize = effects.map(|effect| effect.memories()).sum();
+        assert!(catalogue + 1 + STATED_MEMORIES <= MEMORIES, "{catalogue}");
     }
 }

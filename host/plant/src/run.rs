@@ -53,7 +53,7 @@ pub struct Bench {
     pub torque_noise_n_m: f64,
     /// A law that is hidden and that the catalogue does not hold.
     pub outside: Option<OutsideLaw>,
-    /// Effects that the caller brings along; one of them may have a memory.
+    /// Effects that the caller brings along; together they remember at most [`STATED_MEMORIES`](crate::STATED_MEMORIES) numbers.
     pub stated: Vec<Stated>,
 }
 

@@ -16,7 +16,9 @@ use servoid_io::output::write_recording;
 use servoid_io::position_loop::LoopSettings;
 use servoid_io::record::Record;
 use servoid_io::recording::Recording;
-use servoid_plant::{Amplifier, Bench, BenchError, Hidden, Machine, PositionControl, Stated};
+use servoid_plant::{
+    Amplifier, Bench, BenchError, Hidden, Machine, PositionControl, STATED_MEMORIES, Stated,
+};
 use shared::excite::Experiment;
 use std::f64::consts::{PI, TAU};
 use std::fs::File;
@@ -263,16 +265,15 @@ fn bench(args: &SimulateArgs, seed: u64) -> Result<Bench, Error> {
         .into_iter()
         .filter_map(servoid_formula::law_of)
         .collect();
-    let with_state = laws.iter().filter(|law| law.definition.state.is_some());
-    if with_state.count() > 1 {
-        return Err(Error::Usage(
-            "--effect: the bench hides one law with a state at a time; leave the others away"
-                .to_owned(),
-        ));
-    }
     for law in laws {
         let effect = StatedLaw::new(law, bench.machine);
         bench.stated.push(Stated(Arc::new(effect)));
+    }
+    let remembered: usize = bench.stated.iter().map(|law| law.0.memories()).sum();
+    if remembered > STATED_MEMORIES {
+        return Err(Error::Usage(format!(
+            "--effect: the bench hides laws with at most {STATED_MEMORIES} states together, `t` counted as one, and these have {remembered}; leave one away"
+        )));
     }
     if let Some(hz) = args.substep_hz {
         bench.substep_hz = hz;

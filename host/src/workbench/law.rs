@@ -127,7 +127,7 @@ fn curve(
             transmitted: current,
             command: current,
             time: 0.0,
-            state: speed.signum(),
+            states: [speed.signum(), 0.0],
         };
         let value = definition.value(values, &point);
         // A friction stands against the motion.

@@ -1,6 +1,6 @@
 //! Effects lowered to per unit, ready to run.
 
-use super::{Any, Brush, Budget, EffectSet, MAX_EFFECTS, Needs, Shaft, Stiff, Winding};
+use super::{Any, Brush, Budget, EffectSet, MAX_EFFECTS, Memory, Needs, Shaft, Stiff, Winding};
 use crate::scalar::{Real, Scalar, lanes};
 use crate::units::PerUnit;
 
@@ -64,33 +64,33 @@ impl<S: Scalar> Lowered<S> {
 
     /// Changes of the winding.
     #[inline(always)]
-    pub fn winding(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Winding<S> {
+    pub fn winding(&self, shaft: &Shaft<S>, memory: &[Memory<S>; MAX_EFFECTS]) -> Winding<S> {
         let mut sum = Winding::default();
         for (effect, memory) in self.each().zip(memory) {
-            sum = sum.and(effect.winding(shaft, *memory));
+            sum = sum.and(effect.winding(shaft, memory));
         }
         sum
     }
 
     /// Sum of the torques against positive rotation.
     #[inline(always)]
-    pub fn torque(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> S {
+    pub fn torque(&self, shaft: &Shaft<S>, memory: &[Memory<S>; MAX_EFFECTS]) -> S {
         let mut sum = S::zero();
         for (effect, memory) in self.each().zip(memory) {
-            sum = sum + effect.torque(shaft, *memory);
+            sum = sum + effect.torque(shaft, memory);
         }
         sum
     }
 
     /// Sum of the stiff torques.
     #[inline]
-    pub fn stiff(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> Stiff<S> {
+    pub fn stiff(&self, shaft: &Shaft<S>, memory: &[Memory<S>; MAX_EFFECTS]) -> Stiff<S> {
         S::routine(
             #[inline(always)]
             || {
                 let mut sum = Stiff::default();
                 for (effect, memory) in self.each().zip(memory) {
-                    sum = sum.and(effect.stiff(shaft, *memory));
+                    sum = sum.and(effect.stiff(shaft, memory));
                 }
                 sum
             },
@@ -99,10 +99,10 @@ impl<S: Scalar> Lowered<S> {
 
     /// Torque that the current should give and does not.
     #[inline(always)]
-    pub fn lost_torque(&self, shaft: &Shaft<S>, memory: &[S; MAX_EFFECTS]) -> S {
+    pub fn lost_torque(&self, shaft: &Shaft<S>, memory: &[Memory<S>; MAX_EFFECTS]) -> S {
         let mut sum = S::zero();
         for (effect, memory) in self.each().zip(memory) {
-            sum = sum + effect.lost_torque(shaft, *memory);
+            sum = sum + effect.lost_torque(shaft, memory);
         }
         sum
     }
@@ -119,12 +119,12 @@ impl<S: Scalar> Lowered<S> {
 
     /// Brings the memories up to the end of a part.
     #[inline]
-    pub fn remember(&self, memory: &mut [S; MAX_EFFECTS], shaft: &Shaft<S>) {
+    pub fn remember(&self, memory: &mut [Memory<S>; MAX_EFFECTS], shaft: &Shaft<S>) {
         S::routine(
             #[inline(always)]
             || {
                 for (effect, memory) in self.each().zip(&mut *memory) {
-                    *memory = effect.remember(*memory, shaft);
+                    *memory = effect.remember(memory, shaft);
                 }
             },
         )
@@ -132,10 +132,10 @@ impl<S: Scalar> Lowered<S> {
 
     /// Error of the angle that the encoder sees, in turns.
     #[inline(always)]
-    pub fn sensed(&self, turns: S, memory: &[S; MAX_EFFECTS]) -> S {
+    pub fn sensed(&self, turns: S, memory: &[Memory<S>; MAX_EFFECTS]) -> S {
         let mut sum = S::zero();
         for (effect, memory) in self.each().zip(memory) {
-            sum = sum + effect.sensed(turns, *memory);
+            sum = sum + effect.sensed(turns, memory);
         }
         sum
     }

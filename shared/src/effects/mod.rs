@@ -58,6 +58,10 @@ use formula::{Formula, Stated};
 
 /// Most effects in one model.
 pub const MAX_EFFECTS: usize = 8;
+/// Most numbers that an effect remembers: those of the catalogue one, a stated law two.
+pub const MEMORIES: usize = 2;
+/// What an effect remembers, zero at first.
+pub type Memory<S> = [S; MEMORIES];
 
 /// What an effect needs of the model, so that no model pays for what it has not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -341,30 +345,30 @@ macro_rules! kinds {
                 }
             }
             #[inline(always)]
-            fn winding(&self, shaft: &Shaft<S>, memory: S) -> Winding<S> {
+            fn winding(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Winding<S> {
                 match self {
-                    $(Any::$kind(effect) => effect.winding(shaft, memory),)*
+                    $(Any::$kind(effect) => effect.winding(shaft, memory[0]),)*
                     Any::Formula(effect) => effect.winding(shaft, memory),
                 }
             }
             #[inline(always)]
-            fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+            fn torque(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> S {
                 match self {
-                    $(Any::$kind(effect) => effect.torque(shaft, memory),)*
+                    $(Any::$kind(effect) => effect.torque(shaft, memory[0]),)*
                     Any::Formula(effect) => effect.torque(shaft, memory),
                 }
             }
             #[inline(always)]
-            fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
+            fn stiff(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Stiff<S> {
                 match self {
-                    $(Any::$kind(effect) => effect.stiff(shaft, memory),)*
+                    $(Any::$kind(effect) => effect.stiff(shaft, memory[0]),)*
                     Any::Formula(effect) => effect.stiff(shaft, memory),
                 }
             }
             #[inline(always)]
-            fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+            fn lost_torque(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> S {
                 match self {
-                    $(Any::$kind(effect) => effect.lost_torque(shaft, memory),)*
+                    $(Any::$kind(effect) => effect.lost_torque(shaft, memory[0]),)*
                     Any::Formula(effect) => effect.lost_torque(shaft, memory),
                 }
             }
@@ -376,16 +380,16 @@ macro_rules! kinds {
                 }
             }
             #[inline(always)]
-            fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
+            fn remember(&self, memory: &Memory<S>, shaft: &Shaft<S>) -> Memory<S> {
                 match self {
-                    $(Any::$kind(effect) => effect.remember(memory, shaft),)*
+                    $(Any::$kind(effect) => [effect.remember(memory[0], shaft), memory[1]],)*
                     Any::Formula(effect) => effect.remember(memory, shaft),
                 }
             }
             #[inline(always)]
-            fn sensed(&self, turns: S, memory: S) -> S {
+            fn sensed(&self, turns: S, memory: &Memory<S>) -> S {
                 match self {
-                    $(Any::$kind(effect) => effect.sensed(turns, memory),)*
+                    $(Any::$kind(effect) => effect.sensed(turns, memory[0]),)*
                     Any::Formula(effect) => effect.sensed(turns),
                 }
             }

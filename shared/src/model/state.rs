@@ -1,6 +1,6 @@
 //! Running state: of the motor, of its load and of the effects' memories.
 
-use crate::effects::MAX_EFFECTS;
+use crate::effects::{MAX_EFFECTS, Memory};
 use crate::scalar::{Scalar, lanes};
 
 /// Motion of winding, shaft and load.
@@ -36,8 +36,8 @@ pub struct State<S: Scalar> {
     pub volts: S,
     /// Whether the bridge was open last.
     pub open: bool,
-    /// Memory of the effects, one number each, in the order in which they act.
-    pub memory: [S; MAX_EFFECTS],
+    /// Memory of the effects, in the order in which they act.
+    pub memory: [Memory<S>; MAX_EFFECTS],
     /// Commands on their way to the bridge.
     pub past: Past<S>,
 }

@@ -102,6 +102,7 @@ fn acts_against_command(parameter: &Parameter) -> bool {
 mod tests {
     use super::*;
     use crate::fit::Options;
+    use crate::fit::regression::typical;
     use crate::{Silent, identify};
     use servoid_io::showcase;
     use servoid_plant::Hidden;
@@ -148,10 +149,7 @@ mod tests {
                 if !acts_against_command(parameter) {
                     continue;
                 }
-                let mut values: Vec<f64> = parameters
-                    .iter()
-                    .map(|p| p.scaled(p.typical, data.supply, data.units.speed))
-                    .collect();
+                let mut values = typical(&data, kind);
                 values[at] = 3.0 * data.supply;
                 let mut effects = EffectSet::default();
                 effects.push(kind, &values).unwrap();

@@ -13,7 +13,7 @@ use super::filter::{Behind, Filter};
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::lanes::{Triangles, with_vectors};
 use servoid_engine::problem::{Base, Data, Structure};
-use shared::effects::{EffectSet, Lowered, Shaft};
+use shared::effects::{EffectSet, Kind, Lowered, Shaft};
 use shared::motor::Machine;
 use std::array::from_fn;
 
@@ -233,7 +233,7 @@ fn amplitudes(data: &Data, structure: &Structure) -> Vec<Amplitude> {
             if !parameter.amplitude {
                 continue;
             }
-            let mut values = typical(data, structure, slot);
+            let mut values = typical(data, structure.effects[slot]);
             for (k, other) in kind.parameters().iter().enumerate() {
                 if other.amplitude && k != index {
                     values[k] = 0.0;
@@ -252,21 +252,19 @@ fn amplitudes(data: &Data, structure: &Structure) -> Vec<Amplitude> {
     amplitudes
 }
 
-/// Typical values of the effect in `slot`, SI.
-fn typical(data: &Data, structure: &Structure, slot: usize) -> Vec<f64> {
-    let parameters = structure.effects[slot].parameters();
-    parameters
-        .iter()
-        .map(|p| p.scaled(p.typical, data.supply, data.units.speed))
-        .collect()
+/// Typical values of an effect, SI.
+pub fn typical(data: &Data, kind: Kind) -> Vec<f64> {
+    let parameters = kind.parameters().iter();
+    let typical = parameters.map(|p| p.scaled(p.typical, data.supply, data.units.speed));
+    typical.collect()
 }
 
 /// The effects' parameters: amplitudes as found (kept inside their ranges), the rest typical.
 fn effect_values(data: &Data, structure: &Structure, amplitudes: &[f64]) -> Vec<f64> {
     let mut found = amplitudes.iter();
     let mut values = Vec::new();
-    for (slot, &kind) in structure.effects.iter().enumerate() {
-        let typical = typical(data, structure, slot);
+    for &kind in &structure.effects {
+        let typical = typical(data, kind);
         for (parameter, typical) in kind.parameters().iter().zip(typical) {
             let (low, high) = parameter.range;
             let low = parameter.scaled(low, data.supply, data.units.speed);

@@ -78,19 +78,22 @@ pub(super) static KIND: Kind = Kind {
 };
 
 impl Effect for Heating {
-    fn memory(&self) -> Option<f64> {
-        Some(0.0)
+    fn memories(&self) -> usize {
+        1
     }
 
-    fn memory_rate(&self, at: &At) -> f64 {
-        let resistance = self.cold_resistance_ohm * (1.0 + self.copper_per_k * at.memory);
+    fn memory_rates(&self, at: &At) -> [f64; 2] {
+        let [warmer, _] = at.memory;
+        let resistance = self.cold_resistance_ohm * (1.0 + self.copper_per_k * warmer);
         let loss = resistance * at.current * at.current;
-        (self.thermal_resistance_k_w * loss - at.memory) / self.time_constant_s
+        let rate = (self.thermal_resistance_k_w * loss - warmer) / self.time_constant_s;
+        [rate, 0.0]
     }
 
     fn winding(&self, winding: &mut Winding, at: &At) {
-        winding.resistance_ohm *= 1.0 + self.copper_per_k * at.memory;
-        let field = (1.0 - self.magnet_per_k * at.memory).max(0.0);
+        let [warmer, _] = at.memory;
+        winding.resistance_ohm *= 1.0 + self.copper_per_k * warmer;
+        let field = (1.0 - self.magnet_per_k * warmer).max(0.0);
         winding.kt_n_m_a *= field;
         winding.kb_v_s_rad *= field;
     }

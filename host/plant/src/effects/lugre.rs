@@ -130,16 +130,19 @@ impl Lugre {
 }
 
 impl Effect for Lugre {
-    fn memory(&self) -> Option<f64> {
-        (self.stiffness_n_m_rad > 0.0).then_some(0.0)
+    fn memories(&self) -> usize {
+        usize::from(self.stiffness_n_m_rad > 0.0)
     }
 
-    fn memory_rate(&self, at: &At) -> f64 {
-        at.speed - at.speed.abs() * at.memory / self.steady_deflection(at.speed)
+    fn memory_rates(&self, at: &At) -> [f64; 2] {
+        let [deflection, _] = at.memory;
+        let returned = at.speed.abs() * deflection / self.steady_deflection(at.speed);
+        [at.speed - returned, 0.0]
     }
 
     fn torque(&self, at: &At) -> f64 {
-        -self.stiffness_n_m_rad * at.memory - self.damping(at.speed) * self.memory_rate(at)
+        let ([deflection, _], [rate, _]) = (at.memory, self.memory_rates(at));
+        -self.stiffness_n_m_rad * deflection - self.damping(at.speed) * rate
     }
 
     fn stiffness_per_s(&self, at: &At) -> f64 {

@@ -167,10 +167,10 @@ pub struct At {
     pub speed: f64,
     /// Armature current, A.
     pub current: f64,
-    /// Voltage before the effect, V; in [`Effect::volts`] and [`Effect::memory_rate`] alone.
+    /// Voltage before the effect, V; in [`Effect::volts`] and [`Effect::memory_rates`] alone.
     pub volts: f64,
-    /// The effect's own memory, in its own unit.
-    pub memory: f64,
+    /// The effect's own memory, in its own units.
+    pub memory: [f64; 2],
 }
 
 /// What a friction sees of the shaft while it slides, or is about to.
@@ -235,14 +235,14 @@ pub trait Effect: Send + Sync {
         None
     }
 
-    /// Value of the memory at the start, if the effect has a memory.
-    fn memory(&self) -> Option<f64> {
-        None
+    /// How many numbers the effect remembers, at most two, which are zero at the start.
+    fn memories(&self) -> usize {
+        0
     }
 
-    /// Rate of change of the memory, per s.
-    fn memory_rate(&self, _at: &At) -> f64 {
-        0.0
+    /// Rate of change of each, per s.
+    fn memory_rates(&self, _at: &At) -> [f64; 2] {
+        [0.0; 2]
     }
 
     /// Which smooth piece of the effect's law applies, −1, 0 or 1, also by the torque passed from the motor to its

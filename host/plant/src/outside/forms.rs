@@ -125,7 +125,7 @@ impl Outside {
                 let supply = machine.supply_v;
                 vec![supply * 10.0 * 10f64.powf(chance.uniform()), 0.01 * supply]
             },
-            volts: |_, at| at.memory - at.volts,
+            volts: |_, at| at.memory[0] - at.volts,
             memory: Some(Remembered::Command(|v| [v[0], v[0] / v[1]])),
             depends_on: &[Variable::Load, Variable::Memory],
             ..NOTHING
@@ -143,7 +143,8 @@ impl Outside {
             },
             torque: |v, at| {
                 let motor = v[3] * at.current;
-                -(v[0] * motor.abs() * at.memory + v[1] * motor * at.memory * at.memory)
+                let [z, _] = at.memory;
+                -(v[0] * motor.abs() * z + v[1] * motor * z * z)
             },
             memory: Some(Remembered::Way(|v| v[2])),
             depends_on: &[Variable::Load, Variable::Memory],

@@ -135,7 +135,7 @@ impl OutsideLaw {
     /// command that jumps makes the current jump within the interval.
     pub fn along(&self, machine: &Machine, run: &Run) -> Vec<Given> {
         let time_constant = machine.inductance_h / machine.resistance_ohm;
-        let (mut memory, mut current) = (0.0, 0.0);
+        let (mut memory, mut current) = ([0.0; 2], 0.0);
         let last = run.counts.len().saturating_sub(1);
         (0..run.counts.len())
             .map(|k| {
@@ -160,7 +160,7 @@ impl OutsideLaw {
                 };
                 current = end + left * (-parts).exp();
                 memory = self.remembered(&at, seconds);
-                let remembered = memory - at.memory;
+                let remembered = memory[0] - at.memory[0];
                 let gained = run.speed_rad_s[next] - run.speed_rad_s[k];
                 let mut sum = Given::default();
                 for part in 0..PARTS {
@@ -170,7 +170,7 @@ impl OutsideLaw {
                         angle: run.angle_rad[k] + turned,
                         speed: run.speed_rad_s[k] + gained * x,
                         current: mean,
-                        memory: at.memory + remembered * x,
+                        memory: [at.memory[0] + remembered * x, 0.0],
                         ..at
                     };
                     let given = self.given(machine, &at);
@@ -188,23 +188,25 @@ impl OutsideLaw {
     }
 
     /// Its memory after `dt` s as they are `at` the beginning, in closed form.
-    pub fn remembered(&self, at: &At, dt: f64) -> f64 {
-        match self.form.memory {
+    pub fn remembered(&self, at: &At, dt: f64) -> [f64; 2] {
+        let [memory, _] = at.memory;
+        let now = match self.form.memory {
             None => 0.0,
-            Some(Remembered::Way(_)) if at.speed == 0.0 => at.memory,
+            Some(Remembered::Way(_)) if at.speed == 0.0 => memory,
             Some(Remembered::Way(distance)) => {
                 let kept = (-(at.speed * dt).abs() / distance(&self.values)).exp();
-                at.speed.signum() + (at.memory - at.speed.signum()) * kept
+                at.speed.signum() + (memory - at.speed.signum()) * kept
             }
             Some(Remembered::Command(limits)) => {
                 let [rate, stiffness] = limits(&self.values);
-                let (missing, bend) = (at.volts - at.memory, rate / stiffness);
+                let (missing, bend) = (at.volts - memory, rate / stiffness);
                 // At the greatest rate up to the bend, and from there on ever slower.
                 let full = ((missing.abs() - bend) / rate).clamp(0.0, dt);
                 let left = missing - missing.signum() * rate * full;
                 at.volts - left * (-stiffness * (dt - full)).exp()
             }
-        }
+        };
+        [now, 0.0]
     }
 }
 
@@ -231,21 +233,23 @@ impl Effect for OutsideLaw {
         (self.form.inertia)(&self.values, angle)
     }
 
-    fn memory(&self) -> Option<f64> {
-        self.form.memory.map(|_| 0.0)
+    fn memories(&self) -> usize {
+        usize::from(self.form.memory.is_some())
     }
 
-    fn memory_rate(&self, at: &At) -> f64 {
-        match self.form.memory {
+    fn memory_rates(&self, at: &At) -> [f64; 2] {
+        let [memory, _] = at.memory;
+        let rate = match self.form.memory {
             None => 0.0,
             Some(Remembered::Way(distance)) => {
-                (at.speed - at.speed.abs() * at.memory) / distance(&self.values)
+                (at.speed - at.speed.abs() * memory) / distance(&self.values)
             }
             Some(Remembered::Command(limits)) => {
                 let [rate, stiffness] = limits(&self.values);
-                ((at.volts - at.memory) * stiffness).clamp(-rate, rate)
+                ((at.volts - memory) * stiffness).clamp(-rate, rate)
             }
-        }
+        };
+        [rate, 0.0]
     }
 
     fn stiffness_per_s(&self, at: &At) -> f64 {
@@ -327,7 +331,7 @@ mod tests {
                     speed: run.speed_rad_s[799],
                     current: run.current_a[799],
                     volts,
-                    memory,
+                    memory: [memory, 0.0],
                 };
                 let total = machine.kb_v_s_rad + machine.winding_volts(machine.viscous_n_m_s);
                 let short = total * at.speed - volts;

@@ -2,7 +2,7 @@
 
 use super::lower::TANH_ENDS;
 use super::number::Number;
-use super::{MAX_DEPTH, Op, Variable, power};
+use super::{MAX_DEPTH, MAX_STATES, Op, Variable, power};
 use crate::effects::tangent::tanh;
 use crate::scalar::Scalar;
 
@@ -16,7 +16,7 @@ pub(super) struct At<N> {
     pub(super) command: N,
     /// In intervals.
     pub(super) time: N,
-    pub(super) state: N,
+    pub(super) states: [N; MAX_STATES],
 }
 
 impl<N: Copy> At<N> {
@@ -30,7 +30,7 @@ impl<N: Copy> At<N> {
             transmitted: value,
             command: value,
             time: value,
-            state: value,
+            states: [value; MAX_STATES],
         }
     }
 }
@@ -90,7 +90,7 @@ fn step<S: Scalar, N: Number<S>>(
             let [k] = numbers.take();
             Some(value.scaled(k))
         }
-        Op::State => Some(at.state),
+        Op::State(place) => at.states.get(usize::from(place)).copied(),
         Op::Constant(_) => Some(N::constant(S::one())),
         _ => None,
     };

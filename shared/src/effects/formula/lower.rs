@@ -5,7 +5,7 @@
 //! and costs nothing when the program runs.
 
 use super::power;
-use super::{Formula, Interval, MAX_CONSTANTS, MAX_DEPTH, Op, Variable};
+use super::{Formula, Interval, MAX_CONSTANTS, MAX_DEPTH, MAX_STATES, Op, Variable};
 use crate::error::ModelError;
 use crate::scalar::{Real, Scalar};
 use crate::units::{PerUnit, Quantity};
@@ -25,10 +25,17 @@ pub(super) struct Numbers {
     used: usize,
     /// Base of the law by the output's base.
     pub(super) law: f64,
+    /// Of each state's rate.
+    pub(super) rates: [RateNumbers; MAX_STATES],
+}
+
+/// What a state's rate takes.
+#[derive(Clone, Copy, Default)]
+pub(super) struct RateNumbers {
     /// Base of the rate by the state's range, for one interval.
-    pub(super) rate: f64,
-    /// Where those of the rate begin.
-    pub(super) rate_from: usize,
+    pub(super) by_interval: f64,
+    /// Where its numbers begin.
+    pub(super) from: usize,
 }
 
 /// An intermediate result: a number times `base`, which lies in `range`.
@@ -50,15 +57,20 @@ impl Numbers {
             numbers: [0.0; MAX_NUMBERS],
             used: 0,
             law: 0.0,
-            rate: 0.0,
-            rate_from: 0,
+            rates: [RateNumbers::default(); MAX_STATES],
         };
-        let state = Interval::new(program.state.0, program.state.1);
-        let law = numbers.walk(program.law, &constants, state, units);
+        let mut states = [Interval::default(); MAX_STATES];
+        for (range, state) in states.iter_mut().zip(program.states) {
+            *range = Interval::new(state.range.0, state.range.1);
+        }
+        let law = numbers.walk(program.law, &constants, &states, units);
         numbers.law = law.base / units.base(program.output.quantity()).to_f64();
-        numbers.rate_from = numbers.used;
-        let rate = numbers.walk(program.rate, &constants, state, units);
-        numbers.rate = rate.base * units.interval.to_f64() / state.most();
+        for (place, state) in program.states.iter().enumerate().take(MAX_STATES) {
+            let from = numbers.used;
+            let rate = numbers.walk(state.rate, &constants, &states, units);
+            let by_interval = rate.base * units.interval.to_f64() / states[place].most();
+            numbers.rates[place] = RateNumbers { by_interval, from };
+        }
         numbers
     }
 
@@ -78,7 +90,7 @@ impl Numbers {
         &mut self,
         ops: &[Op],
         constants: &[f64],
-        state: Interval,
+        states: &[Interval; MAX_STATES],
         units: &PerUnit<R>,
     ) -> Result {
         let mut stack = [Result::default(); MAX_DEPTH];
@@ -87,7 +99,7 @@ impl Numbers {
             let operands = operands(op);
             let at = depth - operands.min(depth);
             let (a, b) = (stack[at], stack[(at + 1).min(MAX_DEPTH - 1)]);
-            stack[at.min(MAX_DEPTH - 1)] = self.step(op, a, b, constants, state, units);
+            stack[at.min(MAX_DEPTH - 1)] = self.step(op, a, b, constants, states, units);
             depth = (at + 1).min(MAX_DEPTH);
         }
         stack[0]
@@ -99,7 +111,7 @@ impl Numbers {
         a: Result,
         b: Result,
         constants: &[f64],
-        state: Interval,
+        states: &[Interval; MAX_STATES],
         units: &PerUnit<R>,
     ) -> Result {
         let constant = |place: u8| constants.get(usize::from(place)).copied().unwrap_or(0.0);
@@ -114,7 +126,9 @@ impl Numbers {
                 self.push(units.base(quantity).to_f64() / result.base);
                 result
             }
-            Op::State => of_base(state),
+            Op::State(place) => {
+                of_base(states.get(usize::from(place)).copied().unwrap_or_default())
+            }
             Op::Constant(place) => Result {
                 base: constant(place),
                 range: Interval::point(constant(place)),
@@ -225,7 +239,7 @@ fn part(a: f64, b: f64) -> f64 {
 /// How many operands an operation takes.
 fn operands(op: &Op) -> usize {
     match op {
-        Op::Number(_) | Op::Parameter(_) | Op::Variable(_) | Op::State | Op::Constant(_) => 0,
+        Op::Number(_) | Op::Parameter(_) | Op::Variable(_) | Op::State(_) | Op::Constant(_) => 0,
         Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Min | Op::Max | Op::Power => 2,
         _ => 1,
     }
@@ -273,7 +287,7 @@ fn constant_of<R: Real>(ops: &[Op], values: &[R]) -> f64 {
             Op::Sin => libm::sin(a),
             Op::Cos => libm::cos(a),
             Op::Tanh => libm::tanh(a),
-            Op::Variable(_) | Op::State | Op::Constant(_) | Op::Scale(_) | Op::Raise(_) => 0.0,
+            Op::Variable(_) | Op::State(_) | Op::Constant(_) | Op::Scale(_) | Op::Raise(_) => 0.0,
         };
         depth = (at + 1).min(MAX_DEPTH);
     }
@@ -305,7 +319,7 @@ pub(super) fn check<S: Scalar, R: Real>(
         LARGEST_MULTIPLIER
     };
     let most = all
-        .chain([&numbers.law, &numbers.rate])
+        .chain([&numbers.law])
         .fold(0.0, |most: f64, x| most.max(x.abs()));
     if most < limit {
         return Ok(());

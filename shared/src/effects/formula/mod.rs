@@ -24,7 +24,7 @@ mod run;
 
 pub use interval::Interval;
 pub use lower::MAX_NUMBERS;
-pub use program::{MAX_CONSTANTS, MAX_DEPTH, Op, Output, Program, Variable};
+pub use program::{MAX_CONSTANTS, MAX_DEPTH, MAX_STATES, Op, Output, Program, State, Variable};
 
 use super::Description;
 use crate::error::ModelError;

@@ -1,4 +1,4 @@
-//! What a formula is computed with: a number, or a number with its derivatives by the state and the speed.
+//! What a formula is computed with: a number, or a number with its derivatives by the state, the speed and the time.
 
 use crate::scalar::Scalar;
 
@@ -66,6 +66,8 @@ pub(super) struct Dual<S> {
     pub(super) by_state: S,
     /// By the speed.
     pub(super) by_speed: S,
+    /// What it changes by over a part, as what it depends on changes, the state left out.
+    pub(super) swing: S,
 }
 
 impl<S: Scalar> Number<S> for Dual<S> {
@@ -75,6 +77,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value,
             by_state: S::zero(),
             by_speed: S::zero(),
+            swing: S::zero(),
         }
     }
     #[inline(always)]
@@ -88,6 +91,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value,
             by_state: self.by_state * slope,
             by_speed: self.by_speed * slope,
+            swing: self.swing * slope,
         }
     }
     #[inline(always)]
@@ -96,6 +100,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value: self.value + other.value,
             by_state: self.by_state + other.by_state,
             by_speed: self.by_speed + other.by_speed,
+            swing: self.swing + other.swing,
         }
     }
     #[inline(always)]
@@ -104,6 +109,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value: self.value * other.value,
             by_state: self.by_state * other.value + self.value * other.by_state,
             by_speed: self.by_speed * other.value + self.value * other.by_speed,
+            swing: self.swing * other.value + self.value * other.swing,
         }
     }
     #[inline(always)]
@@ -112,6 +118,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value: self.value.times(k),
             by_state: self.by_state.times(k),
             by_speed: self.by_speed.times(k),
+            swing: self.swing.times(k),
         }
     }
     #[inline(always)]
@@ -120,6 +127,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value: S::select(mask, a.value, b.value),
             by_state: S::select(mask, a.by_state, b.by_state),
             by_speed: S::select(mask, a.by_speed, b.by_speed),
+            swing: S::select(mask, a.swing, b.swing),
         }
     }
     #[inline(always)]
@@ -128,6 +136,7 @@ impl<S: Scalar> Number<S> for Dual<S> {
             value: -self.value,
             by_state: -self.by_state,
             by_speed: -self.by_speed,
+            swing: -self.swing,
         }
     }
 }

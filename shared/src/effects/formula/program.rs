@@ -1,11 +1,14 @@
 //! The operations of a formula, and what it says of itself.
 
+use crate::effects::MEMORIES;
 use crate::units::Quantity;
 
 /// Most constants of a program: what depends on the parameters alone.
 pub const MAX_CONSTANTS: usize = 16;
 /// Most numbers that wait on the stack.
 pub const MAX_DEPTH: usize = 8;
+/// Most states of a law.
+pub const MAX_STATES: usize = MEMORIES;
 
 /// What a formula may depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,8 +64,8 @@ pub enum Op {
     Parameter(u8),
     /// A variable.
     Variable(Variable),
-    /// The state.
-    State,
+    /// The state at this place.
+    State(u8),
     /// The constant at this place.
     Constant(u8),
     /// Times the constant at this place.
@@ -101,6 +104,15 @@ pub enum Op {
     Tanh,
 }
 
+/// A number that a law remembers, zero at first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Program of its rate, by the second.
+    pub rate: &'static [Op],
+    /// Range in which it lies.
+    pub range: (f64, f64),
+}
+
 /// A formula compiled: programs on a stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Program {
@@ -110,22 +122,21 @@ pub struct Program {
     pub constants: &'static [&'static [Op]],
     /// Program of the law.
     pub law: &'static [Op],
-    /// Program of the state's rate, by the second; empty where there is no state.
-    pub rate: &'static [Op],
-    /// Range in which the state lies.
-    pub state: (f64, f64),
+    /// Its states, at most [`MAX_STATES`].
+    pub states: &'static [State],
 }
 
 impl Program {
-    /// Whether the law or its state looks at a variable.
+    /// Whether the law or its states look at a variable.
     pub fn looks_at(&self, variable: Variable) -> bool {
-        let mut ops = self.law.iter().chain(self.rate);
+        let rates = self.states.iter().flat_map(|state| state.rate);
+        let mut ops = self.law.iter().chain(rates);
         ops.any(|op| *op == Op::Variable(variable))
     }
 
     /// Whether it has a state.
     pub fn has_state(&self) -> bool {
-        !self.rate.is_empty()
+        !self.states.is_empty()
     }
 
     /// Whether it is a voltage that changes within an interval: by a state, the motion or the time, and not by the command alone.
@@ -135,7 +146,7 @@ impl Program {
             && (self.has_state() || seen.iter().any(|variable| self.looks_at(*variable)))
     }
 
-    /// Whether it remembers a number: its state, or how long it has run.
+    /// Whether it remembers a number: a state, or how long it has run.
     pub fn remembers(&self) -> bool {
         self.has_state() || self.looks_at(Variable::Time)
     }

@@ -3,8 +3,8 @@
 use super::interpret::{At, result};
 use super::lower::{MAX_NUMBERS, Numbers};
 use super::number::{Dual, Number};
-use super::{Formula, Op, Output, Program, Variable};
-use crate::effects::{Budget, Needs, Shaft, Stiff, Winding};
+use super::{Formula, MAX_STATES, Op, Output, Program, Variable};
+use crate::effects::{Budget, Memory, Needs, Shaft, Stiff, Winding};
 use crate::scalar::{FromLanes, Real, Scalar, lanes};
 use crate::units::{PerUnit, Quantity};
 
@@ -13,11 +13,12 @@ use crate::units::{PerUnit, Quantity};
 pub struct Stated<S: Scalar> {
     program: &'static Program,
     numbers: [S::Coefficient; MAX_NUMBERS],
-    rate_from: usize,
     /// From the law's last result to the output per unit.
     law: S::Coefficient,
-    /// From the rate's last result to that of the state by the interval.
-    rate: S::Coefficient,
+    /// Where the numbers of each state's rate begin.
+    rates_from: [usize; MAX_STATES],
+    /// From each rate's last result to that of the state by the interval.
+    rates: [S::Coefficient; MAX_STATES],
     /// Speed by travel in turns, of one interval.
     per_turn: S::Coefficient,
     /// How many pairs of points its mean over a part takes.
@@ -37,9 +38,9 @@ const GROWN: f64 = 1.0 / 12.0;
 lanes!(Stated {
     program,
     numbers,
-    rate_from,
     law,
-    rate,
+    rates_from,
+    rates,
     per_turn,
     pairs
 });
@@ -92,9 +93,9 @@ impl<S: Scalar> Stated<S> {
             pairs: if waves { FOUR.len() } else { TWO.len() },
             program: &formula.program,
             numbers: numbers.lowered::<S>(),
-            rate_from: numbers.rate_from,
             law: S::coefficient(numbers.law),
-            rate: S::coefficient(numbers.rate),
+            rates_from: numbers.rates.map(|rate| rate.from),
+            rates: numbers.rates.map(|rate| S::coefficient(rate.by_interval)),
             per_turn: S::coefficient_of(turn),
         }
     }
@@ -126,7 +127,7 @@ impl<S: Scalar> Stated<S> {
             transmitted: shaft.transmitted + shaft.current_change * reach,
             command: shaft.volts,
             time: began + gone,
-            state: S::zero(),
+            states: [S::zero(); MAX_STATES],
         }
     }
 
@@ -170,7 +171,7 @@ impl<S: Scalar> Stated<S> {
 
     /// A voltage that goes with the motion or has a state, as its mean over the part.
     #[inline(never)]
-    pub(in crate::effects) fn winding(&self, shaft: &Shaft<S>, memory: S) -> Winding<S> {
+    pub(in crate::effects) fn winding(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Winding<S> {
         if !self.program.acts_within_a_part() {
             return Winding::default();
         }
@@ -178,49 +179,50 @@ impl<S: Scalar> Stated<S> {
             #[inline(always)]
             || {
                 if !self.program.has_state() {
-                    return Winding::volts(self.mean(shaft, memory), S::zero());
+                    return Winding::volts(self.mean(shaft, memory[0]), S::zero());
                 }
                 let moved = self.moved(shaft, memory);
                 let at = At {
-                    state: moved.mean,
+                    states: moved.each.map(|state| state.mean.value),
                     ..self.seen(shaft, 0.0, S::zero())
                 };
                 let volts = self.law(&at);
-                // Where the rate bends, as at a limit, it is another one at the end than its slope at the beginning said.
+                // Where a rate bends, as at a limit, it is another one at the end than its slope at the beginning said.
                 let end = At {
-                    state: moved.end,
+                    states: moved.each.map(|state| state.end),
                     ..at
                 };
-                let bent = (self.run(self.program.rate, self.rate_from, &end)).scaled(self.rate);
-                let bent = (bent.scaled(shaft.length) - moved.rate_at_end).abs();
-                let further = At {
-                    state: moved.mean + bent * S::from_f64(0.5),
-                    ..at
-                };
+                let mut further = at;
+                for place in 0..self.program.states.len() {
+                    let rate = self.rate(place, &end).scaled(shaft.length);
+                    let bent = (rate - moved.each[place].rate_at_end).abs();
+                    let bent = bent.max(moved.coupled[place]);
+                    further.states[place] = at.states[place] + bent * S::from_f64(0.5);
+                }
                 Winding::volts(volts, (self.law(&further) - volts).abs())
             },
         )
     }
 
     #[inline(never)]
-    pub(in crate::effects) fn torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+    pub(in crate::effects) fn torque(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> S {
         if self.program.output != Output::Torque || self.program.has_state() {
             return S::zero();
         }
         S::routine(
             #[inline(always)]
-            || -self.mean(shaft, memory),
+            || -self.mean(shaft, memory[0]),
         )
     }
 
     #[inline(never)]
-    pub(in crate::effects) fn lost_torque(&self, shaft: &Shaft<S>, memory: S) -> S {
+    pub(in crate::effects) fn lost_torque(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> S {
         if self.program.output != Output::TorqueConstant {
             return S::zero();
         }
         S::routine(
             #[inline(always)]
-            || shaft.current * (S::one() - self.mean(shaft, memory)),
+            || shaft.current * (S::one() - self.mean(shaft, memory[0])),
         )
     }
 
@@ -252,7 +254,7 @@ impl<S: Scalar> Stated<S> {
     }
 
     #[inline(never)]
-    pub(in crate::effects) fn stiff(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
+    pub(in crate::effects) fn stiff(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Stiff<S> {
         match self.program.output {
             Output::Torque if self.program.has_state() => self.stiff_by_state(shaft, memory),
             Output::Inertia => self.inertia(shaft),
@@ -276,9 +278,7 @@ impl<S: Scalar> Stated<S> {
                 let torque = gathered.times(shaft.inertia);
                 // A friction may stop the shaft within the part, whose speed then changes by less; and the mass that has grown gathers
                 // less speed at the end than at the beginning.
-                let turn = half * shaft.speed_change;
-                let reverses = ((shaft.speed - turn) * (shaft.speed + turn)).less(zero);
-                let part = S::select(reverses, S::one(), grown.abs() * S::from_f64(GROWN));
+                let part = S::select(reverses(shaft), S::one(), grown.abs() * S::from_f64(GROWN));
                 Stiff {
                     torque,
                     // As far as a torque changes the speed, the mass takes its part of it.
@@ -290,97 +290,153 @@ impl<S: Scalar> Stated<S> {
     }
 
     #[inline(always)]
-    fn stiff_by_state(&self, shaft: &Shaft<S>, memory: S) -> Stiff<S> {
+    fn stiff_by_state(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Stiff<S> {
         S::routine(
             #[inline(always)]
             || {
                 let moved = self.moved(shaft, memory);
-                let mut at = self.differentiated(shaft, memory);
-                at.state.value = moved.mean;
+                let at = At {
+                    states: moved.each.map(|state| state.mean),
+                    ..self.differentiated(shaft)
+                };
                 let torque = self.law(&at);
-                // Against the motion, by the speed: as the state follows it, and at once.
-                let drag = -(torque.by_speed + torque.by_state * moved.mean_by_speed);
+                // Against the motion, by the speed: as the states follow it, and at once.
                 let slower = shaft
                     .compliance
                     .times(self.per_turn)
                     .times(shaft.per_length);
                 Stiff {
                     torque: -torque.value,
-                    slope: (drag * slower).max(S::zero()),
-                    doubt: S::zero(),
+                    slope: (-torque.by_speed * slower).max(S::zero()),
+                    doubt: self.doubt(&at, &moved),
                 }
             },
         )
     }
 
+    /// What a torque would be more or less by where two states go on with each other for the whole part.
+    #[inline(always)]
+    fn doubt(&self, at: &At<Dual<S>>, moved: &Moved<S>) -> S {
+        if self.program.states.len() < 2 {
+            return S::zero();
+        }
+        let mut further = *at;
+        for (state, coupled) in further.states.iter_mut().zip(moved.coupled) {
+            state.value = state.value + coupled;
+        }
+        (self.law(&further).value - self.law(at).value).abs()
+    }
+
     #[inline(never)]
-    pub(in crate::effects) fn remember(&self, memory: S, shaft: &Shaft<S>) -> S {
+    pub(in crate::effects) fn remember(&self, memory: &Memory<S>, shaft: &Shaft<S>) -> Memory<S> {
         if !self.program.remembers() {
-            return memory;
+            return *memory;
         }
         if !self.program.has_state() {
-            return memory + S::one().times(shaft.length);
+            return [memory[0] + S::one().times(shaft.length), memory[1]];
         }
         S::routine(
             #[inline(always)]
-            || self.moved(shaft, memory).end,
+            || self.moved(shaft, memory).each.map(|state| state.end),
         )
     }
 
     #[inline(always)]
-    fn differentiated(&self, shaft: &Shaft<S>, state: S) -> At<Dual<S>> {
-        let own = |value| Dual::constant(value);
+    fn differentiated(&self, shaft: &Shaft<S>) -> At<Dual<S>> {
+        let swinging = |value, swing| Dual {
+            swing,
+            ..Dual::constant(value)
+        };
+        // Where the motion reverses, what goes with its direction bends.
+        let speed_change = S::select(reverses(shaft), S::zero(), shaft.speed_change);
         At {
             speed: Dual {
                 by_speed: S::one(),
-                ..own(shaft.speed)
+                ..swinging(shaft.speed, speed_change)
             },
-            turns: own(shaft.turns),
-            current: own(shaft.current),
-            transmitted: own(shaft.transmitted),
-            command: own(shaft.volts),
-            time: own(S::zero()),
-            state: Dual {
-                by_state: S::one(),
-                ..own(state)
-            },
+            turns: swinging(shaft.turns, shaft.travel),
+            current: swinging(shaft.current, shaft.current_change),
+            transmitted: swinging(shaft.transmitted, shaft.current_change),
+            command: Dual::constant(shaft.volts),
+            ..At::all(Dual::constant(S::zero()))
         }
     }
 
-    /// The state over a part, whose rate is taken as linear in it: exact where it is and the speed is steady (the exponential
-    /// Rosenbrock–Euler method: Hochbruck, Ostermann, *Acta Numerica* 19, 2010, 2.3).
+    /// Rate of a state, by the interval.
     #[inline(always)]
-    fn moved(&self, shaft: &Shaft<S>, state: S) -> Moved<S> {
-        let at = self.differentiated(shaft, state);
-        let rate = self
-            .run(self.program.rate, self.rate_from, &at)
-            .scaled(self.rate);
-        let rate = rate.scaled(shaft.length);
+    fn rate<N: Number<S>>(&self, place: usize, at: &At<N>) -> N {
+        let rate = self.run(self.program.states[place].rate, self.rates_from[place], at);
+        rate.scaled(self.rates[place])
+    }
+
+    /// The states over a part: each beside the mean of the other, the first again where the second has moved. Of states that do not
+    /// depend on each other, this is each by itself.
+    #[inline(always)]
+    fn moved(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Moved<S> {
+        let mut at = self.differentiated(shaft);
+        at.states = memory.map(Dual::constant);
+        let first = self.followed(0, memory[0], shaft, &at);
+        let rests = Followed::resting(memory[1]);
+        if self.program.states.len() < 2 {
+            return Moved {
+                each: [first, rests],
+                coupled: [S::zero(); MAX_STATES],
+            };
+        }
+        at.states[0] = first.mean;
+        let second = self.followed(1, memory[1], shaft, &at);
+        at.states[1] = second.mean;
+        let again = self.followed(0, memory[0], shaft, &at);
+        Moved {
+            each: [again, second],
+            coupled: [(again.mean.value - first.mean.value).abs(), S::zero()],
+        }
+    }
+
+    /// One state from `begin` over a part, whose rate is taken as linear in it and in the time: exact where it is (the exponential
+    /// Rosenbrock–Euler method with its functions φ₁ to φ₃: Hochbruck, Ostermann, *Acta Numerica* 19, 2010, 2.1 and 2.3).
+    #[inline(always)]
+    fn followed(&self, place: usize, begin: S, shaft: &Shaft<S>, at: &At<Dual<S>>) -> Followed<S> {
+        let mut at = *at;
+        at.states[place] = Dual {
+            by_state: S::one(),
+            ..Dual::constant(begin)
+        };
+        let rate = self.rate(place, &at).scaled(shaft.length);
         let one = S::one();
+        let half = S::from_f64(0.5);
         // How often the state is renewed within the part; not negative.
         let x = (-rate.by_state).max(S::zero()).min(S::from_f64(600.0));
-        let half = S::from_f64(0.5);
-        let sixth = S::from_f64(1.0 / 6.0);
         let small = x.less(S::from_f64(1.0 / 64.0));
-        // (1 − e^−x)/x and (x − 1 + e^−x)/x², by their series where a difference would lose digits.
-        let twelfth = S::from_f64(1.0 / 24.0);
-        let series = one - x * (half - x * (sixth - x * twelfth));
-        let first = S::select(small, series, (one - (-x).exp_decay()).part_of(x));
-        let series = half - x * (sixth - x * (twelfth - x * S::from_f64(1.0 / 120.0)));
+        // φ₁ to φ₃ of −x: (1 − e^−x)/x, and each next one (1/n! − the one before)/x; by their series where a difference would lose digits.
+        let series = |[a, b, c, d]: [f64; 4]| {
+            let [a, b, c, d] = [a, b, c, d].map(|n| S::from_f64(1.0 / n));
+            a - x * (b - x * (c - x * d))
+        };
+        let quotient = (one - (-x).exp_decay()).part_of(x);
+        let first = S::select(small, series([1.0, 2.0, 6.0, 24.0]), quotient);
         let quotient = (one - first).part_of(x);
-        let second = S::select(small, series, quotient);
-        let gone = rate.value * first;
-        Moved {
-            mean: state + rate.value * second,
-            end: state + gone,
+        let second = S::select(small, series([2.0, 6.0, 24.0, 120.0]), quotient);
+        let quotient = (half - second).part_of(x);
+        let third = S::select(small, series([6.0, 24.0, 120.0, 720.0]), quotient);
+        // The rate is the one in the middle of the part; it begins half of its change before.
+        let early = rate.value - half * rate.swing;
+        let gone = early * first + rate.swing * second;
+        let mean = begin + early * second + rate.swing * third;
+        Followed {
+            mean: Dual {
+                by_speed: rate.by_speed * second,
+                swing: gone,
+                ..Dual::constant(mean)
+            },
+            end: begin + gone,
             rate_at_end: rate.value - x * gone,
-            mean_by_speed: rate.by_speed * second,
         }
     }
 }
 
 impl Stated<f64> {
-    /// The law in its unit, without a state, at a speed, an angle and a current or command in SI.
+    /// The law in its unit, without states, at a speed, an angle and a current or command in SI.
     pub(super) fn value(&self, units: &PerUnit<f64>, [speed, angle, volts]: [f64; 3]) -> f64 {
         let volts = units.lower(volts, Quantity::Voltage);
         let at = At {
@@ -395,11 +451,36 @@ impl Stated<f64> {
     }
 }
 
-/// The state over a part, in its range.
-struct Moved<S> {
-    mean: S,
+/// Whether the speed passes zero within the part.
+#[inline(always)]
+fn reverses<S: Scalar>(shaft: &Shaft<S>) -> S::Mask {
+    let turn = shaft.speed_change * S::from_f64(0.5);
+    ((shaft.speed - turn) * (shaft.speed + turn)).less(S::zero())
+}
+
+/// A state over a part, as a part of its range.
+#[derive(Clone, Copy)]
+struct Followed<S> {
+    /// Its mean, with the derivative by the speed and its change over the part.
+    mean: Dual<S>,
     end: S,
     /// As its slope at the beginning has it, of the whole part.
     rate_at_end: S,
-    mean_by_speed: S,
+}
+
+impl<S: Scalar> Followed<S> {
+    fn resting(at: S) -> Self {
+        Followed {
+            mean: Dual::constant(at),
+            end: at,
+            rate_at_end: S::zero(),
+        }
+    }
+}
+
+/// The states over a part.
+struct Moved<S> {
+    each: [Followed<S>; MAX_STATES],
+    /// How much the mean of each is another one for what the other does within the part.
+    coupled: [S; MAX_STATES],
 }

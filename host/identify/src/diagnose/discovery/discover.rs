@@ -4,7 +4,8 @@ use super::{Law, propose};
 use crate::diagnose::{self, Budget, Diagnosis, Errors, FittedModel, Verdict};
 use crate::error::Error;
 use crate::fit::Options;
-use servoid_engine::problem::Data;
+use crate::fit::regression::typical;
+use servoid_engine::problem::{Candidate, Data};
 use shared::effects::Kind;
 
 /// Effects that together are suspected to stand in for a law.
@@ -14,6 +15,10 @@ const GAIN: f64 = 0.2;
 const TIE: f64 = 0.05;
 /// Effects of each step that stand against laws.
 const NEAREST: usize = 4;
+/// Share of what is missing beyond which a law leaves nothing to others.
+const ALL: f64 = 0.99;
+/// What nearly every motor has.
+const USUAL: [Kind; 2] = [Kind::Coulomb, Kind::OffsetVoltage];
 
 /// A law that was proposed, and what became of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,24 +144,43 @@ fn contenders(before: &Diagnosis) -> Vec<Kind> {
     before.not_named.into_iter().for_each(&mut add);
     let sets = before.hypotheses.iter().flat_map(|set| &set.effects);
     sets.for_each(|kind| add(*kind));
-    // The frictions that nearly every motor has.
-    [Kind::Coulomb, Kind::OffsetVoltage]
-        .into_iter()
-        .for_each(add);
+    USUAL.into_iter().for_each(add);
     kinds
 }
 
-/// Laws for what the linear motor lacks, and for what the named effects leave: an effect that stands in for a law takes a part of it.
-/// Of those that differ by their numbers alone the first: the fit finds its own.
+/// Laws for what the linear motor lacks, for what it lacks beside the friction and the offset that nearly every motor has, and for what
+/// the named effects leave: an effect that stands in for a law takes a part of it. Of those that differ by their numbers alone the first:
+/// the fit finds its own.
 fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
-    let of = |candidate| propose(data, held_out, candidate);
-    let mut laws = of(&before.base.candidate);
+    let linear = before.base.candidate;
+    let mut models = vec![beside_usual(data, linear), linear];
     if !before.steps.is_empty() {
-        for law in of(&before.last.candidate) {
+        models.push(before.last.candidate);
+    }
+    let mut laws: Vec<Law> = Vec::new();
+    for model in &models {
+        for law in propose(data, held_out, model) {
             if !laws.iter().any(|other| other.is_alike(&law)) {
                 laws.push(law);
             }
         }
+        // Another law, or this one with a term more, could only say the same.
+        if laws.iter().any(|law| law.explained > ALL) {
+            break;
+        }
+    }
+    let simplest = |law: &Law| law.explained > ALL && law.terms.len() == 1;
+    if laws.iter().any(simplest) {
+        laws.retain(|law| law.terms.len() == 1);
     }
     laws
+}
+
+/// A candidate with the usual effects at typical values: the regression finds their own, as it is linear in them.
+fn beside_usual(data: &Data, mut candidate: Candidate) -> Candidate {
+    for kind in USUAL {
+        // Beside a linear motor there is room.
+        let _ = candidate.effects.push(kind, &typical(data, kind));
+    }
+    candidate
 }

@@ -5,10 +5,11 @@ use super::motion::Motion;
 use super::term::{Place, Term};
 use crate::diagnose::residual_analysis::simulated;
 use crate::fit::filter::filtered;
+use crate::fit::regression::typical;
 use crate::fit::scores::{EquationResidual, equation_residuals, motor_coefficients};
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
-use shared::effects::{Kind, Parameter};
+use shared::effects::Kind;
 use shared::motor::Machine;
 
 /// Filter time, sample intervals: as in the drawings of the residual.
@@ -27,6 +28,8 @@ const MOVE: f64 = 1e-4;
 const OWN_PART: f64 = 1e-6;
 /// The same of a law beside the model's own parameters: with less, differences between filters count as much as a law.
 const LAW_PART: f64 = 0.05;
+/// With less of its own than this part a torque repeats an effect that the model has: the two differ where the shaft may rest.
+const REPEATED: f64 = 0.02;
 /// Factors by which a law may change the motor's back-EMF with its friction, and its inertia: the one, and both.
 const ONE_CHANGED: f64 = 1.5;
 const BOTH_CHANGED: f64 = 1.25;
@@ -128,10 +131,7 @@ impl<'a> Equation<'a> {
 
     /// Typical parameters of an effect, SI.
     pub fn typical(&self, kind: Kind) -> Vec<f64> {
-        let usual = |parameter: &Parameter| {
-            parameter.scaled(parameter.typical, self.data.supply, self.data.units.speed)
-        };
-        kind.parameters().iter().map(usual).collect()
+        typical(self.data, kind)
     }
 
     /// The columns of a term, one for each amplitude.
@@ -199,27 +199,37 @@ impl<'a> Equation<'a> {
 
     /// Whether columns say something that the model's own parameters and the ones before do not.
     pub fn are_distinct(&self, columns: &[Vec<f64>]) -> bool {
-        let mut found: Vec<Vec<f64>> = Vec::new();
-        columns.iter().all(|column| {
-            let whole = dot(column, column);
-            let mut rest = column.clone();
-            take_out(&self.basis, &mut rest);
-            take_out(&found, &mut rest);
-            let square = dot(&rest, &rest);
-            let distinct = square > LAW_PART * LAW_PART * whole && square.is_normal();
-            if distinct {
-                let length = square.sqrt();
-                rest.iter_mut().for_each(|x| *x /= length);
-                found.push(rest);
-            }
-            distinct
-        })
+        let mut found = Vec::new();
+        columns
+            .iter()
+            .all(|column| self.adds(LAW_PART, &mut found, column))
     }
 
-    /// Changes of speed, acceleration and jerk's coefficients, V per each, beside some torques along the samples.
+    /// Whether more than a part of a column is neither along the model's own columns nor along those that were found before, among which
+    /// it then is.
+    fn adds(&self, part: f64, found: &mut Vec<Vec<f64>>, column: &[f64]) -> bool {
+        let whole = dot(column, column);
+        let mut rest = column.to_vec();
+        take_out(&self.basis, &mut rest);
+        take_out(found, &mut rest);
+        let square = dot(&rest, &rest);
+        let adds = square > part * part * whole && square.is_normal();
+        if adds {
+            let length = square.sqrt();
+            rest.iter_mut().for_each(|x| *x /= length);
+            found.push(rest);
+        }
+        adds
+    }
+
+    /// Changes of speed, acceleration and jerk's coefficients, V per each, beside those of some torques along the samples that the model
+    /// has not.
     pub fn changes_beside(&self, torques: &[Vec<f64>]) -> Option<[f64; 3]> {
+        let mut found = Vec::new();
         let columns = torques.iter().map(|torque| self.torque(torque));
-        let columns: Vec<Vec<f64>> = columns.collect();
+        let columns: Vec<Vec<f64>> = columns
+            .filter(|column| self.adds(REPEATED, &mut found, column))
+            .collect();
         let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let blocks = Blocks::new(self, &columns);
         let all: Vec<usize> = (0..columns.len()).collect();
@@ -292,8 +302,7 @@ fn own_columns(data: &Data, candidate: &Candidate, time: f64, rows: &[usize]) ->
     let mut columns = Vec::new();
     let effects: Vec<_> = candidate.effects.iter().collect();
     for (index, (kind, values)) in effects.iter().enumerate() {
-        for (slot, parameter) in kind.parameters().iter().enumerate() {
-            let usual = parameter.scaled(parameter.typical, data.supply, data.units.speed);
+        for (slot, usual) in typical(data, *kind).into_iter().enumerate() {
             let step = MOVE * values[slot].abs().max(usual.abs()).max(1e-12);
             let mut moved = candidate.keeping(|_| false);
             for (other, (kind, values)) in effects.iter().enumerate() {

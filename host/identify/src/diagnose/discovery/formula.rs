@@ -154,7 +154,7 @@ fn product(
         return (false, inertia(order, [*cosine, *sine], parameters));
     }
     let unit = match term.load {
-        Load::One | Load::Power { .. } => "V",
+        Load::One | Load::Power { .. } | Load::Saturating { .. } => "V",
         Load::Plain | Load::Size | Load::Slewed { .. } | Load::Lagging { .. } => "",
     };
     let mut minus = false;
@@ -228,6 +228,16 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
             let scale = scaled("ws", scale, parameters);
             factors.push(format!("exp(-abs(w)/{scale})"));
         }
+        Speed::Hump { exponent: p, scale } => {
+            sign(true, factors);
+            let p = exponent(p, parameters);
+            let scale = scaled("ws", scale, parameters);
+            factors.push(format!("abs(w/{scale})^{p}*exp(-abs(w)/{scale})"));
+        }
+        Speed::Eddy { scale } => {
+            let scale = scaled("ws", scale, parameters);
+            factors.push(format!("w/{scale}/(1 + (w/{scale})^2)"));
+        }
         Speed::Saturating { scale } => {
             let scale = scaled("ws", scale, parameters);
             factors.push(format!("w/({scale} + abs(w))"));
@@ -282,6 +292,11 @@ fn load(
         Load::One => {}
         Load::Plain => factors.push(name.to_owned()),
         Load::Size => factors.push(format!("abs({name})")),
+        Load::Saturating { scale } => {
+            let (low, high) = limits(scale);
+            let scale = parameters.add("es", scale, low, high, "V");
+            factors.push(format!("{name}/({scale} + abs({name}))"));
+        }
         Load::Slewed { rate } => {
             let (low, high) = limits(rate);
             let r = parameters.add("r", rate, low, high, "V/s");

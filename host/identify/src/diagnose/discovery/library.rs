@@ -5,7 +5,7 @@ use servoid_engine::problem::Data;
 
 /// Exponents from which the search for one starts.
 const EXPONENTS: [f64; 6] = [0.25, 0.5, 1.5, 2.0, 3.0, 4.0];
-/// Scales of the speed, parts of the fastest, likewise.
+/// Scales of the speed, parts of the fastest, and of the current, parts of the supply, likewise.
 const SCALES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8];
 /// Distances of the state, rad.
 const DISTANCES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
@@ -74,6 +74,11 @@ fn by_speed(reference: f64) -> Vec<Term> {
         speeds.extend([
             decay(scale, true),
             decay(scale, false),
+            Speed::Hump {
+                exponent: 1.0,
+                scale,
+            },
+            Speed::Eddy { scale },
             Speed::Saturating { scale },
             Speed::Tanh { scale },
             Speed::Above { threshold: scale },
@@ -114,6 +119,10 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
             (Speed::Sign, power(exponent, false)),
         ]);
     }
+    pairs.extend(SCALES.map(|part| {
+        let scale = part * supply;
+        (Speed::One, Load::Saturating { scale })
+    }));
     pairs.extend(SCALES.into_iter().flat_map(|part| {
         let decay = |odd| decay(part * reference, odd);
         [(decay(true), Load::Size), (decay(false), Load::Plain)]

@@ -92,7 +92,8 @@ impl<'a> Search<'a> {
 
     /// Every term, the best first.
     pub fn single(&self) -> Vec<Found> {
-        let terms = (0..self.terms.len()).filter(|&t| self.distinct[t]);
+        let new = |&t: &usize| self.distinct[t] && !self.terms[t].is_in_the_catalogue();
+        let terms = (0..self.terms.len()).filter(new);
         self.judged(terms.map(|t| vec![t]).collect())
     }
 
@@ -117,8 +118,13 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether two terms may stand in one law.
+/// Whether two terms may stand in one law. What the catalogue has stands beside a law in the model, but for the constant part of a
+/// friction that goes with the angle, which is never negative.
 fn together(a: &Term, b: &Term) -> bool {
+    let friction = a.is_dry() && b.is_dry() && (a.order.is_some() || b.order.is_some());
+    if (a.is_in_the_catalogue() || b.is_in_the_catalogue()) && !friction {
+        return false;
+    }
     let states = match (a.memory, b.memory) {
         (Some(a), Some(b)) => a.distance == b.distance,
         _ => true,

@@ -42,6 +42,18 @@ pub enum Speed {
         /// Whether it has the motion's sign.
         odd: bool,
     },
+    /// `(|w|/scale)^exponent*exp(-|w|/scale)`, with the motion's sign.
+    Hump {
+        /// Power.
+        exponent: f64,
+        /// Speed by which it is greatest, where the power is one, rad/s.
+        scale: f64,
+    },
+    /// `(w/scale)/(1 + (w/scale)^2)`, as of eddy currents in a brake (Wouterse, *IEE Proc. B* 138, 153, 1991).
+    Eddy {
+        /// Speed at which it is greatest, rad/s.
+        scale: f64,
+    },
     /// `(w/scale)/(1 + |w|/scale)`.
     Saturating {
         /// Speed at which it bends, rad/s.
@@ -90,6 +102,11 @@ pub enum Load {
         odd: bool,
         /// Where its size is one.
         reference: f64,
+    },
+    /// `(i/scale)/(1 + |i|/scale)`, as the drop of a contact whose resistance falls with the current.
+    Saturating {
+        /// Current at which it bends, V.
+        scale: f64,
     },
     /// What a drive gives that changes by `rate` V/s at most, less the command.
     Slewed {
@@ -163,6 +180,10 @@ impl Speed {
                 reference,
             } => signed(odd) * libm::pow(size / reference, exponent),
             Speed::Decay { scale, odd } => signed(odd) * libm::exp(-size / scale),
+            Speed::Hump { exponent, scale } => {
+                sign * libm::pow(size / scale, exponent) * libm::exp(-size / scale)
+            }
+            Speed::Eddy { scale } => (w / scale) / (1.0 + (w / scale) * (w / scale)),
             Speed::Saturating { scale } => w / (scale + size),
             Speed::Tanh { scale } => libm::tanh(w / scale),
             Speed::OneSided {
@@ -184,21 +205,26 @@ impl Speed {
         }
     }
 
-    fn shape(&mut self) -> Option<(&mut f64, (f64, f64))> {
-        match self {
+    /// Its numbers, each with its range.
+    fn shapes(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64))> {
+        let (exponent, scale) = match self {
             Speed::Power { exponent, .. } | Speed::OneSided { exponent, .. } => {
-                Some((exponent, EXPONENTS))
+                (Some(exponent), None)
             }
+            Speed::Hump { exponent, scale } => (Some(exponent), Some(scale)),
             Speed::Decay { scale, .. }
+            | Speed::Eddy { scale }
             | Speed::Saturating { scale }
             | Speed::Tanh { scale }
             | Speed::Above { threshold: scale }
-            | Speed::Beyond { threshold: scale } => {
-                let range = (SCALES.0 * *scale, SCALES.1 * *scale);
-                Some((scale, range))
-            }
-            Speed::One | Speed::Sign | Speed::Plain { .. } => None,
-        }
+            | Speed::Beyond { threshold: scale } => (None, Some(scale)),
+            Speed::One | Speed::Sign | Speed::Plain { .. } => (None, None),
+        };
+        let scale = scale.map(|scale| {
+            let range = (SCALES.0 * *scale, SCALES.1 * *scale);
+            (scale, range)
+        });
+        exponent.map(|p| (p, EXPONENTS)).into_iter().chain(scale)
     }
 }
 
@@ -223,6 +249,7 @@ impl Load {
                 let sign = if odd && i < 0.0 { -1.0 } else { 1.0 };
                 sign * libm::pow(i.abs() / reference, exponent)
             }),
+            Load::Saturating { scale } => each(&|i| i / (scale + i.abs())),
             Load::Slewed { rate } => behind(volts, seconds, |missing, seconds| {
                 let full = (missing.abs() / rate).min(seconds);
                 let left = missing - missing.signum() * rate * full;
@@ -239,7 +266,9 @@ impl Load {
     fn shape(&mut self) -> Option<(&mut f64, (f64, f64))> {
         match self {
             Load::Power { exponent, .. } => Some((exponent, EXPONENTS)),
-            Load::Slewed { rate: scale } | Load::Lagging { time: scale } => {
+            Load::Saturating { scale }
+            | Load::Slewed { rate: scale }
+            | Load::Lagging { time: scale } => {
                 let range = (SCALES.0 * *scale, SCALES.1 * *scale);
                 Some((scale, range))
             }
@@ -330,8 +359,8 @@ impl Term {
 
     fn shapes_mut(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64))> {
         let memory = self.memory.as_mut().map(|m| (&mut m.distance, DISTANCES));
-        let speed = self.speed.shape();
-        speed.into_iter().chain(self.load.shape()).chain(memory)
+        let speed = self.speed.shapes();
+        speed.chain(self.load.shape()).chain(memory)
     }
 
     /// The numbers that shape it.
@@ -367,6 +396,12 @@ impl Term {
         own == other.shapes().len() && plain(self) == plain(other)
     }
 
+    /// Whether an effect of the catalogue says all of it, whatever its numbers: Coulomb friction, or a constant torque.
+    pub fn is_in_the_catalogue(&self) -> bool {
+        let plain = matches!(self.speed, Speed::One | Speed::Sign) && self.load == Load::One;
+        plain && self.place == Place::Torque && self.order.is_none() && self.memory.is_none()
+    }
+
     /// Whether it is a friction: with the direction of the motion, of one sign, and not vanishing at rest.
     pub fn is_dry(&self) -> bool {
         let dry = match self.speed {
@@ -377,7 +412,9 @@ impl Term {
         let even = match self.load {
             Load::One | Load::Size => true,
             Load::Power { odd, .. } => !odd,
-            Load::Plain | Load::Slewed { .. } | Load::Lagging { .. } => false,
+            Load::Plain | Load::Saturating { .. } | Load::Slewed { .. } | Load::Lagging { .. } => {
+                false
+            }
         };
         dry && even && self.place == Place::Torque && self.memory.is_none()
     }

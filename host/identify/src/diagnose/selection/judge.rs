@@ -43,8 +43,11 @@ pub fn replaces(simpler: &FittedModel, other: &FittedModel) -> bool {
 /// Whether one effect may stand for the other. Laws that are stated or proposed are tries at the same thing: one that holds another as a
 /// special case explains all that this does.
 fn look_alike(a: Kind, b: Kind) -> bool {
-    let laws = matches!((a, b), (Kind::Formula(_), Kind::Formula(_)));
-    laws || a.looks_like(b)
+    (is_law(a) && is_law(b)) || a.looks_like(b)
+}
+
+fn is_law(kind: Kind) -> bool {
+    matches!(kind, Kind::Formula(_))
 }
 
 /// Whether two models differ in one effect only, and there by look-alikes.
@@ -107,7 +110,10 @@ impl Rivals {
             .iter()
             .filter(|&&kind| !look_alike(place, kind))
             .count();
-        self.equivalent.len() <= MOST_EQUIVALENT && strangers <= 1
+        // Laws are tries at one thing, however many there are.
+        let (laws, others): (Vec<Kind>, Vec<Kind>) =
+            self.equivalent.iter().partition(|&&kind| is_law(kind));
+        others.len() + laws.len().min(1) <= MOST_EQUIVALENT && strangers <= 1
     }
 }
 

@@ -130,7 +130,7 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
                     transmitted: current,
                     command: 1.0,
                     time: 0.0,
-                    state: 0.3,
+                    states: [0.3, 0.0],
                 });
             }
         }
@@ -140,7 +140,7 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
         .flat_map(|point| {
             [
                 definition.value(values, point),
-                definition.rate(values, point),
+                definition.rates(values, point)[0],
             ]
         })
         .collect();
@@ -151,7 +151,7 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
             p.current,
             p.transmitted,
             p.command,
-            p.state,
+            p.states[0],
         ];
         all.map(|x| format!("{x:?}")).join(", ")
     };
