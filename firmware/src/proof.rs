@@ -26,6 +26,7 @@ const STATED: &[&Formula] = &[
     &laws::DRAG,
     &laws::FALLING,
     &laws::GEAR,
+    &laws::MASS,
     &laws::STEPS,
     &laws::TEETH,
     &laws::WEAK,

@@ -494,3 +494,58 @@ pub static CRANK: Formula = Formula {
         states: &[],
     },
 };
+
+/// `mass: x' = w - y; y' = k*x; torque = -c*x; c = 0.4 in [0, 100] V/rad; k = 900 in [1, 1e6] 1/s^2; x in [-1, 1] rad; y in [-2000, 2000] rad/s`
+pub static MASS: Formula = Formula {
+    description: Description {
+        name: "mass",
+        place: Place::Torque,
+        title: "law as stated",
+        parameters: &[
+            Parameter {
+                name: "c",
+                quantity: Quantity::Stated("V/rad"),
+                range: (0.0, 100.0),
+                widest: 100.0,
+                typical: 0.4,
+                amplitude: true,
+                neutral: Some(0.0),
+                form: false,
+            },
+            Parameter {
+                name: "k",
+                quantity: Quantity::Stated("1/s^2"),
+                range: (1.0, 1000000.0),
+                widest: 1000000.0,
+                typical: 900.0,
+                amplitude: false,
+                neutral: None,
+                form: false,
+            },
+        ],
+        equation: "mass: x' = w - y; y' = k*x; torque = -c*x; c = 0.4 in [0, 100] V/rad; k = 900 in [1, 1e6] 1/s^2; x in [-1, 1] rad; y in [-2000, 2000] rad/s",
+        signature: "as its equation says",
+        exposed_by: "what makes its variables large and small apart from each other",
+        look_alikes: &[],
+        source: "stated by the user",
+        facts: Facts {
+            series_parallel: false,
+            ..Facts::PLAIN
+        },
+    },
+    program: Program {
+        output: Output::Torque,
+        constants: &[&[Op::Parameter(0), Op::Neg], &[Op::Parameter(1)]],
+        law: &[Op::State(0), Op::Scale(0)],
+        states: &[
+            State {
+                rate: &[Op::Variable(Variable::Speed), Op::State(1), Op::Sub],
+                range: (-1.0, 1.0),
+            },
+            State {
+                rate: &[Op::State(0), Op::Scale(1)],
+                range: (-2000.0, 2000.0),
+            },
+        ],
+    },
+};

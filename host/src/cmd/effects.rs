@@ -39,10 +39,13 @@ fn emit(path: &Path, stated: &[Kind]) -> Result<(), Error> {
     let laws = stated
         .iter()
         .filter_map(|kind| servoid_formula::law_of(*kind));
-    let statics: Vec<String> = laws.map(|law| law.rust()).collect();
+    let laws: Vec<_> = laws.collect();
+    let statics: Vec<String> = laws.iter().map(|law| law.rust()).collect();
+    let remembers = laws.iter().any(|law| law.formula.program.has_state());
+    let state = if remembers { "State, " } else { "" };
     let text = format!(
         "//! Laws that were stated as text: `servoid effects --emit-rust` has written this file.\n\nuse \
-         shared::effects::formula::{{Formula, Op, Output, Program, Variable}};\nuse shared::effects::{{Description, Facts, \
+         shared::effects::formula::{{Formula, Op, Output, Program, {state}Variable}};\nuse shared::effects::{{Description, Facts, \
          Parameter, Place}};\nuse shared::units::Quantity;\n\n{}",
         statics.join("\n")
     );
