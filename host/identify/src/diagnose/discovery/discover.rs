@@ -4,9 +4,8 @@ use super::{Law, propose};
 use crate::diagnose::{self, Budget, Diagnosis, Errors, FittedModel, Verdict};
 use crate::error::Error;
 use crate::fit::Options;
-use crate::fit::regression::typical;
 use servoid_engine::problem::{Candidate, Data};
-use shared::effects::Kind;
+use shared::effects::{Kind, MAX_PARAMETERS};
 
 /// Effects that together are suspected to stand in for a law.
 const STAND_INS: usize = 3;
@@ -153,14 +152,14 @@ fn contenders(before: &Diagnosis) -> Vec<Kind> {
 /// the fit finds its own.
 fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
     let linear = before.base.candidate;
-    let mut models = vec![beside_usual(data, linear), linear];
+    let mut models = vec![beside_usual(linear), linear];
     if !before.steps.is_empty() {
         models.push(before.last.candidate);
     }
     let mut laws: Vec<Law> = Vec::new();
     for model in &models {
         for law in propose(data, held_out, model) {
-            if !laws.iter().any(|other| other.is_alike(&law)) {
+            if !law.is_in_the_catalogue() && !laws.iter().any(|other| other.is_alike(&law)) {
                 laws.push(law);
             }
         }
@@ -176,11 +175,14 @@ fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
     laws
 }
 
-/// A candidate with the usual effects at typical values: the regression finds their own, as it is linear in them.
-fn beside_usual(data: &Data, mut candidate: Candidate) -> Candidate {
+/// A candidate with the usual effects, of no size: the regression finds theirs, as it is linear in them.
+fn beside_usual(mut candidate: Candidate) -> Candidate {
     for kind in USUAL {
+        let nothing = [0.0; MAX_PARAMETERS];
         // Beside a linear motor there is room.
-        let _ = candidate.effects.push(kind, &typical(data, kind));
+        let _ = candidate
+            .effects
+            .push(kind, &nothing[..kind.parameters().len()]);
     }
     candidate
 }

@@ -57,9 +57,14 @@ impl Trial {
 }
 
 impl<'a> Judge<'a> {
-    /// Of two recordings. `None` where either shows too little motion.
-    pub fn new(data: &'a Data, held_out: &'a Data, candidate: &Candidate) -> Option<Self> {
-        let candidate = refined(data, candidate);
+    /// Of two recordings, with the motor that there is beside a law that is known already. `None` where either shows too little motion.
+    pub fn new(
+        data: &'a Data,
+        held_out: &'a Data,
+        candidate: &Candidate,
+        law: &[Term],
+    ) -> Option<Self> {
+        let candidate = refined(data, candidate, law);
         let fitted = Equation::new(data, &candidate)?;
         let held = Equation::new(held_out, &candidate)?;
         Some(Judge {

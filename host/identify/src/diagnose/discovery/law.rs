@@ -4,6 +4,9 @@ use super::formula::formula;
 use super::term::Term;
 use shared::effects::Kind;
 
+/// Square of the correlation from which on two give the same: they differ by 3 % of their size.
+const SAME: f64 = 0.999;
+
 /// A law, by what is known of it from the measured motion alone.
 #[derive(Clone, Debug)]
 pub struct Law {
@@ -26,6 +29,11 @@ impl Law {
     pub fn is_alike(&self, other: &Law) -> bool {
         let mut pairs = self.terms.iter().zip(&other.terms);
         self.terms.len() == other.terms.len() && pairs.all(|(own, other)| own.is_alike(other))
+    }
+
+    /// Whether an effect of the catalogue gives the same.
+    pub fn is_in_the_catalogue(&self) -> bool {
+        self.resembles.is_some_and(|(_, part)| part > SAME)
     }
 
     /// Numbers that it has.

@@ -7,6 +7,8 @@ use servoid_engine::problem::Data;
 const EXPONENTS: [f64; 6] = [0.25, 0.5, 1.5, 2.0, 3.0, 4.0];
 /// Scales of the speed, parts of the fastest, and of the current, parts of the supply, likewise.
 const SCALES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8];
+/// Speeds at which a torque steps, parts of the fastest, likewise: nearer to each other, as one step tells little of another.
+const STEPS: [f64; 10] = [0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8];
 /// Distances of the state, rad.
 const DISTANCES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
 /// Greatest rates of a drive, supplies by the second, and its time constants, s.
@@ -81,10 +83,12 @@ fn by_speed(reference: f64) -> Vec<Term> {
             Speed::Eddy { scale },
             Speed::Saturating { scale },
             Speed::Tanh { scale },
-            Speed::Above { threshold: scale },
             Speed::Beyond { threshold: scale },
         ]);
     }
+    speeds.extend(STEPS.map(|part| Speed::Above {
+        threshold: part * reference,
+    }));
     let terms = speeds.into_iter();
     terms.map(|speed| Term::torque(speed, Load::One)).collect()
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use servoid_engine::problem::{Candidate, Data};
 
 /// Laws of one term whose numbers are polished, and of two.
-const SINGLE: usize = 12;
+const SINGLE: usize = 20;
 const PAIRS: usize = 10;
 /// Laws of one term and of two that are proposed.
 const LAWS_OF_ONE: usize = 2;
@@ -26,7 +26,23 @@ const SECOND_TERM: f64 = 0.3;
 /// the measured motion a second term soon takes up what speeds from counts are in error by, so that simulation has the last word
 /// on it.
 pub fn propose(data: &Data, held_out: &Data, candidate: &Candidate) -> Vec<Law> {
-    let Some(judge) = Judge::new(data, held_out, candidate) else {
+    let laws = beside(data, held_out, candidate, &[]);
+    let best = laws
+        .iter()
+        .max_by(|a, b| a.explained.total_cmp(&b.explained));
+    match best {
+        // The current along the motion follows from the motor, which is another one beside the law.
+        Some(law) if law.terms.iter().any(Term::sees_the_current) => {
+            let again = beside(data, held_out, candidate, &law.terms);
+            if again.is_empty() { laws } else { again }
+        }
+        _ => laws,
+    }
+}
+
+/// The laws, with the motor that there is beside one that is known already.
+fn beside(data: &Data, held_out: &Data, candidate: &Candidate, law: &[Term]) -> Vec<Law> {
+    let Some(judge) = Judge::new(data, held_out, candidate, law) else {
         return Vec::new();
     };
     let Some(base) = judge.try_terms(&[]) else {

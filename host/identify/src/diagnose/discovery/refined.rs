@@ -2,6 +2,7 @@
 //! constants useless.
 
 use super::equation::Equation;
+use super::term::{Place, Term};
 use crate::fit::scores::motor_coefficients;
 use servoid_engine::problem::{Candidate, Data};
 use shared::motor::Machine;
@@ -11,8 +12,9 @@ const ROUNDS: usize = 2;
 /// Longest electrical time constant, parts of the mechanical one.
 const LONGEST: f64 = 1.0;
 
-/// The candidate with the linear motor that regression finds beside friction, drag and a constant, which take most of what most laws are.
-pub fn refined(data: &Data, candidate: &Candidate) -> Candidate {
+/// The candidate with the linear motor that regression finds beside a law that is known already, and beside friction, drag and a constant,
+/// which take most of what most laws are.
+pub fn refined(data: &Data, candidate: &Candidate, law: &[Term]) -> Candidate {
     let mut refined = *candidate;
     for _ in 0..ROUNDS {
         let Some(equation) = Equation::new(data, &refined) else {
@@ -21,12 +23,14 @@ pub fn refined(data: &Data, candidate: &Candidate) -> Candidate {
         let speed = &equation.motion.speed;
         let fastest = data.units.speed;
         let each = |f: &dyn Fn(f64) -> f64| speed.iter().map(|&w| f(w)).collect::<Vec<f64>>();
-        let beside = [
+        let mut beside = vec![
             each(&|w| if w == 0.0 { 0.0 } else { w.signum() }),
             each(&|w| w * w.abs() / (fastest * fastest)),
             each(&|w| w.abs() / fastest),
             each(&|_| 1.0),
         ];
+        let torques = law.iter().filter(|term| term.place == Place::Torque);
+        beside.extend(torques.flat_map(|term| term.factors(&equation.motion)));
         let changed = equation.changes_beside(&beside);
         let Some(machine) = changed.and_then(|by| changed_by(&refined.machine, by)) else {
             break;

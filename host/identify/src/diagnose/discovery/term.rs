@@ -396,6 +396,11 @@ impl Term {
         own == other.shapes().len() && plain(self) == plain(other)
     }
 
+    /// Whether it depends on the current.
+    pub fn sees_the_current(&self) -> bool {
+        self.place == Place::Torque && self.load != Load::One
+    }
+
     /// Whether an effect of the catalogue says all of it, whatever its numbers: Coulomb friction, or a constant torque.
     pub fn is_in_the_catalogue(&self) -> bool {
         let plain = matches!(self.speed, Speed::One | Speed::Sign) && self.load == Load::One;
