@@ -157,20 +157,18 @@ fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
         models.push(before.last.candidate);
     }
     let mut laws: Vec<Law> = Vec::new();
-    for model in &models {
-        for law in propose(data, held_out, model) {
-            if !law.is_in_the_catalogue() && !laws.iter().any(|other| other.is_alike(&law)) {
-                laws.push(law);
-            }
-        }
-        // Another law, or this one with a term more, could only say the same.
-        if laws.iter().any(|law| law.explained > ALL) {
-            break;
+    for law in models
+        .iter()
+        .flat_map(|model| propose(data, held_out, model))
+    {
+        if !law.is_in_the_catalogue() && !laws.iter().any(|other| other.is_alike(&law)) {
+            laws.push(law);
         }
     }
+    // Beside a simple law that explains all others could only say the same, or a part of it.
     let simplest = |law: &Law| law.explained > ALL && law.terms.len() == 1;
     if laws.iter().any(simplest) {
-        laws.retain(|law| law.terms.len() == 1);
+        laws.retain(simplest);
     }
     laws
 }

@@ -77,7 +77,7 @@ fn proposed(form: &'static Outside, machine: &Machine, seed: u64) -> Vec<(f64, L
     let other = known(Some(&truth), machine, seed + 1000);
     let candidate = fitted(&one.data);
     let laws = propose(&one.data, &other.data, &candidate);
-    let candidate = super::refined::refined(&one.data, &candidate);
+    let candidate = super::refined::refined(&one.data, &candidate, &[]);
     let judged = laws.into_iter();
     judged
         .map(|law| (departure(&law, &truth, machine, &other, &candidate), law))
@@ -110,12 +110,13 @@ fn table() {
             {
                 let one = known(Some(&truth), &machine, seed);
                 let candidate = fitted(&one.data);
-                let judge = super::judge::Judge::new(&one.data, &one.data, &candidate).unwrap();
+                let judge =
+                    super::judge::Judge::new(&one.data, &one.data, &candidate, &[]).unwrap();
                 let base = judge.try_terms(&[]).unwrap();
                 println!(
                     "    {:?} then {:?}",
                     candidate.machine,
-                    super::refined::refined(&one.data, &candidate).machine
+                    super::refined::refined(&one.data, &candidate, &[]).machine
                 );
                 println!(
                     "    base {:.4} crossed {:.4} noise {:.4}",
