@@ -174,7 +174,7 @@ fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
 }
 
 /// A candidate with the usual effects, of no size: the regression finds theirs, as it is linear in them.
-fn beside_usual(mut candidate: Candidate) -> Candidate {
+pub(super) fn beside_usual(mut candidate: Candidate) -> Candidate {
     for kind in USUAL {
         let nothing = [0.0; MAX_PARAMETERS];
         // Beside a linear motor there is room.

@@ -9,7 +9,7 @@ use servoid_engine::problem::{Candidate, Data};
 use servoid_io::excitation;
 use servoid_io::record::Record;
 use servoid_io::recording::Recording;
-use servoid_plant::{Bench, Machine, Outside, OutsideLaw, Run};
+use servoid_plant::{Bench, Hidden, Machine, Outside, OutsideLaw, Run};
 use shared::effects::Kind;
 use shared::excite::COMMISSIONING;
 use std::sync::atomic::AtomicBool;
@@ -22,7 +22,17 @@ struct Known {
 }
 
 fn known(law: Option<&OutsideLaw>, machine: &Machine, seed: u64) -> Known {
+    known_beside(&[], law, machine, seed)
+}
+
+fn known_beside(
+    effects: &[Hidden],
+    law: Option<&OutsideLaw>,
+    machine: &Machine,
+    seed: u64,
+) -> Known {
     let mut bench = Bench::new(*machine);
+    bench.effects = effects.to_vec();
     bench.counts_per_rev = 4096;
     bench.seed = seed;
     bench.outside = law.cloned();
@@ -159,6 +169,37 @@ fn hidden_laws_are_proposed() {
         }
     }
     assert!(near as f64 >= FOUND * all as f64, "{near} of {all}");
+}
+
+/// Most motors have dry friction, which is most of what the linear motor lacks: laws that only look like it must not stand before the one
+/// that is beside it.
+#[test]
+fn laws_are_proposed_beside_the_friction_that_motors_have() {
+    let machine = Machine::gearmotor();
+    let friction = Hidden::typical("coulomb", &machine).expect("an effect");
+    for name in ["cubic_drag", "current_square", "viscous_by_angle"] {
+        let form = Outside::find(name).expect("a form");
+        let truth = form.draw(&machine, 2);
+        let [one, other] = [2, 1002].map(|seed| {
+            known_beside(
+                std::slice::from_ref(&friction),
+                Some(&truth),
+                &machine,
+                seed,
+            )
+        });
+        let candidate = super::discover::beside_usual(fitted(&one.data));
+        let laws = propose(&one.data, &other.data, &candidate);
+        let simple = laws.iter().filter(|law| law.terms.len() == 1);
+        let off = simple
+            .map(|law| {
+                // The current that it sees is that of the motor beside it.
+                let motor = super::refined::refined(&one.data, &candidate, &law.terms);
+                departure(law, &truth, &machine, &other, &motor)
+            })
+            .fold(f64::INFINITY, f64::min);
+        assert!(off < 0.1, "{name}: {off} off, of {laws:?}");
+    }
 }
 
 /// Where the catalogue explains all, no law is looked for.
