@@ -30,6 +30,11 @@ impl Parameters {
         name
     }
 
+    /// Adds a number that shapes a term, which is searched for from a tenth of it to five times as much; its name.
+    fn shape(&mut self, name: &str, value: f64, unit: &str) -> String {
+        self.add(name, value, 0.1 * value, 5.0 * value, unit)
+    }
+
     /// Adds a fixed number with a unit; its name.
     fn fix(&mut self, name: &str, value: f64, unit: &str) -> String {
         let name = format!("{name}{}", self.suffix);
@@ -186,11 +191,6 @@ fn product(
     (minus, factors.join("*"))
 }
 
-/// Limits of a number that shapes a term.
-fn limits(value: f64) -> (f64, f64) {
-    (0.1 * value, 5.0 * value)
-}
-
 fn exponent(value: f64, parameters: &mut Parameters) -> String {
     let (low, high) = (value.min(0.1), value.max(4.0));
     parameters.add("p", value, low, high, "")
@@ -198,8 +198,7 @@ fn exponent(value: f64, parameters: &mut Parameters) -> String {
 
 fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Parameters) {
     let scaled = |name: &str, value: f64, parameters: &mut Parameters| {
-        let (low, high) = limits(value);
-        parameters.add(name, value, low, high, "rad/s")
+        parameters.shape(name, value, "rad/s")
     };
     let sign = |odd: bool, factors: &mut Vec<String>| {
         if odd && !dry {
@@ -293,13 +292,11 @@ fn load(
         Load::Plain => factors.push(name.to_owned()),
         Load::Size => factors.push(format!("abs({name})")),
         Load::Saturating { scale } => {
-            let (low, high) = limits(scale);
-            let scale = parameters.add("es", scale, low, high, "V");
+            let scale = parameters.shape("es", scale, "V");
             factors.push(format!("{name}/({scale} + abs({name}))"));
         }
         Load::Slewed { rate } => {
-            let (low, high) = limits(rate);
-            let r = parameters.add("r", rate, low, high, "V/s");
+            let r = parameters.shape("r", rate, "V/s");
             let bend = parameters.fix("s", BEND, "s");
             behind(
                 format!("max(-{r}, min({r}, (u - z)/{bend}))"),
@@ -308,8 +305,7 @@ fn load(
             );
         }
         Load::Lagging { time } => {
-            let (low, high) = limits(time);
-            let s = parameters.add("s", time, low, high, "s");
+            let s = parameters.shape("s", time, "s");
             behind(format!("(u - z)/{s}"), factors, state);
         }
         Load::Power {
