@@ -112,6 +112,7 @@ fn line<S: Arithmetic>(
         command: &commands,
         counts: &counts,
         open: None,
+        temperature: None,
     };
     let sum = evaluate(&model, State::default(), &recording, Cost::Squared, None);
     let cost = sum.value.to_f64().to_bits();

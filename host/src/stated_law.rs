@@ -47,6 +47,8 @@ impl StatedLaw {
             transmitted: current,
             command: at.volts,
             time: if self.ages { at.memory[0] } else { 0.0 },
+            // The bench tells none: such laws are refused before.
+            temperature: 0.0,
             states: at.memory,
         }
     }
@@ -75,6 +77,7 @@ impl Effect for StatedLaw {
             angle: sliding.angle.rem_euclid(TAU),
             current: transmitted,
             transmitted,
+            command: sliding.volts,
             ..Point::default()
         };
         let budget = self.value(Output::Friction, &point).unwrap_or(0.0);

@@ -22,6 +22,7 @@ class Recording:
         a drive that closes a current loop. One of the three.
     counts : the encoder's counter as read: whole, rounded down, cumulative; or `angle`, in `angle_unit` ("rad", "deg", "rev").
     current : armature current, A.
+    temperature : temperature of the motor, °C; NaN where a sample does not tell it.
     enabled : False while the bridge is open and the motor coasts.
     counts_per_rev : counts per revolution of the encoder, all edges counted.
     supply_v : supply voltage, V.
@@ -45,6 +46,7 @@ class Recording:
         angle: ArrayLike | None = None,
         angle_unit: str = "rad",
         current: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
         enabled: ArrayLike | None = None,
         counts_per_rev: float | None = None,
         supply_v: float | None = None,
@@ -73,6 +75,7 @@ class Recording:
             numbers(commanded, command),
             numbers(sensed, read),
             current=None if current is None else numbers("current", current),
+            temperature=None if temperature is None else numbers("temperature", temperature),
             enabled=None if enabled is None else switches("enabled", enabled),
             motor=motor,
             source=source,

@@ -38,6 +38,7 @@ class Recording:
         angle: NDArray[np.float64],
         *,
         current: NDArray[np.float64] | None = None,
+        temperature: NDArray[np.float64] | None = None,
         enabled: NDArray[np.bool_] | None = None,
         motor: str | None = None,
         source: str = "arrays",

@@ -36,12 +36,13 @@ fn motor_of(
 #[pymethods]
 impl Recording {
     #[new]
-    #[pyo3(signature = (time, command, angle, *, current=None, enabled=None, motor=None, source="arrays"))]
+    #[pyo3(signature = (time, command, angle, *, current=None, temperature=None, enabled=None, motor=None, source="arrays"))]
     fn new(
         time: PyReadonlyArray1<'_, f64>,
         command: PyReadonlyArray1<'_, f64>,
         angle: PyReadonlyArray1<'_, f64>,
         current: Option<PyReadonlyArray1<'_, f64>>,
+        temperature: Option<PyReadonlyArray1<'_, f64>>,
         enabled: Option<PyReadonlyArray1<'_, bool>>,
         motor: Option<&str>,
         source: &str,
@@ -52,6 +53,10 @@ impl Recording {
             command: command.as_slice()?,
             angle: angle.as_slice()?,
             current: current
+                .as_ref()
+                .map(|column| column.as_slice())
+                .transpose()?,
+            temperature: temperature
                 .as_ref()
                 .map(|column| column.as_slice())
                 .transpose()?,

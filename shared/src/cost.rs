@@ -97,6 +97,9 @@ pub fn evaluate<S: Scalar<Angle: Readable<S>>>(
                 complete: false,
             };
         }
+        if let Some(temperature) = recording.temperature_at(k) {
+            state.temperature = temperature;
+        }
         model.step(&mut state, recording.command[k], recording.is_open(k));
     }
     Sum {

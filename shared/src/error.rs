@@ -24,6 +24,11 @@ pub enum ModelError {
     /// The dynamics are too fast to discretise at this sample interval (time constants below
     /// a millionth of a millionth of it).
     TooFast,
+    /// An effect goes with the temperature, and nothing tells it.
+    NoTemperature {
+        /// The effect.
+        name: &'static str,
+    },
     /// More effects than the set holds.
     TooManyEffects {
         /// How many fit.
@@ -48,6 +53,10 @@ impl fmt::Display for ModelError {
                     "the motor's time constants are too short for this sample interval"
                 )
             }
+            ModelError::NoTemperature { name } => write!(
+                f,
+                "{name} goes with the temperature, which nothing tells here; give recordings that each have a column of it"
+            ),
             ModelError::TooManyEffects { limit } => {
                 write!(f, "at most {limit} effects fit into one model")
             }

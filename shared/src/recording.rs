@@ -10,6 +10,8 @@ pub struct Recording<'a, S> {
     pub counts: &'a [i32],
     /// True where the bridge is open and the motor coasts; `None` if it never is.
     pub open: Option<&'a [bool]>,
+    /// Temperature at each reading, per unit; `None` if it is not known.
+    pub temperature: Option<&'a [S]>,
 }
 
 impl<S: Copy> Recording<'_, S> {
@@ -21,6 +23,13 @@ impl<S: Copy> Recording<'_, S> {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The temperature at sample `k`, if it is known.
+    #[inline(always)]
+    pub fn temperature_at(&self, k: usize) -> Option<S> {
+        self.temperature
+            .and_then(|temperature| temperature.get(k).copied())
     }
 
     /// Whether the bridge is open after sample `k`.

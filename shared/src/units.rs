@@ -38,6 +38,8 @@ pub enum Quantity {
     PerEnergy,
     /// A plain ratio.
     Ratio,
+    /// °C.
+    Temperature,
     /// Cycles per revolution.
     PerRev,
     /// In a unit of its own, which a [formula](crate::effects::formula) states; its ranges are in that unit.
@@ -60,11 +62,15 @@ impl Quantity {
             Quantity::PerSquareVolt => "1/V^2",
             Quantity::PerEnergy => "1/(V^2*s)",
             Quantity::Ratio => "1",
+            Quantity::Temperature => "degC",
             Quantity::PerRev => "1/rev",
             Quantity::Stated(unit) => unit,
         }
     }
 }
+
+/// Base of temperatures, °C: windings are near it.
+const HOT: f64 = 100.0;
 
 /// The bases of the per-unit system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,6 +129,7 @@ impl<R: Real> PerUnit<R> {
             Quantity::PerVolt => one / self.volts,
             Quantity::PerSquareVolt => one / (self.volts * self.volts),
             Quantity::PerEnergy => one / (self.volts * self.volts * self.interval),
+            Quantity::Temperature => R::from_f64(HOT),
             Quantity::Ratio | Quantity::PerRev | Quantity::Stated(_) => one,
         }
     }

@@ -17,6 +17,8 @@ pub(crate) struct Columns {
     #[serde(default)]
     pub(crate) current_a: Option<Vec<f64>>,
     #[serde(default)]
+    pub(crate) temperature_c: Option<Vec<f64>>,
+    #[serde(default)]
     pub(crate) enabled: Option<Vec<bool>>,
     #[serde(default)]
     pub(crate) counts_per_rev: Option<f64>,
@@ -46,6 +48,7 @@ impl Columns {
             self.voltage_v.clone(),
             self.angle_counts.clone(),
             self.current_a.clone().unwrap_or_default(),
+            self.temperature_c.clone().unwrap_or_default(),
             enabled.map(|on| f64::from(u8::from(*on))).collect(),
             self.counts_per_rev.into_iter().collect(),
             self.supply_v.into_iter().collect(),
@@ -84,6 +87,7 @@ impl Columns {
             command: &self.voltage_v,
             angle: &self.angle_counts,
             current: self.current_a.as_deref(),
+            temperature: self.temperature_c.as_deref(),
             enabled: self.enabled.as_deref(),
         };
         recording_of(&arrays, name, motor)

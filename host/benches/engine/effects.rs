@@ -40,6 +40,7 @@ pub fn data(drive: impl Iterator<Item = f64>) -> Data {
             .collect(),
         command,
         current_a: None,
+        temperature_c: None,
         enabled: None,
         counts_per_rev: 2000.0,
         quantised: true,

@@ -66,6 +66,7 @@ fn point(k: usize) -> Point {
         transmitted: 12.0 * spread(0.819_172_513_4),
         command: 12.0 * spread(0.671_043_606_7),
         time: 10.0 * (1.0 + spread(0.450_869_376_1)),
+        temperature: 50.0 * (1.0 + spread(0.324_717_957_2)),
         states: [spread(0.549_700_477_9), spread(0.302_775_637_7)],
     }
 }

@@ -33,8 +33,8 @@ fn numbered(place: usize) -> &'static str {
 
 impl Definition {
     /// The law as a function of speed `w` (rad/s), angle within the revolution `theta` (rad), current `i` and torque passed on `tau`
-    /// (both in V referred to the winding), command `u` (V), the state `z`, of a law with two states `z2`, and, of a law that goes with it,
-    /// the time `t` (s); and one of each state's rate.
+    /// (both in V referred to the winding), voltage of the drive `u` (V), the state `z`, of a law with two states `z2`, and, of a law that
+    /// goes with them, the time `t` (s) and the temperature `temperature` (°C); and one of each state's rate.
     pub fn functions_in(&self, language: Language, values: &[f64]) -> String {
         let law = self.function(language, &self.name, &self.law, values);
         let rates = self.states.iter().enumerate().map(|(place, state)| {
@@ -61,6 +61,7 @@ impl Definition {
             .into_iter()
             .chain((self.states.len() > 1).then_some("z2"))
             .chain(self.ages().then_some("t"))
+            .chain(self.is_of_temperature().then_some("temperature"))
             .collect();
         let each = |text: &dyn Fn(&str) -> String, between: &str| {
             let texts: Vec<String> = arguments.iter().map(|name| text(name)).collect();

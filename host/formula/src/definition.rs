@@ -2,7 +2,9 @@
 
 use crate::dimension::{self, Dimension};
 use crate::fault::Fault;
-use crate::syntax::{Expression, FUNCTIONS, PLACES, Statement, Term, VARIABLES, found, statements};
+use crate::syntax::{
+    Expression, FUNCTIONS, MAY_BE_NAMED, PLACES, Statement, Term, VARIABLES, found, statements,
+};
 use shared::effects::MAX_PARAMETERS;
 use shared::effects::formula::{MAX_STATES, Output, Variable};
 
@@ -190,7 +192,8 @@ impl Definition {
     }
 
     fn new_name(&self, text: &str, at: usize, name: &str) -> Result<(), Fault> {
-        let taken = found(&VARIABLES, name).is_some()
+        let variable = found(&VARIABLES, name).is_some() && !MAY_BE_NAMED.contains(&name);
+        let taken = variable
             || found(&FUNCTIONS, name).is_some()
             || found(&PLACES, name).is_some()
             || self.state(name).is_some()
@@ -249,17 +252,13 @@ impl Definition {
     }
 
     fn term(&self, name: &str) -> Option<Term> {
-        if let Some(variable) = found(&VARIABLES, name) {
-            return Some(Term::Variable(variable));
-        }
-        if let Some(place) = self.state(name) {
-            return Some(Term::State(place));
-        }
-        let parameter = self.parameters.iter().position(|p| p.name == name);
+        let state = self.state(name).map(Term::State);
+        let parameter = || self.parameters.iter().position(|p| p.name == name);
         let fixed = || self.fixed.iter().position(|p| p.name == name);
-        parameter
-            .map(Term::Parameter)
+        state
+            .or_else(|| parameter().map(Term::Parameter))
             .or_else(|| fixed().map(Term::Fixed))
+            .or_else(|| found(&VARIABLES, name).map(Term::Variable))
     }
 
     /// Whether the law may depend on the time, which it remembers in its state's place.
@@ -282,18 +281,15 @@ impl Definition {
             Output::Angle | Output::Inertia => variable == Variable::Angle,
             // A current through a voltage is a resistance, which is solved for with the winding.
             Output::Voltage => !matches!(variable, Variable::Current | Variable::Transmitted),
-            Output::Torque | Output::Friction | Output::TorqueConstant => {
-                variable != Variable::Command
-            }
+            Output::Torque | Output::Friction | Output::TorqueConstant => true,
         };
         if seen {
             return Ok(());
         }
         Err(match self.output {
-            Output::Voltage => "a voltage depends on u, the command, and on w, theta and t; what depends on i is a torque",
+            Output::Voltage => "a voltage depends on u, the command, and on w, theta, t and temperature; what depends on i is a torque",
             Output::Angle => "an error of the angle depends on theta alone",
-            Output::Inertia => "an inertia depends on theta alone",
-            _ => "u, the command, belongs to `voltage = ...`",
+            _ => "an inertia depends on theta alone",
         }
         .to_owned())
     }

@@ -5,22 +5,22 @@ use crate::syntax::{Binary, Expression, Function, Term};
 use shared::effects::formula::{Output, Variable};
 use std::fmt;
 
-/// Powers of V, rad and s.
+/// Powers of V, rad, s and °C.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Dimension {
-    powers: [f64; 3],
+    powers: [f64; 4],
 }
 
-const NAMES: [&str; 3] = ["V", "rad", "s"];
-const ONE: Dimension = Dimension { powers: [0.0; 3] };
+const NAMES: [&str; 4] = ["V", "rad", "s", "degC"];
+const ONE: Dimension = Dimension { powers: [0.0; 4] };
 const VOLT: Dimension = Dimension {
-    powers: [1.0, 0.0, 0.0],
+    powers: [1.0, 0.0, 0.0, 0.0],
 };
 const RADIAN: Dimension = Dimension {
-    powers: [0.0, 1.0, 0.0],
+    powers: [0.0, 1.0, 0.0, 0.0],
 };
 const SPEED: Dimension = Dimension {
-    powers: [0.0, 1.0, -1.0],
+    powers: [0.0, 1.0, -1.0, 0.0],
 };
 /// Powers that differ by less are equal.
 const SAME: f64 = 1e-6;
@@ -50,7 +50,7 @@ impl Dimension {
                 let power = power.filter(|power| power.is_finite() && power.abs() <= 9.0);
                 let (Some(place), Some(power)) = (place, power) else {
                     return Err(format!(
-                        "`{unit}` is no unit; expected products of V, rad and s, such as V*s/rad"
+                        "`{unit}` is no unit; expected products of V, rad, s and degC, such as V*s/rad"
                     ));
                 };
                 sum.powers[place] += sign * power;
@@ -75,7 +75,7 @@ impl Dimension {
 
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let written = |powers: &[f64; 3], sign: f64| {
+        let written = |powers: &[f64; 4], sign: f64| {
             let factors = NAMES
                 .iter()
                 .zip(powers)
@@ -128,7 +128,10 @@ pub(crate) fn check(definition: &Definition) -> Result<(), (usize, String)> {
 }
 
 const SECOND: Dimension = Dimension {
-    powers: [0.0, 0.0, 1.0],
+    powers: [0.0, 0.0, 1.0, 0.0],
+};
+const CELSIUS: Dimension = Dimension {
+    powers: [0.0, 0.0, 0.0, 1.0],
 };
 
 fn same(
@@ -156,6 +159,7 @@ fn of(definition: &Definition, expression: &Expression) -> Found {
             Variable::Angle => RADIAN,
             Variable::Current | Variable::Transmitted | Variable::Command => VOLT,
             Variable::Time => SECOND,
+            Variable::Temperature => CELSIUS,
         })),
         Term::State(place) => Ok(Some(definition.states[*place].dimension)),
         Term::Parameter(place) => Ok(Some(definition.parameters[*place].dimension)),

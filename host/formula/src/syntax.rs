@@ -6,7 +6,7 @@
 //!            | state "'" "=" expression
 //!            | names ["=" number] "in" "[" number "," number "]" [unit]
 //!            | name "=" number [unit]
-//! place      = "torque" | "friction" | "voltage" | "torque_constant" | "angle" | "inertia"
+//! place      = "torque" | "friction" | "voltage" | "current" | "torque_constant" | "angle" | "inertia"
 //! expression = sums and products of numbers, names, functions; "^" binds tightest and to the right
 //! ```
 
@@ -122,18 +122,24 @@ impl Function {
 }
 
 /// Variables by name.
-pub(crate) const VARIABLES: [(&str, Variable); 6] = [
+pub(crate) const VARIABLES: [(&str, Variable); 8] = [
     ("w", Variable::Speed),
     ("theta", Variable::Angle),
     ("i", Variable::Current),
     ("tau", Variable::Transmitted),
     ("u", Variable::Command),
+    ("v", Variable::Command),
     ("t", Variable::Time),
+    ("temperature", Variable::Temperature),
 ];
 
-/// Places by name.
-pub(crate) const PLACES: [(&str, Output); 6] = [
+/// Variables whose names laws had for numbers of their own before: such a law means its own.
+pub(crate) const MAY_BE_NAMED: [&str; 2] = ["v", "temperature"];
+
+/// Places by name. A current beside the winding's makes torque, and both are in V at the winding: it is a torque.
+pub(crate) const PLACES: [(&str, Output); 7] = [
     ("torque", Output::Torque),
+    ("current", Output::Torque),
     ("friction", Output::Friction),
     ("voltage", Output::Voltage),
     ("torque_constant", Output::TorqueConstant),
@@ -142,8 +148,7 @@ pub(crate) const PLACES: [(&str, Output); 6] = [
 ];
 
 /// What is said where a name that is no place has a law.
-const NO_PLACE: &str = "a number, as laws belong to torque, friction, voltage, torque_constant, angle or inertia (a current that makes no torque is \
-    a torque that is lost)";
+const NO_PLACE: &str = "a number, as laws belong to torque, friction, voltage, current, torque_constant, angle or inertia";
 
 pub(crate) fn found<T: Copy>(list: &[(&str, T)], name: &str) -> Option<T> {
     let mut list = list.iter();

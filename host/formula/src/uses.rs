@@ -25,6 +25,15 @@ impl Definition {
         self.uses().contains(&Used::Variable(Variable::Time))
     }
 
+    /// Whether the law or a state of it goes with the temperature that a recording tells.
+    pub fn is_of_temperature(&self) -> bool {
+        let temperature = Used::Variable(Variable::Temperature);
+        let mut found = self.uses();
+        let rates = self.states.iter().map(|state| &state.rate);
+        rates.for_each(|rate| collect(rate, &mut found));
+        found.contains(&temperature)
+    }
+
     /// What the law depends on, each once. A friction depends on the direction of the motion.
     pub fn uses(&self) -> Vec<Used> {
         let mut found = Vec::new();

@@ -20,6 +20,8 @@ pub struct Point {
     pub command: f64,
     /// Time since the recording began, s.
     pub time: f64,
+    /// Temperature that the recording tells, °C.
+    pub temperature: f64,
     /// The states.
     pub states: [f64; MAX_STATES],
 }
@@ -68,6 +70,7 @@ impl Definition {
                 Variable::Transmitted => point.current,
                 Variable::Command => point.command,
                 Variable::Time => point.time,
+                Variable::Temperature => point.temperature,
             },
             Term::State(place) => point.states[*place],
             Term::Parameter(place) => values.get(*place).copied().unwrap_or(0.0),

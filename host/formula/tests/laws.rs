@@ -76,6 +76,12 @@ fn twins() -> Vec<(&'static str, Vec<f64>, Kind, Vec<f64>)> {
             vec![0.7],
         ),
         (
+            "shunt: current = -c; c in [-5, 5] V",
+            vec![0.7],
+            by("load_torque"),
+            vec![0.7],
+        ),
+        (
             "bias: voltage = c; c in [-5, 5] V",
             vec![0.7],
             by("offset_voltage"),
@@ -146,6 +152,11 @@ const MOST_OFF: f64 = 25.0;
 /// Readings of a motor with the state angle, speed, current and whatever follows, whose `rate` is given at the commanded volts: in steps
 /// so fine that they leave nothing.
 fn integrated<const N: usize>(rate: impl Fn([f64; N], f64) -> [f64; N]) -> Vec<f64> {
+    integrated_along(|state, volts, _| rate(state, volts))
+}
+
+/// The same, whose `rate` goes with the sample, too.
+fn integrated_along<const N: usize>(rate: impl Fn([f64; N], f64, usize) -> [f64; N]) -> Vec<f64> {
     let ahead = |state: [f64; N], by: [f64; N], h: f64| -> [f64; N] {
         std::array::from_fn(|n| state[n] + h * by[n])
     };
@@ -154,6 +165,7 @@ fn integrated<const N: usize>(rate: impl Fn([f64; N], f64) -> [f64; N]) -> Vec<f
     (0..SAMPLES)
         .map(|sample| {
             let volts = command(sample) * SUPPLY;
+            let rate = |state, volts| rate(state, volts, sample);
             for _ in 0..FINE {
                 let one = rate(state, volts);
                 let two = rate(ahead(state, one, 0.5 * h), volts);
@@ -300,6 +312,62 @@ fn a_law_with_two_states_moves_as_its_equation_does() {
     }
 }
 
+/// What a law adds to torque and friction, from the speed, the command and the temperature.
+type Seen = fn(f64, f64, f64) -> [f64; 2];
+
+/// The command and the temperature that a recording tells, in every place that sees them.
+#[test]
+fn a_law_of_the_command_or_the_temperature_moves_as_its_equation_does() {
+    let celsius = |sample: usize| 20.0 + 60.0 * (sample as f64 / 400.0).sin();
+    let cases: [(&str, Vec<f64>, Seen); 5] = [
+        ("pull: current = -c*v; c in [0, 1]", vec![0.1], |_, u, _| {
+            [-0.1 * u, 0.0]
+        }),
+        (
+            "grip: friction = c*abs(v); c in [0, 1]",
+            vec![0.1],
+            |_, u, _| [0.0, 0.1 * u.abs()],
+        ),
+        (
+            "lean: torque = c*v*temperature/t0; c in [-1, 1]; t0 = 25 degC",
+            vec![0.05],
+            |_, u, warm| [0.05 * u * warm / 25.0, 0.0],
+        ),
+        (
+            "oil: torque = -c*w*exp(-temperature/t0); c in [0, 1] V*s/rad; t0 in [1, 90] degC",
+            vec![0.02, 30.0],
+            |w, _, warm| [-0.02 * w * (-warm / 30.0).exp(), 0.0],
+        ),
+        (
+            "v: friction = v*(1 + b*abs(temperature)); v in [0, 5] V; b in [0, 1] 1/degC",
+            vec![0.4, 0.02],
+            |_, _, warm| [0.0, 0.4 * (1.0 + 0.02 * warm.abs())],
+        ),
+    ];
+    for (text, values, seen) in cases {
+        let kind = define(text).unwrap_or_else(|fault| panic!("{fault}"));
+        let plan_of = plan(&[(kind, values)]);
+        let machine = plan_of.machine;
+        let truth = integrated_along(|[_, speed, current], volts, sample| {
+            let [torque, budget] = seen(speed, volts, celsius(sample));
+            let torque = torque + current - machine.damping * speed;
+            // A stop is smoothed over a speed that takes nothing of a turn.
+            let dry = budget * (speed / 0.05).tanh();
+            [
+                speed,
+                (torque - dry) / machine.inertia,
+                (volts - current - machine.kb * speed) / machine.electrical,
+            ]
+        });
+        let found = motion::warmed(&plan_of, &|k| (command(k), celsius(k)), SAMPLES).unwrap();
+        let off = furthest(&found, &truth);
+        let without = furthest(&found, &angles(&plan(&[])));
+        println!("{text}: {off} counts off, {without} without");
+        assert!(without > 50.0, "{text}: moves nothing ({without} counts)");
+        assert!(off < 6.0, "{text}: {off} counts off its equation");
+    }
+}
+
 #[test]
 fn every_number_format_moves_alike_or_refuses() {
     for (text, values, ..) in twins() {
@@ -360,8 +428,8 @@ fn faults_point_at_the_character_and_say_what_was_expected() {
         ("torque = 1", 7, "`:`"),
         ("a: torque = c*w; c in [0, 1] V*s", 12, "expected V"),
         (
-            "a: current = c*w; c in [0, 1] V",
-            13,
+            "a: power = c*w; c in [0, 1] V",
+            11,
             "laws belong to torque, friction,",
         ),
         (
@@ -390,7 +458,17 @@ fn faults_point_at_the_character_and_say_what_was_expected() {
             14,
             "negative",
         ),
-        ("a: torque = c*u/u0; c in [0, 1] V; u0 = 1 V", 14, "command"),
+        ("a: angle = c*u/u0; c in [0, 1] rad; u0 = 1 V", 13, "theta"),
+        (
+            "a: torque = c*temperature; c in [0, 1] V",
+            12,
+            "expected V, found V*degC",
+        ),
+        (
+            "a: inertia = c*temperature; c in [0, 1] 1/degC",
+            15,
+            "theta alone",
+        ),
         ("a: voltage = c*i; c in [0, 1]", 15, "torque"),
         (
             "a: z' = (u - z)/s; voltage = z; s in [1, 2] s",
@@ -473,10 +551,45 @@ proptest! {
 }
 
 /// Words of laws.
-const WORDS: [&str; 35] = [
-    "a", ":", ";", "torque", "=", "(", ")", "w", "z", "'", "in", "[", "]", ",", "1", "-", "+", "*",
-    "/", "^", "abs", "exp", "sgn", "V", "rad", "1e-3", "c", "i", "friction", "max", " ", "voltage",
-    "u", "theta", "s",
+const WORDS: [&str; 38] = [
+    "a",
+    ":",
+    ";",
+    "torque",
+    "=",
+    "(",
+    ")",
+    "w",
+    "z",
+    "'",
+    "in",
+    "[",
+    "]",
+    ",",
+    "1",
+    "-",
+    "+",
+    "*",
+    "/",
+    "^",
+    "abs",
+    "exp",
+    "sgn",
+    "V",
+    "rad",
+    "1e-3",
+    "c",
+    "i",
+    "friction",
+    "max",
+    " ",
+    "voltage",
+    "u",
+    "theta",
+    "s",
+    "v",
+    "temperature",
+    "degC",
 ];
 
 proptest! {

@@ -255,6 +255,7 @@ fn search_model<'a>(
 /// # Errors
 /// As [`identify()`].
 pub fn bounded_problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, Error> {
+    data.check_told(options.effects.iter().copied())?;
     let mut problem = fit::problem(data, options)?;
     if options.bounds.is_empty() {
         return Ok(problem);

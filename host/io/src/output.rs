@@ -230,6 +230,9 @@ pub fn write_csv(
     if recording.current_a.is_some() {
         write!(out, ",current_a")?;
     }
+    if recording.temperature_c.is_some() {
+        write!(out, ",temperature_c")?;
+    }
     if recording.enabled.is_some() {
         write!(out, ",enabled")?;
     }
@@ -372,6 +375,9 @@ fn write_row(out: &mut dyn Write, recording: &Recording, k: usize) -> io::Result
     }
     if let Some(current) = &recording.current_a {
         write!(out, ",{:?}", current[k])?;
+    }
+    if let Some(temperature) = &recording.temperature_c {
+        write!(out, ",{:?}", temperature[k])?;
     }
     if let Some(enabled) = &recording.enabled {
         write!(out, ",{}", u8::from(enabled[k]))?;

@@ -39,6 +39,7 @@ impl Record for Bench {
             command: run.voltage_v,
             counts: run.counts.iter().map(|&count| count as f64).collect(),
             current_a: with_current.then_some(run.current_a),
+            temperature_c: None,
             enabled: coasts.then_some(run.enabled),
             counts_per_rev: f64::from(self.counts_per_rev),
             quantised: true,

@@ -44,6 +44,8 @@ pub struct Recording {
     pub counts: Vec<f64>,
     /// Armature current, A.
     pub current_a: Option<Vec<f64>>,
+    /// Temperature of the motor, °C.
+    pub temperature_c: Option<Vec<f64>>,
     /// False while the bridge is open: no current flows and the motor coasts.
     pub enabled: Option<Vec<bool>>,
     /// Encoder counts per revolution.
@@ -130,6 +132,10 @@ impl Recording {
                 .current_a
                 .as_ref()
                 .map(|current| current[rows.clone()].to_vec()),
+            temperature_c: self
+                .temperature_c
+                .as_ref()
+                .map(|temperature| temperature[rows.clone()].to_vec()),
             enabled: self
                 .enabled
                 .as_ref()

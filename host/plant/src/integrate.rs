@@ -28,6 +28,7 @@ impl Plant<'_> {
             Feed::Amps(current) => self.state.current = current,
             Feed::Open => self.state.current = 0.0,
         }
+        self.drive_v = self.driven(feed);
         if self.grip == Grip::Held {
             self.settle();
         }

@@ -94,6 +94,8 @@ pub(super) struct Plant<'a> {
     pub(super) state: State,
     /// A torque on the shaft from outside, N·m.
     pub(super) disturbance_n_m: f64,
+    /// What the drive gives, V; nothing while the bridge is open or closes a current loop.
+    pub(super) drive_v: f64,
 }
 
 impl<'a> Plant<'a> {
@@ -138,6 +140,7 @@ impl<'a> Plant<'a> {
             pieces: 0,
             state,
             disturbance_n_m: 0.0,
+            drive_v: 0.0,
         };
         let stall = machine.stall_torque_n_m();
         if [1.0, -1.0]
@@ -241,11 +244,27 @@ impl<'a> Plant<'a> {
             speed,
             transmitted: transmitted.abs(),
             angle,
+            volts: self.drive_v,
         };
         self.effects
             .iter()
             .map(|effect| effect.friction(&sliding))
             .sum()
+    }
+
+    /// What the drive gives to a motor at this instant, V.
+    pub(super) fn driven(&self, feed: Feed) -> f64 {
+        let Feed::Volts(command) = feed else {
+            return 0.0;
+        };
+        let effects = self.effects.iter().enumerate();
+        effects.fold(command, |volts, (index, effect)| {
+            let at = At {
+                volts,
+                ..self.at(index, &self.state)
+            };
+            effect.volts(volts, &at)
+        })
     }
 
     /// The pieces of all effects' laws in one number, its digits in base 3.
@@ -272,7 +291,7 @@ impl<'a> Plant<'a> {
             angle: state.angle,
             speed: state.speed,
             current: state.current,
-            volts: 0.0,
+            volts: self.drive_v,
             memory: {
                 let own = self.memory_of[index].clone();
                 let mut memory = [0.0; 2];

@@ -154,7 +154,7 @@ pub struct MotorArgs {
     /// The program that wrote the log: columns, units and drive are as it writes them
     #[arg(long, value_name = "NAME", value_parser = preset_names())]
     pub preset: Option<String>,
-    /// Name of a column: time, voltage (target with --drive position), angle, current, enabled or direction (0 or negative:
+    /// Name of a column: time, voltage (target with --drive position), angle, current, temperature, enabled or direction (0 or negative:
     /// backwards), as in angle=qm; of a table without names its number, of columns of several tables TABLE:COLUMN
     #[arg(long, value_name = "WHAT=NAME")]
     pub column: Vec<String>,

@@ -139,6 +139,7 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         (flags.columns.voltage, &mut motor.columns.voltage),
         (flags.columns.angle, &mut motor.columns.angle),
         (flags.columns.current, &mut motor.columns.current),
+        (flags.columns.temperature, &mut motor.columns.temperature),
         (flags.columns.enabled, &mut motor.columns.enabled),
         (flags.columns.direction, &mut motor.columns.direction),
     ] {
@@ -154,6 +155,7 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
                 units.voltage = new.voltage;
                 units.reversed.voltage = new.reversed.voltage;
             }
+            Some("temperature") => units.temperature = new.temperature,
             Some("target") => units.target = new.target,
             Some("angle") => {
                 units.angle = new.angle;

@@ -103,6 +103,7 @@ fn is_said(key: &str, motor: &MotorFile) -> bool {
         "voltage" | "target" => &columns.voltage,
         "angle" => &columns.angle,
         "current" => &columns.current,
+        "temperature" => &columns.temperature,
         _ => &columns.enabled,
     };
     named.is_some()
@@ -143,6 +144,7 @@ fn mapped(key: &str, column: &SurveyColumn) -> Vec<String> {
         "voltage" => "voltage_v",
         "angle" => "angle_counts",
         "current" => "current_a",
+        "temperature" => "temperature_c",
         "enabled" => "enabled",
         _ => "",
     };

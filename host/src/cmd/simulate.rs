@@ -266,6 +266,12 @@ fn bench(args: &SimulateArgs, seed: u64) -> Result<Bench, Error> {
         .filter_map(servoid_formula::law_of)
         .collect();
     for law in laws {
+        if law.definition.is_of_temperature() {
+            return Err(Error::Usage(format!(
+                "--effect {}: the bench tells no temperature; give a recording that has a column of it to `servoid fit`",
+                law.definition.name
+            )));
+        }
         let effect = StatedLaw::new(law, bench.machine);
         bench.stated.push(Stated(Arc::new(effect)));
     }

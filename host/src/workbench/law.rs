@@ -127,6 +127,7 @@ fn curve(
             transmitted: current,
             command: current,
             time: 0.0,
+            temperature: data.temperature_c.as_ref().map_or(0.0, |all| all[0]),
             states: [speed.signum(), 0.0],
         };
         let value = definition.value(values, &point);

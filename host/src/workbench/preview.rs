@@ -33,6 +33,7 @@ pub(super) struct Mapping {
     pub(super) voltage: String,
     pub(super) angle: String,
     pub(super) current: String,
+    pub(super) temperature: String,
     pub(super) enabled: String,
     pub(super) time_unit: String,
     pub(super) voltage_unit: String,
@@ -70,8 +71,15 @@ fn number(cell: &str) -> Option<f64> {
 impl Mapping {
     /// What the names of a header tell.
     fn guessed(header: &[String]) -> Self {
-        let sought = ["time", "voltage", "angle", "current", "enabled"]
-            .map(|key| Sought { key, called: None });
+        let keys = [
+            "time",
+            "voltage",
+            "angle",
+            "current",
+            "temperature",
+            "enabled",
+        ];
+        let sought = keys.map(|key| Sought { key, called: None });
         let mut guesses = guess(header, &sought, DriveKind::Voltage, &[]).into_iter();
         let mut next = || {
             let guess = guesses.next().flatten();
@@ -83,12 +91,14 @@ impl Mapping {
         let (voltage, voltage_unit) = next();
         let (angle, angle_unit) = next();
         let (current, _) = next();
+        let (temperature, _) = next();
         let (enabled, _) = next();
         Mapping {
             time,
             voltage,
             angle,
             current,
+            temperature,
             enabled,
             time_unit,
             voltage_unit,
@@ -125,6 +135,7 @@ impl Mapping {
                 ("voltage", &self.voltage),
                 ("angle", &self.angle),
                 ("current", &self.current),
+                ("temperature", &self.temperature),
                 ("enabled", &self.enabled),
             ],
         );

@@ -67,6 +67,62 @@ fn a_law_that_is_hidden_is_found_again_by_its_text_and_read_from_its_result() {
     }
 }
 
+/// The drag of [`AGEING`] by the temperature that its recordings are given below.
+const WARM: &str = "warm: torque = -c*w/w0*(temperature - t0)/t1; c = 0.5 in [0, 10] V; w0 = 300 rad/s; t0 = 20 degC; t1 = 50 degC";
+
+/// A recording with a column of the temperature, of which every tenth row has a number, as a slow sensor has it.
+fn warmed(text: &str) -> String {
+    let mut begun = None;
+    let mut row = 0;
+    let lines = text.lines().map(|line| {
+        let Ok(time) = line.split(',').next().unwrap_or_default().parse::<f64>() else {
+            let header = line.starts_with("t_s");
+            return format!("{line}{}\n", if header { ",case_temp" } else { "" });
+        };
+        let since = time - *begun.get_or_insert(time);
+        row += 1;
+        match row % 10 {
+            1 => format!(
+                "{line},{:.3}\n",
+                293.15 + 50.0 * (1.0 - (-since / 5.0).exp())
+            ),
+            _ => format!("{line},\n"),
+        }
+    });
+    lines.collect()
+}
+
+#[test]
+fn a_law_of_the_temperature_is_found_where_the_recording_tells_it() {
+    let desk = Desk::new();
+    recorded(&desk, AGEING, 8);
+    let law = tight(WARM);
+    for (command, code, says) in [
+        ("fit rec.csv", 1, "warm goes with the temperature"),
+        ("compare rec.csv", 1, "a column of it"),
+        ("diagnose rec.csv", 1, "a column of it"),
+        ("simulate --out none.csv", 2, "tells no temperature"),
+    ] {
+        desk.refused(&format!("{command} --effect {law}"), code, &[says]);
+    }
+    for file in ["rec.csv", "other.csv"] {
+        let text = desk.read(file);
+        desk.write(file, warmed(&text));
+    }
+    let columns = "--column temperature=case_temp --unit temperature=K";
+    desk.done(&format!(
+        "fit rec.csv {columns} --effect {law} --validate other.csv --json fit.json"
+    ));
+    let fit = desk.read_json("fit.json");
+    let found = parameter(&fit, "warm.c");
+    assert!((found / 1.5 - 1.0).abs() < 0.02, "{found}");
+    desk.done(&format!(
+        "diagnose rec.csv {columns} --effect {law} --validate other.csv --json named.json"
+    ));
+    let named = desk.read_json("named.json");
+    assert_eq!(named["steps"][0]["added"], "warm", "{named}");
+}
+
 #[test]
 fn the_loss_of_a_gear_predicts_and_the_linear_motor_does_not() {
     let desk = Desk::new();

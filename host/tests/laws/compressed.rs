@@ -65,6 +65,7 @@ fn data(seed: u64, commands: Commands) -> Data {
         counts: counts.collect(),
         command,
         current_a: None,
+        temperature_c: None,
         enabled,
         counts_per_rev: 2000.0,
         quantised: true,

@@ -37,6 +37,7 @@ fn data() -> Data {
             .collect(),
         command: drive.iter().map(|command| command.drive * SUPPLY).collect(),
         current_a: None,
+        temperature_c: None,
         enabled: Some(drive.iter().map(|command| command.enabled).collect()),
         counts_per_rev: 2000.0,
         quantised: true,

@@ -34,6 +34,7 @@ fn data(seed: u64, quantised: bool) -> Data {
         counts: counts.collect(),
         command,
         current_a: None,
+        temperature_c: None,
         enabled: None,
         counts_per_rev: 2000.0,
         quantised,

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use servoid_io::input::{
     AngleUnit, CommandUnit, CurrentUnit, Fact, Known, LogPart, MotorFile, Reversed, Selection,
-    TimeUnit, Units,
+    TemperatureUnit, TimeUnit, Units,
 };
 use servoid_io::input::{Columns, read_recording_from};
 use servoid_io::output::{write_csv, write_recording};
@@ -183,6 +183,7 @@ fn recording() -> impl Strategy<Value = Recording> {
                 time_s,
                 command: samples.iter().map(|sample| sample.1).collect(),
                 counts: samples.iter().map(|sample| f64::from(sample.2)).collect(),
+                temperature_c: None,
                 current_a: with_current.then(|| samples.iter().map(|sample| sample.3).collect()),
                 enabled: with_enabled.then(|| samples.iter().map(|sample| sample.4).collect()),
                 counts_per_rev: 2048.0,
@@ -220,6 +221,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                 time: trimmed(time),
                 voltage: trimmed(voltage),
                 angle: trimmed(angle),
+                temperature: trimmed(enabled.clone().map(|name| format!("{name}_c"))),
                 current: trimmed(current),
                 enabled: trimmed(enabled.clone()),
                 direction: trimmed(enabled.map(|name| format!("{name}_direction"))),
@@ -300,6 +302,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                     target: target.map(|(_, unit)| *unit),
                     angle: angles[a % angles.len()].1,
                     current: CurrentUnit::ALL[i].1,
+                    temperature: TemperatureUnit::ALL[t % TemperatureUnit::ALL.len()].1,
                     reversed: Reversed {
                         voltage: turned_v && position.is_none(),
                         angle: turned_a,

@@ -103,6 +103,7 @@ impl Parameter {
             | Quantity::Time
             | Quantity::Angle
             | Quantity::Ratio
+            | Quantity::Temperature
             | Quantity::PerRev
             | Quantity::Stated(_) => value,
         }

@@ -87,6 +87,8 @@ pub struct Needs {
     pub memory: bool,
     /// It changes what the encoder sees.
     pub sensed: bool,
+    /// It looks at [`Shaft::temperature`].
+    pub temperature: bool,
 }
 
 impl Needs {
@@ -102,6 +104,7 @@ impl Needs {
         lost_torque: false,
         memory: false,
         sensed: false,
+        temperature: false,
     };
 
     /// What either needs.
@@ -118,6 +121,7 @@ impl Needs {
             lost_torque: self.lost_torque | other.lost_torque,
             memory: self.memory | other.memory,
             sensed: self.sensed | other.sensed,
+            temperature: self.temperature | other.temperature,
         }
     }
 }
@@ -243,6 +247,17 @@ macro_rules! kinds {
                 match self {
                     $(Kind::$kind => <$file::$kind<f64> as Effect<f64>>::NEEDS,)*
                     Kind::Formula(formula) => formula.program.needs(),
+                }
+            }
+
+            /// Whether it can run where nothing tells the temperature.
+            ///
+            /// # Errors
+            /// [`ModelError::NoTemperature`].
+            pub fn check_without_temperature(self) -> Result<(), ModelError> {
+                match self.needs().temperature {
+                    true => Err(ModelError::NoTemperature { name: self.name() }),
+                    false => Ok(()),
                 }
             }
 

@@ -24,6 +24,8 @@ pub struct Shaft<S: Scalar> {
     pub current_change: S,
     /// Volts from the drive, which are held.
     pub volts: S,
+    /// Temperature that the recording tells; zero where it tells none.
+    pub temperature: S,
     /// Torque that the motor and its load pass to each other, without dry friction; only in
     /// [`Effect::friction`](super::Effect::friction).
     pub transmitted: S,
@@ -51,6 +53,7 @@ impl<S: Scalar> Shaft<S> {
             current,
             current_change: zero,
             volts: zero,
+            temperature: zero,
             transmitted: current,
             compliance: zero,
             inertia: S::coefficient(0.0),

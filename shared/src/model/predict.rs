@@ -8,7 +8,7 @@
 use super::Model;
 use super::friction::{Forces, direction};
 use super::mechanics::{Increment, Mechanics};
-use super::state::{Motion, State};
+use super::state::State;
 use super::substep_map::SubstepTiming;
 use super::winding::{bends, extra_volts};
 use crate::effects::{Budget, Lowered, Shaft};
@@ -54,11 +54,12 @@ impl<S: Scalar> Model<S> {
     #[inline(always)]
     pub(super) fn start(
         &self,
-        motion: &Motion<S>,
+        state: &State<S>,
         volts: S,
         timing: &SubstepTiming<S>,
         open: bool,
     ) -> Shaft<S> {
+        let motion = &state.motion;
         let turns = if self.effects.needs.angle {
             motion.angle.turns(self.counts_per_rev)
         } else {
@@ -69,6 +70,7 @@ impl<S: Scalar> Model<S> {
         Shaft {
             travel: ahead.times(self.turns_per_unit),
             volts,
+            temperature: state.temperature,
             compliance: timing.compliance.times(self.turns_per_unit),
             inertia: timing.inertia,
             length: timing.length,

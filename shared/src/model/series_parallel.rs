@@ -48,6 +48,7 @@ impl<S: Scalar> Model<S> {
                 .times(self.turns_per_unit),
             speed_change: measured.speed_change,
             volts,
+            temperature: state.temperature,
             inertia: timing.inertia,
             length: timing.length,
             per_length: timing.per_length,

@@ -34,6 +34,8 @@ pub struct State<S: Scalar> {
     pub motion: Motion<S>,
     /// Voltage that acted last, per unit: a jump of it is followed in graded substeps.
     pub volts: S,
+    /// Temperature that the recording tells, which whoever steps the model sets; zero where it tells none.
+    pub temperature: S,
     /// Whether the bridge was open last.
     pub open: bool,
     /// Memory of the effects, in the order in which they act.
@@ -45,6 +47,7 @@ pub struct State<S: Scalar> {
 lanes!(State {
     motion,
     volts,
+    temperature,
     open,
     memory,
     past

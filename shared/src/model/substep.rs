@@ -34,7 +34,7 @@ impl<S: Scalar> Model<S> {
                 let mut substeps = SubstepIter::new(level, LEVELS - 1);
                 while let Some(level) = substeps.next() {
                     let timing = mechanics.timing(level);
-                    let start = self.start(&state.motion, volts, timing, open);
+                    let start = self.start(state, volts, timing, open);
                     let forces = if needs.mean {
                         let Prediction {
                             forces,

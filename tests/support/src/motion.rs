@@ -5,6 +5,7 @@
 use shared::error::ModelError;
 use shared::model::{Model, Plan, State};
 use shared::scalar::{Fixed, Readable, Scalar};
+use shared::units::Quantity;
 
 /// What a model does.
 pub struct Motion {
@@ -34,6 +35,26 @@ pub fn exact(
         motion.speeds.push(state.motion.speed);
     }
     Ok(motion)
+}
+
+/// Angles after each of so many samples, from rest, counts: of each its command, per unit, and its temperature, °C.
+///
+/// # Errors
+/// A plan that is no model.
+pub fn warmed(
+    plan: &Plan<f64>,
+    at: &dyn Fn(usize) -> (f64, f64),
+    samples: usize,
+) -> Result<Vec<f64>, ModelError> {
+    let model = Model::<f64>::new(plan)?;
+    let mut state = State::default();
+    let after = |k: usize| {
+        let (command, celsius) = at(k);
+        state.temperature = plan.units.lower(celsius, Quantity::Temperature);
+        model.step(&mut state, command, false);
+        model.reading(&state)
+    };
+    Ok((0..samples).map(after).collect())
 }
 
 /// Counts after each command, from rest, in f32.

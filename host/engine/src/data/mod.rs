@@ -7,8 +7,9 @@ pub use joined::JoinError;
 pub use recordings::Recordings;
 
 use servoid_io::recording::{Drive, Recording};
+use shared::effects::Kind;
 use shared::error::ModelError;
-use shared::units::PerUnit;
+use shared::units::{PerUnit, Quantity};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -34,6 +35,8 @@ pub struct Data {
     pub open: Option<Vec<bool>>,
     /// Measured current, A.
     pub current_a: Option<Vec<f64>>,
+    /// Measured temperature, °C.
+    pub temperature_c: Option<Vec<f64>>,
     /// Whether readings are floored to whole counts.
     pub quantised: bool,
     /// What the command drives.
@@ -128,6 +131,7 @@ impl Data {
             counts: recording.counts,
             open,
             current_a: recording.current_a,
+            temperature_c: recording.temperature_c,
             quantised: recording.quantised,
             drive: recording.drive,
             supply,
@@ -158,6 +162,7 @@ impl Data {
                 .as_ref()
                 .map(|open| open[..samples.min(open.len())].to_vec()),
             current_a: self.current_a.as_deref().map(some),
+            temperature_c: self.temperature_c.as_deref().map(some),
             lengths: self.lengths.clone(),
             length_of: self.length_of[..samples.min(self.len())].to_vec(),
             recordings: self.recordings.first(samples),
@@ -207,6 +212,25 @@ impl Data {
     /// Whether the bridge is open after sample `k`.
     pub fn is_open(&self, k: usize) -> bool {
         self.open.as_ref().is_some_and(|open| open[k])
+    }
+
+    /// The temperature at sample `k`, per unit; zero where the recording tells none.
+    #[inline(always)]
+    pub fn temperature(&self, k: usize) -> f64 {
+        self.temperature_c.as_ref().map_or(0.0, |temperature| {
+            self.units.lower(temperature[k], Quantity::Temperature)
+        })
+    }
+
+    /// Whether these effects can run along the data.
+    ///
+    /// # Errors
+    /// [`ModelError::NoTemperature`] where one goes with the temperature, and the data tell none.
+    pub fn check_told(&self, effects: impl IntoIterator<Item = Kind>) -> Result<(), ModelError> {
+        match self.temperature_c {
+            Some(_) => Ok(()),
+            None => (effects.into_iter()).try_for_each(Kind::check_without_temperature),
+        }
     }
 
     /// Whether the bridge is ever open.

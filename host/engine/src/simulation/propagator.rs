@@ -66,6 +66,11 @@ impl<S: Number> Propagator<'_, S> {
         S::from_f64(self.data.command[k])
     }
 
+    #[inline(always)]
+    fn temperature(&self, k: usize) -> S {
+        S::from_f64(self.data.temperature(k))
+    }
+
     /// Runs as a parallel model, or as an observer where there is a memory.
     // One loop for both: the whole model is compiled into it.
     #[inline(always)]
@@ -90,6 +95,7 @@ impl<S: Number> Propagator<'_, S> {
             if let Some(memory_s) = memory_s {
                 self.pull(&mut state, k, sight, memory_s);
             }
+            state.temperature = self.temperature(k);
             model.step(&mut state, self.command(k), self.data.is_open(k));
             k += 1;
         }
@@ -168,6 +174,7 @@ impl<S: Number> Propagator<'_, S> {
                 speed: S::from_f64(seen[k].speed),
                 speed_change: S::from_f64(seen[k].speed_change),
             };
+            state.temperature = self.temperature(k);
             model.step_along(&mut state, self.command(k), self.data.is_open(k), &seen);
         }
         state

@@ -81,6 +81,7 @@ pub fn response(
         command: commands.command,
         counts: vec![0.0; samples],
         current_a: None,
+        temperature_c: None,
         enabled: commands.enabled,
         counts_per_rev: commands.counts_per_rev,
         quantised: false,

@@ -28,6 +28,7 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// Parameters from which no model can be made.
     pub fn new(data: &'a Data, candidate: &Candidate, method: Method) -> Result<Self, ModelError> {
+        data.check_told(candidate.effects.iter().map(|(kind, _)| kind))?;
         let models = data
             .lengths
             .iter()
@@ -199,6 +200,7 @@ impl<'a> Simulation<'a> {
                 let volts = state.motion.current * self.data.units.volts;
                 let speed = state.motion.speed * self.data.units.speed;
                 let model = self.model(k);
+                state.temperature = self.data.temperature(k);
                 model.step(&mut state, self.data.command[k], self.data.is_open(k));
                 (volts, speed)
             })

@@ -193,6 +193,7 @@ mod tests {
             command: vec![1.0; samples],
             counts: (0..samples).map(|k| k as f64).collect(),
             current_a: None,
+            temperature_c: None,
             enabled: None,
             counts_per_rev: 2000.0,
             quantised: true,

@@ -216,7 +216,11 @@ impl Amplitude {
         let turns = (data.centre(k) / data.units.counts_per_rev).rem_euclid(1.0);
         let volts = data.command[k];
         rates.map(|rate| {
-            let shaft = Shaft::at(turns, rate / data.units.speed, 0.0);
+            let shaft = Shaft {
+                volts,
+                temperature: data.temperature(k),
+                ..Shaft::at(turns, rate / data.units.speed, 0.0)
+            };
             let budget = self.effect.friction(&shaft);
             let friction = budget.moving * shaft.speed.signum() + budget.bias;
             let torque = self.effect.torque(&shaft, &Default::default());

@@ -160,7 +160,11 @@ fn each_equation_residual(
         let speed = data.rate_of(&data.counts, k, SPEED_HALF_WIDTH) * radians;
         let drive = lowered.drive(data.command[k]);
         let current = drive - candidate.machine.kb * speed / data.units.volts;
-        let mut shaft = Shaft::at(turns, speed / data.units.speed, current);
+        let mut shaft = Shaft {
+            volts: drive,
+            temperature: data.temperature(k),
+            ..Shaft::at(turns, speed / data.units.speed, current)
+        };
         let torque = lowered.torque(&shaft, &Default::default());
         shaft.transmitted = current + torque;
         let budget = lowered.friction(&shaft);

@@ -105,6 +105,7 @@ impl Motor {
             command,
             counts,
             current_a: None,
+            temperature_c: None,
             enabled: None,
             counts_per_rev: COUNTS_PER_REV,
             quantised: true,

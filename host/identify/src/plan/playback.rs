@@ -35,6 +35,9 @@ pub fn play(
 ) -> Result<(), ModelError> {
     let units = setup.units()?;
     let candidate = hypothesis.candidate()?;
+    for (kind, _) in candidate.effects.iter() {
+        kind.check_without_temperature()?;
+    }
     let method = Options::default().method;
     let model = Model::<f64>::new(&Plan {
         machine: candidate.machine,
@@ -95,6 +98,7 @@ pub fn record(
         counts,
         open: coasts.then(|| drive.iter().map(|command| !command.enabled).collect()),
         current_a: None,
+        temperature_c: None,
         quantised: true,
         drive: Drive::Voltage,
         supply: setup.supply_v,

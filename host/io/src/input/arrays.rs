@@ -5,7 +5,7 @@ use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
 use super::sample::{Sample, increasing};
-use super::samples::Samples;
+use super::samples::{Further, Samples};
 use super::scale::Scale;
 use crate::recording::Recording;
 
@@ -20,6 +20,8 @@ pub struct Arrays<'a> {
     pub angle: &'a [f64],
     /// Armature current.
     pub current: Option<&'a [f64]>,
+    /// Temperature of the motor; NaN where it is not told.
+    pub temperature: Option<&'a [f64]>,
     /// False while the bridge is open.
     pub enabled: Option<&'a [bool]>,
 }
@@ -39,6 +41,7 @@ pub fn recording_of(
         ("command", Some(arrays.command.len())),
         ("angle", Some(arrays.angle.len())),
         ("current", arrays.current.map(<[f64]>::len)),
+        ("temperature", arrays.temperature.map(<[f64]>::len)),
         ("enabled", arrays.enabled.map(<[bool]>::len)),
     ];
     for (column, length) in others {
@@ -51,7 +54,11 @@ pub fn recording_of(
         }
     }
     let scale = Scale::new(motor).map_err(whole)?;
-    let mut kept = Samples::new(arrays.current.is_some(), arrays.enabled.is_some());
+    let mut kept = Samples::new(Further {
+        current: arrays.current.is_some(),
+        temperature: arrays.temperature.is_some(),
+        enabled: arrays.enabled.is_some(),
+    });
     for k in 0..samples {
         let at = |number, name: &str, fault| {
             let cell = Cell {
@@ -76,6 +83,11 @@ pub fn recording_of(
             counts: convert(3, "angle", arrays.angle[k], &|x| scale.counts(x))?,
             current_a: (arrays.current)
                 .map(|current| convert(4, "current", current[k], &|x| scale.current(x)))
+                .transpose()?,
+            temperature_c: (arrays.temperature)
+                .map(|temperature| temperature[k])
+                .filter(|x| !x.is_nan())
+                .map(|x| convert(5, "temperature", x, &|x| scale.temperature(x)))
                 .transpose()?,
             enabled: arrays.enabled.map(|enabled| enabled[k]),
         };
@@ -107,6 +119,7 @@ mod tests {
             command: &VOLTS,
             angle,
             current: None,
+            temperature: None,
             enabled: None,
         }
     }

@@ -17,6 +17,11 @@ pub(super) fn number(text: &str) -> Result<f64, ReadFault> {
     }
 }
 
+/// Whether a cell says something: loggers leave it empty, or write `nan`, where a slow sensor has nothing new.
+pub(super) fn is_told(text: &str) -> bool {
+    !(text.trim().is_empty() || text.trim().eq_ignore_ascii_case("nan"))
+}
+
 /// A number from memory; what is none is refused as its text would be.
 pub(super) fn checked(value: f64) -> Result<f64, ReadFault> {
     if value.is_finite() {

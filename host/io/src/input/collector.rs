@@ -4,7 +4,7 @@ use super::motor_file::MotorFile;
 use super::place::Place;
 use super::read_error::{ReadError, ReadFault};
 use super::sample::{Sample, increasing};
-use super::samples::Samples;
+use super::samples::{Further, Samples};
 use super::scale::Scale;
 use crate::recording::Recording;
 
@@ -17,8 +17,7 @@ pub(super) struct Collector<'m> {
     scale: &'m Scale<'m>,
     /// Whether the log may hold several recordings, one after the other.
     several: bool,
-    with_current: bool,
-    with_enabled: bool,
+    further: Further,
     samples: Samples,
     /// First and last time of the recording at hand, within the wanted span or not, s.
     span: Option<(f64, f64)>,
@@ -30,16 +29,14 @@ impl<'m> Collector<'m> {
         motor: &'m MotorFile,
         scale: &'m Scale<'m>,
         several: bool,
-        with_current: bool,
-        with_enabled: bool,
+        further: Further,
     ) -> Self {
         Collector {
             motor,
             scale,
             several,
-            with_current,
-            with_enabled,
-            samples: Samples::new(with_current, with_enabled),
+            further,
+            samples: Samples::new(further),
             span: None,
             done: Vec::new(),
         }
@@ -88,7 +85,7 @@ impl<'m> Collector<'m> {
     }
 
     fn close(&mut self) {
-        let next = Samples::new(self.with_current, self.with_enabled);
+        let next = Samples::new(self.further);
         self.done.push(std::mem::replace(&mut self.samples, next));
     }
 

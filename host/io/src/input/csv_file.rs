@@ -69,13 +69,7 @@ pub(super) fn read_text(
         clock: Clock::default(),
         taken: 0,
     };
-    let mut collector = Collector::new(
-        motor,
-        &scale,
-        how.several,
-        layout.current.is_some(),
-        layout.enabled.is_some(),
-    );
+    let mut collector = Collector::new(motor, &scale, how.several, layout.further());
     let mut passed: u64 = 0;
     while !collector.has_all() && rows.next_line()? {
         passed += 1;

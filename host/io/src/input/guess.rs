@@ -152,6 +152,22 @@ const QUANTITIES: &[Quantity] = &[
         units: &[("ma", "mA"), ("milliamps", "mA")],
     },
     Quantity {
+        key: "temperature",
+        words: &[
+            "temperature_c",
+            "temperature",
+            "temp_motor",
+            "motor_temp",
+            "winding_temp",
+            "temp",
+        ],
+        others: &[
+            "mos", "mosfet", "fet", "board", "pcb", "cpu", "mcu", "ambient", "driver", "esc",
+            "inverter", "limit", "max", "fault",
+        ],
+        units: &[("k", "K"), ("kelvin", "K"), ("f", "F")],
+    },
+    Quantity {
         key: "enabled",
         words: &["enabled", "enable", "torque_enabled", "armed"],
         others: &[],

@@ -10,6 +10,7 @@ use super::place::{Cell, Place};
 use super::preset::Preset;
 use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
+use super::samples::Further;
 use super::shown::shown;
 
 /// The columns of one file.
@@ -21,6 +22,7 @@ pub(super) struct Layout {
     pub(super) command: Column,
     pub(super) angle: Column,
     pub(super) current: Option<Column>,
+    pub(super) temperature: Option<Column>,
     pub(super) enabled: Option<Column>,
     pub(super) direction: Option<Column>,
     /// The columns by which rows are selected, each with the value.
@@ -89,7 +91,7 @@ impl Layout {
             let column = finder.named(&selection.column)?;
             select.push((column, selection.clone()));
         }
-        let found: Result<[Option<Column>; 6], _> = found.try_into();
+        let found: Result<[Option<Column>; 7], _> = found.try_into();
         match found {
             Ok(
                 [
@@ -97,6 +99,7 @@ impl Layout {
                     Some(command),
                     Some(angle),
                     current,
+                    temperature,
                     enabled,
                     direction,
                 ],
@@ -106,6 +109,7 @@ impl Layout {
                 command,
                 angle,
                 current,
+                temperature,
                 enabled,
                 direction,
                 select,
@@ -122,11 +126,22 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// Which columns there are beside those that every recording has.
+    pub(super) fn further(&self) -> Further {
+        Further {
+            current: self.current.is_some(),
+            temperature: self.temperature.is_some(),
+            enabled: self.enabled.is_some(),
+        }
+    }
+}
+
 /// How many of the columns wanted, the first ones, must be there.
 const REQUIRED: usize = 3;
 
-/// Time, command, angle, current, enabled, direction: under the user's names, the preset's, or the contract's.
-fn wanted(motor: &MotorFile) -> [Wanted<'_>; 6] {
+/// Time, command, angle, current, temperature, enabled, direction: under the user's names, the preset's, or the contract's.
+fn wanted(motor: &MotorFile) -> [Wanted<'_>; 7] {
     let (columns, units, preset) = (&motor.columns, &motor.units, motor.log.preset);
     let names = |of: fn(&'static Preset) -> &'static [&'static str], usual| {
         preset
@@ -158,6 +173,14 @@ fn wanted(motor: &MotorFile) -> [Wanted<'_>; 6] {
             key: "current",
             mapped: columns.current.as_deref(),
             names: names(|preset| preset.current.names, units.current.default_names()),
+        },
+        Wanted {
+            key: "temperature",
+            mapped: columns.temperature.as_deref(),
+            names: names(
+                |preset| preset.temperature,
+                units.temperature.default_names(),
+            ),
         },
         Wanted {
             key: "enabled",

@@ -169,13 +169,7 @@ impl TableReader<'_> {
         } = self;
         let kinds: Vec<Kind> = log.tables()[index].columns.iter().map(|c| c.kind).collect();
         let asked = Asked::of(layout);
-        let mut collector = Collector::new(
-            motor,
-            scale,
-            true,
-            layout.current.is_some(),
-            layout.enabled.is_some(),
-        );
+        let mut collector = Collector::new(motor, scale, true, layout.further());
         let (mut row, mut taken, mut left_out) = (0u64, 0u64, 0u64);
         let mut fault = None;
         let mut take = |rows: Rows<'_>| -> Result<bool, ReadError> {
@@ -266,6 +260,7 @@ impl Asked {
             Some(&layout.command),
             Some(&layout.angle),
             layout.current.as_ref(),
+            layout.temperature.as_ref(),
             layout.enabled.as_ref(),
             layout.direction.as_ref(),
         ];
@@ -362,6 +357,12 @@ impl Cells<'_> {
         let current_a = current
             .map(|column| self.number(column, |x| self.scale.current(x)))
             .transpose()?;
+        let temperature = layout.temperature.as_ref();
+        let told = |column: &&Column| !self.value(column).is_nan();
+        let temperature_c = temperature
+            .filter(told)
+            .map(|column| self.number(column, |x| self.scale.temperature(x)))
+            .transpose()?;
         let enabled = layout
             .enabled
             .as_ref()
@@ -378,6 +379,7 @@ impl Cells<'_> {
             command,
             counts: self.number(&layout.angle, |angle| self.scale.counts(angle))?,
             current_a,
+            temperature_c,
             enabled: enabled.transpose()?,
         })
     }

@@ -9,6 +9,7 @@ use super::reached::Reached;
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
 use super::sample::Sample;
+use super::samples::Further;
 use super::scale::Scale;
 use super::shown::quoted_list;
 use servoid_formats::{Kind, Log, Table};
@@ -37,6 +38,7 @@ pub(super) struct Joined {
     command: Series,
     angle: Series,
     current: Option<Series>,
+    temperature: Option<Series>,
 }
 
 /// One column with its times.
@@ -53,7 +55,13 @@ impl Joined {
         let command = series(&motor.columns.voltage)?;
         let angle = series(&motor.columns.angle)?;
         let current = series(&motor.columns.current);
-        let each = [Some(&command), Some(&angle), current.as_ref()];
+        let temperature = series(&motor.columns.temperature);
+        let each = [
+            Some(&command),
+            Some(&angle),
+            current.as_ref(),
+            temperature.as_ref(),
+        ];
         let without = |series: &&Series| series.time == usize::MAX;
         if let Some(without) = each.into_iter().flatten().find(without) {
             let table = tables[without.table].name.clone();
@@ -63,6 +71,7 @@ impl Joined {
             command,
             angle,
             current,
+            temperature,
         }))
     }
 
@@ -82,10 +91,22 @@ impl Joined {
         };
         let angle = self.angle.read(log, source, &more)?;
         let mut command = Held::new(self.command.read(log, source, &more)?);
-        let current = (self.current.as_ref()).map(|series| series.read(log, source, &more));
-        let mut current = current.transpose()?.map(Held::new);
+        let mut held = |series: &Option<Series>| {
+            let series = series.as_ref();
+            let read = series.map(|series| series.read(log, source, &more));
+            Ok::<_, ReadError>(read.transpose()?.map(Held::new))
+        };
+        let mut current = held(&self.current)?;
+        let mut temperature = held(&self.temperature)?;
         let whole = |fault| ReadError::new(Place::file(source), fault);
-        let mut collector = Collector::new(motor, scale, false, current.is_some(), false);
+        let mut collector = {
+            let further = Further {
+                current: current.is_some(),
+                temperature: temperature.is_some(),
+                enabled: false,
+            };
+            Collector::new(motor, scale, false, further)
+        };
         let mut before = 0usize;
         for [time, angle] in angle {
             let held = command.at(time);
@@ -106,6 +127,10 @@ impl Joined {
                 current_a: amperes
                     .flatten()
                     .map(|x| convert(scale.current(x)))
+                    .transpose()?,
+                temperature_c: (temperature.as_mut())
+                    .and_then(|series| series.at(time))
+                    .map(|x| convert(scale.temperature(x)))
                     .transpose()?,
                 enabled: None,
             };

@@ -62,7 +62,9 @@ pub use missing::{MissingColumn, for_shell};
 pub use motor_drive::DriveKind;
 pub use motor_error::{MotorFault, MotorFileError};
 pub use motor_file::{Columns, Fact, Known, MAX_FILE_BYTES, MotorFile};
-pub use motor_units::{AngleUnit, CommandUnit, CurrentUnit, Reversed, SpeedUnit, TimeUnit, Units};
+pub use motor_units::{
+    AngleUnit, CommandUnit, CurrentUnit, Reversed, SpeedUnit, TemperatureUnit, TimeUnit, Units,
+};
 pub use open::{read_recording, read_recordings, read_recordings_with};
 pub use part::Part;
 pub use place::{Cell, Place};

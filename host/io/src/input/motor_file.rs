@@ -53,6 +53,8 @@ pub struct Columns {
     pub angle: Option<String>,
     /// Armature current.
     pub current: Option<String>,
+    /// Temperature of the motor.
+    pub temperature: Option<String>,
     /// 0 while the bridge is open.
     pub enabled: Option<String>,
     /// The command's direction, where the command itself has no sign: 0 or negative for backwards.
@@ -95,6 +97,7 @@ impl Columns {
             &self.voltage,
             &self.angle,
             &self.current,
+            &self.temperature,
             &self.enabled,
             &self.direction,
         ];

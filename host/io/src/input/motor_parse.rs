@@ -4,7 +4,9 @@ use super::log_part::log_part;
 use super::motor_drive::{DRIVE_KEYS, DriveKind, drive};
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::{Columns, Fact, Known, MotorFile};
-use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, Reversed, TimeUnit, Units};
+use super::motor_units::{
+    AngleUnit, CommandUnit, CurrentUnit, Reversed, TemperatureUnit, TimeUnit, Units,
+};
 use super::preset::Preset;
 use super::section::{Found, NumberOrTable, Section, Text};
 
@@ -77,6 +79,7 @@ fn columns(mut section: Section<'_>, kind: DriveKind) -> Result<Columns, MotorFi
         voltage: section.column(command)?,
         angle: section.column("angle")?,
         current: section.column("current")?,
+        temperature: section.column("temperature")?,
         enabled: section.column("enabled")?,
         direction: section.column("direction")?,
     };
@@ -102,6 +105,7 @@ fn units(
     let time = section.word("time", TimeUnit::ALL)?;
     let angle = section.signed_word("angle", &[AngleUnit::ALL, AngleUnit::SPEEDS])?;
     let current = section.signed_word("current", &[CurrentUnit::ALL])?;
+    let temperature = section.word("temperature", TemperatureUnit::ALL)?;
     if let (Some(found), DriveKind::Position) = (&angle, kind)
         && matches!(found.value.1, AngleUnit::Speed(_))
     {
@@ -114,6 +118,7 @@ fn units(
         target: value(target),
         angle: angle.map_or(usual.angle, |(_, unit)| unit),
         current: current.map_or(usual.current, |(_, unit)| unit),
+        temperature: value(temperature).unwrap_or(usual.temperature),
         reversed: Reversed {
             voltage: voltage.is_some_and(|(reversed, _)| reversed),
             angle: angle.is_some_and(|(reversed, _)| reversed),

@@ -89,6 +89,18 @@ pub enum CurrentUnit {
     Milliamperes,
 }
 
+/// Unit of the temperature column.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TemperatureUnit {
+    /// °C.
+    #[default]
+    Celsius,
+    /// K.
+    Kelvin,
+    /// °F.
+    Fahrenheit,
+}
+
 /// The units of one recording; the contract's own by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Units {
@@ -102,6 +114,8 @@ pub struct Units {
     pub angle: AngleUnit,
     /// Of the current column.
     pub current: CurrentUnit,
+    /// Of the temperature column.
+    pub temperature: TemperatureUnit,
     /// Columns that are positive in the other direction than the rest.
     pub reversed: Reversed,
 }
@@ -325,6 +339,33 @@ impl CurrentUnit {
         match self {
             CurrentUnit::Amperes => &["current_a"],
             CurrentUnit::Milliamperes => &["current_ma", "current_a"],
+        }
+    }
+}
+
+impl TemperatureUnit {
+    /// Every unit with its name in `motor.toml`.
+    pub const ALL: &'static [(&'static str, TemperatureUnit)] = &[
+        ("C", TemperatureUnit::Celsius),
+        ("K", TemperatureUnit::Kelvin),
+        ("F", TemperatureUnit::Fahrenheit),
+    ];
+
+    /// °C.
+    pub fn celsius(self, temperature: f64) -> f64 {
+        match self {
+            TemperatureUnit::Celsius => temperature,
+            TemperatureUnit::Kelvin => temperature - 273.15,
+            TemperatureUnit::Fahrenheit => (temperature - 32.0) / 1.8,
+        }
+    }
+
+    /// Header names looked for where [columns] names none, best first.
+    pub(super) fn default_names(self) -> &'static [&'static str] {
+        match self {
+            TemperatureUnit::Celsius => &["temperature_c"],
+            TemperatureUnit::Kelvin => &["temperature_k", "temperature_c"],
+            TemperatureUnit::Fahrenheit => &["temperature_f", "temperature_c"],
         }
     }
 }

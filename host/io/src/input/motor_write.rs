@@ -5,7 +5,7 @@ use toml::Value;
 use super::log_part::{LogPart, Selection};
 use super::motor_drive::DriveKind;
 use super::motor_file::{Columns, Fact, Known, MotorFile};
-use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TimeUnit, Units};
+use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TemperatureUnit, TimeUnit, Units};
 use super::preset::Preset;
 use crate::recording::{Drive, Recording};
 
@@ -62,6 +62,10 @@ impl MotorFile {
                 ),
                 ("angle", self.columns.angle.as_deref().map(quoted)),
                 ("current", self.columns.current.as_deref().map(quoted)),
+                (
+                    "temperature",
+                    self.columns.temperature.as_deref().map(quoted),
+                ),
                 ("enabled", self.columns.enabled.as_deref().map(quoted)),
                 ("direction", self.columns.direction.as_deref().map(quoted)),
             ],
@@ -100,6 +104,10 @@ impl MotorFile {
                         units.current,
                         usual.current,
                     ),
+                ),
+                (
+                    "temperature",
+                    word(TemperatureUnit::ALL, units.temperature, usual.temperature),
                 ),
             ],
         );

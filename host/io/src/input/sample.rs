@@ -1,6 +1,6 @@
 //! One row of the file to one sample.
 
-use super::cell::{finite, number, switch};
+use super::cell::{finite, is_told, number, switch};
 use super::clock::Clock;
 use super::layout::{Column, Layout};
 use super::place::Place;
@@ -14,6 +14,8 @@ pub(super) struct Sample {
     pub(super) command: f64,
     pub(super) counts: f64,
     pub(super) current_a: Option<f64>,
+    /// None where the row does not tell it.
+    pub(super) temperature_c: Option<f64>,
     pub(super) enabled: Option<bool>,
 }
 
@@ -77,6 +79,11 @@ impl SampleReader<'_> {
         let current_a = current
             .map(|column| number(column, &|x| scale.current(x)))
             .transpose()?;
+        let told = |column: &&Column| row.cell(column.index).map_or(true, is_told);
+        let temperature = layout.temperature.as_ref().filter(told);
+        let temperature_c = temperature
+            .map(|column| number(column, &|x| scale.temperature(x)))
+            .transpose()?;
         let enabled = layout.enabled.as_ref();
         let enabled = enabled
             .map(|column| {
@@ -89,6 +96,7 @@ impl SampleReader<'_> {
             command,
             counts,
             current_a,
+            temperature_c,
             enabled,
         })
     }

@@ -13,23 +13,34 @@ use super::speed::integrated;
 use crate::position_loop::{Follower, LoopSettings};
 use crate::recording::{PositionDrive, Recording};
 
+/// Columns beside those that every recording has.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Further {
+    pub(super) current: bool,
+    pub(super) temperature: bool,
+    pub(super) enabled: bool,
+}
+
 /// The columns as they grow.
 pub(super) struct Samples {
     time_s: Vec<f64>,
     command: Vec<f64>,
     counts: Vec<f64>,
     current_a: Option<Vec<f64>>,
+    /// NaN before the first row that tells it.
+    temperature_c: Option<Vec<f64>>,
     enabled: Option<Vec<bool>>,
 }
 
 impl Samples {
-    pub(super) fn new(current: bool, enabled: bool) -> Self {
+    pub(super) fn new(further: Further) -> Self {
         Samples {
             time_s: Vec::new(),
             command: Vec::new(),
             counts: Vec::new(),
-            current_a: current.then(Vec::new),
-            enabled: enabled.then(Vec::new),
+            current_a: further.current.then(Vec::new),
+            temperature_c: further.temperature.then(Vec::new),
+            enabled: further.enabled.then(Vec::new),
         }
     }
 
@@ -56,6 +67,11 @@ impl Samples {
         append(&mut self.counts, sample.counts)?;
         if let (Some(values), Some(value)) = (&mut self.current_a, sample.current_a) {
             append(values, value)?;
+        }
+        if let Some(values) = &mut self.temperature_c {
+            // It changes slowly, and is logged seldom: the last one holds.
+            let last = values.last().copied().unwrap_or(f64::NAN);
+            append(values, sample.temperature_c.unwrap_or(last))?;
         }
         if let (Some(values), Some(value)) = (&mut self.enabled, sample.enabled) {
             append(values, value)?;
@@ -104,6 +120,7 @@ impl Samples {
             command: self.command,
             counts: self.counts,
             current_a: self.current_a,
+            temperature_c: self.temperature_c.and_then(from_the_first),
             enabled: self.enabled,
             counts_per_rev: scale.counts_per_rev,
             quantised,
@@ -142,6 +159,14 @@ impl Samples {
             target_counts,
         })
     }
+}
+
+/// A temperature with its first value in the place of those before it; none where there is no value at all.
+fn from_the_first(mut temperature: Vec<f64>) -> Option<Vec<f64>> {
+    let first = temperature.iter().copied().find(|x| !x.is_nan())?;
+    let unknown = temperature.iter_mut().take_while(|x| x.is_nan());
+    unknown.for_each(|x| *x = first);
+    Some(temperature)
 }
 
 /// Pushes where memory allows it; a plain push would abort the program.

@@ -105,6 +105,11 @@ impl<'m> Scale<'m> {
         let amperes = self.motor.units.current.amperes(current);
         Ok(turned(amperes, self.motor.units.reversed.current))
     }
+
+    /// °C.
+    pub(super) fn temperature(&self, temperature: f64) -> Result<f64, ReadFault> {
+        Ok(self.motor.units.temperature.celsius(temperature))
+    }
 }
 
 fn turned(value: f64, reversed: bool) -> f64 {

@@ -291,13 +291,21 @@ impl SurveyTable {
     fn guess(&mut self, kind: DriveKind, preset: Option<&'static Preset>) {
         let numbers = self.columns.iter().filter(|column| column.is_number);
         let header: Vec<String> = numbers.map(|column| column.name.clone()).collect();
-        let keys = ["time", kind.command_key(), "angle", "current", "enabled"];
+        let keys = [
+            "time",
+            kind.command_key(),
+            "angle",
+            "current",
+            "temperature",
+            "enabled",
+        ];
         let presets = preset.map(|p| {
             [
                 p.time.names,
                 p.command.names,
                 p.angle.names,
                 p.current.names,
+                p.temperature,
                 p.enabled,
             ]
         });
@@ -350,6 +358,7 @@ impl SurveyColumn {
             (_, "voltage_v") => Some("V"),
             (_, "angle_counts") => Some("counts"),
             (_, "current_a") => Some("A"),
+            (_, "temperature_c") => Some("C"),
             _ => None,
         };
         self.unit.as_deref().or(self.guessed_unit).or(own)

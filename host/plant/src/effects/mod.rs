@@ -167,7 +167,7 @@ pub struct At {
     pub speed: f64,
     /// Armature current, A.
     pub current: f64,
-    /// Voltage before the effect, V; in [`Effect::volts`] and [`Effect::memory_rates`] alone.
+    /// What the drive gives as the interval begins, V; in [`Effect::volts`] and [`Effect::memory_rates`] the voltage before the effect.
     pub volts: f64,
     /// The effect's own memory, in its own units.
     pub memory: [f64; 2],
@@ -184,6 +184,8 @@ pub struct Sliding {
     pub transmitted: f64,
     /// Angle of the motor shaft, rad.
     pub angle: f64,
+    /// What the drive gives as the interval begins, V.
+    pub volts: f64,
 }
 
 /// The winding's parameters at one instant; an effect multiplies what it changes.

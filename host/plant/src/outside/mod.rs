@@ -116,6 +116,7 @@ impl OutsideLaw {
             speed: at.speed.abs(),
             transmitted: (machine.kt_n_m_a * at.current).abs(),
             angle: at.angle,
+            volts: at.volts,
         };
         let dry = if at.speed == 0.0 {
             0.0

@@ -204,6 +204,7 @@ pub fn recording(
             .chain([0.0])
             .collect(),
         counts,
+        temperature_c: None,
         current_a: current.then(|| milliamps.map(|ma| f64::from(ma) * 1e-3).collect()),
         enabled: coasts.then(|| {
             rows.iter()

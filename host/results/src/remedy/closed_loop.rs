@@ -68,6 +68,10 @@ impl ClosedLoop<'_> {
             substeps: SUBSTEPS,
             ..Plan::linear(self.candidate.machine, units)
         };
+        for (kind, _) in self.candidate.effects.iter() {
+            let told = kind.check_without_temperature();
+            told.map_err(|error| ExportError::Loop(error.to_string()))?;
+        }
         let model =
             Model::<f64>::new(&plan).map_err(|error| ExportError::Loop(error.to_string()))?;
         let table = Lowered::<f64>::new(&by_angle(self.candidate), &units);

@@ -16,6 +16,7 @@ pub(super) struct At<N> {
     pub(super) command: N,
     /// In intervals.
     pub(super) time: N,
+    pub(super) temperature: N,
     pub(super) states: [N; MAX_STATES],
 }
 
@@ -30,6 +31,7 @@ impl<N: Copy> At<N> {
             transmitted: value,
             command: value,
             time: value,
+            temperature: value,
             states: [value; MAX_STATES],
         }
     }
@@ -86,6 +88,7 @@ fn step<S: Scalar, N: Number<S>>(
                 Variable::Transmitted => at.transmitted,
                 Variable::Command => at.command,
                 Variable::Time => at.time,
+                Variable::Temperature => at.temperature,
             };
             let [k] = numbers.take();
             Some(value.scaled(k))

@@ -256,6 +256,7 @@ fn variable_range<R: Real>(variable: Variable, units: &PerUnit<R>) -> (Quantity,
         Variable::Angle => (Quantity::Angle, Interval::new(0.0, TAU)),
         Variable::Current | Variable::Transmitted | Variable::Command => reached(Quantity::Voltage),
         Variable::Time => (Quantity::Time, Interval::new(0.0, LONGEST)),
+        Variable::Temperature => reached(Quantity::Temperature),
     }
 }
 

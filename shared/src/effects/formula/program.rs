@@ -21,10 +21,12 @@ pub enum Variable {
     Current,
     /// Torque that motor and load pass to each other, V; of a friction budget only.
     Transmitted,
-    /// Command, V; of a voltage only: what the drive gives, behind the effects before it.
+    /// Voltage that the drive gives, V; of a voltage what is left of it behind the effects before it.
     Command,
     /// Time since the recording began, s; of a torque, a torque constant or a voltage without a state.
     Time,
+    /// Temperature that the recording tells, °C.
+    Temperature,
 }
 
 /// What a formula gives.
@@ -141,7 +143,12 @@ impl Program {
 
     /// Whether it is a voltage that changes within an interval: by a state, the motion or the time, and not by the command alone.
     pub fn acts_within_a_part(&self) -> bool {
-        let seen = [Variable::Speed, Variable::Angle, Variable::Time];
+        let seen = [
+            Variable::Speed,
+            Variable::Angle,
+            Variable::Time,
+            Variable::Temperature,
+        ];
         self.output == Output::Voltage
             && (self.has_state() || seen.iter().any(|variable| self.looks_at(*variable)))
     }

@@ -61,9 +61,15 @@ impl Program {
         let current = self.looks_at(Variable::Current) || self.looks_at(Variable::Transmitted);
         let sensed = self.output == Output::Angle;
         let winding = self.acts_within_a_part();
-        let time = self.looks_at(Variable::Time);
-        let varies =
-            current || time || self.looks_at(Variable::Speed) || self.looks_at(Variable::Angle);
+        let seen = [
+            Variable::Speed,
+            Variable::Angle,
+            Variable::Time,
+            Variable::Temperature,
+        ];
+        // A voltage that goes with the command alone is the drive's.
+        let by_command = self.output != Output::Voltage && self.looks_at(Variable::Command);
+        let varies = current || by_command || seen.iter().any(|seen| self.looks_at(*seen));
         Needs {
             mean: (varies && !sensed) || lost || inertia || self.has_state(),
             current: current || lost,
@@ -75,6 +81,7 @@ impl Program {
             lost_torque: lost,
             memory: self.remembers(),
             sensed,
+            temperature: self.looks_at(Variable::Temperature),
         }
     }
 }
@@ -127,6 +134,7 @@ impl<S: Scalar> Stated<S> {
             transmitted: shaft.transmitted + shaft.current_change * reach,
             command: shaft.volts,
             time: began + gone,
+            temperature: shaft.temperature,
             states: [S::zero(); MAX_STATES],
         }
     }
@@ -358,6 +366,7 @@ impl<S: Scalar> Stated<S> {
             current: swinging(shaft.current, shaft.current_change),
             transmitted: swinging(shaft.transmitted, shaft.current_change),
             command: Dual::constant(shaft.volts),
+            temperature: Dual::constant(shaft.temperature),
             ..At::all(Dual::constant(S::zero()))
         }
     }

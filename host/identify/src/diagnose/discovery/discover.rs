@@ -48,6 +48,9 @@ pub fn diagnose(
     budget: &Budget<'_>,
     done: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, Option<Vec<Proposed>>), Error> {
+    for data in [data, held_out] {
+        data.check_told(options.candidates.iter().chain(&options.effects).copied())?;
+    }
     let diagnosis = diagnose::diagnose(data, held_out, options, budget, done)?;
     if !options.discover || !leaves_something(&diagnosis) {
         return Ok((diagnosis, None));

@@ -42,6 +42,7 @@ impl Given {
                 travel: speed * seconds / TAU,
                 speed_change: gained / units.speed,
                 volts,
+                temperature: data.temperature(k),
                 inertia: machine.inertia * per_second * units.speed / units.volts,
                 length,
                 per_length: per_second * units.interval,

@@ -122,6 +122,7 @@ mod tests {
             command: time_s.iter().map(|t| f64::from(driven(t))).collect(),
             counts,
             current_a: None,
+            temperature_c: None,
             enabled: None,
             counts_per_rev: 100.0,
             quantised: true,

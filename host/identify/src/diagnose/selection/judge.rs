@@ -16,13 +16,17 @@ const AS_GOOD: f64 = 0.04;
 /// More models than this that explain a recording alike, and none of them is named.
 const MOST_EQUIVALENT: usize = 4;
 
-/// The best of some models that are sorted by score: the simplest of those that are as good as the first.
+/// The best of some models that are sorted by score: the simplest of those that are as good as the first, and of equally simple ones
+/// that with fewest laws, as effects of the catalogue come first.
 pub fn best(models: &[FittedModel]) -> Option<&FittedModel> {
     let least = models.first()?.judged().score();
     let best = models
         .iter()
         .take_while(|model| model.judged().score() - least < AS_GOOD)
-        .min_by_key(|model| model.freedom())?;
+        .min_by_key(|model| {
+            let laws = model.effects.iter().filter(|kind| is_law(**kind));
+            (model.freedom(), laws.count())
+        })?;
     Some(models.iter().fold(
         best,
         |best, model| {

@@ -10,18 +10,22 @@ use rayon::prelude::*;
 use shared::effects::Kind;
 
 /// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
-/// except those that are in `known` already.
+/// except those that are in `known` already. A law may look like any effect of the catalogue: what the catalogue states is no law.
 pub fn substitutes(
     context: &Context<'_>,
     chosen: &FittedModel,
     place: Kind,
     known: &[FittedModel],
 ) -> Vec<FittedModel> {
-    place
-        .description()
-        .look_alikes
-        .par_iter()
-        .filter_map(|name| Kind::by_name(name))
+    let look_alikes: Vec<Kind> = match place {
+        Kind::Formula(_) => Kind::ALL.to_vec(),
+        _ => {
+            let names = place.description().look_alikes.iter();
+            names.filter_map(|name| Kind::by_name(name)).collect()
+        }
+    };
+    look_alikes
+        .into_par_iter()
         .filter(|&kind| !kind.facts().by_chance)
         .filter_map(|kind| substituted(context, chosen, place, kind, known))
         .collect()

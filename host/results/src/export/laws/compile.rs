@@ -3,9 +3,10 @@
 use super::super::samples::{Known, linear, result, subject};
 use super::super::{Format, Side};
 use super::numbers::{STEPS, command, speeds};
-use super::{stated, texts, write};
+use super::{of_everything, stated, texts, write};
 use servoid_formula::Point;
 use servoid_plant as bench;
+use shared::effects::Kind;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
@@ -114,7 +115,12 @@ fn libm() -> PathBuf {
 
 #[test]
 fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
-    let kind = stated();
+    for kind in [stated(), of_everything()] {
+        gives_the_same(kind);
+    }
+}
+
+fn gives_the_same(kind: Kind) {
     let found = result(&bench::Machine::gearmotor(), &[kind], Known::All);
     let subject = subject(&found, Side::Motor);
     let values = &subject.terms[0].values;
@@ -130,7 +136,8 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
                     transmitted: current,
                     command: 1.0,
                     time: 0.0,
-                    states: [0.3, 0.0],
+                    temperature: 30.0 + 10.0 * current,
+                    states: [0.3, 0.7],
                 });
             }
         }
@@ -138,23 +145,23 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
     let expected: Vec<f64> = points
         .iter()
         .flat_map(|point| {
-            [
-                definition.value(values, point),
-                definition.rates(values, point)[0],
-            ]
+            let rates = definition.rates(values, point);
+            std::iter::once(definition.value(values, point))
+                .chain(rates.into_iter().take(definition.states.len()))
         })
         .collect();
     let arguments = |p: &Point| {
-        let all = [
-            p.speed,
-            p.angle,
-            p.current,
-            p.transmitted,
-            p.command,
-            p.states[0],
-        ];
-        all.map(|x| format!("{x:?}")).join(", ")
+        let all = [p.speed, p.angle, p.current, p.transmitted, p.command];
+        let states = p.states.into_iter().take(definition.states.len());
+        let temperature = definition.is_of_temperature().then_some(p.temperature);
+        let all = all.into_iter().chain(states).chain(temperature);
+        all.map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ")
     };
+    let functions: Vec<String> = ["", "_rate", "_rate2"]
+        .iter()
+        .take(1 + definition.states.len())
+        .map(|what| format!("{}{what}", definition.name))
+        .collect();
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
     let text = |name: &str| {
@@ -178,8 +185,9 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
     };
     if let Some(mut gcc) = tool("gcc") {
         fs::write(path("motor.h"), text("c")).expect("a header");
-        let calls = points.iter().map(arguments).map(|a| {
-            format!("printf(\"%.17g %.17g\\n\", servoid_swing({a}), servoid_swing_rate({a}));\n")
+        let calls = points.iter().map(arguments).flat_map(|a| {
+            let call = move |name: &String| format!("printf(\"%.17g\\n\", servoid_{name}({a}));\n");
+            functions.iter().map(call).collect::<Vec<_>>()
         });
         let main = format!(
             "#include <stdio.h>\n#include \"motor.h\"\nint main(void) {{\n{}return 0; }}\n",
@@ -201,10 +209,10 @@ fn a_law_gives_in_c_and_in_python_what_it_gives_here() {
             "from math import *\nabs, minimum, maximum = abs, min, max\n\n\ndef sign(x):\n    return (x > 0) - (x < 0)\n",
         )
         .expect("a stand-in");
-        let calls = points
-            .iter()
-            .map(arguments)
-            .map(|a| format!("print(swing({a}), swing_rate({a}))\n"));
+        let calls = points.iter().map(arguments).flat_map(|a| {
+            let call = move |name: &String| format!("print({name}({a}))\n");
+            functions.iter().map(call).collect::<Vec<_>>()
+        });
         fs::write(
             path("motor.py"),
             text("python") + &calls.collect::<String>(),

@@ -9,6 +9,7 @@ const QUANTITIES = [
   ["voltage", "Command", ["V", "duty"], ""],
   ["angle", "Angle", ["counts", "deg", "rad", "rev"], ""],
   ["current", "Current", null, "Optional, in A. Separates resistance from the torque constant."],
+  ["temperature", "Temperature", null, "Optional, in °C. A law of your own may go with it."],
   ["enabled", "Bridge enabled", null, "Optional. Coasting separates friction from back-EMF."],
 ];
 const ROLES = [
