@@ -59,6 +59,11 @@ impl Dimension {
         Ok(sum)
     }
 
+    /// The power of rad in it.
+    pub fn of_angle(self) -> f64 {
+        self.powers[1]
+    }
+
     fn times(self, other: Self, power: f64) -> Self {
         let mut product = self;
         for (own, other) in product.powers.iter_mut().zip(other.powers) {

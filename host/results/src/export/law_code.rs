@@ -7,7 +7,7 @@ use servoid_formula::{Language, law_of};
 
 /// What the arguments and the value of a function are.
 const ABOUT: &str = "w is the motor's speed in rad/s, theta its angle within the revolution in rad, i and tau current and torque as volts at the \
-                     winding (R*i, T*R/Kt), u the command in V, z the state, t the time in s; the value is in V at the winding, or what the law's place says";
+                     winding (R*i, T*R/Kt), u the command in V, z the state, t the time in s, temperature in °C; the value is in V at the winding, or what the law's place says";
 
 /// The functions, each with lines that say what it is. A law of which a number is not determined is left out, and said to be.
 pub(super) fn functions(
@@ -37,7 +37,12 @@ pub(super) fn functions(
         for line in [term.kind.description().equation, ABOUT] {
             text += &format!("{open}{}{close}\n", plain(line));
         }
-        text += &law.definition.functions_in(language, &term.values);
+        // The function is of the motor's shaft, as its fixed numbers are.
+        let parameters = term.kind.parameters().iter().zip(&term.values);
+        let own: Vec<f64> = parameters
+            .map(|(p, value)| value / subject.side.factor(p.quantity.unit()).unwrap_or(1.0))
+            .collect();
+        text += &law.definition.functions_in(language, &own);
         text += "\n";
     }
     text

@@ -8,6 +8,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use servoid_formula::Dimension;
 
 /// Which shaft the numbers speak of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
@@ -43,10 +44,14 @@ impl Side {
 
     /// What a number in `unit` of the motor's side is multiplied by. `None` for an unknown unit.
     pub fn factor(self, unit: &str) -> Option<f64> {
-        let power = power(unit)?;
+        let power = power(unit).map(f64::from).or_else(|| {
+            // A law's own unit: its angles are the shaft's.
+            let stated = Dimension::parse(unit).ok()?;
+            Some(-stated.of_angle())
+        })?;
         Some(match self {
             Side::Motor => 1.0,
-            Side::Output { ratio } => ratio.powi(power),
+            Side::Output { ratio } => ratio.powf(power),
         })
     }
 }
@@ -87,5 +92,16 @@ mod tests {
         assert!((factor("rad/(s*V)") * factor("V*s/rad") - 1.0).abs() < 1e-12);
         assert_eq!(factor("N*m") / factor("N*m/A"), factor("V"));
         assert_eq!(side.factor("furlong"), None);
+        for (unit, power) in [
+            ("1/rad", 1),
+            ("V*s^2/rad^2", 2),
+            ("1/s^2", 0),
+            ("rad^2/degC", -2),
+        ] {
+            assert!(
+                (factor(unit) / 30.0f64.powi(power) - 1.0).abs() < 1e-12,
+                "{unit}"
+            );
+        }
     }
 }

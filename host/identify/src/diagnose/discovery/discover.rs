@@ -35,7 +35,7 @@ pub struct Proposed {
 }
 
 /// Diagnoses; where the catalogue leaves something and the options ask for it, laws are proposed for that, and the recordings
-/// are diagnosed again with them beside the effects that came nearest. A law that simulation does not confirm changes nothing.
+/// are diagnosed again with them beside the effects that came nearest. A law that simulation does not confirm is not named.
 ///
 /// Returns the diagnosis and the laws, `None` where they were not looked for.
 ///
@@ -96,7 +96,8 @@ fn discover(
     for (kind, law) in kinds.iter().zip(&mut proposed) {
         law.named = after.steps.iter().any(|step| step.added == *kind);
     }
-    if kinds.iter().any(|kind| after.last.effects.contains(kind)) && is_better(&after, &before) {
+    // Laws may lead to effects of the catalogue that say the same, and were not found without them.
+    if is_better(&after, &before) {
         return Ok((after, proposed));
     }
     proposed.iter_mut().for_each(|law| law.named = false);
