@@ -39,9 +39,9 @@ impl<'a> Budget<'a> {
         }
     }
 
-    /// Half as many steps, until the same flag is set.
-    pub fn half(&self) -> Self {
-        Budget::of(self.most / 2, self.stop)
+    /// As many steps once more, until the same flag is set.
+    pub fn again(&self) -> Self {
+        Budget::of(self.most, self.stop)
     }
 
     /// Steps that were taken.

@@ -55,7 +55,7 @@ pub fn diagnose(
     if !options.discover || !leaves_something(&diagnosis) {
         return Ok((diagnosis, None));
     }
-    let again = budget.half();
+    let again = budget.again();
     let (diagnosis, laws) = discover(diagnosis, data, held_out, options, &again, done)?;
     Ok((diagnosis, Some(laws)))
 }

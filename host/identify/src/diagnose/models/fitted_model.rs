@@ -1,6 +1,6 @@
 //! One model with one set of effects, fitted to one recording and judged on the other.
 
-use super::errors::Errors;
+use super::errors::{Errors, NOISE_COUNTS};
 use super::losses::Losses;
 use super::observer_errors::ObserverErrors;
 use servoid_engine::problem::{Candidate, Structure};
@@ -11,6 +11,9 @@ use std::cmp::Ordering;
 
 /// A chaotic run that was followed over such a part of the recording proves the model.
 const PROOF: f64 = 0.5;
+
+/// A free run whose error is so many times what was predicted along the measured motion has lost its way.
+pub const LOST: f64 = 3.0;
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -69,6 +72,13 @@ impl FittedModel {
             Some(tracked) if !self.ran().at_floor() => tracked.errors,
             _ => self.ran(),
         }
+    }
+
+    /// Whether its free run is chaotic, and hides that along the measured motion it leaves less than so many counts.
+    pub fn may_leave_less_than(&self, counts: f64) -> bool {
+        let predicted = self.predicted_rms_counts;
+        let chaotic = self.ran().fitted > LOST * predicted.max(NOISE_COUNTS);
+        !self.observed_runs.is_empty() && chaotic && predicted < counts
     }
 
     /// Whether it leaves the reading's own error only, by what it is judged by.

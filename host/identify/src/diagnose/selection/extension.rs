@@ -256,10 +256,16 @@ fn fit_promising(
     models
 }
 
-/// Best first, all in one measure: if free runs of any of them are chaotic, all are compared under an observer.
+/// Best first, all in one measure: if a chaotic free run hides that any of them may be better than the others, all are compared under
+/// an observer.
 pub fn sort(context: &Context<'_>, models: &mut [FittedModel]) {
-    if models.iter().any(|model| model.observed.is_some()) {
+    let errors = models.iter().map(|model| model.ran().fitted);
+    let least = errors.fold(f64::INFINITY, f64::min);
+    if models.iter().any(|model| model.may_leave_less_than(least)) {
         observe_all(context, models);
+    } else {
+        // An observer that holds wrong models to the readings makes them all alike.
+        models.iter_mut().for_each(|model| model.observed = None);
     }
     models.sort_by(FittedModel::by_score);
 }

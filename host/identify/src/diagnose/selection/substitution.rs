@@ -7,10 +7,12 @@ use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::screening::screen;
 use rayon::prelude::*;
-use shared::effects::Kind;
+use shared::effects::formula::Output;
+use shared::effects::{Kind, Place};
 
 /// Models in which `place` is replaced by one of its look-alikes, refitted from where `chosen` stands,
-/// except those that are in `known` already. A law may look like any effect of the catalogue: what the catalogue states is no law.
+/// except those that are in `known` already. A law may look like any effect of the catalogue that acts where it does: what the catalogue
+/// states is no law.
 pub fn substitutes(
     context: &Context<'_>,
     chosen: &FittedModel,
@@ -18,7 +20,12 @@ pub fn substitutes(
     known: &[FittedModel],
 ) -> Vec<FittedModel> {
     let look_alikes: Vec<Kind> = match place {
-        Kind::Formula(_) => Kind::ALL.to_vec(),
+        Kind::Formula(law) => {
+            let places = places(law.program.output);
+            let all = Kind::ALL.iter().copied();
+            all.filter(|kind| places.contains(&kind.description().place))
+                .collect()
+        }
         _ => {
             let names = place.description().look_alikes.iter();
             names.filter_map(|name| Kind::by_name(name)).collect()
@@ -29,6 +36,17 @@ pub fn substitutes(
         .filter(|&kind| !kind.facts().by_chance)
         .filter_map(|kind| substituted(context, chosen, place, kind, known))
         .collect()
+}
+
+/// Where effects of the catalogue act that a law may be like.
+fn places(output: Output) -> &'static [Place] {
+    match output {
+        Output::Torque | Output::Friction | Output::TorqueConstant | Output::Inertia => {
+            &[Place::Torque, Place::Friction, Place::Winding]
+        }
+        Output::Voltage => &[Place::Drive, Place::Winding],
+        Output::Angle => &[Place::Sensed],
+    }
 }
 
 /// The model in which `place` is replaced by `kind`; `None` where it is no rival, or known.
