@@ -98,6 +98,7 @@ pub fn follow_by_continuation(context: &Context<'_>, model: &FittedModel) -> Opt
     let followed = score_candidate(context, structure.clone(), &here, predicted, method).ok()?;
     Some(FittedModel {
         followed_fraction: part,
+        chaotic: model.chaotic,
         ..followed
     })
 }

@@ -5,7 +5,7 @@ use super::observer::observe_all;
 use super::score::score_candidate;
 use super::search::{fit_problem, search};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{FittedModel, LOST, NOISE_COUNTS, ROOM, ScreenedModel};
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ROOM, ScreenedModel};
 use crate::error::Error;
 use servoid_engine::problem::{FitProblem, Horizon, Structure};
 use servoid_engine::simulation::Method;
@@ -22,6 +22,8 @@ const FULL: Settings = Settings {
 const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
 /// A stage that leaves so many times the error of the one before has lost its way.
 const ASTRAY: f64 = 2.0;
+/// A simulation whose error is so many times the series-parallel one's has lost its way.
+pub const LOST: f64 = 3.0;
 /// Scores under an observer this near are as good as each other.
 const AS_GOOD: f64 = 0.04;
 
@@ -70,10 +72,14 @@ pub fn fit_chaotic(context: &Context<'_>, screened: &ScreenedModel) -> Result<Fi
         errors.map_or(f64::INFINITY, |errors| errors.score())
     };
     let [free, faded] = both;
-    Ok(if score(&free) < score(&faded) + AS_GOOD {
+    let better = if score(&free) < score(&faded) + AS_GOOD {
         free
     } else {
         faded
+    };
+    Ok(FittedModel {
+        chaotic: true,
+        ..better
     })
 }
 

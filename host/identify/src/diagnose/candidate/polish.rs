@@ -88,6 +88,7 @@ fn converge(context: &Context<'_>, model: &FittedModel) -> Result<FittedModel, E
         )?;
         let mut polished = FittedModel {
             evaluations: best.evaluations + polished.evaluations,
+            chaotic: best.chaotic,
             ..polished
         };
         observe_like(context, &mut polished, &best)?;

@@ -45,6 +45,7 @@ pub fn score_candidate(
             None
         },
         validate_rms_counts: validate_roughly(context.held_out, &candidate, method)?,
+        chaotic: false,
         observed: None,
         observed_runs: Vec::new(),
         followed_fraction: 0.0,

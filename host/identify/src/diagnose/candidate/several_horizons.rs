@@ -119,6 +119,7 @@ pub fn fit_over_horizons(
     );
     fitted.ok().map(|fitted| FittedModel {
         evaluations: model.evaluations + fitted.evaluations,
+        chaotic: model.chaotic,
         ..fitted
     })
 }

@@ -12,8 +12,8 @@ use std::cmp::Ordering;
 /// A chaotic run that was followed over such a part of the recording proves the model.
 const PROOF: f64 = 0.5;
 
-/// A free run whose error is so many times what was predicted along the measured motion has lost its way.
-pub const LOST: f64 = 3.0;
+/// What is predicted along the measured motion and what a free run leaves are compared as roughly as this.
+const AS_LITTLE: f64 = 2.0;
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -37,6 +37,8 @@ pub struct FittedModel {
     pub validate_rms_counts: f64,
     /// Errors in windows, each run from the measured state, where whole runs say little.
     pub windowed: Option<Errors>,
+    /// Whether its fit found that its free run loses its way.
+    pub chaotic: bool,
     /// Errors that are soon forgotten, where free runs are chaotic.
     pub observed: Option<ObserverErrors>,
     /// The same for every memory that was asked for, so that none is computed again whenever models are compared.
@@ -74,11 +76,11 @@ impl FittedModel {
         }
     }
 
-    /// Whether its free run is chaotic, and hides that along the measured motion it leaves less than so many counts.
-    pub fn may_leave_less_than(&self, counts: f64) -> bool {
-        let predicted = self.predicted_rms_counts;
-        let chaotic = self.ran().fitted > LOST * predicted.max(NOISE_COUNTS);
-        !self.observed_runs.is_empty() && chaotic && predicted < counts
+    /// Whether its free run is chaotic, and hides that it may leave about as little as the one whose free run leaves least: along the
+    /// measured motion, where near standstill any model errs by more than on its own.
+    pub fn may_rival(&self, best: &FittedModel) -> bool {
+        let least = best.ran().fitted.max(best.predicted_rms_counts);
+        self.chaotic && self.predicted_rms_counts < AS_LITTLE * least.max(NOISE_COUNTS)
     }
 
     /// Whether it leaves the reading's own error only, by what it is judged by.

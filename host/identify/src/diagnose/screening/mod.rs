@@ -8,9 +8,10 @@ mod starts;
 pub use common_parameters::{EffectValues, with_common_parameters};
 
 use crate::diagnose::candidate::descent::Settings;
+use crate::diagnose::candidate::fit::LOST;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{FittedModel, LOST, NOISE_COUNTS, ScreenedModel};
+use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ScreenedModel};
 use crate::diagnose::spectrum::spectrum;
 use crate::fit::base_for;
 use series_parallel::{SeriesParallel, follows};

@@ -259,9 +259,9 @@ fn fit_promising(
 /// Best first, all in one measure: if a chaotic free run hides that any of them may be better than the others, all are compared under
 /// an observer.
 pub fn sort(context: &Context<'_>, models: &mut [FittedModel]) {
-    let errors = models.iter().map(|model| model.ran().fitted);
-    let least = errors.fold(f64::INFINITY, f64::min);
-    if models.iter().any(|model| model.may_leave_less_than(least)) {
+    let by_run = |a: &&FittedModel, b: &&FittedModel| a.ran().fitted.total_cmp(&b.ran().fitted);
+    let best = models.iter().min_by(by_run).cloned();
+    if best.is_some_and(|best| models.iter().any(|model| model.may_rival(&best))) {
         observe_all(context, models);
     } else {
         // An observer that holds wrong models to the readings makes them all alike.
