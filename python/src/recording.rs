@@ -37,6 +37,7 @@ fn motor_of(
 impl Recording {
     #[new]
     #[pyo3(signature = (time, command, angle, *, current=None, temperature=None, enabled=None, motor=None, source="arrays"))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         time: PyReadonlyArray1<'_, f64>,
         command: PyReadonlyArray1<'_, f64>,

@@ -20,6 +20,9 @@ def recording(**changes):
     return sv.Recording(columns.pop("t", TIME), **columns)
 
 
+WARM = "warm: torque = -c*w*temperature; c in [0, 1] V*s/rad/degC"
+
+
 def hole(column, value=np.nan):
     changed = column.copy()
     changed[7] = value
@@ -43,6 +46,8 @@ REFUSED = [
     (lambda: recording(voltage="fast"), "usage", "voltage"),
     (lambda: recording(voltage=np.stack([VOLTS, VOLTS])), "usage", "shape (2, 200)"),
     (lambda: recording(enabled=VOLTS), "usage", "enabled"),
+    (lambda: recording(temperature=TIME[:9]), "recording", "temperature has 9 samples, time has 200"),
+    (lambda: sv.fit(recording(), effects=[WARM]), "model", "warm goes with the temperature"),
     (lambda: sv.read("nothing.csv"), "recording", "nothing.csv"),
     (lambda: sv.read("."), "recording", "folder"),
     (lambda: sv.fit(recording(), effects=["colomb"]), "usage", "did you mean `coulomb`"),
