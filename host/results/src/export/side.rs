@@ -44,11 +44,10 @@ impl Side {
 
     /// What a number in `unit` of the motor's side is multiplied by. `None` for an unknown unit.
     pub fn factor(self, unit: &str) -> Option<f64> {
-        let power = power(unit).map(f64::from).or_else(|| {
-            // A law's own unit: its angles are the shaft's.
-            let stated = Dimension::parse(unit).ok()?;
-            Some(-stated.of_angle())
-        })?;
+        let power = match Dimension::parse(unit) {
+            Ok(unit) => -unit.of_angle(),
+            Err(_) => power(unit)?,
+        };
         Some(match self {
             Side::Motor => 1.0,
             Side::Output { ratio } => ratio.powf(power),
@@ -56,13 +55,13 @@ impl Side {
     }
 }
 
-/// Power of the ratio that a number in this unit takes on.
-fn power(unit: &str) -> Option<i32> {
+/// Power of the ratio that a number takes on in a unit that is no product of V, rad, s and °C.
+fn power(unit: &str) -> Option<f64> {
     Some(match unit {
-        "1" | "V" | "A" | "ohm" | "H" | "s" | "s^2" | "1/V" | "1/V^2" | "1/(V^2*s)" | "count" => 0,
-        "rad" | "rad/s" | "rad/(s*V)" => -1,
-        "V*s/rad" | "V*s^2/rad" | "V/rad" | "N*m" | "N*m/A" | "1/rev" | "count/rev" => 1,
-        "V*s^2/rad^2" | "kg*m^2" | "N*m*s/rad" => 2,
+        "A" | "ohm" | "H" | "1/(V^2*s)" | "count" => 0.0,
+        "rad/(s*V)" => -1.0,
+        "N*m" | "N*m/A" | "1/rev" | "count/rev" => 1.0,
+        "kg*m^2" | "N*m*s/rad" => 2.0,
         _ => return None,
     })
 }

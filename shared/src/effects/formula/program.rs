@@ -143,14 +143,18 @@ impl Program {
 
     /// Whether it is a voltage that changes within an interval: by a state, the motion or the time, and not by the command alone.
     pub fn acts_within_a_part(&self) -> bool {
+        self.output == Output::Voltage && (self.has_state() || self.goes_with_the_run())
+    }
+
+    /// Whether it looks at what neither the command nor the current tells: the motion, the time or the temperature.
+    pub(super) fn goes_with_the_run(&self) -> bool {
         let seen = [
             Variable::Speed,
             Variable::Angle,
             Variable::Time,
             Variable::Temperature,
         ];
-        self.output == Output::Voltage
-            && (self.has_state() || seen.iter().any(|variable| self.looks_at(*variable)))
+        seen.iter().any(|variable| self.looks_at(*variable))
     }
 
     /// Whether it remembers a number: a state, or how long it has run.

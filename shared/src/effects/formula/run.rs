@@ -61,15 +61,9 @@ impl Program {
         let current = self.looks_at(Variable::Current) || self.looks_at(Variable::Transmitted);
         let sensed = self.output == Output::Angle;
         let winding = self.acts_within_a_part();
-        let seen = [
-            Variable::Speed,
-            Variable::Angle,
-            Variable::Time,
-            Variable::Temperature,
-        ];
         // A voltage that goes with the command alone is the drive's.
         let by_command = self.output != Output::Voltage && self.looks_at(Variable::Command);
-        let varies = current || by_command || seen.iter().any(|seen| self.looks_at(*seen));
+        let varies = current || by_command || self.goes_with_the_run();
         Needs {
             mean: (varies && !sensed) || lost || inertia || self.has_state(),
             current: current || lost,

@@ -260,8 +260,8 @@ fn fit_promising(
 /// an observer.
 pub fn sort(context: &Context<'_>, models: &mut [FittedModel]) {
     let by_run = |a: &&FittedModel, b: &&FittedModel| a.ran().fitted.total_cmp(&b.ran().fitted);
-    let best = models.iter().min_by(by_run).cloned();
-    if best.is_some_and(|best| models.iter().any(|model| model.may_rival(&best))) {
+    let best = models.iter().min_by(by_run);
+    if best.is_some_and(|best| models.iter().any(|model| model.may_rival(best))) {
         observe_all(context, models);
     } else {
         // An observer that holds wrong models to the readings makes them all alike.
