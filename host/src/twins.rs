@@ -175,8 +175,7 @@ mod tests {
         };
         let model = truth::model(
             &showcase::machine(),
-            Kind::Coulomb,
-            &hidden,
+            std::slice::from_ref(&hidden),
             showcase::COUNTS_PER_REV,
         )
         .expect("a valid effect");

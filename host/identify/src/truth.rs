@@ -24,18 +24,21 @@ pub fn physical(machine: &Machine) -> Physical<f64> {
     }
 }
 
-/// The bench's machine with an effect hidden in it, as the model that is true of it.
+/// The bench's machine with effects hidden in it, as the model that is true of it.
 ///
 /// # Errors
-/// Values that are none of the effect `kind`.
+/// Values that are none of an effect's; [`ModelError::TooManyEffects`].
 pub fn model(
     machine: &Machine,
-    kind: Kind,
-    hidden: &Hidden,
+    hidden: &[Hidden],
     counts_per_rev: u32,
 ) -> Result<Candidate, ModelError> {
     let mut effects = EffectSet::default();
-    effects.push(kind, &hidden.truth(machine, counts_per_rev))?;
+    for hidden in hidden {
+        if let Some(kind) = Kind::by_name(hidden.name()) {
+            effects.push(kind, &hidden.truth(machine, counts_per_rev))?;
+        }
+    }
     Ok(Candidate {
         machine: physical(machine).machine(),
         effects,

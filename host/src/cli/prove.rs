@@ -25,7 +25,7 @@ pub struct ProveArgs {
     /// How the motor is driven
     #[arg(long, value_enum, default_value_t = Excite::Commissioning)]
     pub excite: Excite,
-    /// Effects to choose from; all if not given
+    /// Effects to choose from, all if not given; with --hidden formula one of them is beside the law, none if not given
     #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "EFFECT", value_parser = effect_names())]
     pub effect: Vec<String>,
     /// By which curves the hidden effects act: the model's own, or others that the field has for them

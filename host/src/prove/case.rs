@@ -151,6 +151,22 @@ impl Drawn {
         specs.map(|spec| Hidden::parse(spec, &machine)).collect()
     }
 
+    /// The same case with one of what it hides and nothing else, for each: the effects in order, then the law.
+    pub(super) fn apart(&self) -> Vec<Drawn> {
+        let one = |hidden: Vec<String>, law: Option<DrawnLaw>| Drawn {
+            hidden,
+            law,
+            ..self.clone()
+        };
+        let effects = self.hidden.iter();
+        let effects = effects.map(|effect| one(vec![effect.clone()], None));
+        let law = self
+            .law
+            .iter()
+            .map(|law| one(Vec::new(), Some(law.clone())));
+        effects.chain(law).collect()
+    }
+
     /// Names of the hidden effects.
     pub fn names(&self) -> Vec<&str> {
         let name = |spec: &'_ String| spec.find(':').unwrap_or(spec.len());

@@ -21,7 +21,9 @@ const SURPRISE: u64 = 0x7375_7270_7269_7365;
 pub fn names(set_up: &SetUp, number: u64) -> Vec<&'static str> {
     let mut draws = Draws::of(&[set_up.seed, number, HOW_MANY]);
     let many = match set_up.hidden {
-        HowMany::None | HowMany::Formula => 0,
+        HowMany::None => 0,
+        // A law is alone, unless it is said what is beside it.
+        HowMany::Formula => set_up.effects.len().min(1),
         HowMany::One => 1,
         HowMany::Two => 2,
         HowMany::Mix if draws.chance(MIX.0) => 0,

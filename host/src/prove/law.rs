@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use servoid_formula::{law_of, text_of};
 use servoid_identify::diagnose::FittedModel;
 use servoid_identify::diagnose::discovery::{Given, Proposed, departure};
+use servoid_identify::truth;
 use servoid_plant::{Machine, Outside, OutsideLaw, Variable};
 use servoid_results::schema::ProposedLaw;
 use shared::effects::formula;
@@ -75,7 +76,13 @@ impl FoundLaw {
             let run = bench.run(&drive).ok()?;
             let given = hidden.along(&machine, &run).into_iter();
             let known: Given = given.map(|given| (given.torque, given.voltage)).collect();
-            departure(&case.held_out, &model.candidate, &known)
+            let beside = truth::model(
+                &machine,
+                &case.drawn.hidden().ok()?,
+                case.drawn.counts_per_rev,
+            )
+            .ok()?;
+            departure(&case.held_out, &model.candidate, &known, &beside)
         });
         FoundLaw {
             named: laws

@@ -170,13 +170,10 @@ impl Outcome {
             alike: names(&step.indistinguishable_from),
         });
         let base = Errors::of(&diagnosis.base);
-        let alone = match &self.drawn.hidden[..] {
-            [] if self.drawn.law.is_some() => vec![base.fitted],
+        let alone = match &self.drawn.apart()[..] {
             [] => Vec::new(),
             [_] => vec![base.fitted],
-            several => (0..several.len())
-                .map(|which| leaves(&self.drawn, which, stop))
-                .collect(),
+            several => several.iter().map(|alone| leaves(alone, stop)).collect(),
         };
         let leaves_much = |rms: &Option<f64>| rms.is_some_and(|rms| rms > DETECTABLE_COUNTS);
         Ok(Outcome {
@@ -216,14 +213,8 @@ fn said(fault: &(dyn Any + Send)) -> &str {
         .unwrap_or("without a word")
 }
 
-/// Error of the linear motor with nothing but hidden effect `which`, counts RMS; `None` where that motor
-/// cannot be recorded or fitted.
-fn leaves(drawn: &Drawn, which: usize, stop: &AtomicBool) -> Option<f64> {
-    let hidden = drawn.hidden.get(which)?.clone();
-    let alone = Drawn {
-        hidden: vec![hidden],
-        ..drawn.clone()
-    };
+/// Error of the linear motor, counts RMS; `None` where the motor cannot be recorded or fitted.
+fn leaves(drawn: &Drawn, stop: &AtomicBool) -> Option<f64> {
     let linear = |data: &Data| -> Result<f64, Error> {
         let options = Options::default();
         let problem = fit::problem(data, &options)?;
@@ -233,7 +224,7 @@ fn leaves(drawn: &Drawn, which: usize, stop: &AtomicBool) -> Option<f64> {
         let candidate = problem.structure.candidate(&values);
         Ok(fit::validate(data, &candidate, options.method)?)
     };
-    finite(linear(&alone.data(0).ok()?).ok()?)
+    finite(linear(&drawn.data(0).ok()?).ok()?)
 }
 
 /// Errors of the parameters of the effects that are both hidden and in the model.

@@ -7,6 +7,7 @@ use servoid_plant::Hidden;
 use servoid_plant::effects::CATALOGUE;
 use servoid_results::schema::diagnosis::Hypothesis;
 use shared::effects::Kind;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 const SEED: u64 = 7;
@@ -88,6 +89,35 @@ fn only_the_wanted_effects_are_hidden() {
         let pair = hide::names(&wanted, number);
         assert_eq!((pair[0], pair.len()), ("cogging", 2));
     }
+}
+
+#[test]
+fn a_law_is_alone_or_beside_one_of_the_wanted_effects() {
+    let mut set_up = set_up(HowMany::Formula, Excite::Commissioning);
+    let alone = draw(&set_up, 3);
+    assert!(alone.hidden.is_empty());
+    assert_eq!(alone.apart(), std::slice::from_ref(&alone));
+    set_up.effects = vec!["cogging".to_owned(), "coulomb".to_owned()];
+    let mut seen = BTreeSet::new();
+    for number in 0..2 * servoid_plant::Outside::ALL.len() as u64 {
+        let drawn = draw(&set_up, number);
+        let law = drawn.law.as_ref().expect("a law");
+        let [name] = drawn.names()[..] else {
+            panic!("{:?}", drawn.hidden)
+        };
+        seen.insert((name.to_owned(), law.form.clone()));
+        let apart = drawn.apart();
+        assert_eq!(apart.len(), 2);
+        assert_eq!((&apart[0].hidden, &apart[0].law), (&drawn.hidden, &None));
+        assert_eq!((&apart[1].hidden[..], &apart[1].law), (&[][..], &drawn.law));
+    }
+    let effects = seen.iter().map(|(effect, _)| effect);
+    let forms = seen.iter().map(|(_, form)| form);
+    assert_eq!(effects.collect::<BTreeSet<_>>().len(), 2);
+    assert_eq!(
+        forms.collect::<BTreeSet<_>>().len(),
+        servoid_plant::Outside::ALL.len()
+    );
 }
 
 #[test]

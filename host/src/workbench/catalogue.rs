@@ -26,7 +26,11 @@ fn entry(kind: Kind) -> Result<Value, Error> {
     let machine = showcase::machine();
     let hidden = Hidden::typical(kind.name(), &machine)?;
     let recording = showcase::record(&hidden, 1, kind.name())?;
-    let candidate = truth::model(&machine, kind, &hidden, showcase::COUNTS_PER_REV)?;
+    let candidate = truth::model(
+        &machine,
+        std::slice::from_ref(&hidden),
+        showcase::COUNTS_PER_REV,
+    )?;
     let found = signature(&Data::new(&recording)?, &candidate, kind, Method::default());
     let description = kind.description();
     Ok(json!({

@@ -15,8 +15,12 @@ fn recorded(hidden: &Hidden, seed: u64) -> (Data, Candidate, Kind) {
     let machine = showcase::machine();
     let recording = showcase::record(hidden, seed, "bench").expect("a recording");
     let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
-    let candidate =
-        truth::model(&machine, kind, hidden, showcase::COUNTS_PER_REV).expect("a valid effect");
+    let candidate = truth::model(
+        &machine,
+        std::slice::from_ref(hidden),
+        showcase::COUNTS_PER_REV,
+    )
+    .expect("a valid effect");
     (Data::new(&recording).expect("data"), candidate, kind)
 }
 

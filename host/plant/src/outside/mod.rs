@@ -77,7 +77,7 @@ const PARTS: usize = 8;
 impl Outside {
     /// The form of that name.
     pub fn find(name: &str) -> Option<&'static Outside> {
-        Outside::ALL.iter().find(|form| form.name == name)
+        Outside::ALL.iter().copied().find(|form| form.name == name)
     }
 
     /// The form with parameters that are typical on `machine`. The same seed gives the same bits.

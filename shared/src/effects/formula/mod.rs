@@ -13,6 +13,7 @@
 //! | `power` | powers, which number formats have not |
 //! | `interpret` | its operations on a stack |
 //! | `run` | the program along the shaft |
+//! | `states` | its states over a part of a sample |
 
 mod interpret;
 mod interval;
@@ -21,6 +22,7 @@ mod number;
 mod power;
 mod program;
 mod run;
+mod states;
 
 pub use interval::Interval;
 pub use lower::MAX_NUMBERS;

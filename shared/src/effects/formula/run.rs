@@ -3,6 +3,7 @@
 use super::interpret::{At, result};
 use super::lower::{MAX_NUMBERS, Numbers};
 use super::number::{Dual, Number};
+use super::states::Moved;
 use super::{Formula, MAX_STATES, Op, Output, Program, Variable};
 use crate::effects::{Budget, Memory, Needs, Shaft, Stiff, Winding};
 use crate::scalar::{FromLanes, Real, Scalar, lanes};
@@ -11,14 +12,14 @@ use crate::units::{PerUnit, Quantity};
 /// A formula with the values of its parameters, in a number format.
 #[derive(Clone, Copy, Debug)]
 pub struct Stated<S: Scalar> {
-    program: &'static Program,
+    pub(super) program: &'static Program,
     numbers: [S::Coefficient; MAX_NUMBERS],
     /// From the law's last result to the output per unit.
     law: S::Coefficient,
     /// Where the numbers of each state's rate begin.
-    rates_from: [usize; MAX_STATES],
+    pub(super) rates_from: [usize; MAX_STATES],
     /// From each rate's last result to that of the state by the interval.
-    rates: [S::Coefficient; MAX_STATES],
+    pub(super) rates: [S::Coefficient; MAX_STATES],
     /// Speed by travel in turns, of one interval.
     per_turn: S::Coefficient,
     /// How many pairs of points its mean over a part takes.
@@ -104,7 +105,7 @@ impl<S: Scalar> Stated<S> {
     /// Runs one of its programs. A routine of its own in every format: inlined into each place that asks for it, the operations
     /// would make the model many times as large.
     #[inline(never)]
-    fn run<N: Number<S>>(&self, ops: &[Op], from: usize, at: &At<N>) -> N {
+    pub(super) fn run<N: Number<S>>(&self, ops: &[Op], from: usize, at: &At<N>) -> N {
         S::routine(
             #[inline(always)]
             || result(ops, &self.numbers[from..], at),
@@ -195,10 +196,11 @@ impl<S: Scalar> Stated<S> {
                     ..at
                 };
                 let mut further = at;
-                for place in 0..self.program.states.len() {
+                let coupled = [moved.coupled, S::zero()].into_iter().enumerate();
+                for (place, coupled) in coupled.take(self.program.states.len()) {
                     let rate = self.rate(place, &end).scaled(shaft.length);
                     let bent = (rate - moved.each[place].rate_at_end).abs();
-                    let bent = bent.max(moved.coupled[place]);
+                    let bent = bent.max(coupled);
                     further.states[place] = at.states[place] + bent * S::from_f64(0.5);
                 }
                 Winding::volts(volts, (self.law(&further) - volts).abs())
@@ -323,9 +325,7 @@ impl<S: Scalar> Stated<S> {
             return S::zero();
         }
         let mut further = *at;
-        for (state, coupled) in further.states.iter_mut().zip(moved.coupled) {
-            state.value = state.value + coupled;
-        }
+        further.states[0].value = further.states[0].value + moved.coupled;
         (self.law(&further).value - self.law(at).value).abs()
     }
 
@@ -341,100 +341,6 @@ impl<S: Scalar> Stated<S> {
             #[inline(always)]
             || self.moved(shaft, memory).each.map(|state| state.end),
         )
-    }
-
-    #[inline(always)]
-    fn differentiated(&self, shaft: &Shaft<S>) -> At<Dual<S>> {
-        let swinging = |value, swing| Dual {
-            swing,
-            ..Dual::constant(value)
-        };
-        // Where the motion reverses, what goes with its direction bends.
-        let speed_change = S::select(reverses(shaft), S::zero(), shaft.speed_change);
-        At {
-            speed: Dual {
-                by_speed: S::one(),
-                ..swinging(shaft.speed, speed_change)
-            },
-            turns: swinging(shaft.turns, shaft.travel),
-            current: swinging(shaft.current, shaft.current_change),
-            transmitted: swinging(shaft.transmitted, shaft.current_change),
-            command: Dual::constant(shaft.volts),
-            temperature: Dual::constant(shaft.temperature),
-            ..At::all(Dual::constant(S::zero()))
-        }
-    }
-
-    /// Rate of a state, by the interval.
-    #[inline(always)]
-    fn rate<N: Number<S>>(&self, place: usize, at: &At<N>) -> N {
-        let rate = self.run(self.program.states[place].rate, self.rates_from[place], at);
-        rate.scaled(self.rates[place])
-    }
-
-    /// The states over a part: each beside the mean of the other, the first again where the second has moved. Of states that do not
-    /// depend on each other, this is each by itself.
-    #[inline(always)]
-    fn moved(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Moved<S> {
-        let mut at = self.differentiated(shaft);
-        at.states = memory.map(Dual::constant);
-        let first = self.followed(0, memory[0], shaft, &at);
-        let rests = Followed::resting(memory[1]);
-        if self.program.states.len() < 2 {
-            return Moved {
-                each: [first, rests],
-                coupled: [S::zero(); MAX_STATES],
-            };
-        }
-        at.states[0] = first.mean;
-        let second = self.followed(1, memory[1], shaft, &at);
-        at.states[1] = second.mean;
-        let again = self.followed(0, memory[0], shaft, &at);
-        Moved {
-            each: [again, second],
-            coupled: [(again.mean.value - first.mean.value).abs(), S::zero()],
-        }
-    }
-
-    /// One state from `begin` over a part, whose rate is taken as linear in it and in the time: exact where it is (the exponential
-    /// Rosenbrock–Euler method with its functions φ₁ to φ₃: Hochbruck, Ostermann, *Acta Numerica* 19, 2010, 2.1 and 2.3).
-    #[inline(always)]
-    fn followed(&self, place: usize, begin: S, shaft: &Shaft<S>, at: &At<Dual<S>>) -> Followed<S> {
-        let mut at = *at;
-        at.states[place] = Dual {
-            by_state: S::one(),
-            ..Dual::constant(begin)
-        };
-        let rate = self.rate(place, &at).scaled(shaft.length);
-        let one = S::one();
-        let half = S::from_f64(0.5);
-        // How often the state is renewed within the part; not negative.
-        let x = (-rate.by_state).max(S::zero()).min(S::from_f64(600.0));
-        let small = x.less(S::from_f64(1.0 / 64.0));
-        // φ₁ to φ₃ of −x: (1 − e^−x)/x, and each next one (1/n! − the one before)/x; by their series where a difference would lose digits.
-        let series = |[a, b, c, d]: [f64; 4]| {
-            let [a, b, c, d] = [a, b, c, d].map(|n| S::from_f64(1.0 / n));
-            a - x * (b - x * (c - x * d))
-        };
-        let quotient = (one - (-x).exp_decay()).part_of(x);
-        let first = S::select(small, series([1.0, 2.0, 6.0, 24.0]), quotient);
-        let quotient = (one - first).part_of(x);
-        let second = S::select(small, series([2.0, 6.0, 24.0, 120.0]), quotient);
-        let quotient = (half - second).part_of(x);
-        let third = S::select(small, series([6.0, 24.0, 120.0, 720.0]), quotient);
-        // The rate is the one in the middle of the part; it begins half of its change before.
-        let early = rate.value - half * rate.swing;
-        let gone = early * first + rate.swing * second;
-        let mean = begin + early * second + rate.swing * third;
-        Followed {
-            mean: Dual {
-                by_speed: rate.by_speed * second,
-                swing: gone,
-                ..Dual::constant(mean)
-            },
-            end: begin + gone,
-            rate_at_end: rate.value - x * gone,
-        }
     }
 }
 
@@ -456,34 +362,7 @@ impl Stated<f64> {
 
 /// Whether the speed passes zero within the part.
 #[inline(always)]
-fn reverses<S: Scalar>(shaft: &Shaft<S>) -> S::Mask {
+pub(super) fn reverses<S: Scalar>(shaft: &Shaft<S>) -> S::Mask {
     let turn = shaft.speed_change * S::from_f64(0.5);
     ((shaft.speed - turn) * (shaft.speed + turn)).less(S::zero())
-}
-
-/// A state over a part, as a part of its range.
-#[derive(Clone, Copy)]
-struct Followed<S> {
-    /// Its mean, with the derivative by the speed and its change over the part.
-    mean: Dual<S>,
-    end: S,
-    /// As its slope at the beginning has it, of the whole part.
-    rate_at_end: S,
-}
-
-impl<S: Scalar> Followed<S> {
-    fn resting(at: S) -> Self {
-        Followed {
-            mean: Dual::constant(at),
-            end: at,
-            rate_at_end: S::zero(),
-        }
-    }
-}
-
-/// The states over a part.
-struct Moved<S> {
-    each: [Followed<S>; MAX_STATES],
-    /// How much the mean of each is another one for what the other does within the part.
-    coupled: [S; MAX_STATES],
 }
