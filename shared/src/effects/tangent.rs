@@ -19,8 +19,13 @@ pub(super) fn tanh_share<S: Scalar>(square: S) -> S {
 #[inline(always)]
 pub(super) fn tanh<S: Scalar>(x: S) -> S {
     let quarter = x.times(S::coefficient(0.25));
-    let doubled = |t: S| (t + t).part_of(S::from_f64(1.0) + t * t);
     doubled(doubled(quarter * tanh_share(quarter * quarter)))
+}
+
+/// `tanh(2x)` of `tanh(x)`.
+#[inline(always)]
+fn doubled<S: Scalar>(t: S) -> S {
+    (t + t).part_of(S::from_f64(1.0) + t * t)
 }
 
 #[cfg(test)]

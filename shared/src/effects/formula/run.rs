@@ -137,12 +137,16 @@ impl<S: Scalar> Stated<S> {
     /// Mean over the part, which began at a time in intervals.
     #[inline(always)]
     fn mean(&self, shaft: &Shaft<S>, began: S) -> S {
-        self.mean_of(&|reach| self.law(&self.seen(shaft, reach, began)))
+        self.mean_of(
+            #[inline(always)]
+            |reach| self.law(&self.seen(shaft, reach, began)),
+        )
     }
 
-    /// Mean over the part of what is `at` a part `reach` of it after its middle.
+    /// Mean over the part of what is `at` a part `reach` of it after its middle. A closure that is not inlined would be computed without
+    /// the instructions of its routine, each operation of lanes by a call.
     #[inline(always)]
-    fn mean_of(&self, at: &impl Fn(f64) -> S) -> S {
+    fn mean_of(&self, at: impl Fn(f64) -> S) -> S {
         let nodes = if self.pairs == FOUR.len() {
             &FOUR[..]
         } else {
@@ -273,11 +277,12 @@ impl<S: Scalar> Stated<S> {
         S::routine(
             #[inline(always)]
             || {
-                let zero = S::zero();
                 let half = S::from_f64(0.5);
-                let at = |reach: f64| self.law(&self.seen(shaft, reach, zero)).max(zero);
-                let mean = self.mean_of(&at);
-                let grown = at(0.5) - at(-0.5);
+                let mean = self.mean_of(
+                    #[inline(always)]
+                    |reach| self.mass(shaft, reach),
+                );
+                let grown = self.mass(shaft, 0.5) - self.mass(shaft, -0.5);
                 let gathered = mean * shaft.speed_change + half * shaft.speed * grown;
                 let torque = gathered.times(shaft.inertia);
                 // A friction may stop the shaft within the part, whose speed then changes by less; and the mass that has grown gathers
@@ -291,6 +296,12 @@ impl<S: Scalar> Stated<S> {
                 }
             },
         )
+    }
+
+    /// An inertia a part `reach` of the part after its middle.
+    #[inline(always)]
+    fn mass(&self, shaft: &Shaft<S>, reach: f64) -> S {
+        self.law(&self.seen(shaft, reach, S::zero())).max(S::zero())
     }
 
     #[inline(always)]
@@ -334,12 +345,15 @@ impl<S: Scalar> Stated<S> {
         if !self.program.remembers() {
             return *memory;
         }
-        if !self.program.has_state() {
-            return [memory[0] + S::one().times(shaft.length), memory[1]];
-        }
         S::routine(
             #[inline(always)]
-            || self.moved(shaft, memory).each.map(|state| state.end),
+            || {
+                if self.program.has_state() {
+                    let [first, second] = self.moved(shaft, memory).each;
+                    return [first.end, second.end];
+                }
+                [memory[0] + S::one().times(shaft.length), memory[1]]
+            },
         )
     }
 }

@@ -34,6 +34,13 @@ pub(super) struct Moved<S> {
     pub coupled: S,
 }
 
+/// `1/a − x/b + x²/c − x³/d`.
+#[inline(always)]
+fn series<S: Scalar>(x: S, [a, b, c, d]: [f64; 4]) -> S {
+    let by = S::from_f64;
+    by(1.0 / a) - x * (by(1.0 / b) - x * (by(1.0 / c) - x * by(1.0 / d)))
+}
+
 impl<S: Scalar> Stated<S> {
     #[inline(always)]
     pub(super) fn differentiated(&self, shaft: &Shaft<S>) -> At<Dual<S>> {
@@ -104,16 +111,12 @@ impl<S: Scalar> Stated<S> {
         let x = (-rate.by_state).max(S::zero()).min(S::from_f64(600.0));
         let small = x.less(S::from_f64(1.0 / 64.0));
         // φ₁ to φ₃ of −x: (1 − e^−x)/x, and each next one (1/n! − the one before)/x; by their series where a difference would lose digits.
-        let series = |[a, b, c, d]: [f64; 4]| {
-            let [a, b, c, d] = [a, b, c, d].map(|n| S::from_f64(1.0 / n));
-            a - x * (b - x * (c - x * d))
-        };
         let quotient = (one - (-x).exp_decay()).part_of(x);
-        let first = S::select(small, series([1.0, 2.0, 6.0, 24.0]), quotient);
+        let first = S::select(small, series(x, [1.0, 2.0, 6.0, 24.0]), quotient);
         let quotient = (one - first).part_of(x);
-        let second = S::select(small, series([2.0, 6.0, 24.0, 120.0]), quotient);
+        let second = S::select(small, series(x, [2.0, 6.0, 24.0, 120.0]), quotient);
         let quotient = (half - second).part_of(x);
-        let third = S::select(small, series([6.0, 24.0, 120.0, 720.0]), quotient);
+        let third = S::select(small, series(x, [6.0, 24.0, 120.0, 720.0]), quotient);
         // The rate is the one in the middle of the part; it begins half of its change before.
         let early = rate.value - half * rate.swing;
         let gone = early * first + rate.swing * second;

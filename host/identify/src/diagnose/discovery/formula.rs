@@ -1,6 +1,7 @@
 //! A law as text.
 
 use super::term::{Load, Place, Speed, Term};
+use core::f64::consts::PI;
 
 /// Greatest amplitude, times the one that was found.
 const MOST: f64 = 10.0;
@@ -178,6 +179,12 @@ fn product(
         factors.push(parameters.add("c", size, 0.0, MOST * size, unit));
     }
     speed(term.speed, dry, &mut factors, parameters);
+    if let Some(bump) = term.bump {
+        let (low, high) = (bump.place - PI, bump.place + PI);
+        let f = parameters.add("f", bump.place, low, high, "rad");
+        let h = parameters.shape("h", bump.width, "");
+        factors.push(format!("exp((cos(theta - {f}) - 1)/{h})"));
+    }
     load(term, &mut factors, state, parameters);
     if let Some(memory) = term.memory {
         if state.is_none() {

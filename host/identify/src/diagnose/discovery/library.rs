@@ -1,6 +1,7 @@
 //! The terms that are tried.
 
 use super::term::{Load, Place, Speed, Term};
+use core::f64::consts::TAU;
 use servoid_engine::problem::Data;
 
 /// Exponents from which the search for one starts.
@@ -14,6 +15,9 @@ const DISTANCES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
 /// Greatest rates of a drive, supplies by the second, and its time constants, s.
 const RATES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 const TIMES: [f64; 6] = [3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1];
+/// Places of the revolution, and widths of what is there.
+const PLACES: u32 = 16;
+const WIDTHS: [f64; 3] = [0.05, 0.2, 0.8];
 /// Most cycles in a revolution.
 const ORDERS: u32 = 12;
 
@@ -24,6 +28,7 @@ pub fn library(data: &Data) -> Vec<Term> {
     let mut terms = by_speed(fastest);
     terms.extend(by_load(fastest, supply));
     terms.extend(by_angle(fastest));
+    terms.extend(by_place());
     terms.extend((1..=ORDERS).map(Term::inertia));
     terms.extend(by_state(fastest));
     terms.extend(by_command(supply));
@@ -162,6 +167,16 @@ fn by_angle(reference: f64) -> Vec<Term> {
     let orders = 1..=ORDERS;
     let each = |order| modulated.map(|(speed, load)| Term::torque(speed, load).by_angle(order));
     orders.flat_map(each).collect()
+}
+
+/// A friction or a torque at one place.
+fn by_place() -> Vec<Term> {
+    let places = (0..PLACES).map(|k| TAU * f64::from(k) / f64::from(PLACES));
+    let widths = |place| WIDTHS.map(|width| (place, width));
+    let kinds = |(place, width)| {
+        [Speed::Sign, Speed::One].map(|speed| Term::torque(speed, Load::One).at_place(place, width))
+    };
+    places.flat_map(widths).flat_map(kinds).collect()
 }
 
 fn by_state(reference: f64) -> Vec<Term> {

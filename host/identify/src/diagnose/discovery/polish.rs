@@ -2,10 +2,12 @@
 
 use super::blocks::Blocks;
 use super::equation::Equation;
-use super::term::Term;
+use super::term::{Term, Varied};
 
 /// Farthest that a number moves, as a factor.
 const REACH: f64 = 2.5;
+/// Farthest that an angle moves, rad.
+const TURN: f64 = 0.4;
 /// Points of a scan before the golden section.
 const SCAN: usize = 7;
 /// Steps of the golden section.
@@ -43,23 +45,29 @@ impl<'e> Polish<'e> {
     pub fn polished(&self, terms: &[Term]) -> Vec<Term> {
         let mut terms = terms.to_vec();
         for round in 0..ROUNDS {
-            let reach = if round == 0 { REACH } else { REACH.sqrt() };
+            let part = if round == 0 { 1.0 } else { 0.5 };
             for index in 0..terms.len() {
                 for slot in 0..terms[index].shapes().len() {
-                    terms = self.along(terms, index, slot, reach);
+                    terms = self.along(terms, index, slot, part);
                 }
             }
         }
         terms
     }
 
-    fn along(&self, terms: Vec<Term>, index: usize, slot: usize, reach: f64) -> Vec<Term> {
+    /// The terms with a better value of one number, within a part of its reach: of the logarithm of what is varied by factors.
+    fn along(&self, terms: Vec<Term>, index: usize, slot: usize, part: f64) -> Vec<Term> {
+        type Scale = fn(f64) -> f64;
         let shapes = terms[index].shapes();
         let shape = shapes[slot];
-        let at = |log: f64| -> Vec<Term> {
+        let (scaled, unscaled, reach): (Scale, Scale, f64) = match shape.varied {
+            Varied::Factor => (libm::log, libm::exp, part * libm::log(REACH)),
+            Varied::Angle => (|x| x, |x| x, part * TURN),
+        };
+        let at = |x: f64| -> Vec<Term> {
             let mut moved = terms.clone();
             let mut values: Vec<f64> = shapes.iter().map(|shape| shape.value).collect();
-            values[slot] = libm::exp(log);
+            values[slot] = unscaled(x);
             moved[index] = moved[index].shaped(&values);
             // One state is one: its distance is common.
             if let Some(own) = moved[index].memory {
@@ -69,23 +77,23 @@ impl<'e> Polish<'e> {
             }
             moved
         };
-        let here = libm::log(shape.value);
-        let low = (here - libm::log(reach)).max(libm::log(shape.low));
-        let high = (here + libm::log(reach)).min(libm::log(shape.high));
+        let here = scaled(shape.value);
+        let low = (here - reach).max(scaled(shape.low));
+        let high = (here + reach).min(scaled(shape.high));
         if high <= low {
             return terms;
         }
-        let cost = |log: f64| self.left(&at(log));
+        let cost = |x: f64| self.left(&at(x));
         let step = (high - low) / (SCAN - 1) as f64;
         let scanned = (0..SCAN).map(|k| low + step * k as f64).chain([here]);
         let best = scanned
-            .map(|log| (cost(log), log))
+            .map(|x| (cost(x), x))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, middle)) = best else {
             return terms;
         };
-        let log = golden(cost, (middle - step).max(low), (middle + step).min(high));
-        at(log)
+        let best = golden(cost, (middle - step).max(low), (middle + step).min(high));
+        at(best)
     }
 }
 

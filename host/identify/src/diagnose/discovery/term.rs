@@ -2,6 +2,7 @@
 
 use super::motion::Motion;
 use super::state::along;
+use core::f64::consts::PI;
 
 /// Where a term acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +130,16 @@ pub struct Memory {
     pub squared: bool,
 }
 
+/// A term's dependence on one place of the revolution: `exp((cos(theta - place) - 1)/width)`, the density of von Mises's distribution, one
+/// at the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bump {
+    /// The place, rad.
+    pub place: f64,
+    /// About the square of the angle, rad, at which it is down to 0.6.
+    pub width: f64,
+}
+
 /// A product, times one amplitude; or two, of cosine and sine of a multiple of the angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
@@ -140,6 +151,8 @@ pub struct Term {
     pub load: Load,
     /// Cycles in a revolution.
     pub order: Option<u32>,
+    /// Place of the revolution.
+    pub bump: Option<Bump>,
     /// State.
     pub memory: Option<Memory>,
     /// Amplitudes: V, or without unit beside a plain load.
@@ -155,12 +168,25 @@ pub struct Shape {
     pub low: f64,
     /// Greatest.
     pub high: f64,
+    /// How it is varied.
+    pub varied: Varied,
+}
+
+/// How a number is varied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Varied {
+    /// By factors.
+    Factor,
+    /// By angles.
+    Angle,
 }
 
 /// Exponents that are sensible.
 const EXPONENTS: (f64, f64) = (0.1, 4.0);
 /// Scales of the speed in which a bend shows, parts of the scale that the library starts from.
 const SCALES: (f64, f64) = (0.02, 10.0);
+/// Widths of a bump.
+const WIDTHS: (f64, f64) = (0.01, 4.0);
 /// Distances that a state follows, rad.
 pub const DISTANCES: (f64, f64) = (1e-3, 10.0);
 
@@ -299,6 +325,7 @@ impl Term {
             speed,
             load,
             order: None,
+            bump: None,
             memory: None,
             amplitudes: vec![0.0],
         }
@@ -317,6 +344,14 @@ impl Term {
         Term {
             order: Some(order),
             amplitudes: vec![0.0; 2],
+            ..self
+        }
+    }
+
+    /// The same at one place of the revolution.
+    pub fn at_place(self, place: f64, width: f64) -> Self {
+        Term {
+            bump: Some(Bump { place, width }),
             ..self
         }
     }
@@ -343,6 +378,11 @@ impl Term {
                 *value *= if memory.squared { z * z } else { z };
             }
         }
+        if let Some(Bump { place, width }) = self.bump {
+            for (value, angle) in product.iter_mut().zip(&motion.angle) {
+                *value *= libm::exp((libm::cos(angle - place) - 1.0) / width);
+            }
+        }
         let Some(order) = self.order else {
             return vec![product];
         };
@@ -357,10 +397,20 @@ impl Term {
         waves.into_iter().map(times).collect()
     }
 
-    fn shapes_mut(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64))> {
+    fn shapes_mut(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64), Varied)> {
+        let (place, width) = match &mut self.bump {
+            Some(bump) => (Some(&mut bump.place), Some((&mut bump.width, WIDTHS))),
+            None => (None, None),
+        };
         let memory = self.memory.as_mut().map(|m| (&mut m.distance, DISTANCES));
-        let speed = self.speed.shapes();
-        speed.chain(self.load.shape()).chain(memory)
+        let factors = self.speed.shapes().chain(self.load.shape()).chain(memory);
+        let factors = factors.chain(width);
+        let factors = factors.map(|(value, range)| (value, range, Varied::Factor));
+        let place = place.map(|place| {
+            let range = (*place - PI, *place + PI);
+            (place, range, Varied::Angle)
+        });
+        factors.chain(place)
     }
 
     /// The numbers that shape it.
@@ -368,10 +418,11 @@ impl Term {
         let mut copy = self.clone();
         let shapes = copy.shapes_mut();
         shapes
-            .map(|(value, (low, high))| Shape {
+            .map(|(value, (low, high), varied)| Shape {
                 value: *value,
                 low,
                 high,
+                varied,
             })
             .collect()
     }
@@ -379,7 +430,7 @@ impl Term {
     /// The same with other numbers.
     pub fn shaped(&self, values: &[f64]) -> Self {
         let mut copy = self.clone();
-        for ((own, _), value) in copy.shapes_mut().zip(values) {
+        for ((own, ..), value) in copy.shapes_mut().zip(values) {
             *own = *value;
         }
         copy
@@ -404,7 +455,8 @@ impl Term {
     /// Whether an effect of the catalogue says all of it, whatever its numbers: Coulomb friction, or a constant torque.
     pub fn is_in_the_catalogue(&self) -> bool {
         let plain = matches!(self.speed, Speed::One | Speed::Sign) && self.load == Load::One;
-        plain && self.place == Place::Torque && self.order.is_none() && self.memory.is_none()
+        let everywhere = self.order.is_none() && self.bump.is_none();
+        plain && self.place == Place::Torque && everywhere && self.memory.is_none()
     }
 
     /// Whether it is a friction: with the direction of the motion, of one sign, and not vanishing at rest.
