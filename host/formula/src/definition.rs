@@ -279,15 +279,16 @@ impl Definition {
         }
         let seen = match self.output {
             Output::Angle | Output::Inertia => variable == Variable::Angle,
-            // A current through a voltage is a resistance, which is solved for with the winding.
-            Output::Voltage => !matches!(variable, Variable::Current | Variable::Transmitted),
+            Output::Voltage => variable != Variable::Transmitted,
             Output::Torque | Output::Friction | Output::TorqueConstant => true,
         };
         if seen {
             return Ok(());
         }
         Err(match self.output {
-            Output::Voltage => "a voltage depends on u, the command, and on w, theta, t and temperature; what depends on i is a torque",
+            Output::Voltage => {
+                "a voltage depends on u, the command, and on i, w, theta, t and temperature"
+            }
             Output::Angle => "an error of the angle depends on theta alone",
             _ => "an inertia depends on theta alone",
         }

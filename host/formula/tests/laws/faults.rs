@@ -75,7 +75,7 @@ fn faults_point_at_the_character_and_say_what_was_expected() {
             15,
             "theta alone",
         ),
-        ("a: voltage = c*i; c in [0, 1]", 15, "torque"),
+        ("a: voltage = c*tau; c in [0, 1]", 15, "depends on"),
         (
             "a: z' = (u - z)/s; voltage = z; s in [1, 2] s",
             29,

@@ -181,32 +181,53 @@ fn an_inertia_that_the_angle_changes_moves_as_its_equation_does() {
     }
 }
 
-/// The volts at the winding that a law adds, from the state, the speed and the command; and the rate of its state.
-type Added = fn(f64, f64, f64) -> [f64; 2];
+/// The volts at the winding that a law adds, from the state, the speed, the current and the command; and the rate of its state.
+type Added = fn(f64, f64, f64, f64) -> [f64; 2];
 
-/// Voltages that change within an interval: with the speed, and by a state that follows the command at once, late, or at a limited rate.
+/// Voltages that change within an interval: with the speed, with the current as of a resistance, a contact or a winding that heats up, and by
+/// a state that follows the command at once, late, or at a limited rate.
 #[test]
 fn a_voltage_that_changes_within_an_interval_moves_as_its_equation_does() {
-    let cases: [(&str, Vec<f64>, Added); 4] = [
+    let cases: [(&str, Vec<f64>, Added); 8] = [
         (
             "emf: voltage = -c*w; c in [0, 1] V*s/rad",
             vec![0.01],
-            |_, w, _| [-0.01 * w, 0.0],
+            |_, w, _, _| [-0.01 * w, 0.0],
         ),
         (
             "flat: voltage = c*w*abs(w)/(w0 + abs(w)); c in [0, 1] V*s/rad; w0 = 900 rad/s",
             vec![0.03],
-            |_, w, _| [0.03 * w * w.abs() / (900.0 + w.abs()), 0.0],
+            |_, w, _, _| [0.03 * w * w.abs() / (900.0 + w.abs()), 0.0],
         ),
         (
             "lag: z' = (u - z)/s; voltage = z - u; s in [1e-4, 1] s; z in [-24, 24] V",
             vec![0.004],
-            |z, _, u| [z - u, (u - z) / 0.004],
+            |z, _, _, u| [z - u, (u - z) / 0.004],
         ),
         (
             "slew: z' = max(-r, min(r, (u - z)/s)); voltage = z - u; r in [1, 1e5] V/s; s = 5e-4 s; z in [-24, 24] V",
             vec![800.0],
-            |z, _, u| [z - u, ((u - z) / 5e-4).clamp(-800.0, 800.0)],
+            |z, _, _, u| [z - u, ((u - z) / 5e-4).clamp(-800.0, 800.0)],
+        ),
+        (
+            "more: voltage = -a*i; a in [-1, 4]",
+            vec![0.3],
+            |_, _, i, _| [-0.3 * i, 0.0],
+        ),
+        (
+            "contact: voltage = -d*i/(e + abs(i)); d in [0, 9] V; e = 1.5 V",
+            vec![1.2],
+            |_, _, i, _| [-1.2 * i / (1.5 + i.abs()), 0.0],
+        ),
+        (
+            "sparks: voltage = -d*tanh(i/e)*(1 + w/w0); d in [0, 9] V; e = 0.8 V; w0 = 2000 rad/s",
+            vec![0.7],
+            |_, w, i, _| [-0.7 * (i / 0.8).tanh() * (1.0 + w / 2000.0), 0.0],
+        ),
+        (
+            "warm: z' = h*i^2 - z/s; voltage = -z*i; h in [0, 1] 1/V^2/s; s = 0.5 s; z in [0, 4]",
+            vec![0.05],
+            |z, _, i, _| [-z * i, 0.05 * i * i - z / 0.5],
         ),
     ];
     for (text, values, added) in cases {
@@ -214,7 +235,7 @@ fn a_voltage_that_changes_within_an_interval_moves_as_its_equation_does() {
         let plan_of = plan(&[(kind, values)]);
         let machine = plan_of.machine;
         let truth = integrated(|[_, speed, current, z], volts| {
-            let [more, rate] = added(z, speed, volts);
+            let [more, rate] = added(z, speed, current, volts);
             let torque = current - machine.damping * speed;
             [
                 speed,

@@ -1,4 +1,4 @@
-//! What a formula is computed with: a number, or a number with its derivatives by the state, the speed and the time.
+//! What a formula is computed with: a number, or a number with its derivatives by the state or the current, the speed and the time.
 
 use crate::scalar::Scalar;
 
@@ -62,7 +62,7 @@ impl<S: Scalar> Number<S> for S {
 pub(super) struct Dual<S> {
     /// Its value.
     pub(super) value: S,
-    /// By the state.
+    /// By the state, or by the current where a voltage goes with that.
     pub(super) by_state: S,
     /// By the speed.
     pub(super) by_speed: S,

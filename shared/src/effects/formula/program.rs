@@ -141,9 +141,16 @@ impl Program {
         !self.states.is_empty()
     }
 
-    /// Whether it is a voltage that changes within an interval: by a state, the motion or the time, and not by the command alone.
+    /// Whether it is a voltage that changes within an interval: by a state, the motion, the current or the time, and not by the command
+    /// alone.
     pub fn acts_within_a_part(&self) -> bool {
-        self.output == Output::Voltage && (self.has_state() || self.goes_with_the_run())
+        let within = self.has_state() || self.goes_with_the_run() || self.is_a_resistance();
+        self.output == Output::Voltage && within
+    }
+
+    /// Whether it is a voltage that goes with the current.
+    pub(super) fn is_a_resistance(&self) -> bool {
+        self.output == Output::Voltage && self.looks_at(Variable::Current)
     }
 
     /// Whether it looks at what neither the command nor the current tells: the motion, the time or the temperature.

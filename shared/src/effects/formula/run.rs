@@ -33,6 +33,8 @@ const FOUR: [(f64, f64); 2] = [
     (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
+/// Least resistance that a voltage adds to the winding's own, as a part of it.
+const LEAST_RESISTANCE: f64 = -0.9;
 /// Part of a torque of inertia that is doubted, of the part of the mass that has grown meanwhile.
 const GROWN: f64 = 1.0 / 12.0;
 
@@ -176,7 +178,37 @@ impl<S: Scalar> Stated<S> {
         )
     }
 
-    /// A voltage that goes with the motion or has a state, as its mean over the part.
+    /// A voltage at a current, V, as a voltage and a resistance: the current follows it within the part, so that the winding is solved
+    /// with both. Never a resistance that takes most of the winding's own away.
+    #[inline(always)]
+    fn with_resistance(&self, volts: S, slope: S, current: S) -> Winding<S> {
+        let resistance = (-slope).max(S::from_f64(LEAST_RESISTANCE));
+        Winding {
+            resistance,
+            ..Winding::volts(volts + resistance * current, S::zero())
+        }
+    }
+
+    /// Slope of a voltage by the current, for states that are known.
+    #[inline(always)]
+    fn by_current(&self, at: &At<S>) -> S {
+        let at = At {
+            speed: Dual::constant(at.speed),
+            turns: Dual::constant(at.turns),
+            current: Dual {
+                by_state: S::one(),
+                ..Dual::constant(at.current)
+            },
+            transmitted: Dual::constant(at.transmitted),
+            command: Dual::constant(at.command),
+            time: Dual::constant(at.time),
+            temperature: Dual::constant(at.temperature),
+            states: at.states.map(Dual::constant),
+        };
+        self.law(&at).by_state
+    }
+
+    /// A voltage that goes with the motion or the current or has a state, as its mean over the part.
     #[inline(never)]
     pub(in crate::effects) fn winding(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Winding<S> {
         if !self.program.acts_within_a_part() {
@@ -185,8 +217,17 @@ impl<S: Scalar> Stated<S> {
         S::routine(
             #[inline(always)]
             || {
+                let resists = self.program.is_a_resistance();
                 if !self.program.has_state() {
-                    return Winding::volts(self.mean(shaft, memory[0]), S::zero());
+                    let volts = self.mean(shaft, memory[0]);
+                    if !resists {
+                        return Winding::volts(volts, S::zero());
+                    }
+                    let slope = self.mean_of(
+                        #[inline(always)]
+                        |reach| self.by_current(&self.seen(shaft, reach, memory[0])),
+                    );
+                    return self.with_resistance(volts, slope, shaft.current);
                 }
                 let moved = self.moved(shaft, memory);
                 let at = At {
@@ -207,7 +248,15 @@ impl<S: Scalar> Stated<S> {
                     let bent = bent.max(coupled);
                     further.states[place] = at.states[place] + bent * S::from_f64(0.5);
                 }
-                Winding::volts(volts, (self.law(&further) - volts).abs())
+                let doubt = (self.law(&further) - volts).abs();
+                if !resists {
+                    return Winding::volts(volts, doubt);
+                }
+                let slope = self.by_current(&at);
+                Winding {
+                    doubt,
+                    ..self.with_resistance(volts, slope, shaft.current)
+                }
             },
         )
     }

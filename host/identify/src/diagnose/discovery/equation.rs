@@ -111,7 +111,7 @@ impl<'a> Equation<'a> {
         // A torque passes the winding's lag backwards: its volts lead.
         let lead = match place {
             Place::Torque | Place::Inertia => self.machine.electrical,
-            Place::Voltage => 0.0,
+            Place::Voltage | Place::Drop => 0.0,
         };
         let at = |&k: &usize| filtered[k].value + lead * filtered[k].rate;
         self.rows.iter().map(at).collect()

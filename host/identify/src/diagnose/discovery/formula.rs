@@ -77,7 +77,7 @@ pub fn formula(terms: &[Term], name: &str) -> String {
     // A budget stands against the motion, and is never negative.
     let dry = budget(terms);
     let place = match (terms.first().map(|term| term.place), dry) {
-        (Some(Place::Voltage), _) => "voltage",
+        (Some(Place::Voltage | Place::Drop), _) => "voltage",
         (Some(Place::Inertia), _) => "inertia",
         (_, true) => "friction",
         _ => "torque",
@@ -291,7 +291,7 @@ fn load(
     parameters: &mut Parameters,
 ) {
     let name = match term.place {
-        Place::Torque | Place::Inertia => "i",
+        Place::Torque | Place::Drop | Place::Inertia => "i",
         Place::Voltage => "u",
     };
     match term.load {

@@ -31,6 +31,15 @@ impl Law {
         self.terms.len() == other.terms.len() && pairs.all(|(own, other)| own.is_alike(other))
     }
 
+    /// The same as a drop of the winding; `None` where any of its terms is none.
+    pub fn as_drop(&self) -> Option<Law> {
+        let terms = self.terms.iter().map(Term::as_drop);
+        Some(Law {
+            terms: terms.collect::<Option<_>>()?,
+            ..self.clone()
+        })
+    }
+
     /// Whether an effect of the catalogue gives the same.
     pub fn is_in_the_catalogue(&self) -> bool {
         self.resembles.is_some_and(|(_, part)| part > SAME)

@@ -11,6 +11,8 @@ pub enum Place {
     Torque,
     /// A voltage beside the commanded one; the term's load is the command instead of the current.
     Voltage,
+    /// A voltage that the winding is short of by the current.
+    Drop,
     /// A moment of inertia that goes with the angle, as a part of the motor's; the term depends on nothing else.
     Inertia,
 }
@@ -367,7 +369,7 @@ impl Term {
     /// The factors along a motion, one for each amplitude.
     pub fn factors(&self, motion: &Motion) -> Vec<Vec<f64>> {
         let load = match self.place {
-            Place::Torque | Place::Inertia => &motion.current,
+            Place::Torque | Place::Drop | Place::Inertia => &motion.current,
             Place::Voltage => &motion.command,
         };
         let load = self.load.along(load, &motion.seconds);
@@ -450,6 +452,16 @@ impl Term {
     /// Whether it depends on the current.
     pub fn sees_the_current(&self) -> bool {
         self.place == Place::Torque && self.load != Load::One
+    }
+
+    /// The same as a drop of the winding: a torque that goes with the current and not with the motion's direction is that, but for how late
+    /// the current follows. `None` of other terms.
+    pub fn as_drop(&self) -> Option<Term> {
+        let of_the_current = self.speed == Speed::One && self.sees_the_current();
+        (of_the_current && self.memory.is_none()).then(|| Term {
+            place: Place::Drop,
+            ..self.clone()
+        })
     }
 
     /// Whether an effect of the catalogue says all of it, whatever its numbers: Coulomb friction, or a constant torque.
