@@ -22,6 +22,7 @@ mod laws;
 /// Laws that use every operation between them.
 const STATED: &[&Formula] = &[
     &laws::AGEING,
+    &laws::CONTACT,
     &laws::CRANK,
     &laws::DRAG,
     &laws::FALLING,

@@ -549,3 +549,45 @@ pub static MASS: Formula = Formula {
         ],
     },
 };
+
+/// `contact: voltage = -d*i/(e + abs(i)); d = 0.9 in [0, 9] V; e = 1.5 V`
+pub static CONTACT: Formula = Formula {
+    description: Description {
+        name: "contact",
+        place: Place::Drive,
+        title: "law as stated",
+        parameters: &[Parameter {
+            name: "d",
+            quantity: Quantity::Stated("V"),
+            range: (0.0, 9.0),
+            widest: 9.0,
+            typical: 0.9,
+            amplitude: true,
+            neutral: Some(0.0),
+            form: false,
+        }],
+        equation: "contact: voltage = -d*i/(e + abs(i)); d = 0.9 in [0, 9] V; e = 1.5 V",
+        signature: "as its equation says",
+        exposed_by: "what makes its variables large and small apart from each other",
+        look_alikes: &[],
+        source: "stated by the user",
+        facts: Facts {
+            series_parallel: true,
+            ..Facts::PLAIN
+        },
+    },
+    program: Program {
+        output: Output::Voltage,
+        constants: &[&[Op::Parameter(0), Op::Neg], &[Op::Number(1.5)]],
+        law: &[
+            Op::Variable(Variable::Current),
+            Op::Scale(0),
+            Op::Constant(1),
+            Op::Variable(Variable::Current),
+            Op::Abs,
+            Op::Add,
+            Op::Div,
+        ],
+        states: &[],
+    },
+};
