@@ -76,12 +76,7 @@ impl FoundLaw {
             let run = bench.run(&drive).ok()?;
             let given = hidden.along(&machine, &run).into_iter();
             let known: Given = given.map(|given| (given.torque, given.voltage)).collect();
-            let beside = truth::model(
-                &machine,
-                &case.drawn.hidden().ok()?,
-                case.drawn.counts_per_rev,
-            )
-            .ok()?;
+            let beside = truth::model(&machine, &bench.effects, bench.counts_per_rev).ok()?;
             departure(&case.held_out, &model.candidate, &known, &beside)
         });
         FoundLaw {

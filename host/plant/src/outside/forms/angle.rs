@@ -1,16 +1,12 @@
 //! Laws of the angle.
 
-use super::{NOTHING, between, order_and_phase, speed, torque};
+use super::{NOTHING, between, order_and_phase, speed, torque, wave};
 use crate::outside::{Outside, Variable};
 
 pub(super) const VISCOUS_BY_ANGLE: Outside = Outside {
     name: "viscous_by_angle",
     about: "-c*(w/w0)*cos(k*theta + phase)",
-    draw: |machine, chance| {
-        let [order, phase] = order_and_phase(chance, 6.0);
-        let c = torque(machine, chance);
-        vec![c, machine.top_speed_rad_s(), order, phase]
-    },
+    draw: |machine, chance| wave(machine, chance, 1.0, machine.top_speed_rad_s(), 6.0),
     torque: |v, at| -v[0] * at.speed / v[1] * (v[2] * at.angle + v[3]).cos(),
     depends_on: &[Variable::Speed, Variable::Angle],
     ..NOTHING
@@ -32,11 +28,7 @@ pub(super) const COULOMB_BY_ANGLE: Outside = Outside {
 pub(super) const CRANK: Outside = Outside {
     name: "crank",
     about: "1/2*a*k*J*w^2*sin(k*theta + phase), what an inertia J*(1 + a*cos) asks of a steady speed",
-    draw: |machine, chance| {
-        let [order, phase] = order_and_phase(chance, 4.0);
-        let c = 2.0 * torque(machine, chance);
-        vec![c, machine.top_speed_rad_s(), order, phase]
-    },
+    draw: |machine, chance| wave(machine, chance, 2.0, machine.top_speed_rad_s(), 4.0),
     torque: |v, at| v[0] * (at.speed / v[1]).powi(2) * (v[2] * at.angle + v[3]).sin(),
     depends_on: &[Variable::Speed, Variable::Angle],
     ..NOTHING
@@ -74,11 +66,7 @@ pub(super) const FADING_RIPPLE: Outside = Outside {
 pub(super) const TORQUE_RIPPLE: Outside = Outside {
     name: "torque_ripple",
     about: "c*i/i0*cos(k*theta + phase), the ripple of a commutated current",
-    draw: |machine, chance| {
-        let [order, phase] = order_and_phase(chance, 6.0);
-        let c = 2.0 * torque(machine, chance);
-        vec![c, machine.stall_current_a(), order, phase]
-    },
+    draw: |machine, chance| wave(machine, chance, 2.0, machine.stall_current_a(), 6.0),
     torque: |v, at| v[0] * at.current / v[1] * (v[2] * at.angle + v[3]).cos(),
     depends_on: &[Variable::Angle, Variable::Load],
     ..NOTHING
@@ -103,11 +91,7 @@ pub(super) const WINDING_RIPPLE: Outside = Outside {
 pub(super) const SPEED_RIPPLE: Outside = Outside {
     name: "speed_ripple",
     about: "c*|w|/w0*cos(k*theta + phase)",
-    draw: |machine, chance| {
-        let [order, phase] = order_and_phase(chance, 6.0);
-        let c = torque(machine, chance);
-        vec![c, machine.top_speed_rad_s(), order, phase]
-    },
+    draw: |machine, chance| wave(machine, chance, 1.0, machine.top_speed_rad_s(), 6.0),
     torque: |v, at| v[0] * at.speed.abs() / v[1] * (v[2] * at.angle + v[3]).cos(),
     depends_on: &[Variable::Speed, Variable::Angle],
     ..NOTHING

@@ -43,6 +43,12 @@ fn order_and_phase(chance: &mut Chance, most: f64) -> [f64; 2] {
     [order, between(chance, 0.0, std::f64::consts::TAU)]
 }
 
+/// A torque that is a wave along the angle: `times` the usual size, the reference by a part of which it goes, its order and its phase.
+fn wave(machine: &Machine, chance: &mut Chance, times: f64, reference: f64, most: f64) -> Vec<f64> {
+    let [order, phase] = order_and_phase(chance, most);
+    vec![times * torque(machine, chance), reference, order, phase]
+}
+
 impl Outside {
     /// Every form. A proof hides them in this order; a new one comes last, so that the case of a number stays what it was.
     pub const ALL: &'static [&'static Outside] = &[
