@@ -4,6 +4,7 @@ import os
 import random
 import signal
 import sys
+import threading
 
 import pandas
 import pytest
@@ -58,13 +59,43 @@ def test_ctrl_c_keeps_what_was_done(lot, diagnosed, tmp_path, drive, engine):
     # As a terminal sends it: to all of the process group.
     os.killpg(driver.process.pid, signal.SIGINT)
     done = driver.ended(code=1, seconds=30.0)
-    assert done["interrupted"]
+    assert done.get("interrupted"), driver.errors()
     assert "stopped by the user" in driver.errors() and "Traceback" not in driver.errors(), driver.errors()
     driver.gone(folder)
     kept = folder.rows()
     assert 3 <= kept < UNITS
     local = sv.batch(lot, folder.path, do="diagnose", budget=20, table=tmp_path / "table.parquet")
     assert local.recordings == UNITS
+    assert (tmp_path / "table.parquet").read_bytes() == diagnosed
+
+
+def test_ctrl_c_leaves_the_session_of_the_caller(lot, diagnosed, tmp_path):
+    # Here, as it reads its settings when it is imported.
+    import ray
+
+    folder = Folder(tmp_path / "out")
+    ended = threading.Event()
+
+    def press() -> None:
+        while not ended.wait(0.02):
+            if folder.rows() >= 3:
+                os.kill(os.getpid(), signal.SIGINT)
+                return
+
+    ray.init(address="local", num_cpus=2, include_dashboard=False, log_to_driver=False)
+    try:
+        pressed = threading.Thread(target=press)
+        pressed.start()
+        done = fleet.run(lot, folder.path, engine="ray", budget=20, tasks=SHARDS, progress=False)
+        ended.set()
+        pressed.join()
+        assert done.interrupted
+        # It is free again when the shards that had begun have ended, and the others never begin.
+        assert ray.get(ray.remote(num_cpus=2)(lambda: True).remote(), timeout=60.0)
+        assert 3 <= folder.rows() < UNITS
+    finally:
+        ray.shutdown()
+    sv.batch(lot, folder.path, do="diagnose", budget=20, table=tmp_path / "table.parquet")
     assert (tmp_path / "table.parquet").read_bytes() == diagnosed
 
 

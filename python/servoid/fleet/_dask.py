@@ -55,10 +55,9 @@ class Dask:
         except Exception as why:
             return unexpected(name, why)
 
-    def stop(self) -> Iterator[Outcome]:
+    def stop(self) -> None:
         # A thread that computes cannot be stopped: on a cluster that is not ours, a shard that has begun goes on to its end.
         self._client.cancel(list(self._under_way))
-        return iter(())
 
     def close(self) -> None:
         with contextlib.suppress(TimeoutError):

@@ -24,8 +24,8 @@ class Engine(Protocol):
     def outcomes(self, work: Work, shards: Sequence[str]) -> Iterator[Outcome]:
         """Does the shards; says how each ended, as it ends."""
 
-    def stop(self) -> Iterator[Outcome]:
-        """Stops what is under way; gives the outcomes that are still to be had."""
+    def stop(self) -> None:
+        """Lets nothing more begin; what is under way ends as soon as the engine can end it."""
 
     def close(self) -> None: ...
 

@@ -5,11 +5,12 @@ import logging
 import os
 import signal
 import threading
+from collections import deque
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .._servoid import UsageError
-from ._engine import ENDING, lost, package, unexpected
+from ._engine import lost, package, unexpected
 from ._task import Outcome, Work
 
 #: Memory for results of tasks, bytes: they are a few numbers.
@@ -41,9 +42,13 @@ class Ray:
 
     def outcomes(self, work: Work, shards: Sequence[str]) -> Iterator[Outcome]:
         task = self._ray.remote(num_cpus=1, max_retries=AGAIN)(_do)
-        for name in shards:
-            self._under_way[task.options(name=f"servoid {name}").remote(work, name)] = name
-        while self._under_way:
+        waiting = deque(shards)
+        # What is submitted cannot be taken back (`stop`): in a session that goes on after us, no task waits there for a CPU.
+        most = len(shards) if self._own else self.cpus
+        while waiting or self._under_way:
+            while waiting and len(self._under_way) < most:
+                name = waiting.popleft()
+                self._under_way[task.options(name=f"servoid {name}").remote(work, name)] = name
             ended, _ = self._ray.wait(list(self._under_way), num_returns=1)
             for one in ended:
                 yield self._take(one)
@@ -56,16 +61,10 @@ class Ray:
         except Exception as why:
             return unexpected(name, getattr(why, "cause", None) or why)
 
-    def stop(self) -> Iterator[Outcome]:
-        for one in self._under_way:
-            self._ray.cancel(one)
-        under_way = list(self._under_way)
-        if under_way:
-            ended, _ = self._ray.wait(under_way, num_returns=len(under_way), timeout=ENDING)
-            for one in ended:
-                outcome = self._take(one)
-                if outcome.done is not None:
-                    yield outcome
+    def stop(self) -> None:
+        # Ray 2.60 aborts this process where a task ends just as it is cancelled (a race like that of its pull request 54798), so
+        # none is. With a session of ours its workers end; in another one, a shard that has begun goes on to its end.
+        self._under_way.clear()
 
     def close(self) -> None:
         if self._own:

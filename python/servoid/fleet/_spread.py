@@ -49,9 +49,7 @@ def spread_shards(
                     shown.at(sum(_recordings(one) for one in ended), len(ended))
             except KeyboardInterrupt:
                 interrupted = True
-                whole = len(ended)
-                ended.extend(held.stop())
-                shown.at(sum(_recordings(one) for one in ended), whole)
+                held.stop()
             except Exception as why:
                 raise lost(engine, why) from why
     finally:
