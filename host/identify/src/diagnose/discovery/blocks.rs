@@ -57,52 +57,55 @@ impl Blocks {
 
     /// Coefficients of `columns` by all blocks.
     pub fn coefficients(&self, columns: &[usize]) -> Option<DVector<f64>> {
-        solve(&self.all, columns, self.own)
+        solve(&self.of(&self.all, columns))
     }
 
     /// Squares that coefficients leave on all blocks.
     pub fn left(&self, columns: &[usize], by: &DVector<f64>) -> f64 {
-        left(&self.all, columns, self.own, by)
+        left(&self.of(&self.all, columns), by)
     }
 
     /// Squares that each block leaves where its coefficients come from the others.
     pub fn left_out(&self, columns: &[usize]) -> Option<f64> {
+        let all = self.of(&self.all, columns);
         let mut sum = 0.0;
         for part in &self.parts {
-            let others = &self.all - part;
-            let by = solve(&others, columns, self.own)?;
-            sum += left(part, columns, self.own, &by);
+            let part = self.of(part, columns);
+            let by = solve(&(&all - &part))?;
+            sum += left(&part, &by);
         }
         Some(sum)
     }
+
+    /// Sums of products of some columns, with the missing volts as the last.
+    fn of(&self, products: &DMatrix<f64>, columns: &[usize]) -> DMatrix<f64> {
+        let place = |k: usize| columns.get(k).copied().unwrap_or(self.own);
+        let size = columns.len() + 1;
+        DMatrix::from_fn(size, size, |a, b| products[(place(a), place(b))])
+    }
 }
 
-fn solve(products: &DMatrix<f64>, columns: &[usize], target: usize) -> Option<DVector<f64>> {
-    let n = columns.len();
-    let scale: Vec<f64> = columns
-        .iter()
-        .map(|&j| 1.0 / products[(j, j)].max(1e-300).sqrt())
-        .collect();
-    let mut matrix = DMatrix::from_fn(n, n, |a, b| {
-        products[(columns[a], columns[b])] * scale[a] * scale[b]
-    });
+/// Coefficients of all columns but the last, which they make up.
+fn solve(products: &DMatrix<f64>) -> Option<DVector<f64>> {
+    let n = products.ncols() - 1;
+    let scale = DVector::from_fn(n, |a, _| 1.0 / products[(a, a)].max(1e-300).sqrt());
+    let mut matrix = DMatrix::from_fn(n, n, |a, b| products[(a, b)] * scale[a] * scale[b]);
     for k in 0..n {
         matrix[(k, k)] += RIDGE;
     }
-    let right = DVector::from_fn(n, |a, _| products[(columns[a], target)] * scale[a]);
-    let mut by = matrix.cholesky()?.solve(&right);
-    for (value, scale) in by.iter_mut().zip(&scale) {
-        *value *= scale;
-    }
+    let right = DVector::from_fn(n, |a, _| products[(a, n)] * scale[a]);
+    let by = matrix.cholesky()?.solve(&right).component_mul(&scale);
     by.iter().all(|x| x.is_finite()).then_some(by)
 }
 
-fn left(products: &DMatrix<f64>, columns: &[usize], target: usize, by: &DVector<f64>) -> f64 {
-    let mut sum = products[(target, target)];
-    for (a, &j) in columns.iter().enumerate() {
-        sum -= 2.0 * by[a] * products[(j, target)];
-        for (b, &k) in columns.iter().enumerate() {
-            sum += by[a] * by[b] * products[(j, k)];
+/// Squares that coefficients of all columns but the last leave of it.
+fn left(products: &DMatrix<f64>, by: &DVector<f64>) -> f64 {
+    let n = by.len();
+    let mut sum = products[(n, n)];
+    for a in 0..n {
+        sum -= 2.0 * by[a] * products[(a, n)];
+        for b in 0..n {
+            sum += by[a] * by[b] * products[(a, b)];
         }
     }
     sum.max(0.0)

@@ -1,5 +1,11 @@
 //! One term of a law: a product of simple functions of speed, current, angle and one state.
 
+mod load;
+mod speed;
+
+pub use load::Load;
+pub use speed::Speed;
+
 use super::motion::Motion;
 use super::state::along;
 use core::f64::consts::PI;
@@ -15,112 +21,6 @@ pub enum Place {
     Drop,
     /// A moment of inertia that goes with the angle, as a part of the motor's; the term depends on nothing else.
     Inertia,
-}
-
-/// A term's dependence on the speed. Powers are of the speed as a part of `reference`, rad/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Speed {
-    /// None.
-    One,
-    /// Direction of the motion.
-    Sign,
-    /// `w/reference`.
-    Plain {
-        /// Speed at which it is one, rad/s.
-        reference: f64,
-    },
-    /// `|w/reference|^exponent`, with the motion's sign where `odd`.
-    Power {
-        /// Power.
-        exponent: f64,
-        /// Whether it has a sign.
-        odd: bool,
-        /// Where its size is one.
-        reference: f64,
-    },
-    /// `exp(-|w|/scale)`, with the motion's sign where `odd`.
-    Decay {
-        /// Speed at which it is down to 1/e, rad/s.
-        scale: f64,
-        /// Whether it has the motion's sign.
-        odd: bool,
-    },
-    /// `(|w|/scale)^exponent*exp(-|w|/scale)`, with the motion's sign.
-    Hump {
-        /// Power.
-        exponent: f64,
-        /// Speed by which it is greatest, where the power is one, rad/s.
-        scale: f64,
-    },
-    /// `(w/scale)/(1 + (w/scale)^2)`, as of eddy currents in a brake (Wouterse, *IEE Proc. B* 138, 153, 1991).
-    Eddy {
-        /// Speed at which it is greatest, rad/s.
-        scale: f64,
-    },
-    /// `(w/scale)/(1 + |w|/scale)`.
-    Saturating {
-        /// Speed at which it bends, rad/s.
-        scale: f64,
-    },
-    /// `tanh(w/scale)`.
-    Tanh {
-        /// Speed at which it bends, rad/s.
-        scale: f64,
-    },
-    /// `(max(±w, 0)/reference)^exponent`.
-    OneSided {
-        /// Power.
-        exponent: f64,
-        /// Whether it acts forward.
-        forward: bool,
-        /// Speed at which it is one, rad/s.
-        reference: f64,
-    },
-    /// Direction of the motion, where it is faster than `threshold`.
-    Above {
-        /// Speed from which it acts, rad/s.
-        threshold: f64,
-    },
-    /// By how much it is faster than `threshold`, as a part of that, with the motion's sign.
-    Beyond {
-        /// Speed from which it acts, rad/s.
-        threshold: f64,
-    },
-}
-
-/// A term's dependence on the current, V across the resistance, or on the command, V; or on how far a drive is behind the command.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Load {
-    /// None.
-    One,
-    /// Its value.
-    Plain,
-    /// Its size.
-    Size,
-    /// `|i/reference|^exponent`, with its sign where `odd`.
-    Power {
-        /// Power.
-        exponent: f64,
-        /// Whether it has a sign.
-        odd: bool,
-        /// Where its size is one.
-        reference: f64,
-    },
-    /// `(i/scale)/(1 + |i|/scale)`, as the drop of a contact whose resistance falls with the current.
-    Saturating {
-        /// Current at which it bends, V.
-        scale: f64,
-    },
-    /// What a drive gives that changes by `rate` V/s at most, less the command.
-    Slewed {
-        /// Most that it changes by the second, V/s.
-        rate: f64,
-    },
-    /// What a drive gives that follows with the time constant `time`, s, less the command.
-    Lagging {
-        /// Its time constant, s.
-        time: f64,
-    },
 }
 
 /// A term's dependence on the state `z' = (w - |w|*z)/distance`.
@@ -191,133 +91,6 @@ const SCALES: (f64, f64) = (0.02, 10.0);
 const WIDTHS: (f64, f64) = (0.01, 4.0);
 /// Distances that a state follows, rad.
 pub const DISTANCES: (f64, f64) = (1e-3, 10.0);
-
-impl Speed {
-    /// At a speed, rad/s.
-    pub fn at(self, w: f64) -> f64 {
-        let size = w.abs();
-        let sign = if w == 0.0 { 0.0 } else { w.signum() };
-        let signed = |odd: bool| if odd { sign } else { 1.0 };
-        match self {
-            Speed::One => 1.0,
-            Speed::Sign => sign,
-            Speed::Plain { reference } => w / reference,
-            Speed::Power {
-                exponent,
-                odd,
-                reference,
-            } => signed(odd) * libm::pow(size / reference, exponent),
-            Speed::Decay { scale, odd } => signed(odd) * libm::exp(-size / scale),
-            Speed::Hump { exponent, scale } => {
-                sign * libm::pow(size / scale, exponent) * libm::exp(-size / scale)
-            }
-            Speed::Eddy { scale } => (w / scale) / (1.0 + (w / scale) * (w / scale)),
-            Speed::Saturating { scale } => w / (scale + size),
-            Speed::Tanh { scale } => libm::tanh(w / scale),
-            Speed::OneSided {
-                exponent,
-                forward,
-                reference,
-            } => {
-                let ahead = if forward { w } else { -w };
-                libm::pow(ahead.max(0.0) / reference, exponent)
-            }
-            Speed::Above { threshold } => {
-                if size > threshold {
-                    sign
-                } else {
-                    0.0
-                }
-            }
-            Speed::Beyond { threshold } => sign * (size / threshold - 1.0).max(0.0),
-        }
-    }
-
-    /// Its numbers, each with its range.
-    fn shapes(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64))> {
-        let (exponent, scale) = match self {
-            Speed::Power { exponent, .. } | Speed::OneSided { exponent, .. } => {
-                (Some(exponent), None)
-            }
-            Speed::Hump { exponent, scale } => (Some(exponent), Some(scale)),
-            Speed::Decay { scale, .. }
-            | Speed::Eddy { scale }
-            | Speed::Saturating { scale }
-            | Speed::Tanh { scale }
-            | Speed::Above { threshold: scale }
-            | Speed::Beyond { threshold: scale } => (None, Some(scale)),
-            Speed::One | Speed::Sign | Speed::Plain { .. } => (None, None),
-        };
-        let scale = scale.map(|scale| {
-            let range = (SCALES.0 * *scale, SCALES.1 * *scale);
-            (scale, range)
-        });
-        exponent.map(|p| (p, EXPONENTS)).into_iter().chain(scale)
-    }
-}
-
-impl Load {
-    /// Whether it goes with the commands before.
-    pub fn remembers(self) -> bool {
-        matches!(self, Load::Slewed { .. } | Load::Lagging { .. })
-    }
-
-    /// Along the currents or the commands, V, of intervals so many seconds long.
-    fn along(self, volts: &[f64], seconds: &[f64]) -> Vec<f64> {
-        let each = |at: &dyn Fn(f64) -> f64| volts.iter().map(|&i| at(i)).collect();
-        match self {
-            Load::One => each(&|_| 1.0),
-            Load::Plain => each(&|i| i),
-            Load::Size => each(&f64::abs),
-            Load::Power {
-                exponent,
-                odd,
-                reference,
-            } => each(&|i| {
-                let sign = if odd && i < 0.0 { -1.0 } else { 1.0 };
-                sign * libm::pow(i.abs() / reference, exponent)
-            }),
-            Load::Saturating { scale } => each(&|i| i / (scale + i.abs())),
-            Load::Slewed { rate } => behind(volts, seconds, |missing, seconds| {
-                let full = (missing.abs() / rate).min(seconds);
-                let left = missing - missing.signum() * rate * full;
-                let sum = 0.5 * full * (missing + left) + (seconds - full) * left;
-                (left, sum)
-            }),
-            Load::Lagging { time } => behind(volts, seconds, |missing, seconds| {
-                let left = missing * libm::exp(-seconds / time);
-                (left, time * (missing - left))
-            }),
-        }
-    }
-
-    fn shape(&mut self) -> Option<(&mut f64, (f64, f64))> {
-        match self {
-            Load::Power { exponent, .. } => Some((exponent, EXPONENTS)),
-            Load::Saturating { scale }
-            | Load::Slewed { rate: scale }
-            | Load::Lagging { time: scale } => {
-                let range = (SCALES.0 * *scale, SCALES.1 * *scale);
-                Some((scale, range))
-            }
-            Load::One | Load::Plain | Load::Size => None,
-        }
-    }
-}
-
-/// How far a drive is behind the command, as a mean over each interval, less than zero where the command is the larger: from what it
-/// lacks, V, at an interval's begin and the interval's length to what it lacks at the end, and the integral between.
-fn behind(command: &[f64], seconds: &[f64], follows: impl Fn(f64, f64) -> (f64, f64)) -> Vec<f64> {
-    let mut drive = 0.0;
-    let pairs = command.iter().zip(seconds);
-    pairs
-        .map(|(&command, &seconds)| {
-            let (left, sum) = follows(command - drive, seconds);
-            drive = command - left;
-            if seconds > 0.0 { -sum / seconds } else { -left }
-        })
-        .collect()
-}
 
 impl Term {
     /// A torque without amplitudes.
