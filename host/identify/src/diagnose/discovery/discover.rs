@@ -14,8 +14,12 @@ const GAIN: f64 = 0.2;
 const TIE: f64 = 0.05;
 /// Effects of each step that stand against laws.
 const NEAREST: usize = 4;
-/// Share of what is missing beyond which a law leaves nothing to others.
+/// Share of what is missing beyond which a law leaves nothing to other laws of one term.
 const ALL: f64 = 0.99;
+/// What it leaves at most, in the least that one of one term leaves.
+const NEAR_LEAST: f64 = 2.0;
+/// Part of what such a law leaves that one of two terms leaves at most.
+const REST: f64 = 0.2;
 /// What nearly every motor has.
 const USUAL: [Kind; 2] = [Kind::Coulomb, Kind::OffsetVoltage];
 
@@ -169,17 +173,27 @@ fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
             laws.push(law);
         }
     }
-    // Beside a simple law that explains all others could only say the same, or a part of it.
-    let simplest = |law: &Law| law.explained > ALL && law.terms.len() == 1;
-    if laws.iter().any(simplest) {
-        laws.retain(simplest);
-    }
+    keep_simplest(&mut laws);
     // What is lost of the current, in the winding or on its way to the shaft, is told apart by simulation.
     let best = laws
         .iter()
         .max_by(|a, b| a.explained.total_cmp(&b.explained));
     laws.extend(best.and_then(Law::as_drop));
     laws
+}
+
+/// Beside a law of one term that explains all, others could only say the same, or a part of it, but for one that explains the rest. What
+/// is little beside a poor model may be explained by a law that leaves much: such a one is not meant.
+fn keep_simplest(laws: &mut Vec<Law>) {
+    let of_one_term = |law: &&Law| law.terms.len() == 1;
+    let least = laws.iter().filter(of_one_term).map(|law| law.left);
+    let most = NEAR_LEAST * least.fold(f64::INFINITY, f64::min);
+    let explains_all = |law: &&Law| of_one_term(law) && law.explained > ALL && law.left <= most;
+    let explained = laws.iter().filter(explains_all).map(|law| law.explained);
+    if let Some(explained) = explained.max_by(f64::total_cmp) {
+        let explains_the_rest = |law: &Law| 1.0 - law.explained < REST * (1.0 - explained);
+        laws.retain(|law| explains_all(&law) || explains_the_rest(law));
+    }
 }
 
 /// A candidate with the usual effects, of no size: the regression finds theirs, as it is linear in them.

@@ -34,6 +34,10 @@ const REPEATED: f64 = 0.02;
 const ONE_CHANGED: f64 = 1.5;
 const BOTH_CHANGED: f64 = 1.25;
 
+/// Square of the correlation with the current, or with the command, over which a law is like it: that of `|i|^p`, with its sign, is less
+/// where `p` is over 1.2, if all currents are as frequent.
+const LIKE_THE_DRIVE: f64 = 0.997;
+
 /// A function of the angle.
 type Wave = fn(f64) -> f64;
 
@@ -52,6 +56,8 @@ pub struct Equation<'a> {
     pub own: Vec<Vec<f64>>,
     /// An orthonormal basis of `own`.
     basis: Vec<Vec<f64>>,
+    /// The current, and the command.
+    drives: Vec<Vec<f64>>,
 }
 
 impl<'a> Equation<'a> {
@@ -83,7 +89,7 @@ impl<'a> Equation<'a> {
         let rows: Vec<usize> = used.iter().map(|r| r.sample).collect();
         let missing = used.iter().map(|r| -r.volts).collect();
         own.extend(own_columns(data, candidate, time, &rows));
-        Some(Equation {
+        let mut equation = Equation {
             data,
             time,
             machine: candidate.machine,
@@ -92,7 +98,12 @@ impl<'a> Equation<'a> {
             missing,
             basis: orthonormal(&own),
             own,
-        })
+            drives: Vec::new(),
+        };
+        let current = equation.seen(&equation.motion.current, Place::Torque);
+        let command = equation.seen(&equation.motion.command, Place::Voltage);
+        equation.drives = vec![current, command];
+        Some(equation)
     }
 
     /// What changes of the linear motor would give: speed, acceleration, jerk.
@@ -197,12 +208,20 @@ impl<'a> Equation<'a> {
         least <= BOTH_CHANGED && most <= ONE_CHANGED
     }
 
-    /// Whether columns say something that the model's own parameters and the ones before do not.
+    /// Whether columns say something that the model's own parameters and the ones before do not, and none is like the drive: whatever is
+    /// missing is as well a part of that.
     pub fn are_distinct(&self, columns: &[Vec<f64>]) -> bool {
         let mut found = Vec::new();
-        columns
-            .iter()
-            .all(|column| self.adds(LAW_PART, &mut found, column))
+        columns.iter().all(|column| {
+            !self.is_like_the_drive(column) && self.adds(LAW_PART, &mut found, column)
+        })
+    }
+
+    fn is_like_the_drive(&self, column: &[f64]) -> bool {
+        self.drives.iter().any(|drive| {
+            let both = dot(column, drive);
+            both * both > LIKE_THE_DRIVE * dot(column, column) * dot(drive, drive)
+        })
     }
 
     /// Whether more than a part of a column is neither along the model's own columns nor along those that were found before, among which

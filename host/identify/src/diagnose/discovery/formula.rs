@@ -248,6 +248,10 @@ fn speed(speed: Speed, dry: bool, factors: &mut Vec<String>, parameters: &mut Pa
             let scale = scaled("ws", scale, parameters);
             factors.push(format!("w/({scale} + abs(w))"));
         }
+        Speed::Bending { scale } => {
+            let scale = scaled("ws", scale, parameters);
+            factors.push(format!("w/{scale}*abs(w)/({scale} + abs(w))"));
+        }
         Speed::Tanh { scale } => {
             let scale = scaled("ws", scale, parameters);
             factors.push(format!("tanh(w/{scale})"));

@@ -15,6 +15,8 @@ pub struct Law {
     /// Share that it explains of the variance of the volts that the model misses on the held-out recording, beyond what a
     /// perfect model would miss.
     pub explained: f64,
+    /// Mean square of the volts that it leaves of that recording, V².
+    pub left: f64,
     /// The effect of the catalogue that gives most alike along the fitted recording, with the square of their correlation.
     pub resembles: Option<(Kind, f64)>,
 }

@@ -27,7 +27,7 @@ pub fn library(data: &Data) -> Vec<Term> {
     let supply = two_digits(data.supply);
     let mut terms = by_speed(fastest);
     terms.extend(by_load(fastest, supply));
-    terms.extend(by_angle(fastest));
+    terms.extend(by_angle(fastest, supply));
     terms.extend(by_place());
     terms.extend((1..=ORDERS).map(Term::inertia));
     terms.extend(by_state(fastest));
@@ -87,6 +87,7 @@ fn by_speed(reference: f64) -> Vec<Term> {
             },
             Speed::Eddy { scale },
             Speed::Saturating { scale },
+            Speed::Bending { scale },
             Speed::Tanh { scale },
             Speed::Beyond { threshold: scale },
         ]);
@@ -142,7 +143,12 @@ fn by_load(reference: f64, supply: f64) -> Vec<Term> {
         .collect()
 }
 
-fn by_angle(reference: f64) -> Vec<Term> {
+fn by_angle(reference: f64, supply: f64) -> Vec<Term> {
+    let square_of_load = Load::Power {
+        exponent: 2.0,
+        odd: false,
+        reference: supply,
+    };
     let square = |odd| Speed::Power {
         exponent: 2.0,
         odd,
@@ -162,6 +168,8 @@ fn by_angle(reference: f64) -> Vec<Term> {
         (square(false), Load::One),
         (square(true), Load::One),
         (Speed::One, Load::Plain),
+        (Speed::One, Load::Size),
+        (Speed::One, square_of_load),
         (Speed::Sign, Load::Size),
     ];
     let orders = 1..=ORDERS;
@@ -169,12 +177,18 @@ fn by_angle(reference: f64) -> Vec<Term> {
     orders.flat_map(each).collect()
 }
 
-/// A friction or a torque at one place.
+/// A friction or a torque at one place, by itself or by the current.
 fn by_place() -> Vec<Term> {
     let places = (0..PLACES).map(|k| TAU * f64::from(k) / f64::from(PLACES));
     let widths = |place| WIDTHS.map(|width| (place, width));
     let kinds = |(place, width)| {
-        [Speed::Sign, Speed::One].map(|speed| Term::torque(speed, Load::One).at_place(place, width))
+        let torques = [
+            (Speed::Sign, Load::One),
+            (Speed::One, Load::One),
+            (Speed::Sign, Load::Size),
+            (Speed::One, Load::Plain),
+        ];
+        torques.map(|(speed, load)| Term::torque(speed, load).at_place(place, width))
     };
     places.flat_map(widths).flat_map(kinds).collect()
 }

@@ -78,6 +78,7 @@ fn beside(data: &Data, held_out: &Data, candidate: &Candidate, law: &[Term]) -> 
     let laws = single.chain(pairs.into_iter().take(LAWS_OF_TWO));
     laws.map(|trial| Law {
         explained: judge.explained(&base, &trial),
+        left: trial.held,
         resembles: likeness(&judge.fitted, candidate, &trial.terms),
         terms: trial.terms,
     })

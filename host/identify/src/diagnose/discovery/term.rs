@@ -211,13 +211,15 @@ impl Term {
         copy
     }
 
-    /// Whether another differs by its numbers alone.
+    /// Whether another differs by its numbers alone, beside what the motor's own back-EMF and viscous friction make up.
     pub fn is_alike(&self, other: &Term) -> bool {
         let own = self.shapes().len();
         let ones = vec![1.0; own];
-        let plain = |term: &Term| Term {
-            amplitudes: Vec::new(),
-            ..term.shaped(&ones)
+        let plain = |term: &Term| {
+            let mut term = term.shaped(&ones);
+            term.amplitudes.clear();
+            term.speed = term.speed.beside_linear();
+            term
         };
         own == other.shapes().len() && plain(self) == plain(other)
     }

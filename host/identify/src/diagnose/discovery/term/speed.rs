@@ -47,6 +47,11 @@ pub enum Speed {
         /// Speed at which it bends, rad/s.
         scale: f64,
     },
+    /// `(w/scale)*(|w|/scale)/(1 + |w|/scale)`: what a saturating function lacks of a linear one, as of a back-EMF that saturates.
+    Bending {
+        /// Speed at which it bends, rad/s.
+        scale: f64,
+    },
     /// `tanh(w/scale)`.
     Tanh {
         /// Speed at which it bends, rad/s.
@@ -94,6 +99,7 @@ impl Speed {
             }
             Speed::Eddy { scale } => (w / scale) / (1.0 + (w / scale) * (w / scale)),
             Speed::Saturating { scale } => w / (scale + size),
+            Speed::Bending { scale } => w / scale * size / (scale + size),
             Speed::Tanh { scale } => libm::tanh(w / scale),
             Speed::OneSided {
                 exponent,
@@ -114,6 +120,14 @@ impl Speed {
         }
     }
 
+    /// The same but for a part that goes with the speed itself, of which every motor has its own.
+    pub(super) fn beside_linear(self) -> Self {
+        match self {
+            Speed::Bending { scale } => Speed::Saturating { scale },
+            other => other,
+        }
+    }
+
     /// Its numbers, each with its range.
     pub(super) fn shapes(&mut self) -> impl Iterator<Item = (&mut f64, (f64, f64))> {
         let (exponent, scale) = match self {
@@ -124,6 +138,7 @@ impl Speed {
             Speed::Decay { scale, .. }
             | Speed::Eddy { scale }
             | Speed::Saturating { scale }
+            | Speed::Bending { scale }
             | Speed::Tanh { scale }
             | Speed::Above { threshold: scale }
             | Speed::Beyond { threshold: scale } => (None, Some(scale)),
