@@ -175,10 +175,15 @@ fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
     }
     keep_simplest(&mut laws);
     // What is lost of the current, in the winding or on its way to the shaft, is told apart by simulation.
-    let best = laws
-        .iter()
-        .max_by(|a, b| a.explained.total_cmp(&b.explained));
-    laws.extend(best.and_then(Law::as_drop));
+    let best = |terms: usize| {
+        let laws = laws.iter().filter(|law| law.terms.len() == terms);
+        laws.max_by(|a, b| a.explained.total_cmp(&b.explained))
+    };
+    let drops: Vec<Law> = [1, 2]
+        .into_iter()
+        .filter_map(|n| best(n)?.as_drop())
+        .collect();
+    laws.extend(drops);
     laws
 }
 

@@ -35,8 +35,8 @@ const ONE_CHANGED: f64 = 1.5;
 const BOTH_CHANGED: f64 = 1.25;
 
 /// Square of the correlation with the current, or with the command, over which a law is like it: that of `|i|^p`, with its sign, is less
-/// where `p` is over 1.2, if all currents are as frequent.
-const LIKE_THE_DRIVE: f64 = 0.997;
+/// where `p` is under 0.75 or over 1.35, if all currents are as frequent.
+const LIKE_THE_DRIVE: f64 = 0.99;
 
 /// A function of the angle.
 type Wave = fn(f64) -> f64;

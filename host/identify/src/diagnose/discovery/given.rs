@@ -5,7 +5,10 @@ use super::motion::Motion;
 use super::term::Place;
 use core::f64::consts::TAU;
 use servoid_engine::problem::{Candidate, Data};
-use shared::effects::{Lowered, Shaft, WHOLE_DROP};
+use shared::effects::{Lowered, MAX_EFFECTS, Memory, Shaft, WHOLE_DROP, Winding};
+
+/// Rounds in which a current is found that a drop lessens.
+const ROUNDS: usize = 4;
 
 /// What effects give in the interval that begins at each sample, V referred to the winding.
 pub struct Given {
@@ -48,6 +51,8 @@ impl Given {
                 per_length: per_second * units.interval,
                 ..Shaft::at(motion.angle[k] / TAU, speed / units.speed, current)
             };
+            let winding = carried(&effects, &mut shaft, &memory);
+            let current = shaft.current;
             let stiff = effects.stiff(&shaft, &memory).torque;
             let lost = effects.lost_torque(&shaft, &memory);
             let torque = effects.torque(&shaft, &memory) + stiff;
@@ -55,7 +60,6 @@ impl Given {
             let budget = effects.friction(&shaft);
             let sign = if speed == 0.0 { 0.0 } else { speed.signum() };
             let friction = budget.moving * sign + budget.bias;
-            let winding = effects.winding(&shaft, &memory);
             let emf = machine.kb * speed / units.volts;
             let brush = &effects.brush;
             let knees = match brush.knee > 0.0 {
@@ -79,6 +83,24 @@ impl Given {
         let voltage = equation.seen(&self.voltage, Place::Voltage);
         torque.iter().zip(&voltage).map(|(a, b)| a + b).collect()
     }
+}
+
+/// What the winding's effects give, and in `shaft` the current that they leave of the one without them (Newton's method).
+fn carried(
+    effects: &Lowered<f64>,
+    shaft: &mut Shaft<f64>,
+    memory: &[Memory<f64>; MAX_EFFECTS],
+) -> Winding<f64> {
+    let without = shaft.current;
+    let mut winding = effects.winding(shaft, memory);
+    for _ in 0..ROUNDS {
+        if winding.resistance == 0.0 {
+            break;
+        }
+        shaft.current = (without + winding.volts) / (1.0 + winding.resistance);
+        winding = effects.winding(shaft, memory);
+    }
+    winding
 }
 
 /// From the torque and the voltage of each interval.

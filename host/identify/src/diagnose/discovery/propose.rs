@@ -16,6 +16,8 @@ const PAIRS: usize = 10;
 /// Laws of one term and of two that are proposed.
 const LAWS_OF_ONE: usize = 2;
 const LAWS_OF_TWO: usize = 1;
+/// Square of a term's correlation with an effect of the catalogue over which that stands beside the other term, and no law of both.
+const KNOWN: f64 = 0.98;
 /// Part of what one term leaves unexplained that two must explain.
 const SECOND_TERM: f64 = 0.3;
 
@@ -75,7 +77,15 @@ fn beside(data: &Data, held_out: &Data, candidate: &Candidate, law: &[Term]) -> 
     let mut pairs: Vec<Trial> = pairs.collect();
     sort(&mut pairs);
     let single = believed.into_iter().take(LAWS_OF_ONE);
-    let laws = single.chain(pairs.into_iter().take(LAWS_OF_TWO));
+    let both_new = |pair: &Trial| {
+        let known = |term: &Term| {
+            let alike = likeness(&judge.fitted, candidate, std::slice::from_ref(term));
+            !term.is_in_the_catalogue() && alike.is_some_and(|(_, part)| part > KNOWN)
+        };
+        !pair.terms.iter().any(known)
+    };
+    let pairs = pairs.into_iter().filter(both_new);
+    let laws = single.chain(pairs.take(LAWS_OF_TWO));
     laws.map(|trial| Law {
         explained: judge.explained(&base, &trial),
         left: trial.held,
