@@ -189,7 +189,7 @@ fn laws(before: &Diagnosis, data: &Data, held_out: &Data) -> Vec<Law> {
 
 /// Beside a law of one term that explains all, others could only say the same, or a part of it, but for one that explains the rest. What
 /// is little beside a poor model may be explained by a law that leaves much: such a one is not meant.
-fn keep_simplest(laws: &mut Vec<Law>) {
+pub(super) fn keep_simplest(laws: &mut Vec<Law>) {
     let of_one_term = |law: &&Law| law.terms.len() == 1;
     let least = laws.iter().filter(of_one_term).map(|law| law.left);
     let most = NEAR_LEAST * least.fold(f64::INFINITY, f64::min);

@@ -1,6 +1,8 @@
 //! Laws outside the catalogue, hidden in motors of the bench of which the truth is known.
 
+use super::discover::keep_simplest;
 use super::equation::{Equation, dot, orthonormal, take_out};
+use super::term::{Load, Speed, Term};
 use super::*;
 use crate::diagnose::Budget;
 use crate::fit::Options;
@@ -218,6 +220,35 @@ fn where_nothing_is_missing_no_law_is_looked_for() {
             diagnose(&one.data, &other.data, &options, &budget, &|| ()).expect("a diagnosis");
         assert!(found.steps.is_empty() && laws.is_none(), "{seed}: {laws:?}");
     }
+}
+
+/// A law of one term that explains all leaves out others but one that explains the rest of it; one that leaves more than another does not.
+#[test]
+fn the_simplest_law_that_explains_all_is_kept() {
+    let law = |terms: usize, explained: f64, left: f64| Law {
+        terms: vec![Term::torque(Speed::Sign, Load::Size); terms],
+        explained,
+        left,
+        resembles: None,
+    };
+    let exact = law(1, 0.995, 0.01);
+    let part = law(1, 0.6, 0.8);
+    let both = law(2, 0.996, 0.009);
+    let the_rest = law(2, 0.9995, 0.002);
+    let of_a_poor_model = law(1, 1.0, 0.05);
+    let kept = |laws: &[&Law]| {
+        let mut kept: Vec<Law> = laws.iter().map(|&law| law.clone()).collect();
+        keep_simplest(&mut kept);
+        kept.iter().map(|law| law.left).collect::<Vec<_>>()
+    };
+    assert_eq!(kept(&[&exact, &part, &both]), [0.01]);
+    assert_eq!(kept(&[&exact, &part, &the_rest]), [0.01, 0.002]);
+    assert_eq!(kept(&[&part, &the_rest]), [0.8, 0.002]);
+    let close = law(1, 0.98, 0.01);
+    assert_eq!(
+        kept(&[&close, &both, &of_a_poor_model]),
+        [0.01, 0.009, 0.05]
+    );
 }
 
 /// A law beside its own curve stays in the band, and beside another's leaves it.
