@@ -9,13 +9,15 @@ from collections.abc import Iterator, Sequence
 from multiprocessing import resource_tracker
 from typing import Any
 
-from ._engine import ENDING, lost, package, unexpected
+from ._engine import lost, package, unexpected
 from ._task import Outcome, Work
 
 #: Workers that may die at a task before Dask gives the task up. The scheduler sets it, so it counts for one that starts here.
 LOST = 100
 #: Times that a task which raised is tried again.
 AGAIN = 3
+#: Seconds that it has to end what was interrupted.
+ENDING = 15.0
 
 
 class Dask:

@@ -9,9 +9,6 @@ from ._task import Outcome, Work
 
 Name = Literal["local", "ray", "dask"]
 
-#: Seconds that an engine has to end what was interrupted.
-ENDING = 15.0
-
 
 class Engine(Protocol):
     """Runs tasks."""

@@ -56,7 +56,7 @@ pub struct Equation<'a> {
     pub own: Vec<Vec<f64>>,
     /// An orthonormal basis of `own`.
     basis: Vec<Vec<f64>>,
-    /// The current, and the command.
+    /// The current, and the command, each of length one.
     drives: Vec<Vec<f64>>,
 }
 
@@ -100,9 +100,12 @@ impl<'a> Equation<'a> {
             own,
             drives: Vec::new(),
         };
-        let current = equation.seen(&equation.motion.current, Place::Torque);
-        let command = equation.seen(&equation.motion.command, Place::Voltage);
-        equation.drives = vec![current, command];
+        let drives = [
+            equation.seen(&equation.motion.current, Place::Torque),
+            equation.seen(&equation.motion.command, Place::Voltage),
+        ];
+        let drives = drives.into_iter().filter_map(|drive| direction(drive, 0.0));
+        equation.drives = drives.collect();
         Some(equation)
     }
 
@@ -218,10 +221,9 @@ impl<'a> Equation<'a> {
     }
 
     fn is_like_the_drive(&self, column: &[f64]) -> bool {
-        self.drives.iter().any(|drive| {
-            let both = dot(column, drive);
-            both * both > LIKE_THE_DRIVE * dot(column, column) * dot(drive, drive)
-        })
+        let most = LIKE_THE_DRIVE * dot(column, column);
+        let along = |drive: &Vec<f64>| dot(column, drive);
+        self.drives.iter().any(|drive| along(drive).powi(2) > most)
     }
 
     /// Whether more than a part of a column is neither along the model's own columns nor along those that were found before, among which
@@ -231,13 +233,9 @@ impl<'a> Equation<'a> {
         let mut rest = column.to_vec();
         take_out(&self.basis, &mut rest);
         take_out(found, &mut rest);
-        let square = dot(&rest, &rest);
-        let adds = square > part * part * whole && square.is_normal();
-        if adds {
-            let length = square.sqrt();
-            rest.iter_mut().for_each(|x| *x /= length);
-            found.push(rest);
-        }
+        let own = direction(rest, part * part * whole);
+        let adds = own.is_some();
+        found.extend(own);
         adds
     }
 
@@ -349,14 +347,20 @@ pub fn orthonormal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let mut rest = column.clone();
         take_out(&basis, &mut rest);
         take_out(&basis, &mut rest);
-        let square = dot(&rest, &rest);
-        if square > OWN_PART * whole && square.is_normal() {
-            let length = square.sqrt();
-            rest.iter_mut().for_each(|x| *x /= length);
-            basis.push(rest);
-        }
+        basis.extend(direction(rest, OWN_PART * whole));
     }
     basis
+}
+
+/// A column scaled to length one; `None` where its square is not over `least`.
+fn direction(mut column: Vec<f64>, least: f64) -> Option<Vec<f64>> {
+    let square = dot(&column, &column);
+    if !(square > least && square.is_normal()) {
+        return None;
+    }
+    let length = square.sqrt();
+    column.iter_mut().for_each(|x| *x /= length);
+    Some(column)
 }
 
 /// Takes the parts along an orthonormal basis out of a column.

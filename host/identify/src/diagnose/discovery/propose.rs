@@ -3,7 +3,7 @@
 use super::judge::{Judge, Trial};
 use super::law::Law;
 use super::library::library;
-use super::likeness::likeness;
+use super::likeness::Likeness;
 use super::polish::Polish;
 use super::search::{Found, Search};
 use super::term::Term;
@@ -76,20 +76,22 @@ fn beside(data: &Data, held_out: &Data, candidate: &Candidate, law: &[Term]) -> 
     });
     let mut pairs: Vec<Trial> = pairs.collect();
     sort(&mut pairs);
-    let single = believed.into_iter().take(LAWS_OF_ONE);
-    let both_new = |pair: &Trial| {
-        let known = |term: &Term| {
-            let alike = likeness(&judge.fitted, candidate, std::slice::from_ref(term));
-            !term.is_in_the_catalogue() && alike.is_some_and(|(_, part)| part > KNOWN)
-        };
-        !pair.terms.iter().any(known)
+    if believed.is_empty() && pairs.is_empty() {
+        return Vec::new();
+    }
+    let likeness = Likeness::new(&judge.fitted, candidate);
+    let known = |term: &Term| {
+        let alike = || likeness.of(std::slice::from_ref(term));
+        !term.is_in_the_catalogue() && alike().is_some_and(|(_, part)| part > KNOWN)
     };
-    let pairs = pairs.into_iter().filter(both_new);
+    let single = believed.into_iter().take(LAWS_OF_ONE);
+    let pairs = pairs.into_iter();
+    let pairs = pairs.filter(|pair| !pair.terms.iter().any(known));
     let laws = single.chain(pairs.take(LAWS_OF_TWO));
     laws.map(|trial| Law {
         explained: judge.explained(&base, &trial),
         left: trial.held,
-        resembles: likeness(&judge.fitted, candidate, &trial.terms),
+        resembles: likeness.of(&trial.terms),
         terms: trial.terms,
     })
     .collect()
