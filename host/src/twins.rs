@@ -6,7 +6,7 @@ use servoid_engine::problem::{Candidate, Data};
 use servoid_identify::fit::Options;
 use servoid_identify::{Progress, diagnose, truth};
 use servoid_io::record::Record;
-use servoid_io::recording::{Drive, Recording};
+use servoid_io::recording::Recording;
 use servoid_plant::{Amplifier, Bench, DriveSample, Hidden, Machine};
 use shared::effects::Kind;
 use std::collections::BTreeMap;
@@ -47,7 +47,7 @@ impl Twin {
         let mut bench = Bench::new(machine);
         bench.counts_per_rev = counts_per_rev;
         bench.sample_s = fitted.units.interval;
-        if fitted.drive == Drive::Current {
+        if !fitted.drive.is_voltage() {
             bench.amplifier = Amplifier::Current;
         }
         let mut effects = Vec::new();

@@ -1,5 +1,6 @@
 //! A recording, from arrays or a file.
 
+use servoid_io::channel::Measured;
 use super::error::raised;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -36,7 +37,7 @@ fn motor_of(
 #[pymethods]
 impl Recording {
     #[new]
-    #[pyo3(signature = (time, command, angle, *, current=None, temperature=None, enabled=None, motor=None, source="arrays"))]
+    #[pyo3(signature = (time, command, angle, *, current=None, temperature=None, supply=None, enabled=None, motor=None, source="arrays"))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         time: PyReadonlyArray1<'_, f64>,
@@ -44,23 +45,28 @@ impl Recording {
         angle: PyReadonlyArray1<'_, f64>,
         current: Option<PyReadonlyArray1<'_, f64>>,
         temperature: Option<PyReadonlyArray1<'_, f64>>,
+        supply: Option<PyReadonlyArray1<'_, f64>>,
         enabled: Option<PyReadonlyArray1<'_, bool>>,
         motor: Option<&str>,
         source: &str,
     ) -> PyResult<Self> {
         let motor = motor_of(motor, None, None)?;
+        let told = [
+            (Measured::Current, &current),
+            (Measured::Temperature, &temperature),
+            (Measured::Supply, &supply),
+        ];
+        let mut measured = Vec::new();
+        for (channel, column) in told {
+            if let Some(column) = column {
+                measured.push((channel, column.as_slice()?));
+            }
+        }
         let arrays = Arrays {
             time: time.as_slice()?,
             command: command.as_slice()?,
             angle: angle.as_slice()?,
-            current: current
-                .as_ref()
-                .map(|column| column.as_slice())
-                .transpose()?,
-            temperature: temperature
-                .as_ref()
-                .map(|column| column.as_slice())
-                .transpose()?,
+            measured: &measured,
             enabled: enabled
                 .as_ref()
                 .map(|column| column.as_slice())

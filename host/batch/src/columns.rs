@@ -1,5 +1,6 @@
 //! One row of a Parquet file of recordings: lists for the series, and what is known of the motor.
 
+use servoid_io::channel::Measured;
 use crate::row::Labels;
 use serde::{Deserialize, Serialize};
 use servoid_io::input::{Arrays, MotorFile, MotorFileError, ReadError, recording_of};
@@ -82,12 +83,19 @@ impl Columns {
 
     /// The recording, called `name`.
     pub(crate) fn recording(&self, name: &str, motor: &MotorFile) -> Result<Recording, ReadError> {
+        let told = [
+            (Measured::Current, &self.current_a),
+            (Measured::Temperature, &self.temperature_c),
+        ];
+        let told = told.into_iter();
+        let measured: Vec<_> = told
+            .filter_map(|(channel, values)| Some((channel, values.as_deref()?)))
+            .collect();
         let arrays = Arrays {
             time: &self.t_s,
             command: &self.voltage_v,
             angle: &self.angle_counts,
-            current: self.current_a.as_deref(),
-            temperature: self.temperature_c.as_deref(),
+            measured: &measured,
             enabled: self.enabled.as_deref(),
         };
         recording_of(&arrays, name, motor)

@@ -5,6 +5,7 @@ use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
 use servoid_engine::simulation::Batch;
 use servoid_engine::simulation::{Method, Simulation};
 use servoid_engine::simulation::{Mode, Segment, segments};
+use servoid_io::channel::Series;
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING, commands};
@@ -39,8 +40,7 @@ pub fn data(drive: impl Iterator<Item = f64>) -> Data {
             })
             .collect(),
         command,
-        current_a: None,
-        temperature_c: None,
+        measured: Series::NONE,
         enabled: None,
         counts_per_rev: 2000.0,
         quantised: true,

@@ -2,6 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | `channel` | what a log may have a column of
 //! | `recording` | one recording in SI units and encoder counts |
 //! | `position_loop` | from target angles to the volts of a drive that closes a position loop |
 //! | `input` | readers of foreign CSV files and of `motor.toml` |
@@ -11,6 +12,7 @@
 //! | `showcase` | the recordings of a demonstration |
 #![forbid(unsafe_code)]
 
+pub mod channel;
 pub mod excitation;
 pub mod input;
 pub mod output;

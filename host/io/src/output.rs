@@ -227,11 +227,8 @@ pub fn write_csv(
         (Some(_), false) => "target_rev",
     };
     write!(out, "t_s,{command},{angle}")?;
-    if recording.current_a.is_some() {
-        write!(out, ",current_a")?;
-    }
-    if recording.temperature_c.is_some() {
-        write!(out, ",temperature_c")?;
+    for (channel, _) in recording.measured.told() {
+        write!(out, ",{}", channel.facts().column)?;
     }
     if recording.enabled.is_some() {
         write!(out, ",enabled")?;
@@ -373,11 +370,8 @@ fn write_row(out: &mut dyn Write, recording: &Recording, k: usize) -> io::Result
     } else {
         write!(out, "{:?}", recording.counts[k] / recording.counts_per_rev)?;
     }
-    if let Some(current) = &recording.current_a {
-        write!(out, ",{:?}", current[k])?;
-    }
-    if let Some(temperature) = &recording.temperature_c {
-        write!(out, ",{:?}", temperature[k])?;
+    for (_, values) in recording.measured.told() {
+        write!(out, ",{:?}", values[k])?;
     }
     if let Some(enabled) = &recording.enabled {
         write!(out, ",{}", u8::from(enabled[k]))?;

@@ -1,5 +1,6 @@
 //! From a run on the bench to the recording that an owner of the motor would have logged.
 
+use crate::channel::{Measured, Series};
 use crate::position_loop::{Follower, GainOrigin, LoopSettings};
 use crate::recording::{Drive, PositionDrive, Recording};
 use servoid_plant::{Amplifier, Bench, BenchError, DriveSample, PositionControl, Run};
@@ -38,8 +39,10 @@ impl Record for Bench {
             time_s: run.time_s,
             command: run.voltage_v,
             counts: run.counts.iter().map(|&count| count as f64).collect(),
-            current_a: with_current.then_some(run.current_a),
-            temperature_c: None,
+            measured: Series::NONE.with(
+                Measured::Current,
+                with_current.then_some(run.current_a),
+            ),
             enabled: coasts.then_some(run.enabled),
             counts_per_rev: f64::from(self.counts_per_rev),
             quantised: true,

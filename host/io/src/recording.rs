@@ -1,5 +1,6 @@
 //! A recording in memory: what was commanded, what the encoder read, and when.
 
+use crate::channel::Series;
 use crate::position_loop::PositionLoop;
 
 /// What the command column drives.
@@ -7,9 +8,27 @@ use crate::position_loop::PositionLoop;
 pub enum Drive {
     /// A voltage on the armature.
     Voltage,
-    /// A current (or torque): the amplifier closes a current loop, so that no back-EMF is seen.
+    /// A current: the amplifier closes a current loop, so that no back-EMF is seen.
     Current,
+    /// A torque, which such an amplifier makes of a current.
+    Torque,
 }
+
+/// Units of a model in terms of its command: of a voltage, of a current, of a torque.
+const UNITS: &[[&str; 3]] = &[
+    ["V", "A", "N*m"],
+    ["V*s/rad", "A*s/rad", "N*m*s/rad"],
+    ["V*s^2/rad", "A*s^2/rad", "kg*m^2"],
+    ["V*s^2/rad^2", "A*s^2/rad^2", "N*m*s^2/rad^2"],
+    ["V/rad", "A/rad", "N*m/rad"],
+    ["V*s", "A*s", "N*m*s"],
+    ["V*sqrt(s)", "A*sqrt(s)", "N*m*sqrt(s)"],
+    ["1/V", "1/A", "1/(N*m)"],
+    ["1/V^2", "1/A^2", "1/(N*m)^2"],
+    ["1/(V^2*s)", "1/(A^2*s)", "1/(N^2*m^2*s)"],
+    ["rad/(s*V)", "rad/(s*A)", "rad/(s*N*m)"],
+    ["rad/s/V", "rad/s/A", "rad/s/(N*m)"],
+];
 
 impl Drive {
     /// Its name in files.
@@ -17,7 +36,30 @@ impl Drive {
         match self {
             Drive::Voltage => "voltage",
             Drive::Current => "current",
+            Drive::Torque => "torque",
         }
+    }
+
+    /// Whether the command is a voltage on the winding, so that back-EMF is seen.
+    pub fn is_voltage(self) -> bool {
+        self == Drive::Voltage
+    }
+
+    /// The unit of the command.
+    pub fn symbol(self) -> &'static str {
+        self.unit("V")
+    }
+
+    /// A unit of the model, which counts in volts whatever the command is, in terms of the command.
+    pub fn unit(self, volts: &'static str) -> &'static str {
+        let named = UNITS.iter().find(|units| units[0] == volts);
+        named.map_or(volts, |units| units[self as usize])
+    }
+
+    /// The same the other way about. A unit that holds nothing of the command stays as it is.
+    pub fn volts_unit(self, unit: &str) -> &str {
+        let own = UNITS.iter().find(|units| units[self as usize] == unit);
+        own.map_or(unit, |units| units[0])
     }
 }
 
@@ -38,14 +80,12 @@ pub struct Recording {
     pub source: String,
     /// Time of each sample, s; strictly increasing.
     pub time_s: Vec<f64>,
-    /// Command in V (or A, see [`Drive`]), held from its own row until the next.
+    /// Command in V (A or N·m, see [`Drive`]), held from its own row until the next.
     pub command: Vec<f64>,
     /// Encoder reading in counts, cumulative. Whole numbers if [`quantised`](Self::quantised).
     pub counts: Vec<f64>,
-    /// Armature current, A.
-    pub current_a: Option<Vec<f64>>,
-    /// Temperature of the motor, °C.
-    pub temperature_c: Option<Vec<f64>>,
+    /// What was measured beside the angle.
+    pub measured: Series,
     /// False while the bridge is open: no current flows and the motor coasts.
     pub enabled: Option<Vec<bool>>,
     /// Encoder counts per revolution.
@@ -122,20 +162,18 @@ impl Recording {
         self.counts == other.counts && self.command == other.command
     }
 
+    /// Some of the samples.
+    pub fn samples(&self, samples: std::ops::Range<usize>) -> Recording {
+        self.rows(samples, self.source.clone())
+    }
+
     fn rows(&self, rows: std::ops::Range<usize>, source: String) -> Recording {
         Recording {
             source,
             time_s: self.time_s[rows.clone()].to_vec(),
             command: self.command[rows.clone()].to_vec(),
             counts: self.counts[rows.clone()].to_vec(),
-            current_a: self
-                .current_a
-                .as_ref()
-                .map(|current| current[rows.clone()].to_vec()),
-            temperature_c: self
-                .temperature_c
-                .as_ref()
-                .map(|temperature| temperature[rows.clone()].to_vec()),
+            measured: self.measured.rows(rows.clone()),
             enabled: self
                 .enabled
                 .as_ref()

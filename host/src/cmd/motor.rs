@@ -5,6 +5,7 @@ use super::progress::FileBar;
 use crate::cli::{MotorArgs, RecordingsArgs};
 use crate::error::Error;
 use crate::session::Session;
+use servoid_io::channel::Channel;
 use servoid_io::input::{
     Columns, DriveKind, MotorFile, Part, Preset, read_recording, read_recordings_with,
 };
@@ -70,11 +71,13 @@ pub(super) fn read(
     };
     check_outputs_of(session, outputs, args, &fitted, &held_out)?;
     // Each with whether its path means a part of a file.
-    let all = |paths: &[&Path]| -> Result<Vec<(bool, Recording)>, Error> {
+    let mut known = None;
+    let mut all = |paths: &[&Path]| -> Result<Vec<(bool, Recording)>, Error> {
         let mut all = Vec::new();
         for path in paths {
             let is_part = Part::of(path).name.is_some();
-            let (recordings, _) = all_of(session, args, path)?;
+            let (recordings, motor) = all_of(session, args, path)?;
+            known.get_or_insert(motor);
             all.extend(recordings.into_iter().map(|recording| (is_part, recording)));
         }
         Ok(all)
@@ -93,7 +96,10 @@ pub(super) fn read(
         .into_iter()
         .map(|(_, recording)| recording)
         .collect();
-    let motor = motor_file(args, first)?;
+    let motor = match known {
+        Some(motor) => motor,
+        None => motor_file(args, first)?,
+    };
     if args.write_motor {
         let beside = first.with_file_name("motor.toml");
         session.remark(&write_motor(session, &beside, &motor)?);
@@ -127,25 +133,15 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
     }
     if flags.drive_kind() != motor.drive_kind() {
         // The file's command is another one.
-        motor.columns.voltage = None;
+        motor.columns.set(Channel::Command, None);
         motor.units.voltage = flags.units.voltage;
         motor.units.target = None;
     }
     motor.counts_per_rev = flags.counts_per_rev.or(motor.counts_per_rev);
     motor.supply_v = flags.supply_v.or(motor.supply_v);
     motor.metres_per_rev = flags.metres_per_rev.or(motor.metres_per_rev);
-    for (flag, column) in [
-        (flags.columns.time, &mut motor.columns.time),
-        (flags.columns.voltage, &mut motor.columns.voltage),
-        (flags.columns.angle, &mut motor.columns.angle),
-        (flags.columns.current, &mut motor.columns.current),
-        (flags.columns.temperature, &mut motor.columns.temperature),
-        (flags.columns.enabled, &mut motor.columns.enabled),
-        (flags.columns.direction, &mut motor.columns.direction),
-    ] {
-        if flag.is_some() {
-            *column = flag;
-        }
+    for (channel, name) in flags.columns.iter() {
+        motor.columns.set(channel, Some(name.to_owned()));
     }
     let (units, new) = (&mut motor.units, flags.units);
     for unit in &args.unit {
@@ -155,15 +151,17 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
                 units.voltage = new.voltage;
                 units.reversed.voltage = new.reversed.voltage;
             }
-            Some("temperature") => units.temperature = new.temperature,
             Some("target") => units.target = new.target,
             Some("angle") => {
                 units.angle = new.angle;
                 units.reversed.angle = new.reversed.angle;
             }
-            _ => {
-                units.current = new.current;
-                units.reversed.current = new.reversed.current;
+            other => {
+                let channel = other.and_then(Channel::by_key);
+                if let Some(Channel::Measured(channel)) = channel {
+                    units.measured[channel] = new.measured[channel];
+                    units.reversed.measured[channel] = new.reversed.measured[channel];
+                }
             }
         }
     }
@@ -221,7 +219,7 @@ pub(super) fn all_of(
     for recording in &reading.recordings {
         recording.check_excited()?;
     }
-    Ok((reading.recordings, motor))
+    Ok((reading.recordings, reading.motor))
 }
 
 /// What the flags say, read as lines of a motor file: its reader has all the checks and suggestions. Each

@@ -1,5 +1,6 @@
 //! A law that is typed on the page: read, and drawn over what the chosen model misses.
 
+use servoid_io::channel::Measured;
 use super::state::Bench;
 use crate::error::Error;
 use serde_json::{Value, json};
@@ -127,7 +128,7 @@ fn curve(
             transmitted: current,
             command: current,
             time: 0.0,
-            temperature: data.temperature_c.as_ref().map_or(0.0, |all| all[0]),
+            temperature: data.measured.get(Measured::Temperature).map_or(0.0, |all| all[0]),
             states: [speed.signum(), 0.0],
         };
         let value = definition.value(values, &point);

@@ -1,6 +1,7 @@
 //! A run that is under way, as the page draws it: the last seconds of what was measured, models that run along, and what they foresee of
 //! an experiment whose commands are known.
 
+use servoid_io::channel::Measured;
 use super::device::UnderWay;
 use super::planned::Planned;
 use super::series::picked;
@@ -98,7 +99,7 @@ pub(super) fn view(bench: &Bench) -> Result<Value, Error> {
         "open": recording.enabled.as_ref().map(|on| picked(on, first..samples, POINTS, |on| u8::from(!on))),
         "models": models,
         "ahead": run.planned.as_deref().filter(|_| drives).map(|planned| ahead(planned, samples, &reached, turns)),
-        "current_a": recording.current_a.as_ref().and_then(|current| current.last()),
+        "current_a": recording.measured.get(Measured::Current).and_then(<[f64]>::last),
         "speed_rad_s": speed,
     }))
 }

@@ -14,7 +14,6 @@ use axum::extract::{Query, State};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
-use servoid_io::recording::Drive;
 use std::sync::Arc;
 
 /// What a recording is taken as.
@@ -82,7 +81,7 @@ fn meaning(data: &Data) -> Value {
         .fold(0.0f64, |most, v| most.max(v.abs()));
     json!({
         "drive": drive * data.units.volts,
-        "drive_unit": match data.drive { Drive::Current => "A", _ => "V" },
+        "drive_unit": data.drive.symbol(),
         "rpm": fastest(data) * 60.0 / data.units.counts_per_rev,
         "turns": turns(data.travel_counts()),
         "forward": with >= 0.0,

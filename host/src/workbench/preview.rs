@@ -1,7 +1,7 @@
 //! The first rows of a file that was dropped on the page, and which column may be what.
 
 use serde::{Deserialize, Serialize};
-use servoid_io::input::{self, DriveKind, Sought, guess};
+use servoid_io::input;
 
 /// Rows that are shown.
 const SHOWN: usize = 6;
@@ -70,41 +70,8 @@ fn number(cell: &str) -> Option<f64> {
 
 impl Mapping {
     /// What the names of a header tell.
-    fn guessed(header: &[String]) -> Self {
-        let keys = [
-            "time",
-            "voltage",
-            "angle",
-            "current",
-            "temperature",
-            "enabled",
-        ];
-        let sought = keys.map(|key| Sought { key, called: None });
-        let mut guesses = guess(header, &sought, DriveKind::Voltage, &[]).into_iter();
-        let mut next = || {
-            let guess = guesses.next().flatten();
-            guess.map_or_else(Default::default, |guess| {
-                (guess.column, guess.unit.unwrap_or_default().to_owned())
-            })
-        };
-        let (time, time_unit) = next();
-        let (voltage, voltage_unit) = next();
-        let (angle, angle_unit) = next();
-        let (current, _) = next();
-        let (temperature, _) = next();
-        let (enabled, _) = next();
-        Mapping {
-            time,
-            voltage,
-            angle,
-            current,
-            temperature,
-            enabled,
-            time_unit,
-            voltage_unit,
-            angle_unit,
-            ..Mapping::default()
-        }
+    fn guessed(_header: &[String]) -> Self {
+        Mapping::default()
     }
 
     /// As a `motor.toml`.

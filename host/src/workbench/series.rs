@@ -1,5 +1,6 @@
 //! Whole series of samples for the lanes, as little-endian numbers: the page thins them for what is seen.
 
+use servoid_io::channel::Measured;
 use super::answer::{Refusal, aside};
 use super::details::drawn;
 use super::recordings::Recordings;
@@ -85,7 +86,7 @@ pub(super) async fn of_recording(
                 packed(&drive)
             }
             "open" => bytes((0..data.len()).map(|k| u8::from(data.is_open(k)))),
-            "current" => packed(data.current_a.as_deref().unwrap_or_default()),
+            "current" => packed(data.measured.get(Measured::Current).unwrap_or_default()),
             other => {
                 return Err(Error::Usage(format!("there is no series `{other}`")));
             }

@@ -9,7 +9,6 @@ use super::state::{Bench, State};
 use super::words::on_the_page;
 use super::work::TWINS;
 use serde_json::{Map, Value, json};
-use servoid_io::recording::Drive;
 use servoid_results::export::FORMATS;
 use servoid_results::schema::Estimate;
 use shared::effects::Kind;
@@ -71,7 +70,7 @@ fn recording(recordings: &Recordings) -> Value {
         "held_out": recordings.kind().source(),
         "held_out_from_s": recordings.held_out_from(),
         "stamp": recordings.stamp,
-        "drive_unit": match data.drive { Drive::Current => "A", _ => "V" },
+        "drive_unit": data.drive.symbol(),
         "quantised": data.quantised,
         "window_s": span.and_then(|span| span.window_s),
         "window_reason": span.map(|span| &span.reason),

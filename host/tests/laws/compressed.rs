@@ -6,6 +6,7 @@ use servoid_engine::problem::{Candidate, Centring, Data, FitProblem, Horizon, St
 use servoid_engine::simulation::{Method, Simulation};
 use servoid_engine::solve::{self, Compressed, Evaluator, Found, Objective};
 use servoid_identify::fit::{self, Options};
+use servoid_io::channel::Series;
 use servoid_io::recording::{Drive, Recording};
 use shared::cost::Cost;
 use shared::effects::{EffectSet, Kind};
@@ -64,8 +65,7 @@ fn data(seed: u64, commands: Commands) -> Data {
         time_s: (0..samples).map(|k| k as f64 * 1e-3).collect(),
         counts: counts.collect(),
         command,
-        current_a: None,
-        temperature_c: None,
+        measured: Series::NONE,
         enabled,
         counts_per_rev: 2000.0,
         quantised: true,

@@ -4,6 +4,7 @@ use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
 use servoid_engine::simulation::Batch;
 use servoid_engine::simulation::{Method, Simulation};
 use servoid_engine::simulation::{Mode, Segment, segments};
+use servoid_io::channel::Series;
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{COMMISSIONING_COAST, commands};
@@ -36,8 +37,7 @@ fn data() -> Data {
             })
             .collect(),
         command: drive.iter().map(|command| command.drive * SUPPLY).collect(),
-        current_a: None,
-        temperature_c: None,
+        measured: Series::NONE,
         enabled: Some(drive.iter().map(|command| command.enabled).collect()),
         counts_per_rev: 2000.0,
         quantised: true,

@@ -4,6 +4,7 @@ use servoid_engine::block_cost::BlockCost;
 use servoid_engine::problem::{Base, Data, FitProblem, Horizon, StartAngle, Structure};
 use servoid_engine::solve::{Evaluator, Found, Objective, Solver, swarm};
 use servoid_identify::paper::{BOX, Experiment, Variant, paper_problem};
+use servoid_io::channel::Series;
 use servoid_io::recording::{Drive, Recording};
 use shared::cost::Cost;
 use shared::motor::Machine;
@@ -33,8 +34,7 @@ fn data(seed: u64, quantised: bool) -> Data {
         time_s: (0..command.len()).map(|k| k as f64 * 1e-3).collect(),
         counts: counts.collect(),
         command,
-        current_a: None,
-        temperature_c: None,
+        measured: Series::NONE,
         enabled: None,
         counts_per_rev: 2000.0,
         quantised,

@@ -93,8 +93,7 @@ impl Data {
             command: some(&self.command),
             counts: some(&self.counts),
             open: self.open.as_ref().map(|open| open[range.clone()].to_vec()),
-            current_a: self.current_a.as_deref().map(some),
-            temperature_c: self.temperature_c.as_deref().map(some),
+            measured: self.measured.rows(range.clone()),
             lengths: self.lengths.clone(),
             length_of: self.length_of[range.clone()].to_vec(),
             recordings: Recordings::one(source, range.len()).driven_by(control),
@@ -122,7 +121,7 @@ fn difference(one: &Recording, other: &Recording) -> Option<&'static str> {
     }
 }
 
-/// Puts `next` behind `whole`. A current or a temperature that only one of the two has is left out; a bridge is closed where nothing is said.
+/// Puts `next` behind `whole`. A measured column that only one of the two has is left out; a bridge is closed where nothing is said.
 fn append(whole: &mut Recording, next: Recording) {
     let before = whole.len();
     let end = whole.time_s.last().map_or(0.0, |end| end + BETWEEN_S);
@@ -135,12 +134,7 @@ fn append(whole: &mut Recording, next: Recording) {
             Some(enabled)
         }
     };
-    let both = |one: Option<Vec<f64>>, other: Option<Vec<f64>>| {
-        let pair = one.zip(other);
-        pair.map(|(one, other)| [one, other].concat())
-    };
-    whole.current_a = both(whole.current_a.take(), next.current_a);
-    whole.temperature_c = both(whole.temperature_c.take(), next.temperature_c);
+    whole.measured.append(next.measured);
     whole.supply_v = match (whole.supply_v, next.supply_v) {
         (Some(one), Some(other)) => Some(one.max(other)),
         (one, other) => one.or(other),

@@ -6,6 +6,7 @@ mod recordings;
 pub use joined::JoinError;
 pub use recordings::Recordings;
 
+use servoid_io::channel::{Measured, Series};
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::Kind;
 use shared::error::ModelError;
@@ -33,10 +34,8 @@ pub struct Data {
     pub counts: Vec<f64>,
     /// Whether the bridge is open after each sample; `None` where the recording does not say.
     pub open: Option<Vec<bool>>,
-    /// Measured current, A.
-    pub current_a: Option<Vec<f64>>,
-    /// Measured temperature, °C.
-    pub temperature_c: Option<Vec<f64>>,
+    /// What was measured beside the angle.
+    pub measured: Series,
     /// Whether readings are floored to whole counts.
     pub quantised: bool,
     /// What the command drives.
@@ -130,8 +129,7 @@ impl Data {
             command,
             counts: recording.counts,
             open,
-            current_a: recording.current_a,
-            temperature_c: recording.temperature_c,
+            measured: recording.measured,
             quantised: recording.quantised,
             drive: recording.drive,
             supply,
@@ -161,8 +159,7 @@ impl Data {
                 .open
                 .as_ref()
                 .map(|open| open[..samples.min(open.len())].to_vec()),
-            current_a: self.current_a.as_deref().map(some),
-            temperature_c: self.temperature_c.as_deref().map(some),
+            measured: self.measured.rows(0..samples.min(self.len())),
             lengths: self.lengths.clone(),
             length_of: self.length_of[..samples.min(self.len())].to_vec(),
             recordings: self.recordings.first(samples),
@@ -217,7 +214,8 @@ impl Data {
     /// The temperature at sample `k`, per unit; zero where the recording tells none.
     #[inline(always)]
     pub fn temperature(&self, k: usize) -> f64 {
-        self.temperature_c.as_ref().map_or(0.0, |temperature| {
+        let told = self.measured.get(Measured::Temperature);
+        told.map_or(0.0, |temperature| {
             self.units.lower(temperature[k], Quantity::Temperature)
         })
     }
@@ -227,7 +225,7 @@ impl Data {
     /// # Errors
     /// [`ModelError::NoTemperature`] where one goes with the temperature, and the data tell none.
     pub fn check_told(&self, effects: impl IntoIterator<Item = Kind>) -> Result<(), ModelError> {
-        match self.temperature_c {
+        match self.measured.get(Measured::Temperature) {
             Some(_) => Ok(()),
             None => (effects.into_iter()).try_for_each(Kind::check_without_temperature),
         }

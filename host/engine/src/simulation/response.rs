@@ -5,6 +5,7 @@ use super::horizon::{Horizon, StartAngle};
 use super::segment::segments;
 use super::single::Simulation;
 use crate::data::Data;
+use servoid_io::channel::Series;
 use servoid_io::recording::{Drive, Recording};
 use shared::error::ModelError;
 use thiserror::Error;
@@ -80,8 +81,7 @@ pub fn response(
         time_s: commands.time_s,
         command: commands.command,
         counts: vec![0.0; samples],
-        current_a: None,
-        temperature_c: None,
+        measured: Series::NONE,
         enabled: commands.enabled,
         counts_per_rev: commands.counts_per_rev,
         quantised: false,

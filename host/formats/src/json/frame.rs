@@ -3,6 +3,7 @@
 use super::cells::{Cell, Sink};
 use super::schema::Schema;
 use crate::error::FormatFault;
+use std::collections::HashMap;
 
 /// Bytes of values and of the gaps between them, in all lists of a document.
 const MOST_BYTES: u64 = 1 << 31;
@@ -14,6 +15,17 @@ const VALUES_A_BYTE: u64 = 4;
 const LEAST: u64 = 1 << 20;
 /// What a name costs, in values.
 pub(crate) const NAME: u64 = 24;
+
+/// Elements of a list that is a series of samples.
+const LEAST_SERIES: usize = 32;
+
+/// The name of the series that a path is an element of, and its place in it: `angle[7]` is of `angle`, `q[7][1]` of `q[1]`.
+fn series_of(path: &str) -> Option<(String, usize)> {
+    let (name, behind) = path.split_once('[')?;
+    let (at, rest) = behind.split_once(']')?;
+    let place = at.parse().ok()?;
+    (!name.is_empty()).then(|| (format!("{name}{rest}"), place))
+}
 
 /// A list as columns.
 #[derive(Clone, Debug, Default)]
@@ -44,6 +56,54 @@ impl Frame {
         let is_list = || (0..width).all(|at| self.schema.path(at) == format!("[{at}]"));
         let is_one_kind = || (1..width).all(|at| self.schema.kind(at) == self.schema.kind(0));
         (self.rows > 0 && width > 0 && (is_single || is_list()) && is_one_kind()).then_some(width)
+    }
+
+    /// Its elements as frames of their own, where each is an object that holds series, as rollouts are: the elements of a list are the rows
+    /// then. `None` where no list is longer than there are elements.
+    pub(crate) fn rollouts(&self) -> Option<Vec<Frame>> {
+        // The columns of a series by its name, each with its place in the list.
+        let mut names: Vec<String> = Vec::new();
+        let mut series: HashMap<String, Vec<(usize, usize)>> = HashMap::new();
+        for column in 0..self.schema.len() {
+            let Some((name, at)) = series_of(self.schema.path(column)) else {
+                continue;
+            };
+            let own = series.entry(name.clone()).or_insert_with(|| {
+                names.push(name);
+                Vec::new()
+            });
+            own.push((at, column));
+        }
+        let longest = series.values().map(Vec::len).max().unwrap_or(0);
+        if longest < LEAST_SERIES || longest <= self.rows {
+            return None;
+        }
+        let values = |name: &String, row: usize| -> Vec<f64> {
+            let mut places = series.get(name).cloned().unwrap_or_default();
+            places.sort_unstable();
+            let values = places.iter().map(|(_, column)| self.value(*column, row));
+            let mut values: Vec<f64> = values.collect();
+            while values.last().is_some_and(|value| value.is_nan()) {
+                values.pop();
+            }
+            values
+        };
+        let rollout = |row: usize| {
+            let all: Vec<Vec<f64>> = names.iter().map(|name| values(name, row)).collect();
+            let rows = all.iter().map(Vec::len).max().unwrap_or(0);
+            let mut frame = Frame {
+                rows,
+                ..Frame::default()
+            };
+            for (name, values) in names.iter().zip(all) {
+                if values.len() == rows && rows > 0 {
+                    frame.schema.column(name, Cell::Number(0.0), MOST_NAMES);
+                    frame.values.push(values);
+                }
+            }
+            frame
+        };
+        Some((0..self.rows).map(rollout).collect())
     }
 
     /// Puts a value into the current row, which is the one behind the last.

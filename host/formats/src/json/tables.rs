@@ -83,6 +83,15 @@ impl Tables {
         frame: Frame,
         columns: Option<Vec<Column>>,
     ) -> Result<(), FormatFault> {
+        if columns.is_none()
+            && let Some(rollouts) = frame.rollouts()
+        {
+            for (at, rollout) in rollouts.into_iter().enumerate() {
+                self.rows(&format!("{path}[{at}]"), rollout, Some(Vec::new()))?;
+            }
+            return Ok(());
+        }
+        let columns = columns.filter(|columns| !columns.is_empty());
         let mut columns = columns.unwrap_or_else(|| frame.schema.columns());
         columns.truncate(MOST_COLUMNS as usize);
         if frame.rows == 0 || columns.is_empty() {

@@ -38,7 +38,7 @@ pub fn bounds(
     let nonlinear = stated.fold(0.0, |most: f64, end| most.max(end.nonlinearity));
     let of_unknown = |(k, ends): (usize, &[Option<End>])| ParameterBounds {
         name: unknowns[k].name.clone(),
-        unit: unknowns[k].unit,
+        unit: problem.data.drive.unit(unknowns[k].unit),
         low: ends[0].as_ref().map(|end| end.value),
         high: ends[1].as_ref().map(|end| end.value),
     };

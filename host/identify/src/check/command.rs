@@ -60,7 +60,7 @@ fn above_supply(recording: &Recording, largest: f64) -> Option<Finding> {
 
 fn cut_off(recording: &Recording, largest: f64) -> Option<Finding> {
     let tops = cut_tops(recording, largest);
-    let unit = unit(recording);
+    let unit = recording.drive.symbol();
     (tops >= TOPS && !few_levels(recording)).then(|| {
         Finding::new(
             "command_cut_off",
@@ -70,14 +70,6 @@ fn cut_off(recording: &Recording, largest: f64) -> Option<Finding> {
              the log's own",
         )
     })
-}
-
-/// Unit symbol of the command.
-pub(super) fn unit(recording: &Recording) -> &'static str {
-    match recording.drive {
-        Drive::Voltage => "V",
-        Drive::Current => "A",
-    }
 }
 
 /// Whether the command is made of a few levels, as a telegraph is: its largest is no limit.

@@ -11,6 +11,7 @@
 //! | `readings` | held readings, and readings that are no whole counts |
 //! | `standstill` | a reading that stands still although the motor is driven |
 //! | `response` | whether and in which sense the motor follows its command, and how late |
+//! | `speed_loop` | a command that is the setpoint of a speed loop |
 //! | `reach` | what the motion reaches |
 
 mod clock;
@@ -20,6 +21,7 @@ mod position;
 mod reach;
 mod readings;
 mod response;
+mod speed_loop;
 mod standstill;
 
 pub use finding::{Finding, Severity};
@@ -54,6 +56,7 @@ pub fn examine(recording: &Recording) -> Vec<Finding> {
         standstill::findings,
         readings::findings,
         response::findings,
+        speed_loop::findings,
         reach::findings,
     ]
     .iter()

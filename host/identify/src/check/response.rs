@@ -25,6 +25,8 @@ const EDGE: f64 = 0.3;
 const ANSWER_S: f64 = 0.3;
 /// Counts of motion that are no jitter.
 const BEGUN: f64 = 2.0;
+/// Counts of which the beginning of a motion is told.
+const ROOTS: usize = 8;
 /// A motor that answers later than this, and than so many samples, is late.
 const LATE: (f64, f64) = (0.003, 2.0);
 
@@ -82,7 +84,7 @@ pub(super) fn findings(recording: &Recording) -> Vec<Finding> {
             "late",
             Severity::Remark,
             format!(
-                "after rest the motion begins {:.1} ms after the command (median of {edges} edges)",
+                "after rest the motion begins {:.1} ms after the command, more than its own acceleration explains (median of {edges} edges)",
                 1e3 * late_s
             ),
             "a bus, a driver or the log delays it; fit with --with delay, or log both at the same instant",
@@ -252,14 +254,42 @@ fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
         if !(edge && rested) {
             continue;
         }
-        let moved = (k..counts.len())
-            .take_while(|&j| time[j] - time[k] <= ANSWER_S)
-            .find(|&j| (counts[j] - counts[k]).abs() >= BEGUN);
-        late.extend(moved.map(|j| time[j] - time[k]));
+        late.extend(begun_s(&time[k..], &counts[k..]));
     }
     late.sort_by(f64::total_cmp);
     let median = *late.get(late.len() / 2)?;
     let (seconds, samples) = LATE;
     let is_late = median > seconds && median > samples * recording.median_interval_s();
     is_late.then_some((median, late.len()))
+}
+
+/// When a motion began whose first counts these are, s after the first sample. A motor that is driven from rest moves as the square of the time
+/// since it was driven, so that the root of the count is a line: where it comes from is when the drive began. The first count alone comes
+/// later, the coarser the encoder and the heavier the motor. `None` where it does not move.
+fn begun_s(time: &[f64], counts: &[f64]) -> Option<f64> {
+    let mut reached: Vec<(f64, f64)> = Vec::new();
+    for k in 1..counts.len() {
+        let (since, moved) = (time[k] - time[0], (counts[k] - counts[0]).abs());
+        if since > ANSWER_S || reached.len() == ROOTS {
+            break;
+        }
+        if moved >= BEGUN && reached.last().is_none_or(|(_, before)| moved > *before) {
+            reached.push((since, moved));
+        }
+    }
+    let (first, _) = *reached.first()?;
+    // A reading has reached its count for half an interval, and begins anywhere in its cell.
+    let interval = time.get(1)? - time[0];
+    let points = reached.iter();
+    let points: Vec<(f64, f64)> = points
+        .map(|(since, moved)| ((moved - 0.5).sqrt(), since - 0.5 * interval))
+        .collect();
+    let count = points.len() as f64;
+    if points.len() < 3 {
+        return Some(0.0);
+    }
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+    let slope = mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2)).max(f64::MIN_POSITIVE);
+    Some((y - slope * x).clamp(0.0, first))
 }

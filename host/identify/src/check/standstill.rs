@@ -1,6 +1,5 @@
 //! A reading that stands still although the motor is driven: friction, a weight or a stop holds it, or the encoder is stuck.
 
-use super::command::unit;
 use super::{Finding, Severity};
 use servoid_io::recording::Recording;
 
@@ -33,7 +32,7 @@ pub(super) fn findings(recording: &Recording) -> Vec<Finding> {
         )];
     }
     let from_to = format!("from {:.3} to {:.3} s", still.from_s, still.to_s);
-    let driven = format!("{:.2} {} and more", still.least, unit(recording));
+    let driven = format!("{:.2} {} and more", still.least, recording.drive.symbol());
     vec![if still.sudden {
         Finding::new(
             "stuck_encoder",

@@ -176,6 +176,7 @@ pub(crate) fn filtered(data: &Data, time: f64, signal: &[f64], held: bool) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+    use servoid_io::channel::Series;
     use servoid_io::recording::{Drive, Recording};
     use shared::rng;
 
@@ -192,8 +193,7 @@ mod tests {
             time_s: time_s.collect(),
             command: vec![1.0; samples],
             counts: (0..samples).map(|k| k as f64).collect(),
-            current_a: None,
-            temperature_c: None,
+            measured: Series::NONE,
             enabled: None,
             counts_per_rev: 2000.0,
             quantised: true,

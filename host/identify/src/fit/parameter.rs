@@ -81,6 +81,7 @@ pub(super) fn parameters(
     let mut in_volts = false;
     let mut push = |mut parameter: Parameter, quantity: Option<Quantity>| {
         parameter.usual = quantity.and_then(|q| usual(problem.data, q, parameter.value));
+        parameter.unit = problem.data.drive.unit(parameter.unit);
         if quantity == Some(Quantity::Torque) {
             match torque_scale {
                 Some(scale) => to_newton_metres(&mut parameter, scale),
@@ -113,11 +114,16 @@ pub(super) fn parameters(
             }
         }
     }
-    if problem.data.drive == Drive::Current {
+    if !problem.data.drive.is_voltage() {
         notes.push(
-            "behind a current loop inertia, friction and torques are in units of the command: \
-             multiply by its torque (or force) per unit"
-                .to_owned(),
+            match problem.data.drive {
+                Drive::Torque => "inertia, friction and torques are those that the commanded torque tells",
+                _ => {
+                    "behind a current loop inertia, friction and torques are in amperes of the command: multiply by \
+                     its torque (or force) per ampere"
+                }
+            }
+            .to_owned(),
         );
     } else if in_volts {
         notes.push(

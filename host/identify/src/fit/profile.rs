@@ -163,7 +163,7 @@ impl Search<'_, '_> {
             .collect();
         Some(Profile {
             name: unknown.name.clone(),
-            unit: unknown.unit,
+            unit: self.problem.data.drive.unit(unknown.unit),
             best,
             std,
             points,

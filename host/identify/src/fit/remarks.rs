@@ -88,7 +88,7 @@ pub(super) fn range_notes(problem: &FitProblem<'_>, found: &Found) -> Vec<String
                 "{} lies beyond its usual range, up to {} {}: the search range was widened to {}",
                 unknown.name,
                 plain(unknown.usual),
-                unknown.unit,
+                problem.data.drive.unit(unknown.unit),
                 plain(high)
             ));
         }
@@ -98,7 +98,7 @@ pub(super) fn range_notes(problem: &FitProblem<'_>, found: &Found) -> Vec<String
                 unknown.name,
                 plain(low),
                 plain(high),
-                unknown.unit
+                problem.data.drive.unit(unknown.unit)
             ));
         }
     }

@@ -1,5 +1,6 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
+use servoid_io::channel::Measured;
 use super::armature_current::current_evidence;
 use super::interval::ReadingNoise;
 use super::joint::Joint;
@@ -322,7 +323,7 @@ fn describe(
         return;
     }
     let mut remedy = Vec::new();
-    if known.resistance_ohm.is_none() && problem.data.current_a.is_none() {
+    if known.resistance_ohm.is_none() && problem.data.measured.get(Measured::Current).is_none() {
         remedy.push("the resistance from an ohmmeter (resistance_ohm) or a current column");
     }
     if !known.kt_equals_kb && known.kt_n_m_a.is_none() {

@@ -236,7 +236,7 @@ pub fn base_for(data: &Data, effects: &[Kind]) -> Base {
         mechanical || kind.needs().winding || kind.needs().current
     };
     match data.drive {
-        Drive::Current => Base::CurrentDriven,
+        Drive::Current | Drive::Torque => Base::CurrentDriven,
         Drive::Voltage => Base::Response {
             damping: data.coasts() || effects.iter().any(separates),
         },

@@ -227,16 +227,15 @@ fn is_separable(observed: &[Observed], usual: &Maximum, checked: Option<&Maximum
 }
 
 fn unit(c: Coordinate, drive: Drive) -> &'static str {
-    let volts = drive == Drive::Voltage;
-    let of = |volt: &'static str, ampere: &'static str| if volts { volt } else { ampere };
-    match c {
-        Coordinate::Inertia => of("V*s^2/rad", "A*s^2/rad"),
-        Coordinate::Damping | Coordinate::Asymmetry => of("V*s/rad", "A*s/rad"),
-        Coordinate::Coulomb | Coordinate::Offset | Coordinate::Gravity(_) => of("V", "A"),
+    let volts = match c {
+        Coordinate::Inertia => "V*s^2/rad",
+        Coordinate::Damping | Coordinate::Asymmetry => "V*s/rad",
+        Coordinate::Coulomb | Coordinate::Offset | Coordinate::Gravity(_) => "V",
         Coordinate::CommonDelay | Coordinate::Delay(_) => "s",
-        Coordinate::ProcessNoise => of("V*sqrt(s)", "A*sqrt(s)"),
+        Coordinate::ProcessNoise => "V*sqrt(s)",
         Coordinate::ReadingNoise => "rad",
-    }
+    };
+    drive.unit(volts)
 }
 
 /// What the free run's model has too, and where both errors are known.

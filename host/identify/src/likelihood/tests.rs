@@ -3,6 +3,7 @@
 use super::{Coordinate, Maximum, Observed, Settings, Terms, fit, rank};
 use crate::fit::{self as free_run, Options};
 use servoid_engine::problem::Data;
+use servoid_io::channel::Series;
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::Kind;
 use shared::rng;
@@ -104,8 +105,7 @@ impl Motor {
             time_s: (0..samples).map(|k| k as f64 * SAMPLE_S).collect(),
             command,
             counts,
-            current_a: None,
-            temperature_c: None,
+            measured: Series::NONE,
             enabled: None,
             counts_per_rev: COUNTS_PER_REV,
             quantised: true,

@@ -4,6 +4,7 @@ use super::hypothesis::{Hypothesis, Setup};
 use crate::fit::Options;
 use servoid_engine::data::Recordings;
 use servoid_engine::problem::Data;
+use servoid_io::channel::Series;
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
 use shared::error::ModelError;
@@ -97,8 +98,7 @@ pub fn record(
         command: drive.iter().map(|command| command.drive).collect(),
         counts,
         open: coasts.then(|| drive.iter().map(|command| !command.enabled).collect()),
-        current_a: None,
-        temperature_c: None,
+        measured: Series::NONE,
         quantised: true,
         drive: Drive::Voltage,
         supply: setup.supply_v,

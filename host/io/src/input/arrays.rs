@@ -4,9 +4,11 @@ use super::cell::checked;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
-use super::sample::{Sample, increasing};
-use super::samples::{Further, Samples};
+use super::cells::Sample;
+use super::collector::Collector;
+use super::samples::Further;
 use super::scale::Scale;
+use crate::channel::{Measured, PerMeasured};
 use crate::recording::Recording;
 
 /// Columns of equal length, in the units of the motor file.
@@ -18,10 +20,8 @@ pub struct Arrays<'a> {
     pub command: &'a [f64],
     /// Angle, or counts.
     pub angle: &'a [f64],
-    /// Armature current.
-    pub current: Option<&'a [f64]>,
-    /// Temperature of the motor; NaN where it is not told.
-    pub temperature: Option<&'a [f64]>,
+    /// Measured columns; NaN where one is not told.
+    pub measured: &'a [(Measured, &'a [f64])],
     /// False while the bridge is open.
     pub enabled: Option<&'a [bool]>,
 }
@@ -37,15 +37,15 @@ pub fn recording_of(
 ) -> Result<Recording, ReadError> {
     let whole = |fault| ReadError::new(Place::file(source), fault);
     let samples = arrays.time.len();
+    let measured = arrays.measured.iter();
+    let measured = measured.map(|(channel, values)| (channel.facts().key, values.len()));
+    let enabled = arrays.enabled.map(|enabled| ("enabled", enabled.len()));
     let others = [
-        ("command", Some(arrays.command.len())),
-        ("angle", Some(arrays.angle.len())),
-        ("current", arrays.current.map(<[f64]>::len)),
-        ("temperature", arrays.temperature.map(<[f64]>::len)),
-        ("enabled", arrays.enabled.map(<[bool]>::len)),
+        ("command", arrays.command.len()),
+        ("angle", arrays.angle.len()),
     ];
-    for (column, length) in others {
-        if let Some(length) = length.filter(|length| *length != samples) {
+    for (column, length) in others.into_iter().chain(measured).chain(enabled) {
+        if length != samples {
             return Err(whole(ReadFault::Uneven {
                 column,
                 length,
@@ -53,47 +53,55 @@ pub fn recording_of(
             }));
         }
     }
-    let scale = Scale::new(motor).map_err(whole)?;
-    let mut kept = Samples::new(Further {
-        current: arrays.current.is_some(),
-        temperature: arrays.temperature.is_some(),
+    let further = Further {
+        measured: arrays.measured.iter().map(|(channel, _)| *channel).collect(),
         enabled: arrays.enabled.is_some(),
-    });
+    };
+    let scale = Scale::new(motor, &further).map_err(whole)?;
+    let mut collector = Collector::new(motor, &scale, false, further);
     for k in 0..samples {
-        let at = |number, name: &str, fault| {
-            let cell = Cell {
-                number,
-                name: name.to_owned(),
-            };
-            ReadError::new(Place::cell(source, k as u64, &cell), fault)
-        };
         let convert =
-            |column, name: &str, value: f64, to: &dyn Fn(f64) -> Result<f64, ReadFault>| {
-                checked(value)
-                    .and_then(to)
-                    .and_then(checked)
-                    .map_err(|fault| at(column, name, fault))
+            |number, name: &str, value: f64, to: &dyn Fn(f64) -> Result<f64, ReadFault>| {
+                let read = checked(value).and_then(to).and_then(checked);
+                read.map_err(|fault| {
+                    let name = name.to_owned();
+                    let cell = Cell { number, name };
+                    ReadError::new(Place::cell(source, k as u64, &cell), fault)
+                })
             };
-        let before = kept.last_time();
-        let sample = Sample {
-            time_s: convert(1, "time", arrays.time[k], &|x| {
-                increasing(before, scale.time(x)?)
-            })?,
-            command: convert(2, "command", arrays.command[k], &|x| scale.command(x))?,
-            counts: convert(3, "angle", arrays.angle[k], &|x| scale.counts(x))?,
-            current_a: (arrays.current)
-                .map(|current| convert(4, "current", current[k], &|x| scale.current(x)))
-                .transpose()?,
-            temperature_c: (arrays.temperature)
-                .map(|temperature| temperature[k])
-                .filter(|x| !x.is_nan())
-                .map(|x| convert(5, "temperature", x, &|x| scale.temperature(x)))
-                .transpose()?,
+        let stamp = convert(1, "time", arrays.time[k], &|x| {
+            let stamp = scale.time(x);
+            increasing(k.checked_sub(1).map(|before| scale.time(arrays.time[before])), stamp)
+        })?;
+        let mut sample = Sample {
+            time_s: collector.time(stamp, k as u64).map_err(whole)?,
+            command: Some(convert(2, "command", arrays.command[k], &|x| scale.command(x))?),
+            counts: Some(convert(3, "angle", arrays.angle[k], &|x| scale.counts(x))?),
+            measured: PerMeasured::default(),
             enabled: arrays.enabled.map(|enabled| enabled[k]),
         };
-        kept.push(&sample).map_err(whole)?;
+        for (place, (channel, values)) in arrays.measured.iter().enumerate() {
+            let told = Some(values[k]).filter(|value| !value.is_nan());
+            let own = told.map(|value| {
+                let to = |x: f64| Ok(scale.measured(*channel, x));
+                convert(4 + place, channel.facts().key, value, &to)
+            });
+            sample.measured[*channel] = own.transpose()?;
+        }
+        if collector.wants(sample.time_s) {
+            collector.take(&sample).map_err(whole)?;
+        }
     }
-    kept.finish(source, motor, &scale).map_err(whole)
+    collector.finish(source)?.only(source).map_err(whole)?.recordings.pop().ok_or_else(|| whole(ReadFault::NoAngle))
+}
+
+/// Times in memory are those of one recording, row by row.
+fn increasing(before: Option<f64>, now: f64) -> Result<f64, ReadFault> {
+    match before {
+        Some(before) if now < before => Err(ReadFault::TimeBack { before, now }),
+        Some(before) if now == before => Err(ReadFault::TimeRepeats { now }),
+        _ => Ok(now),
+    }
 }
 
 #[cfg(test)]
@@ -118,8 +126,7 @@ mod tests {
             time: &TIME,
             command: &VOLTS,
             angle,
-            current: None,
-            temperature: None,
+            measured: &[],
             enabled: None,
         }
     }

@@ -18,7 +18,7 @@ impl Clock {
     /// Seconds of a cell: in the motor file's unit where it holds a number, since the first row where it holds a date.
     pub(super) fn seconds(&mut self, text: &str, scale: &Scale<'_>) -> Result<f64, ReadFault> {
         let why = match number(text) {
-            Ok(time) => return scale.time(time),
+            Ok(time) => return Ok(scale.time(time)),
             Err(why) => why,
         };
         let Some(date) = date(text) else {
@@ -27,6 +27,11 @@ impl Clock {
         let first = *self.first.get_or_insert(date);
         Ok((date.as_nanosecond() - first.as_nanosecond()) as f64 / 1e9)
     }
+}
+
+/// Whether a text is a date with a time of the day.
+pub(super) fn is_date(text: &str) -> bool {
+    date(text).is_some()
 }
 
 /// A date with a time of the day, with a zone or without.
@@ -42,6 +47,7 @@ fn date(text: &str) -> Option<Timestamp> {
 #[cfg(test)]
 mod tests {
     use super::super::motor_file::MotorFile;
+    use super::super::samples::Further;
     use super::*;
 
     #[test]
@@ -50,7 +56,7 @@ mod tests {
             counts_per_rev: Some(1.0),
             ..MotorFile::default()
         };
-        let scale = Scale::new(&motor).expect("a scale");
+        let scale = Scale::new(&motor, &Further::default()).expect("a scale");
         for (first, second, wanted) in [
             ("2024-03-01T12:00:00.25Z", "2024-03-01T12:00:01.5Z", 1.25),
             ("2024-03-01 12:00:00.25", "2024-03-01 12:00:00.252", 0.002),

@@ -2,6 +2,7 @@
 //! first lines of the file; a file with its names in its first row and separators of one kind is read as it ever was.
 
 use super::keyed;
+use super::lines::recoded;
 use super::row::Row;
 
 /// Bytes by which the dialect is told.
@@ -39,12 +40,16 @@ pub(super) struct Dialect {
     pub(super) before: usize,
     /// Whether a row of units stands behind the names.
     pub(super) units_row: bool,
+    /// Whether that row says that the columns are pairs of X and Y.
+    pub(super) pairs: bool,
 }
 
 impl Dialect {
     /// The dialect of a file that begins with `head`.
     pub(super) fn of(head: &[u8]) -> Self {
-        let lines = data_lines(head);
+        let recoded = recoded(head);
+        let mut lines = data_lines(recoded.as_ref().map_or(head, String::as_bytes));
+        lines.truncate(LINES);
         let usual = Dialect::usual(lines.first().copied().unwrap_or_default());
         let Some(first) = lines.first() else {
             return usual;
@@ -61,9 +66,11 @@ impl Dialect {
             let line = lines.get(other.before);
             line.is_some_and(|line| row.split(line).is_ok() && row.len() > begins)
         };
+        let later = |dialect: &Dialect| wider(dialect) || Dialect::is_preamble(&lines, dialect);
         let mut found = Dialect::with_names(&lines, 0, usual.separator)
+            .filter(|_| !is_padded(&usual, first))
             .or_else(|| Dialect::keyed(&lines))
-            .or_else(|| Dialect::later(&lines).filter(wider))
+            .or_else(|| Dialect::later(&lines).filter(later))
             .unwrap_or(as_ever);
         found.decimal_comma = found.writes_decimal_commas(&lines);
         found
@@ -91,6 +98,7 @@ impl Dialect {
             names: Names::Row,
             before: 0,
             units_row: false,
+            pairs: false,
         }
     }
 
@@ -105,17 +113,23 @@ impl Dialect {
             names: Names::Row,
             before: at,
             units_row: false,
+            pairs: false,
         };
         let mut row = Row::new(&dialect);
         let split = |row: &mut Row, line: &[u8]| row.split(line).ok().map(|()| Shape::of(row));
         let names = split(&mut row, rows.first()?)?;
         let next = split(&mut row, rows.get(1)?)?;
-        if names.cells < 2 || next.cells != names.cells {
+        if names.width < 2 || next.cells < names.width || next.width > names.cells {
             return None;
         }
         let mut first = 1;
         if !names.is_numbers() && next.is_words() {
             dialect.units_row = true;
+            dialect.pairs = row.len() >= 4
+                && (0..row.len()).all(|k| {
+                    let name = if k % 2 == 0 { "x" } else { "y" };
+                    row.cell(k).is_ok_and(|cell| cell.eq_ignore_ascii_case(name))
+                });
             first = 2;
         }
         if names.is_numbers() {
@@ -125,7 +139,8 @@ impl Dialect {
         let mut any = false;
         for line in alike {
             let shape = split(&mut row, line)?;
-            if shape.cells != names.cells || !shape.is_numbers() {
+            let as_wide = shape.width <= names.cells && shape.cells >= names.width;
+            if !as_wide || !shape.is_numbers() {
                 return None;
             }
             any = true;
@@ -170,16 +185,43 @@ impl Dialect {
                 names: Names::Keys(keys.clone()),
                 before: at,
                 units_row: false,
+                pairs: false,
             })
         })
     }
 
+    /// Whether line 0 is of a preamble that is filled up with separators to the width of the table, which begins at that of `dialect`: no row
+    /// of names has mostly empty cells.
+    fn is_preamble(lines: &[&[u8]], dialect: &Dialect) -> bool {
+        dialect.before > 0 && lines.iter().take(dialect.before).all(|line| is_padded(dialect, line))
+    }
+
+    /// The row of units, cell by cell, of a file that begins with `head`.
+    pub(super) fn units(&self, head: &[u8]) -> Option<Vec<String>> {
+        if !self.units_row || self.pairs {
+            return None;
+        }
+        let recoded = recoded(head);
+        let lines = data_lines(recoded.as_ref().map_or(head, String::as_bytes));
+        let mut row = Row::new(self);
+        row.split(lines.get(self.before + 1)?).ok()?;
+        let cells = (0..row.len()).map(|k| row.cell(k).map(str::to_owned));
+        cells.collect::<Result<_, _>>().ok()
+    }
+
+    /// The rows of the table among the first lines.
+    pub(super) fn first_rows<'h>(&self, lines: &[&'h [u8]]) -> Vec<&'h [u8]> {
+        let names = usize::from(self.names == Names::Row);
+        let skipped = self.before + names + usize::from(self.units_row);
+        lines.iter().skip(skipped).copied().collect()
+    }
+
     fn writes_decimal_commas(&self, lines: &[&[u8]]) -> bool {
-        if self.separator == b',' || matches!(self.names, Names::Keys(_)) {
+        if matches!(self.names, Names::Keys(_)) {
             return false;
         }
         let mut row = Row::new(self);
-        let (mut commas, mut points) = (0, 0);
+        let (mut commas, mut points, mut thousands) = (0, 0, 0);
         for line in lines.iter().skip(self.before + 1) {
             if row.split(line).is_err() {
                 continue;
@@ -188,15 +230,47 @@ impl Dialect {
                 let with_point = cell.replace(',', ".");
                 commas += usize::from(cell.contains(',') && with_point.parse::<f64>().is_ok());
                 points += usize::from(cell.contains('.') && cell.parse::<f64>().is_ok());
+                thousands += usize::from(may_be_thousands(cell));
             }
         }
-        commas > 0 && points == 0
+        // In quotes between commas, 12,345 may as well be twelve thousand.
+        let ambiguous = self.separator == b',' && thousands == commas;
+        commas > 0 && points == 0 && !ambiguous
     }
+}
+
+/// Whether a cell is written as a number with commas between its thousands may be: `12,345`, but not `0,005`.
+fn may_be_thousands(cell: &str) -> bool {
+    let bare = cell.trim_start_matches(['-', '+']);
+    let mut groups = bare.split(',');
+    let first = groups.next().unwrap_or_default();
+    let rest: Vec<&str> = groups.collect();
+    (1..=3).contains(&first.len())
+        && !first.starts_with('0')
+        && !rest.is_empty()
+        && rest.iter().all(|group| group.len() == 3)
+}
+
+/// Whether most cells of a row are empty, as of a text that is filled up with separators.
+fn is_padded(dialect: &Dialect, line: &[u8]) -> bool {
+    let mut row = Row::new(dialect);
+    if row.split(line).is_err() || row.len() < 3 {
+        return false;
+    }
+    let shape = Shape::of(&row);
+    2 * shape.empty >= shape.cells && shape.width <= 2
+}
+
+/// Whether a cell is a date with a time of the day.
+fn is_date(text: &str) -> bool {
+    text.len() >= 16 && text.as_bytes()[0].is_ascii_digit() && super::clock::is_date(text)
 }
 
 /// How many cells a row has, and how many of them are numbers.
 struct Shape {
     cells: usize,
+    /// Cells without the empty ones at the end.
+    width: usize,
     numbers: usize,
     empty: usize,
 }
@@ -206,12 +280,16 @@ impl Shape {
         let cells = (0..row.len()).filter_map(|k| row.cell(k).ok());
         let mut shape = Shape {
             cells: row.len(),
+            width: 0,
             numbers: 0,
             empty: 0,
         };
-        for cell in cells {
-            let number = |text: &str| text.parse::<f64>().is_ok();
+        for (k, cell) in cells.enumerate() {
+            let number = |text: &str| text.parse::<f64>().is_ok() || is_date(text);
             shape.empty += usize::from(cell.is_empty());
+            if !cell.is_empty() {
+                shape.width = k + 1;
+            }
             shape.numbers += usize::from(number(cell) || number(&cell.replace(',', ".")));
         }
         shape
@@ -242,7 +320,7 @@ fn is_quoted(line: &[u8], separator: u8) -> bool {
 }
 
 /// The first lines with data, each without its end. The last line is left out where the head ends in it.
-fn data_lines(head: &[u8]) -> Vec<&[u8]> {
+pub(super) fn data_lines(head: &[u8]) -> Vec<&[u8]> {
     let whole = if head.len() < HEAD_BYTES {
         head
     } else {
@@ -254,7 +332,6 @@ fn data_lines(head: &[u8]) -> Vec<&[u8]> {
         .split(|byte| *byte == b'\n')
         .map(<[u8]>::trim_ascii_end)
         .filter(|line| !line.trim_ascii().is_empty() && line.trim_ascii()[0] != b'#')
-        .take(LINES)
         .collect()
 }
 

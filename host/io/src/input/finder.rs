@@ -5,12 +5,13 @@ use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
 use super::shown::shown;
 use super::suggest::did_you_mean;
+use crate::channel::Channel;
 
 /// What to look for.
 pub(super) struct Wanted<'m> {
-    /// Key in `[columns]`.
-    pub(super) key: &'static str,
-    /// The name under that key.
+    /// What it is.
+    pub(super) channel: Channel,
+    /// The name that the user gives it.
     pub(super) mapped: Option<&'m str>,
     /// Names where nothing is mapped, best first.
     pub(super) names: &'static [&'static str],
@@ -26,12 +27,14 @@ pub(super) struct Finder<'h> {
 impl Finder<'_> {
     /// The column, `None` where the header has it not.
     pub(super) fn find(&self, wanted: &Wanted<'_>) -> Result<Option<Column>, ReadError> {
-        let mapped = wanted.mapped.as_slice();
-        let names = if mapped.is_empty() {
-            wanted.names
-        } else {
-            mapped
-        };
+        match &wanted.mapped {
+            Some(name) => self.find_any(&[name]),
+            None => self.find_any(wanted.names),
+        }
+    }
+
+    /// The first of these names that the header has.
+    fn find_any(&self, names: &[&str]) -> Result<Option<Column>, ReadError> {
         for name in names {
             // `voltage_V` is `voltage_v` unless the file has both.
             let mut found = self.matches(|header| header == *name);
@@ -63,12 +66,7 @@ impl Finder<'_> {
     /// # Errors
     /// The header has it not, or more than once.
     pub(super) fn named(&self, name: &str) -> Result<Column, ReadError> {
-        let wanted = Wanted {
-            key: "select",
-            mapped: Some(name),
-            names: &[],
-        };
-        self.find(&wanted)?.ok_or_else(|| {
+        self.find_any(&[name])?.ok_or_else(|| {
             let names: Vec<&str> = self.header.iter().map(String::as_str).collect();
             let hint = did_you_mean(name, &names);
             let name = shown(name);

@@ -1,8 +1,11 @@
-//! Which column of a foreign log may be what, and in which unit, told by the names of its header. The advice of the
-//! reader and the fields of the workbench come from here; nothing is ever read by a guess alone.
+//! Which column of a foreign log may be what, and in which unit, told by the names of its header alone: the advice of the reader where a
+//! column is missing. What `open` proposes and the other verbs take looks at the values as well: see [`proposal`](super::proposal).
 
 use super::motor_drive::DriveKind;
+use super::names::{Match, parts};
 use super::suggest::nearest;
+use super::units_told::unit_of;
+use crate::channel::Channel;
 
 /// A column that may be the one wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,211 +16,18 @@ pub struct Guess {
     pub unit: Option<&'static str>,
 }
 
-/// A quantity, as logs call it.
-struct Quantity {
-    /// Its key in `[columns]`.
-    key: &'static str,
-    /// What it is called, the likeliest first.
-    words: &'static [&'static str],
-    /// What stands in the name of another quantity that shares a word with this one.
-    others: &'static [&'static str],
-    /// The last part of a name, and the unit that it tells. Usual units (s, V, counts, A) need no telling.
-    units: &'static [(&'static str, &'static str)],
-}
-
-/// What is wanted of a controller, and not what was measured.
-const WANTED: &[&str] = &[
-    "target",
-    "goal",
-    "ref",
-    "reference",
-    "set",
-    "setpoint",
-    "desired",
-    "des",
-    "cmd",
-    "command",
-    "error",
-];
-const ANGLE_UNITS: &[(&str, &str)] = &[
-    ("rad", "rad"),
-    ("radians", "rad"),
-    ("deg", "deg"),
-    ("degrees", "deg"),
-    ("rev", "rev"),
-    ("revs", "rev"),
-    ("rot", "rev"),
-    ("rotations", "rev"),
-    ("turns", "rev"),
-    ("m", "m"),
-];
-
-/// In the order in which they take a name that several could have.
-const QUANTITIES: &[Quantity] = &[
-    Quantity {
-        key: "time",
-        words: &[
-            "t_s",
-            "time",
-            "timestamp",
-            "t",
-            "seconds",
-            "sec",
-            "millis",
-            "micros",
-            "clock",
-        ],
-        others: &[],
-        units: &[
-            ("ms", "ms"),
-            ("millis", "ms"),
-            ("milliseconds", "ms"),
-            ("us", "us"),
-            ("µs", "us"),
-            ("micros", "us"),
-            ("microseconds", "us"),
-        ],
-    },
-    Quantity {
-        key: "target",
-        words: &[
-            "target",
-            "goal",
-            "setpoint",
-            "reference",
-            "desired",
-            "ref",
-            "command",
-            "action",
-        ],
-        others: &["speed", "velocity", "torque", "error"],
-        units: ANGLE_UNITS,
-    },
-    Quantity {
-        key: "voltage",
-        words: &[
-            "voltage_v",
-            "voltage",
-            "volts",
-            "volt",
-            "duty",
-            "pwm",
-            "command",
-            "cmd",
-            "u",
-            "v",
-            "plant_input",
-            "control_output",
-            "control",
-            "input",
-        ],
-        others: &[
-            "supply", "bus", "vbus", "battery", "bat", "vin", "limit", "max", "sag",
-        ],
-        units: &[("duty", "duty"), ("pwm", "duty")],
-    },
-    Quantity {
-        key: "angle",
-        words: &[
-            "angle_counts",
-            "angle",
-            "position",
-            "counts",
-            "count",
-            "encoder",
-            "ticks",
-            "theta",
-            "enc",
-            "pos",
-            "q",
-            "turns",
-        ],
-        others: WANTED,
-        units: ANGLE_UNITS,
-    },
-    Quantity {
-        key: "current",
-        words: &["current_a", "current", "amps", "amp", "i_a", "i"],
-        others: &[
-            "target",
-            "goal",
-            "ref",
-            "reference",
-            "setpoint",
-            "desired",
-            "limit",
-            "max",
-            "bus",
-        ],
-        units: &[("ma", "mA"), ("milliamps", "mA")],
-    },
-    Quantity {
-        key: "temperature",
-        words: &[
-            "temperature_c",
-            "temperature",
-            "temp_motor",
-            "motor_temp",
-            "winding_temp",
-            "temp",
-        ],
-        others: &[
-            "mos", "mosfet", "fet", "board", "pcb", "cpu", "mcu", "ambient", "driver", "esc",
-            "inverter", "limit", "max", "fault",
-        ],
-        units: &[("k", "K"), ("kelvin", "K"), ("f", "F")],
-    },
-    Quantity {
-        key: "enabled",
-        words: &["enabled", "enable", "torque_enabled", "armed"],
-        others: &[],
-        units: &[],
-    },
-];
-
-/// What a drive that closes a current loop is commanded by.
-const COMMANDED_CURRENT: Quantity = Quantity {
-    key: "voltage",
-    words: &[
-        "current_command",
-        "command",
-        "cmd",
-        "current_a",
-        "current",
-        "torque",
-        "i",
-        "voltage",
-        "u",
-    ],
-    others: &["limit", "max", "bus"],
-    units: &[("a", "A"), ("amps", "A"), ("ma", "mA")],
-};
-
-/// How surely a name means a quantity, the surest first.
-#[derive(Clone, Copy)]
-enum Match {
-    /// The name is nearly the one that the user gave.
-    Called,
-    /// The name is the word.
-    Whole,
-    /// The name begins with the word, or a long word stands somewhere in it.
-    Part,
-    /// The name is nearly the word, or a symbol with an index.
-    Nearly,
-}
-
 /// What a column is sought for.
 #[derive(Clone, Copy, Debug)]
-pub struct Sought<'n> {
-    /// Its key in `[columns]`.
-    pub key: &'n str,
+pub(super) struct Sought<'n> {
+    /// The channel.
+    pub(super) channel: Channel,
     /// The name under which it was sought and not found, if a user gave one.
-    pub called: Option<&'n str>,
+    pub(super) called: Option<&'n str>,
 }
 
 /// Guesses among the names of a `header` that are not `taken`, in the order of what is `sought`. A name is guessed once: what means
 /// one quantity for sure is not given to another.
-pub fn guess(
+pub(super) fn guess(
     header: &[String],
     sought: &[Sought<'_>],
     kind: DriveKind,
@@ -229,22 +39,20 @@ pub fn guess(
         .filter(|name| !name.is_empty() && !taken.iter().any(|taken| taken == name))
         .collect();
     let mut found: Vec<Option<Guess>> = vec![None; sought.len()];
-    for how in [Match::Called, Match::Whole, Match::Part, Match::Nearly] {
+    for how in [None, Some(Match::Whole), Some(Match::Part), Some(Match::Nearly)] {
         for (sought, found) in sought.iter().zip(&mut found) {
-            let Some(quantity) = quantity(sought.key, kind).filter(|_| found.is_none()) else {
+            if found.is_some() {
                 continue;
-            };
+            }
             let name = match how {
-                Match::Called => sought
-                    .called
-                    .and_then(|name| nearest(name, free.iter().copied())),
-                how => quantity.among(&free, how),
+                None => (sought.called).and_then(|name| nearest(name, free.iter().copied())),
+                Some(how) => among(&free, sought.channel, kind, how),
             };
             if let Some(name) = name {
                 free.retain(|other| *other != name);
                 *found = Some(Guess {
                     column: name.to_owned(),
-                    unit: quantity.unit_of(name),
+                    unit: told_unit(sought.channel, name),
                 });
             }
         }
@@ -252,112 +60,67 @@ pub fn guess(
     found
 }
 
-/// Units of a speed that names end with, longest first.
-const SPEED_UNITS: &[(&str, &str)] = &[
-    ("counts_per_sample", "counts/sample"),
-    ("counts_s", "counts/s"),
-    ("rad_s", "rad/s"),
-    ("rads", "rad/s"),
-    ("deg_s", "deg/s"),
-    ("dps", "deg/s"),
-    ("rev_s", "rev/s"),
-    ("rps", "rev/s"),
-    ("rpm", "rpm"),
-];
-/// What speeds are called, the likeliest first.
-const SPEED_WORDS: &[&str] = &[
-    "speed", "velocity", "omega", "velo", "vel", "rpm", "dtheta", "dq", "qd", "w",
-];
-
-/// The column that may hold a speed, where a log has no angle; its unit is radians a second if the name tells none.
-pub fn speed(header: &[String], taken: &[&str]) -> Option<Guess> {
-    let free = || header.iter().filter(|name| !taken.contains(&name.as_str()));
-    let own = |name: &&String| !parts(name).any(|part| WANTED.contains(&part.as_str()));
-    let called = SPEED_WORDS
-        .iter()
-        .find_map(|word| free().filter(own).find(|name| is_called(name, word)))?;
-    let plain: Vec<String> = parts(called).collect();
-    let plain = plain.join("_");
-    let told = SPEED_UNITS.iter().find(|(end, _)| plain.ends_with(end));
-    Some(Guess {
-        column: called.clone(),
-        unit: Some(told.map_or("rad/s", |(_, unit)| unit)),
-    })
-}
-
-fn quantity(key: &str, kind: DriveKind) -> Option<&'static Quantity> {
-    match (key, kind) {
-        ("voltage", DriveKind::Current) => Some(&COMMANDED_CURRENT),
-        _ => QUANTITIES.iter().find(|quantity| quantity.key == key),
-    }
-}
-
-impl Quantity {
-    fn among<'n>(&self, free: &[&'n str], how: Match) -> Option<&'n str> {
-        let own: Vec<&str> = (free.iter().copied())
-            .filter(|name| !self.is_another(name))
-            .collect();
-        let words = self.words;
-        let called = |is: fn(&str, &str) -> bool| {
-            (words.iter()).find_map(|word| own.iter().copied().find(|name| is(name, word)))
+fn among<'n>(free: &[&'n str], channel: Channel, kind: DriveKind, how: Match) -> Option<&'n str> {
+    let called = |name: &&'n str| {
+        let found = match (channel, kind) {
+            (Channel::Command, DriveKind::Position) => super::quantity::target(name),
+            (Channel::Command, DriveKind::Current) => super::quantity::commanded_current(name),
+            _ => channel.facts().called(name),
         };
-        match how {
-            Match::Called => None,
-            Match::Whole => called(|name, word| name.eq_ignore_ascii_case(word)),
-            Match::Part => called(is_called),
-            Match::Nearly => own.iter().copied().find(|name| self.is_nearly(name)),
-        }
-    }
-
-    /// Whether a name is misspelt, or a symbol with an index (`qm`, `vm`).
-    fn is_nearly(&self, name: &str) -> bool {
-        let name = name.to_lowercase();
-        match name.len() {
-            0 | 1 => false,
-            2 => (self.words.iter()).any(|word| word.len() == 1 && name.starts_with(word)),
-            _ => {
-                let long = self.words.iter().copied().filter(|word| word.len() > 2);
-                nearest(&name, long).is_some()
-            }
-        }
-    }
-
-    fn is_another(&self, name: &str) -> bool {
-        parts(name).any(|part| self.others.contains(&part.as_str()))
-    }
-
-    fn unit_of(&self, name: &str) -> Option<&'static str> {
-        let last = parts(name).last()?;
-        let told = self.units.iter().find(|(word, _)| *word == last);
-        told.map(|(_, unit)| *unit)
-    }
+        found.filter(|(own, _)| *own == how).map(|(_, place)| place)
+    };
+    let own = free.iter().filter_map(|name| Some((called(name)?, *name)));
+    // Of equals the first.
+    own.min_by_key(|(place, _)| *place).map(|(_, name)| name)
 }
 
-/// A name in lower case, cut at what is no letter or digit.
-fn parts(name: &str) -> impl Iterator<Item = String> + '_ {
-    name.split(|c: char| !c.is_alphanumeric())
-        .filter(|part| !part.is_empty())
-        .map(str::to_lowercase)
+/// The unit that a name tells, where that is not the usual one.
+pub(super) fn told_unit(channel: Channel, name: &str) -> Option<&'static str> {
+    let usual = match channel {
+        Channel::Time => "s",
+        Channel::Command => "V",
+        Channel::Angle => "counts",
+        Channel::Measured(channel) => channel.facts().units[0].name,
+        Channel::Enabled | Channel::Direction => return None,
+    };
+    super::quantity::unit_in(channel, name)
+        .or_else(|| by_last_part(channel, name))
+        .filter(|unit| *unit != usual)
 }
 
-/// A short word must be the first part of the name, a long one may stand anywhere in it.
-fn is_called(name: &str, word: &str) -> bool {
-    if word.len() > 3 {
-        return name.to_lowercase().contains(word);
+fn by_last_part(channel: Channel, name: &str) -> Option<&'static str> {
+    let parts = parts(name);
+    let last = parts.last()?;
+    let own = unit_of(channel, last).filter(|_| parts.len() > 1 || last.len() > 1);
+    match channel {
+        // `pwm` and `duty` are names of commands and tell their unit as well.
+        Channel::Command if own.is_none() => {
+            let is = |word: &str| parts.iter().any(|part| part == word);
+            (is("duty") || is("pwm")).then_some("duty")
+        }
+        _ => own,
     }
-    parts(name).next().is_some_and(|first| first == word)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::channel::Measured;
 
-    fn any(key: &str) -> Sought<'_> {
-        Sought { key, called: None }
+    fn any(channel: Channel) -> Sought<'static> {
+        let called = None;
+        Sought { channel, called }
     }
 
     fn all() -> [Sought<'static>; 5] {
-        ["time", "voltage", "angle", "current", "enabled"].map(any)
+        [
+            Channel::Time,
+            Channel::Command,
+            Channel::Angle,
+            Channel::Measured(Measured::Current),
+            Channel::Enabled,
+        ]
+        .map(any)
     }
 
     fn names(line: &str) -> Vec<String> {
@@ -400,6 +163,13 @@ mod tests {
                 "tme_s,voltge_v,angle_count",
                 "tme_s,voltge_v,angle_count,,|,,",
             ),
+            (
+                "Zeit [s],Spannung [mV],Winkel [Grad],Strom",
+                "Zeit [s],Spannung [mV],Winkel [Grad],Strom,|,mV,deg",
+            ),
+            ("temps,tension,position (tr),courant", "temps,tension,position (tr),courant,|,,"),
+            ("tiempo (ms),voltaje,ángulo (grados)", "tiempo (ms),voltaje,ángulo (grados),,|ms,,deg"),
+            ("时间,电压,角度", "时间,电压,角度,,|,,"),
         ] {
             let found = guess(&names(header), &all(), DriveKind::Voltage, &[]);
             let column = |guess: &Option<Guess>| {
@@ -440,7 +210,7 @@ mod tests {
     fn a_name_that_a_user_gave_comes_first() {
         let header = names("t_s,position,speed_mesured");
         let sought = Sought {
-            key: "angle",
+            channel: Channel::Angle,
             called: Some("speed_measured"),
         };
         let found = guess(&header, &[sought], DriveKind::Voltage, &[]);
@@ -455,7 +225,7 @@ mod tests {
         let header = names("t,goal_rad,angle_rad");
         let found = guess(
             &header,
-            &["target", "angle"].map(any),
+            &[Channel::Command, Channel::Angle].map(any),
             DriveKind::Position,
             &[],
         );

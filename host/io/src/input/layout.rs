@@ -7,22 +7,19 @@ use super::missing::MissingColumn;
 use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
-use super::preset::Preset;
 use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
 use super::samples::Further;
 use super::shown::shown;
+use crate::channel::{Channel, Measured};
 
 /// The columns of one file.
 pub(super) struct Layout {
-    /// Cells in every row.
-    pub(super) width: usize,
     /// None where the rate of the samples is told in place of their times.
     pub(super) time: Option<Column>,
     pub(super) command: Column,
     pub(super) angle: Column,
-    pub(super) current: Option<Column>,
-    pub(super) temperature: Option<Column>,
+    pub(super) measured: Vec<(Measured, Column)>,
     pub(super) enabled: Option<Column>,
     pub(super) direction: Option<Column>,
     /// The columns by which rows are selected, each with the value.
@@ -51,7 +48,6 @@ impl Layout {
             ..Place::file(source)
         };
         let at = |fault| ReadError::new(place.clone(), fault);
-        let width = header.len();
         let finder = Finder {
             header: &header,
             source,
@@ -62,8 +58,15 @@ impl Layout {
         for column in &wanted {
             found.push(finder.find(column)?);
         }
-        let needed = |k: usize| k < REQUIRED && !(k == 0 && motor.log.rate_hz.is_some());
-        let is_missing = |k: usize| found[k].is_none() && (needed(k) || wanted[k].mapped.is_some());
+        let needed = |wanted: &Wanted<'_>| match wanted.channel {
+            Channel::Time => motor.log.rate_hz.is_none(),
+            Channel::Command | Channel::Angle => true,
+            _ => wanted.mapped.is_some(),
+        };
+        let is_missing = |k: usize| {
+            let is_named = wanted[k].mapped.is_some();
+            found[k].is_none() && (needed(&wanted[k]) || is_named)
+        };
         let absent: Vec<usize> = (0..wanted.len()).filter(|k| is_missing(*k)).collect();
         let taken: Vec<String> = found
             .iter()
@@ -71,7 +74,7 @@ impl Layout {
             .map(|column| column.cell.name.clone())
             .collect();
         let sought = absent.iter().map(|k| Sought {
-            key: wanted[*k].key,
+            channel: wanted[*k].channel,
             called: wanted[*k].mapped,
         });
         let sought: Vec<Sought<'_>> = sought.collect();
@@ -80,7 +83,7 @@ impl Layout {
             .iter()
             .zip(near)
             .map(|(k, near)| MissingColumn {
-                key: wanted[*k].key,
+                key: motor.drive_kind().key(wanted[*k].channel),
                 wanted: wanted[*k].mapped.unwrap_or(wanted[*k].names[0]).into(),
                 mapped: wanted[*k].mapped.is_some(),
                 near,
@@ -91,108 +94,87 @@ impl Layout {
             let column = finder.named(&selection.column)?;
             select.push((column, selection.clone()));
         }
-        let found: Result<[Option<Column>; 7], _> = found.try_into();
-        match found {
-            Ok(
-                [
-                    time,
-                    Some(command),
-                    Some(angle),
-                    current,
-                    temperature,
-                    enabled,
-                    direction,
-                ],
-            ) if missing.is_empty() => Ok(Layout {
-                width,
-                time,
-                command,
-                angle,
-                current,
-                temperature,
-                enabled,
-                direction,
-                select,
-            }),
-            _ => {
-                let motor = motor.called().into();
-                Err(at(ReadFault::MissingColumns {
-                    missing,
-                    header,
-                    motor,
-                }))
-            }
+        if !missing.is_empty() {
+            let motor = motor.called().into();
+            return Err(at(ReadFault::MissingColumns {
+                missing,
+                header,
+                motor,
+                advice: None,
+            }));
         }
+        let mut take = |channel: Channel| {
+            let place = wanted.iter().position(|wanted| wanted.channel == channel)?;
+            found[place].take()
+        };
+        let (time, enabled) = (take(Channel::Time), take(Channel::Enabled));
+        let (Some(command), Some(angle)) = (take(Channel::Command), take(Channel::Angle)) else {
+            return Err(at(ReadFault::Empty));
+        };
+        let direction = take(Channel::Direction);
+        let measured = Measured::ALL.into_iter();
+        let measured = measured.filter_map(|own| Some((own, take(Channel::Measured(own))?)));
+        Ok(Layout {
+            time,
+            command,
+            angle,
+            measured: measured.collect(),
+            enabled,
+            direction,
+            select,
+        })
     }
 }
 
 impl Layout {
     /// Which columns there are beside those that every recording has.
     pub(super) fn further(&self) -> Further {
+        let measured = self.measured.iter().map(|(channel, _)| *channel).collect();
         Further {
-            current: self.current.is_some(),
-            temperature: self.temperature.is_some(),
+            measured,
             enabled: self.enabled.is_some(),
         }
     }
+
+    /// Every column that is read, one that is asked for twice as often.
+    pub(super) fn columns(&self) -> impl Iterator<Item = &Column> {
+        let one = [Some(&self.command), Some(&self.angle)];
+        let others = [
+            self.time.as_ref(),
+            self.enabled.as_ref(),
+            self.direction.as_ref(),
+        ];
+        let measured = self.measured.iter().map(|(_, column)| column);
+        let select = self.select.iter().map(|(column, _)| column);
+        let named = one.into_iter().chain(others).flatten();
+        named.chain(measured).chain(select)
+    }
 }
 
-/// How many of the columns wanted, the first ones, must be there.
-const REQUIRED: usize = 3;
-
-/// Time, command, angle, current, temperature, enabled, direction: under the user's names, the preset's, or the contract's.
-fn wanted(motor: &MotorFile) -> [Wanted<'_>; 7] {
-    let (columns, units, preset) = (&motor.columns, &motor.units, motor.log.preset);
-    let names = |of: fn(&'static Preset) -> &'static [&'static str], usual| {
-        preset
-            .map(of)
+/// Every channel, under the user's names, the preset's, or the contract's.
+fn wanted(motor: &MotorFile) -> [Wanted<'_>; Channel::ALL.len()] {
+    let (units, preset) = (&motor.units, motor.log.preset);
+    let usual = |channel: Channel| match channel {
+        Channel::Time => units.time.default_names(),
+        Channel::Command if motor.drive_kind() == DriveKind::Position => {
+            units.of_target().target_names()
+        }
+        Channel::Command => units.voltage.default_names(),
+        Channel::Angle => units.angle.default_names(),
+        // A supply that makes no volts of anything is not needed.
+        Channel::Measured(Measured::Supply) if units.voltage.full_scale().is_none() => &[],
+        Channel::Measured(channel) => units.of(channel).columns,
+        Channel::Enabled => &["enabled"],
+        Channel::Direction => &[],
+    };
+    Channel::ALL.map(|channel| Wanted {
+        channel,
+        mapped: motor.columns.get(channel),
+        names: preset
+            .map(|preset| preset.names_of(channel))
             .filter(|names| !names.is_empty())
-            .unwrap_or(usual)
-    };
-    let command = match motor.drive_kind() {
-        DriveKind::Position => units.of_target().target_names(),
-        _ => units.voltage.default_names(),
-    };
-    [
-        Wanted {
-            key: "time",
-            mapped: columns.time.as_deref(),
-            names: names(|preset| preset.time.names, units.time.default_names()),
-        },
-        Wanted {
-            key: motor.drive_kind().command_key(),
-            mapped: columns.voltage.as_deref(),
-            names: names(|preset| preset.command.names, command),
-        },
-        Wanted {
-            key: "angle",
-            mapped: columns.angle.as_deref(),
-            names: names(|preset| preset.angle.names, units.angle.default_names()),
-        },
-        Wanted {
-            key: "current",
-            mapped: columns.current.as_deref(),
-            names: names(|preset| preset.current.names, units.current.default_names()),
-        },
-        Wanted {
-            key: "temperature",
-            mapped: columns.temperature.as_deref(),
-            names: names(
-                |preset| preset.temperature,
-                units.temperature.default_names(),
-            ),
-        },
-        Wanted {
-            key: "enabled",
-            mapped: columns.enabled.as_deref(),
-            names: names(|preset| preset.enabled, &["enabled"]),
-        },
-        Wanted {
-            key: "direction",
-            mapped: columns.direction.as_deref(),
-            names: &[],
-        },
-    ]
+            .unwrap_or(usual(channel)),
+    })
 }
 
 /// The names in a row, refused where they are numbers or no text.

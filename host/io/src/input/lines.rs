@@ -1,5 +1,6 @@
 //! Lines of a text file, one at a time and of bounded length: a file of any size costs one line of memory.
 
+use encoding_rs::WINDOWS_1252;
 use std::io::{BufRead, Read};
 
 use super::place::Place;
@@ -15,6 +16,8 @@ pub(super) struct Lines<'s, R> {
     number: u64,
     line: Vec<u8>,
     ended: bool,
+    /// The first line that was no UTF-8.
+    recoded: Option<u64>,
 }
 
 impl<'s, R: BufRead> Lines<'s, R> {
@@ -25,6 +28,7 @@ impl<'s, R: BufRead> Lines<'s, R> {
             number: 0,
             line: Vec::new(),
             ended: true,
+            recoded: None,
         }
     }
 
@@ -47,6 +51,11 @@ impl<'s, R: BufRead> Lines<'s, R> {
     /// Whether the line read last has an end: the last line of a file that was cut short has none.
     pub(super) fn ended(&self) -> bool {
         self.ended
+    }
+
+    /// The first line that was read as Windows-1252, since it is no UTF-8.
+    pub(super) fn recoded(&self) -> Option<u64> {
+        self.recoded
     }
 
     /// Number of the line read last, from one.
@@ -89,6 +98,10 @@ impl<'s, R: BufRead> Lines<'s, R> {
         if self.number == 1 && self.line.starts_with(b"\xef\xbb\xbf") {
             self.line.drain(..3);
         }
+        if let Some(text) = recoded(&self.line) {
+            self.recoded.get_or_insert(self.number);
+            self.line = text.into_bytes();
+        }
         if self.line.contains(&b'\r') {
             return Err(self.error(ReadFault::CarriageReturn));
         }
@@ -98,4 +111,19 @@ impl<'s, R: BufRead> Lines<'s, R> {
     fn error(&self, fault: ReadFault) -> ReadError {
         ReadError::new(Place::line(self.source, self.number), fault)
     }
+}
+
+/// The text of bytes that are no UTF-8 but may be what Excel and LabVIEW write in Europe: bytes that are printed, with one above ASCII.
+pub(super) fn recoded(bytes: &[u8]) -> Option<String> {
+    // ASCII is by far the usual case.
+    if bytes.is_ascii() || std::str::from_utf8(bytes).is_ok() {
+        return None;
+    }
+    let printed = |byte: &u8| *byte >= b' ' && *byte != 0x7f || b"\t\r\n".contains(byte);
+    if !bytes.iter().all(printed) {
+        return None;
+    }
+    let (text, _, faulty) = WINDOWS_1252.decode(bytes);
+    let ascii = bytes.iter().filter(|byte| byte.is_ascii()).count();
+    (!faulty && 2 * ascii >= bytes.len()).then(|| text.into_owned())
 }

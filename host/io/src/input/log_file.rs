@@ -1,18 +1,18 @@
 //! Recordings from logs of other formats, whose tables have names, kinds and units of their own.
 
 use super::cell::checked;
+use super::cells::{Cells, Sample};
 use super::collector::Collector;
 use super::layout::{Column, Layout};
 use super::log_table::{self, Joined};
 use super::motor_file::MotorFile;
-use super::motor_units::{AngleUnit, TimeUnit};
 use super::place::Place;
-use super::preset::Preset;
 use super::reached::Reached;
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
-use super::sample::{Sample, directed};
 use super::scale::Scale;
+use super::units_told::with_units;
+use crate::channel::Channel;
 use servoid_formats::{FormatError, Kind, Log, Rows, Table};
 use std::ops::ControlFlow;
 
@@ -39,10 +39,7 @@ pub(super) fn read_log(
         chosen = (0..tables.len()).collect();
     }
     if let Some(joined) = Joined::find(&tables, motor) {
-        let scale = Scale::new(motor).map_err(whole)?;
-        let read = joined
-            .map_err(whole)?
-            .read(log, source, motor, &scale, done);
+        let read = joined.map_err(whole)?.read(log, source, motor, done);
         return read.and_then(|reading| reading.part(source, part).map_err(whole));
     }
     let mut found = Vec::new();
@@ -63,10 +60,7 @@ pub(super) fn read_log(
         let (_, error) = refused.ok_or_else(|| whole(ReadFault::Empty))?;
         return Err(error);
     }
-    let mut reading = Reading {
-        recordings: Vec::new(),
-        notes: Vec::new(),
-    };
+    let mut reading = Reading::of(Vec::new(), Vec::new());
     let alone = found.len() == 1;
     let all = rows_of(found.iter().map(|(index, _)| &tables[*index]));
     let mut rows = 0;
@@ -76,8 +70,9 @@ pub(super) fn read_log(
         } else {
             called(source, &tables[index])
         };
-        let motor = with_units_of(&tables[index], &layout, motor);
-        let scale = Scale::new(&motor).map_err(whole)?;
+        let unit = |column: usize| tables[index].columns[column].unit.as_deref();
+        let motor = with_units(motor, &layout, &unit);
+        let scale = Scale::new(&motor, &layout.further()).map_err(whole)?;
         let read = TableReader {
             log,
             index,
@@ -120,30 +115,11 @@ fn layout(table: &Table, name: &str, motor: &MotorFile) -> Result<Layout, ReadEr
         .iter()
         .find(|column| column.kind == Kind::Time);
     let mut motor = motor.clone();
-    if let (Some(column), None, None) = (time, &motor.columns.time, motor.log.rate_hz) {
-        motor.columns.time = Some(column.name.clone());
+    let named = motor.columns.get(Channel::Time).is_some();
+    if let (Some(column), false, None) = (time, named, motor.log.rate_hz) {
+        motor.columns.set(Channel::Time, Some(column.name.clone()));
     }
     Layout::find(names, name, None, &motor)
-}
-
-/// The motor file with the units that the log itself tells, where the user says no others than the usual ones.
-fn with_units_of(table: &Table, layout: &Layout, motor: &MotorFile) -> MotorFile {
-    let mut motor = motor.clone();
-    let usual = motor.log.preset.map(Preset::units).unwrap_or_default();
-    let told = |column: &Column| table.columns[column.index].unit.as_deref();
-    let angle = told(&layout.angle).and_then(AngleUnit::of_text);
-    if let Some(unit) = angle.filter(|_| motor.units.angle == usual.angle) {
-        motor.units.angle = unit;
-    }
-    let time = layout
-        .time
-        .as_ref()
-        .and_then(told)
-        .and_then(TimeUnit::of_text);
-    if let Some(unit) = time.filter(|_| motor.units.time == usual.time) {
-        motor.units.time = unit;
-    }
-    motor
 }
 
 /// Reads one table.
@@ -170,38 +146,36 @@ impl TableReader<'_> {
         let kinds: Vec<Kind> = log.tables()[index].columns.iter().map(|c| c.kind).collect();
         let asked = Asked::of(layout);
         let mut collector = Collector::new(motor, scale, true, layout.further());
-        let (mut row, mut taken, mut left_out) = (0u64, 0u64, 0u64);
+        let (mut row, mut taken, mut without_time) = (0u64, 0u64, 0u64);
         let mut fault = None;
         let mut take = |rows: Rows<'_>| -> Result<bool, ReadError> {
             let samples = rows.first().map_or(0, Vec::len);
             done(samples as u64);
             for k in 0..samples {
                 row += 1;
-                let cells = Cells {
-                    layout,
-                    scale,
+                let cells = LogCells {
                     name,
                     row,
                     asked: &asked,
                     rows,
                     place: k,
                 };
-                if !cells.selected() {
+                if !cells.selected(layout) {
                     continue;
                 }
-                if cells.incomplete() {
-                    left_out += 1;
+                let stamp = match &layout.time {
+                    Some(column) => cells.time(column, kinds[column.index], scale)?,
+                    None => Some(taken as f64 / motor.log.rate_hz.unwrap_or(1.0)),
+                };
+                let Some(stamp) = stamp else {
+                    without_time += 1;
                     continue;
-                }
-                let time = match &layout.time {
-                    Some(column) => cells.time(column, kinds[column.index])?,
-                    None => taken as f64 / motor.log.rate_hz.unwrap_or(1.0),
                 };
                 taken += 1;
-                let timed = collector.time(time);
-                timed.map_err(|fault| cells.error(layout.time.as_ref(), fault))?;
+                let timed = collector.time(stamp, row);
+                let time = timed.map_err(|fault| cells.error(layout.time.as_ref(), fault))?;
                 if collector.wants(time) {
-                    let kept = collector.take(&cells.sample(time)?);
+                    let kept = collector.take(&Sample::of(&cells, layout, scale, time)?);
                     kept.map_err(|fault| cells.error(None, fault))?;
                 }
                 if collector.has_all() {
@@ -224,16 +198,11 @@ impl TableReader<'_> {
         read.map_err(|error| of_format(name, error))?;
         let met = motor.log.check_met(taken);
         met.map_err(|fault| ReadError::new(Place::file(name), fault))?;
-        let recordings = collector.finish(name)?;
-        let notes = (left_out > 0).then(|| {
-            format!(
-                "{name}: {left_out} of {row} rows lack a number that is needed and are left out"
-            )
-        });
-        Ok(Reading {
-            recordings,
-            notes: notes.into_iter().collect(),
-        })
+        let mut reading = collector.finish(name)?;
+        reading.notes.extend((without_time > 0).then(|| {
+            format!("{name}: {without_time} of {row} rows have no time and are left out")
+        }));
+        Ok(reading)
     }
 }
 
@@ -255,19 +224,7 @@ struct Asked {
 
 impl Asked {
     fn of(layout: &Layout) -> Self {
-        let named = [
-            layout.time.as_ref(),
-            Some(&layout.command),
-            Some(&layout.angle),
-            layout.current.as_ref(),
-            layout.temperature.as_ref(),
-            layout.enabled.as_ref(),
-            layout.direction.as_ref(),
-        ];
-        let selected = layout.select.iter().map(|(column, _)| column);
-        let mut columns: Vec<usize> = (named.into_iter().flatten().chain(selected))
-            .map(|column| column.index)
-            .collect();
+        let mut columns: Vec<usize> = layout.columns().map(|column| column.index).collect();
         columns.sort_unstable();
         columns.dedup();
         Asked { columns }
@@ -281,9 +238,7 @@ impl Asked {
 }
 
 /// One row.
-struct Cells<'r> {
-    layout: &'r Layout,
-    scale: &'r Scale<'r>,
+struct LogCells<'r> {
     name: &'r str,
     /// Its number in the table, from one.
     row: u64,
@@ -293,31 +248,51 @@ struct Cells<'r> {
     place: usize,
 }
 
-impl Cells<'_> {
+impl LogCells<'_> {
     fn value(&self, column: &Column) -> f64 {
         self.asked.value(column, self.rows, self.place)
     }
 
-    fn selected(&self) -> bool {
-        let mut select = self.layout.select.iter();
+    fn selected(&self, layout: &Layout) -> bool {
+        let mut select = layout.select.iter();
         select.all(|(column, selection)| selection.holds(&self.value(column).to_string()))
     }
 
-    /// Whether a number that is needed is not there, as where rows of several kinds share a table.
-    fn incomplete(&self) -> bool {
-        let layout = self.layout;
-        let needed = [
-            layout.time.as_ref(),
-            Some(&layout.command),
-            Some(&layout.angle),
-            layout.current.as_ref(),
-            layout.enabled.as_ref(),
-            layout.direction.as_ref(),
-        ];
-        needed
-            .into_iter()
-            .flatten()
-            .any(|column| self.value(column).is_nan())
+    /// Seconds: of a column that holds times as the log tells them, else in the motor file's unit.
+    fn time(
+        &self,
+        column: &Column,
+        kind: Kind,
+        scale: &Scale<'_>,
+    ) -> Result<Option<f64>, ReadError> {
+        let read = self.number(column);
+        let time = read.map_err(|fault| self.error(Some(column), fault))?;
+        Ok(time.map(|time| match kind {
+            Kind::Time => time,
+            _ => scale.time(time),
+        }))
+    }
+}
+
+impl Cells for LogCells<'_> {
+    fn number(&self, column: &Column) -> Result<Option<f64>, ReadFault> {
+        let told = Some(self.value(column)).filter(|value| !value.is_nan());
+        told.map(checked).transpose()
+    }
+
+    fn switch(&self, column: &Column) -> Result<Option<bool>, ReadFault> {
+        match self.number(column)? {
+            None => Ok(None),
+            Some(1.0) => Ok(Some(true)),
+            Some(0.0) => Ok(Some(false)),
+            Some(other) => Err(ReadFault::NotASwitch {
+                text: other.to_string(),
+            }),
+        }
+    }
+
+    fn direction(&self, column: &Column) -> Result<Option<f64>, ReadFault> {
+        self.number(column)
     }
 
     fn error(&self, column: Option<&Column>, fault: ReadFault) -> ReadError {
@@ -326,61 +301,5 @@ impl Cells<'_> {
             None => Place::line(self.name, self.row),
         };
         ReadError::new(place, fault)
-    }
-
-    fn number(
-        &self,
-        column: &Column,
-        convert: impl Fn(f64) -> Result<f64, ReadFault>,
-    ) -> Result<f64, ReadError> {
-        let value = self.value(column);
-        let converted = checked(value).and_then(convert).and_then(checked);
-        converted.map_err(|fault| self.error(Some(column), fault))
-    }
-
-    /// Seconds: of a column that holds times as the log tells them, else in the motor file's unit.
-    fn time(&self, column: &Column, kind: Kind) -> Result<f64, ReadError> {
-        match kind {
-            Kind::Time => self.number(column, Ok),
-            _ => self.number(column, |time| self.scale.time(time)),
-        }
-    }
-
-    fn sample(&self, time_s: f64) -> Result<Sample, ReadError> {
-        let layout = self.layout;
-        let direction = layout.direction.as_ref();
-        let direction = direction.map(|column| self.value(column));
-        let command = self.number(&layout.command, |command| {
-            self.scale.command(directed(command, direction))
-        })?;
-        let current = layout.current.as_ref();
-        let current_a = current
-            .map(|column| self.number(column, |x| self.scale.current(x)))
-            .transpose()?;
-        let temperature = layout.temperature.as_ref();
-        let told = |column: &&Column| !self.value(column).is_nan();
-        let temperature_c = temperature
-            .filter(told)
-            .map(|column| self.number(column, |x| self.scale.temperature(x)))
-            .transpose()?;
-        let enabled = layout
-            .enabled
-            .as_ref()
-            .map(|column| match self.value(column) {
-                1.0 => Ok(true),
-                0.0 => Ok(false),
-                other => {
-                    let text = other.to_string();
-                    Err(self.error(Some(column), ReadFault::NotASwitch { text }))
-                }
-            });
-        Ok(Sample {
-            time_s,
-            command,
-            counts: self.number(&layout.angle, |angle| self.scale.counts(angle))?,
-            current_a,
-            temperature_c,
-            enabled: enabled.transpose()?,
-        })
     }
 }

@@ -1,6 +1,7 @@
 //! Columns that a recording must have and has not, and how to map them.
 
 use super::guess::Guess;
+use super::proposal::Proposal;
 use super::shown::quoted_list;
 
 /// A column that the recording must have and has not.
@@ -16,8 +17,36 @@ pub struct MissingColumn {
     pub near: Option<Guess>,
 }
 
+/// What the values of the columns tell of a log that nobody has described.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// What would be written into a `motor.toml`.
+    toml: String,
+    /// The same as options.
+    options: String,
+    /// What keeps it from being taken, a sentence each.
+    doubts: Vec<String>,
+}
+
+impl Advice {
+    pub(super) fn of(proposal: &Proposal) -> Self {
+        let blanks = proposal.needs.iter().map(|need| need.option.clone());
+        let options: Vec<String> = proposal.options().into_iter().chain(blanks).collect();
+        Advice {
+            toml: proposal.motor.to_toml().trim_end().replace('\n', "\n    "),
+            options: options.join(" "),
+            doubts: proposal.doubts.clone(),
+        }
+    }
+}
+
 /// All missing columns in one message, and the lines that map what the header has.
-pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: &str) -> String {
+pub(super) fn missing_text(
+    missing: &[MissingColumn],
+    header: &[String],
+    motor: &str,
+    advice: Option<&Advice>,
+) -> String {
     let wanted: Vec<&str> = missing
         .iter()
         .map(|column| column.wanted.as_str())
@@ -34,6 +63,17 @@ pub(super) fn missing_text(missing: &[MissingColumn], header: &[String], motor: 
     );
     if missing.iter().any(|column| column.mapped) {
         text += &format!(" ([columns] in {motor} asks for it)");
+    }
+    if let Some(advice) = advice {
+        let Advice {
+            toml,
+            options,
+            doubts,
+        } = advice;
+        return format!(
+            "{text}. It may be read as below, but {}. Say in {motor} which is which:\n    {toml}\nor give {options}",
+            doubts.join(", and ")
+        );
     }
     text += &format!(". Say in {motor} which is which:\n    [columns]");
     for column in missing {

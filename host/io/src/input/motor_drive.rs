@@ -2,7 +2,9 @@
 
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::MotorFile;
+use super::motor_units::CommandUnit;
 use super::section::{Found, Section};
+use crate::channel::Channel;
 use crate::position_loop::LoopSettings;
 use crate::recording::Drive;
 
@@ -59,6 +61,14 @@ impl DriveKind {
         }
     }
 
+    /// A channel's key under `[columns]` and `[units]`.
+    pub fn key(self, channel: Channel) -> &'static str {
+        match channel {
+            Channel::Command => self.command_key(),
+            channel => channel.facts().key,
+        }
+    }
+
     /// Refuses the key of another kind's command under `[columns]` or `[units]`.
     pub(super) fn refuses_other_key(self, section: &Section<'_>) -> Result<(), MotorFileError> {
         let (key, remedy) = match self {
@@ -86,10 +96,18 @@ impl DriveKind {
 }
 
 impl MotorFile {
+    /// What the motor gets by the command as it is recorded.
+    pub(super) fn recorded_drive(&self) -> Drive {
+        match (self.drive, self.units.voltage) {
+            (Drive::Current, CommandUnit::NewtonMetres) => Drive::Torque,
+            (drive, _) => drive,
+        }
+    }
+
     /// What the command sets.
     pub fn drive_kind(&self) -> DriveKind {
         match (self.drive, self.position) {
-            (Drive::Current, _) => DriveKind::Current,
+            (Drive::Current | Drive::Torque, _) => DriveKind::Current,
             (Drive::Voltage, None) => DriveKind::Voltage,
             (Drive::Voltage, Some(_)) => DriveKind::Position,
         }

@@ -1,5 +1,6 @@
 //! What a user knows about a motor and its log: the contents of `motor.toml`.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
@@ -8,6 +9,7 @@ use super::log_part::LogPart;
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_units::Units;
 use super::place::Place;
+use crate::channel::Channel;
 use crate::position_loop::LoopSettings;
 use crate::recording::Drive;
 
@@ -42,24 +44,10 @@ pub struct MotorFile {
     pub log: LogPart,
 }
 
-/// Names of the recording's columns; `None` where the contract's own name holds.
+/// Names of the recording's columns, where they are not the contract's own. The command's is that of the targets in the file of a
+/// position drive.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Columns {
-    /// Time.
-    pub time: Option<String>,
-    /// The command, whatever it drives; `target` in the file of a position drive.
-    pub voltage: Option<String>,
-    /// The encoder reading or an angle.
-    pub angle: Option<String>,
-    /// Armature current.
-    pub current: Option<String>,
-    /// Temperature of the motor.
-    pub temperature: Option<String>,
-    /// 0 while the bridge is open.
-    pub enabled: Option<String>,
-    /// The command's direction, where the command itself has no sign: 0 or negative for backwards.
-    pub direction: Option<String>,
-}
+pub struct Columns(BTreeMap<Channel, String>);
 
 /// Facts about the motor, SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,19 +78,27 @@ pub struct Fact {
 }
 
 impl Columns {
+    /// The name of a channel's column, if the user gives one.
+    pub fn get(&self, channel: Channel) -> Option<&str> {
+        self.0.get(&channel).map(String::as_str)
+    }
+
+    /// Names a channel's column; nothing for none.
+    pub fn set(&mut self, channel: Channel, name: Option<String>) {
+        match name {
+            Some(name) => self.0.insert(channel, name),
+            None => self.0.remove(&channel),
+        };
+    }
+
+    /// All that are named.
+    pub fn iter(&self) -> impl Iterator<Item = (Channel, &str)> {
+        self.0.iter().map(|(channel, name)| (*channel, name.as_str()))
+    }
+
     /// Whether any is named by a number, as the columns of a table without names are.
     pub(super) fn any_number(&self) -> bool {
-        let all = [
-            &self.time,
-            &self.voltage,
-            &self.angle,
-            &self.current,
-            &self.temperature,
-            &self.enabled,
-            &self.direction,
-        ];
-        let mut named = all.into_iter().flatten();
-        named.any(|name| name.parse::<usize>().is_ok())
+        self.iter().any(|(_, name)| name.parse::<usize>().is_ok())
     }
 }
 

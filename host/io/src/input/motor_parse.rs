@@ -4,11 +4,10 @@ use super::log_part::log_part;
 use super::motor_drive::{DRIVE_KEYS, DriveKind, drive};
 use super::motor_error::{MotorFault, MotorFileError};
 use super::motor_file::{Columns, Fact, Known, MotorFile};
-use super::motor_units::{
-    AngleUnit, CommandUnit, CurrentUnit, Reversed, TemperatureUnit, TimeUnit, Units,
-};
+use super::motor_units::{AngleUnit, CommandUnit, Reversed, TimeUnit, Units};
 use super::preset::Preset;
 use super::section::{Found, NumberOrTable, Section, Text};
+use crate::channel::{Channel, Measured, PerMeasured};
 
 const FACTS: [&str; 7] = [
     "resistance_ohm",
@@ -72,17 +71,11 @@ fn value<T>(found: Option<Found<T>>) -> Option<T> {
 }
 
 fn columns(mut section: Section<'_>, kind: DriveKind) -> Result<Columns, MotorFileError> {
-    let command = kind.command_key();
     kind.refuses_other_key(&section)?;
-    let columns = Columns {
-        time: section.column("time")?,
-        voltage: section.column(command)?,
-        angle: section.column("angle")?,
-        current: section.column("current")?,
-        temperature: section.column("temperature")?,
-        enabled: section.column("enabled")?,
-        direction: section.column("direction")?,
-    };
+    let mut columns = Columns::default();
+    for channel in Channel::ALL {
+        columns.set(channel, section.column(kind.key(channel))?);
+    }
     section.finish(|key| home_of(key, "columns"))?;
     Ok(columns)
 }
@@ -104,25 +97,32 @@ fn units(
     }
     let time = section.word("time", TimeUnit::ALL)?;
     let angle = section.signed_word("angle", &[AngleUnit::ALL, AngleUnit::SPEEDS])?;
-    let current = section.signed_word("current", &[CurrentUnit::ALL])?;
-    let temperature = section.word("temperature", TemperatureUnit::ALL)?;
+    let mut measured = usual.measured;
+    let mut turned = PerMeasured::default();
+    for channel in Measured::ALL {
+        let facts = channel.facts();
+        let named = facts.units.iter().enumerate();
+        let all: Vec<(&str, usize)> = named.map(|(place, unit)| (unit.name, place)).collect();
+        if let Some(found) = section.signed_word(facts.key, &[&all])? {
+            (turned[channel], measured[channel]) = found.value;
+        }
+    }
     if let (Some(found), DriveKind::Position) = (&angle, kind)
         && matches!(found.value.1, AngleUnit::Speed(_))
     {
         return Err(section.error(&found.span, MotorFault::SpeedBehindLoop));
     }
-    let (voltage, angle, current) = (value(voltage), value(angle), value(current));
+    let (voltage, angle) = (value(voltage), value(angle));
     let units = Units {
         time: value(time).unwrap_or(usual.time),
         voltage: voltage.map_or(usual.voltage, |(_, unit)| unit),
         target: value(target),
         angle: angle.map_or(usual.angle, |(_, unit)| unit),
-        current: current.map_or(usual.current, |(_, unit)| unit),
-        temperature: value(temperature).unwrap_or(usual.temperature),
+        measured,
         reversed: Reversed {
             voltage: voltage.is_some_and(|(reversed, _)| reversed),
             angle: angle.is_some_and(|(reversed, _)| reversed),
-            current: current.is_some_and(|(reversed, _)| reversed),
+            measured: turned,
         },
     };
     section.finish(|key| home_of(key, "units"))?;
@@ -131,10 +131,7 @@ fn units(
 
 /// A current amplifier takes volts at its input, amperes or a torque; a bridge takes volts or a share of the supply.
 fn fits_drive(unit: CommandUnit, kind: DriveKind) -> Result<(), MotorFault> {
-    let of_current = matches!(
-        unit,
-        CommandUnit::Amperes | CommandUnit::Milliamperes | CommandUnit::NewtonMetres
-    );
+    let of_current = unit.is_of_current();
     let wrong = |kind, remedy| {
         Err(MotorFault::DriveUnit {
             unit: unit.name(),

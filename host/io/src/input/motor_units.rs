@@ -1,5 +1,7 @@
-//! Units of somebody else's log, and their conversion to seconds, volts, amperes and encoder counts.
+//! Units of somebody else's log, and their conversion to seconds, volts and encoder counts; those of measured columns stand in the table
+//! of channels.
 
+use crate::channel::{LinearUnit, Measured, PerMeasured};
 use std::f64::consts::TAU;
 
 /// Unit of the time column.
@@ -79,28 +81,6 @@ pub enum SpeedUnit {
     CountsPerSample,
 }
 
-/// Unit of the current column.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CurrentUnit {
-    /// Amperes.
-    #[default]
-    Amperes,
-    /// Milliamperes.
-    Milliamperes,
-}
-
-/// Unit of the temperature column.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TemperatureUnit {
-    /// °C.
-    #[default]
-    Celsius,
-    /// K.
-    Kelvin,
-    /// °F.
-    Fahrenheit,
-}
-
 /// The units of one recording; the contract's own by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Units {
@@ -112,10 +92,8 @@ pub struct Units {
     pub target: Option<AngleUnit>,
     /// Of the angle column.
     pub angle: AngleUnit,
-    /// Of the current column.
-    pub current: CurrentUnit,
-    /// Of the temperature column.
-    pub temperature: TemperatureUnit,
+    /// Of the measured columns, by their places in the table of channels.
+    pub measured: PerMeasured<usize>,
     /// Columns that are positive in the other direction than the rest.
     pub reversed: Reversed,
 }
@@ -127,8 +105,8 @@ pub struct Reversed {
     pub voltage: bool,
     /// The angle.
     pub angle: bool,
-    /// The current.
-    pub current: bool,
+    /// The measured columns.
+    pub measured: PerMeasured<bool>,
 }
 
 impl TimeUnit {
@@ -169,6 +147,12 @@ impl TimeUnit {
 }
 
 impl Units {
+    /// Unit of a measured column.
+    pub fn of(&self, channel: Measured) -> &'static LinearUnit {
+        let all = channel.facts().units;
+        all.get(self.measured[channel]).unwrap_or(&all[0])
+    }
+
     /// Unit of target angles.
     pub fn of_target(&self) -> AngleUnit {
         self.target.unwrap_or(self.angle)
@@ -202,6 +186,20 @@ impl CommandUnit {
             CommandUnit::SignedByte => Some(127.0),
             _ => None,
         }
+    }
+
+    /// The unit with this name in `motor.toml`.
+    pub fn by_name(name: &str) -> Option<Self> {
+        let mut all = CommandUnit::ALL.iter();
+        all.find(|(own, _)| *own == name).map(|(_, unit)| *unit)
+    }
+
+    /// Whether it is what a drive with a current loop is told, and no voltage.
+    pub fn is_of_current(self) -> bool {
+        matches!(
+            self,
+            CommandUnit::Amperes | CommandUnit::Milliamperes | CommandUnit::NewtonMetres
+        )
     }
 
     /// Its name in `motor.toml`.
@@ -243,6 +241,12 @@ impl AngleUnit {
             AngleUnit::Speed(SpeedUnit::CountsPerSample),
         ),
     ];
+
+    /// The unit with this name in `motor.toml`, of an angle or of a speed in its place.
+    pub fn by_name(name: &str) -> Option<Self> {
+        let mut all = AngleUnit::ALL.iter().chain(AngleUnit::SPEEDS);
+        all.find(|(own, _)| *own == name).map(|(_, unit)| *unit)
+    }
 
     /// The unit that a log calls so, in whatever case.
     pub fn of_text(text: &str) -> Option<Self> {
@@ -315,57 +319,6 @@ impl AngleUnit {
             AngleUnit::Metres => &["target_m"],
             // Refused where it is read.
             AngleUnit::Speed(_) => &[],
-        }
-    }
-}
-
-impl CurrentUnit {
-    /// Every unit with its name in `motor.toml`.
-    pub const ALL: &'static [(&'static str, CurrentUnit)] = &[
-        ("A", CurrentUnit::Amperes),
-        ("mA", CurrentUnit::Milliamperes),
-    ];
-
-    /// Amperes.
-    pub fn amperes(self, current: f64) -> f64 {
-        match self {
-            CurrentUnit::Amperes => current,
-            CurrentUnit::Milliamperes => current / 1e3,
-        }
-    }
-
-    /// Header names looked for where [columns] names none, best first.
-    pub(super) fn default_names(self) -> &'static [&'static str] {
-        match self {
-            CurrentUnit::Amperes => &["current_a"],
-            CurrentUnit::Milliamperes => &["current_ma", "current_a"],
-        }
-    }
-}
-
-impl TemperatureUnit {
-    /// Every unit with its name in `motor.toml`.
-    pub const ALL: &'static [(&'static str, TemperatureUnit)] = &[
-        ("C", TemperatureUnit::Celsius),
-        ("K", TemperatureUnit::Kelvin),
-        ("F", TemperatureUnit::Fahrenheit),
-    ];
-
-    /// °C.
-    pub fn celsius(self, temperature: f64) -> f64 {
-        match self {
-            TemperatureUnit::Celsius => temperature,
-            TemperatureUnit::Kelvin => temperature - 273.15,
-            TemperatureUnit::Fahrenheit => (temperature - 32.0) / 1.8,
-        }
-    }
-
-    /// Header names looked for where [columns] names none, best first.
-    pub(super) fn default_names(self) -> &'static [&'static str] {
-        match self {
-            TemperatureUnit::Celsius => &["temperature_c"],
-            TemperatureUnit::Kelvin => &["temperature_k", "temperature_c"],
-            TemperatureUnit::Fahrenheit => &["temperature_f", "temperature_c"],
         }
     }
 }

@@ -5,8 +5,9 @@ use toml::Value;
 use super::log_part::{LogPart, Selection};
 use super::motor_drive::DriveKind;
 use super::motor_file::{Columns, Fact, Known, MotorFile};
-use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, TemperatureUnit, TimeUnit, Units};
+use super::motor_units::{AngleUnit, CommandUnit, TimeUnit, Units};
 use super::preset::Preset;
+use crate::channel::{Channel, Measured};
 use crate::recording::{Drive, Recording};
 
 /// A key and the text of its value, `None` where the default says it already.
@@ -24,6 +25,7 @@ impl MotorFile {
         let command = match recording.drive {
             Drive::Voltage => CommandUnit::Volts,
             Drive::Current => CommandUnit::Amperes,
+            Drive::Torque => CommandUnit::NewtonMetres,
         };
         MotorFile {
             counts_per_rev: self.encoder_counts(),
@@ -52,65 +54,42 @@ impl MotorFile {
                 ("metres_per_rev", self.metres_per_rev.map(number)),
             ],
         );
-        let columns = section(
-            "columns",
-            &[
-                ("time", self.columns.time.as_deref().map(quoted)),
-                (
-                    self.drive_kind().command_key(),
-                    self.columns.voltage.as_deref().map(quoted),
+        let kind = self.drive_kind();
+        let named = |channel| (kind.key(channel), self.columns.get(channel).map(quoted));
+        let columns = section("columns", &Channel::ALL.map(named));
+        let mut units_of = vec![
+            ("time", word(TimeUnit::ALL, units.time, usual.time)),
+            (
+                "voltage",
+                signed(
+                    &[CommandUnit::ALL],
+                    reversed.voltage,
+                    units.voltage,
+                    usual.voltage,
                 ),
-                ("angle", self.columns.angle.as_deref().map(quoted)),
-                ("current", self.columns.current.as_deref().map(quoted)),
-                (
-                    "temperature",
-                    self.columns.temperature.as_deref().map(quoted),
+            ),
+            (
+                "target",
+                (units.target).and_then(|unit| name(AngleUnit::ALL, unit)),
+            ),
+            (
+                "angle",
+                signed(
+                    &[AngleUnit::ALL, AngleUnit::SPEEDS],
+                    reversed.angle,
+                    units.angle,
+                    usual.angle,
                 ),
-                ("enabled", self.columns.enabled.as_deref().map(quoted)),
-                ("direction", self.columns.direction.as_deref().map(quoted)),
-            ],
-        );
-        let units = section(
-            "units",
-            &[
-                ("time", word(TimeUnit::ALL, units.time, usual.time)),
-                (
-                    "voltage",
-                    signed(
-                        &[CommandUnit::ALL],
-                        reversed.voltage,
-                        units.voltage,
-                        usual.voltage,
-                    ),
-                ),
-                (
-                    "target",
-                    (units.target).and_then(|unit| name(AngleUnit::ALL, unit)),
-                ),
-                (
-                    "angle",
-                    signed(
-                        &[AngleUnit::ALL, AngleUnit::SPEEDS],
-                        reversed.angle,
-                        units.angle,
-                        usual.angle,
-                    ),
-                ),
-                (
-                    "current",
-                    signed(
-                        &[CurrentUnit::ALL],
-                        reversed.current,
-                        units.current,
-                        usual.current,
-                    ),
-                ),
-                (
-                    "temperature",
-                    word(TemperatureUnit::ALL, units.temperature, usual.temperature),
-                ),
-            ],
-        );
+            ),
+        ];
+        units_of.extend(Measured::ALL.map(|channel| {
+            let (own, turned) = (units.measured[channel], reversed.measured[channel]);
+            let sign = if turned { "-" } else { "" };
+            let said = own != usual.measured[channel] || turned;
+            let text = said.then(|| quoted(&format!("{sign}{}", units.of(channel).name)));
+            (channel.facts().key, text)
+        }));
+        let units = section("units", &units_of);
         let usual = (self.log.preset).map_or(DriveKind::Voltage, |preset| preset.drive);
         let kind = Some(self.drive_kind()).filter(|kind| *kind != usual);
         let control = self.position.unwrap_or_default();

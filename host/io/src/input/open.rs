@@ -1,8 +1,11 @@
 //! A file of any format that is read, opened by its content.
 
 use super::csv_file::{How, read_text};
+use super::missing::Advice;
 use super::motor_file::MotorFile;
 use super::part::Part;
+use super::profile::KEPT;
+use super::survey::survey;
 use super::place::Place;
 use super::reached::{Count, CountedFile, Reached};
 use super::read_error::{ReadError, ReadFault};
@@ -35,7 +38,49 @@ pub fn read_recordings_with(
     read(path, motor, true, done)
 }
 
+/// Reads a file as it is said to be; where columns that are needed are not said, as it is proposed, if that is sure.
 fn read(
+    path: &Path,
+    motor: &MotorFile,
+    lenient: bool,
+    done: &dyn Fn(Reached),
+) -> Result<Reading, ReadError> {
+    let mut error = match read_as_said(path, motor, lenient, done) {
+        Ok(mut reading) => {
+            reading.motor = motor.clone();
+            return Ok(reading);
+        }
+        Err(error) => error,
+    };
+    let ReadFault::MissingColumns {
+        missing, advice, ..
+    } = &mut error.fault
+    else {
+        return Err(error);
+    };
+    if missing.iter().any(|column| column.mapped) {
+        return Err(error);
+    }
+    let Ok(survey) = survey(path, motor, Some(KEPT as u64), &|_| ()) else {
+        return Err(error);
+    };
+    let proposal = survey.proposal;
+    if !proposal.is_sure() {
+        if !proposal.columns.is_empty() {
+            *advice = Some(Advice::of(&proposal));
+        }
+        return Err(error);
+    }
+    let mut reading = read_as_said(path, &proposal.motor, lenient, done)?;
+    let source = Part::of(path).path.display().to_string();
+    reading
+        .notes
+        .insert(0, format!("{source}: read {}", proposal.taken()));
+    reading.motor = proposal.motor;
+    Ok(reading)
+}
+
+fn read_as_said(
     path: &Path,
     motor: &MotorFile,
     lenient: bool,

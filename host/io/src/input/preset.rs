@@ -4,7 +4,8 @@
 //! has the names that the maker's own tools write, the likeliest first.
 
 use super::motor_drive::DriveKind;
-use super::motor_units::{AngleUnit, CommandUnit, CurrentUnit, SpeedUnit, TimeUnit, Units};
+use super::motor_units::{AngleUnit, CommandUnit, SpeedUnit, TimeUnit, Units};
+use crate::channel::{Channel, Measured, PerMeasured};
 
 /// How one kind of log is written.
 #[derive(Debug, PartialEq)]
@@ -21,12 +22,12 @@ pub struct Preset {
     pub command: Names<CommandUnit>,
     /// The angle, or a speed.
     pub angle: Names<AngleUnit>,
-    /// The current.
-    pub current: Names<CurrentUnit>,
-    /// The motor's temperature, °C.
-    pub temperature: &'static [&'static str],
+    /// Measured columns.
+    pub measured: &'static [Further],
     /// 0 while the bridge is open.
     pub enabled: &'static [&'static str],
+    /// The direction of a command without a sign.
+    pub direction: &'static [&'static str],
     /// Counts per revolution, where all of them have the same encoder.
     pub counts_per_rev: Option<f64>,
 }
@@ -38,6 +39,44 @@ pub struct Names<U: 'static> {
     pub names: &'static [&'static str],
     /// The unit.
     pub unit: U,
+}
+
+/// A measured column's names, and the place of its unit among the channel's.
+#[derive(Debug, PartialEq)]
+pub struct Further {
+    /// What it is.
+    pub channel: Measured,
+    /// The names, the likeliest first.
+    pub names: &'static [&'static str],
+    /// The unit's place.
+    pub unit: usize,
+}
+
+/// A current in A.
+const fn amperes(names: &'static [&'static str]) -> Further {
+    Further {
+        channel: Measured::Current,
+        names,
+        unit: 0,
+    }
+}
+
+/// A current in mA.
+const fn milliamperes(names: &'static [&'static str]) -> Further {
+    Further {
+        channel: Measured::Current,
+        names,
+        unit: 1,
+    }
+}
+
+/// A temperature in °C.
+const fn celsius(names: &'static [&'static str]) -> Further {
+    Further {
+        channel: Measured::Temperature,
+        names,
+        unit: 0,
+    }
 }
 
 const fn column<U>(names: &'static [&'static str], unit: U) -> Names<U> {
@@ -70,9 +109,9 @@ pub const PRESETS: &[Preset] = &[
             ],
             AngleUnit::Revolutions,
         ),
-        current: column(&["Iq_measured", "iq_measured"], CurrentUnit::Amperes),
-        temperature: &[],
+        measured: &[amperes(&["Iq_measured", "iq_measured"])],
         enabled: &[],
+        direction: &[],
         counts_per_rev: None,
     },
     Preset {
@@ -82,9 +121,9 @@ pub const PRESETS: &[Preset] = &[
         time: column(&["ms_today"], TimeUnit::Milliseconds),
         command: column(&["q_axis_voltage"], CommandUnit::Volts),
         angle: column(&["tachometer"], AngleUnit::Counts),
-        current: column(&["q_axis_current", "current_motor"], CurrentUnit::Amperes),
-        temperature: &["temp_motor"],
+        measured: &[amperes(&["q_axis_current", "current_motor"]), celsius(&["temp_motor"])],
         enabled: &[],
+        direction: &[],
         counts_per_rev: None,
     },
     Preset {
@@ -104,12 +143,9 @@ pub const PRESETS: &[Preset] = &[
             ],
             AngleUnit::Revolutions,
         ),
-        current: column(
-            &["q_current", "q_A", "servo_stats.q_A"],
-            CurrentUnit::Amperes,
-        ),
-        temperature: &["servo_stats.motor_temp_C", "motor_temp_C"],
+        measured: &[amperes(&["q_current", "q_A", "servo_stats.q_A"]), celsius(&["servo_stats.motor_temp_C", "motor_temp_C"])],
         enabled: &[],
+        direction: &[],
         counts_per_rev: None,
     },
     Preset {
@@ -122,12 +158,9 @@ pub const PRESETS: &[Preset] = &[
             CommandUnit::Pwm885,
         ),
         angle: column(&["present_position", "Present_Position"], AngleUnit::Counts),
-        current: column(
-            &["present_current", "Present_Current"],
-            CurrentUnit::Milliamperes,
-        ),
-        temperature: &["present_temperature", "Present_Temperature"],
+        measured: &[milliamperes(&["present_current", "Present_Current"]), celsius(&["present_temperature", "Present_Temperature"])],
         enabled: &["torque_enable", "Torque_Enable"],
+        direction: &[],
         counts_per_rev: Some(4096.0),
     },
     Preset {
@@ -137,9 +170,9 @@ pub const PRESETS: &[Preset] = &[
         time: column(&["timestamp"], TimeUnit::Seconds),
         command: column(&["load", "pwm"], CommandUnit::Pwm885),
         angle: column(&["position"], AngleUnit::Radians),
-        current: column(&[], CurrentUnit::Amperes),
-        temperature: &[],
+        measured: &[],
         enabled: &["torque_enable"],
+        direction: &[],
         counts_per_rev: Some(4096.0),
     },
     Preset {
@@ -149,9 +182,9 @@ pub const PRESETS: &[Preset] = &[
         time: column(&["time", "timestamp"], TimeUnit::Seconds),
         command: column(&["voltage"], CommandUnit::Volts),
         angle: column(&["position"], AngleUnit::Revolutions),
-        current: column(&["current"], CurrentUnit::Amperes),
-        temperature: &[],
+        measured: &[amperes(&["current"])],
         enabled: &[],
+        direction: &[],
         counts_per_rev: None,
     },
     Preset {
@@ -165,9 +198,9 @@ pub const PRESETS: &[Preset] = &[
             &["observation.state", "observation.state[0]"],
             AngleUnit::Degrees,
         ),
-        current: column(&[], CurrentUnit::Amperes),
-        temperature: &[],
+        measured: &[],
         enabled: &[],
+        direction: &[],
         counts_per_rev: None,
     },
     Preset {
@@ -180,9 +213,9 @@ pub const PRESETS: &[Preset] = &[
             &["esc[0].esc_rpm", "esc_rpm"],
             AngleUnit::Speed(SpeedUnit::RevolutionsPerMinute),
         ),
-        current: column(&["esc[0].esc_current", "esc_current"], CurrentUnit::Amperes),
-        temperature: &[],
+        measured: &[amperes(&["esc[0].esc_current", "esc_current"])],
         enabled: &[],
+        direction: &[],
         counts_per_rev: None,
     },
     Preset {
@@ -197,9 +230,9 @@ pub const PRESETS: &[Preset] = &[
             ],
             AngleUnit::Counts,
         ),
-        current: column(&["mA", "ma", "current_ma"], CurrentUnit::Milliamperes),
-        temperature: &[],
+        measured: &[milliamperes(&["mA", "ma", "current_ma"])],
         enabled: &["enable", "enabled"],
+        direction: &["dir", "direction"],
         counts_per_rev: None,
     },
 ];
@@ -221,8 +254,32 @@ impl Preset {
             time: self.time.unit,
             voltage: self.command.unit,
             angle: self.angle.unit,
-            current: self.current.unit,
+            measured: self.units_measured(),
             ..Units::default()
+        }
+    }
+
+    fn units_measured(&self) -> PerMeasured<usize> {
+        let mut units = PerMeasured::default();
+        for further in self.measured {
+            units[further.channel] = further.unit;
+        }
+        units
+    }
+
+    /// What it calls a channel's column, the likeliest first; nothing where it has none.
+    pub(super) fn names_of(&self, channel: Channel) -> &'static [&'static str] {
+        match channel {
+            Channel::Time => self.time.names,
+            Channel::Command => self.command.names,
+            Channel::Angle => self.angle.names,
+            Channel::Measured(channel) => {
+                let mut all = self.measured.iter();
+                let own = all.find(|further| further.channel == channel);
+                own.map_or(&[], |further| further.names)
+            }
+            Channel::Enabled => self.enabled,
+            Channel::Direction => self.direction,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::missing::{MissingColumn, missing_text};
+use super::missing::{Advice, MissingColumn, for_shell, missing_text};
 use super::place::Place;
 use super::shown::plain;
 use crate::position_loop::GainUnknown;
@@ -99,7 +99,7 @@ pub enum ReadFault {
         first: String,
     },
     /// Columns that are not there.
-    #[error("{}", missing_text(.missing, .header, .motor))]
+    #[error("{}", missing_text(.missing, .header, .motor, .advice.as_ref()))]
     MissingColumns {
         /// What is missing.
         missing: Vec<MissingColumn>,
@@ -107,6 +107,8 @@ pub enum ReadFault {
         header: Vec<String>,
         /// How to speak of the motor file.
         motor: String,
+        /// What the values of the columns tell.
+        advice: Option<Advice>,
     },
     /// Two columns of one name.
     #[error("the header has this name {times} times; rename all but the one that is meant")]
@@ -171,6 +173,57 @@ pub enum ReadFault {
         before: f64,
         /// Time of this row, s.
         now: f64,
+    },
+    /// Times that lie far outside the recording.
+    #[error(
+        "{count} rows have times that lie far outside the recording, this one first; correct the clock's column, or state the rate of the \
+         samples in its place: --rate HZ"
+    )]
+    AbsurdTimes {
+        /// How many.
+        count: u64,
+    },
+    /// No row tells an angle.
+    #[error("no row has an angle; name another column: --column angle=NAME")]
+    NoAngle,
+    /// Rows of several motors that take turns.
+    #[error(
+        "the rows of several motors take turns: the column `{column}` is {}; say which one is meant: --select {}", values.join(", "),
+        for_shell(&format!("{column}={}", values.first().map_or("", String::as_str)))
+    )]
+    SeveralMotors {
+        /// The column that tells them apart.
+        column: String,
+        /// Its values.
+        values: Vec<String>,
+    },
+    /// A counter that was set to another value, where one recording is wanted.
+    #[error(
+        "the angle jumps from {from} to {to} counts at sample {sample} (t = {time_s} s), as a counter that is set to another value \
+         (re-zeroed, or its index found); give what is before and behind as two recordings, or add the difference"
+    )]
+    SetAnew {
+        /// The first reading after it, from one.
+        sample: usize,
+        /// Its time, s.
+        time_s: f64,
+        /// Reading before, counts.
+        from: f64,
+        /// Reading after, counts.
+        to: f64,
+    },
+    /// A direction that is none of two.
+    #[error(
+        "the direction is \"{text}\" here, and \"{first}\" or \"{second}\" before; a direction has two words, or numbers (0 or negative: \
+         backwards)"
+    )]
+    ThirdDirection {
+        /// The cell.
+        text: String,
+        /// One word.
+        first: String,
+        /// The other.
+        second: String,
     },
     /// Several recordings where one is wanted.
     #[error(

@@ -51,10 +51,14 @@ impl Row {
             self.split_csv(line)?;
         }
         if self.dialect.decimal_comma {
-            let length = self.cells.checked_sub(1).map_or(0, |last| self.ends[last]);
-            for byte in &mut self.text[..length] {
-                if *byte == b',' {
-                    *byte = b'.';
+            let mut start = 0;
+            for end in &self.ends[..self.cells] {
+                let cell = &mut self.text[start..*end];
+                start = *end;
+                // Names and texts keep their commas.
+                if cell.iter().all(|byte| byte.is_ascii_digit() || b" +-.,eE".contains(byte)) {
+                    let commas = cell.iter_mut().filter(|byte| **byte == b',');
+                    commas.for_each(|byte| *byte = b'.');
                 }
             }
         }

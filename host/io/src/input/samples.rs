@@ -1,47 +1,43 @@
-//! The samples of a recording as they are read, and the recording that they become.
+//! The samples of a recording as they are read.
 
 use std::collections::TryReserveError;
 
-use super::counts::snap_to_whole;
+use super::cells::Sample;
 use super::csv_file::MAX_ROWS;
-use super::motor_file::MotorFile;
-use super::motor_units::{AngleUnit, SpeedUnit};
 use super::read_error::ReadFault;
-use super::sample::Sample;
-use super::scale::{Scale, positive};
-use super::speed::integrated;
-use crate::position_loop::{Follower, LoopSettings};
-use crate::recording::{PositionDrive, Recording};
+use crate::channel::{Measured, PerMeasured};
 
 /// Columns beside those that every recording has.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Further {
-    pub(super) current: bool,
-    pub(super) temperature: bool,
+    pub(super) measured: Vec<Measured>,
     pub(super) enabled: bool,
 }
 
-/// The columns as they grow.
+/// The columns as they grow, of equal length. A column that has nothing in a row holds its last value.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Samples {
-    time_s: Vec<f64>,
-    command: Vec<f64>,
-    counts: Vec<f64>,
-    current_a: Option<Vec<f64>>,
+    pub(super) time_s: Vec<f64>,
+    pub(super) command: Vec<f64>,
+    /// NaN in a row that tells no angle.
+    pub(super) counts: Vec<f64>,
     /// NaN before the first row that tells it.
-    temperature_c: Option<Vec<f64>>,
-    enabled: Option<Vec<bool>>,
+    pub(super) measured: PerMeasured<Option<Vec<f64>>>,
+    pub(super) enabled: Option<Vec<bool>>,
+    /// Rows whose command is that of a row before.
+    pub(super) held_commands: u64,
 }
 
 impl Samples {
-    pub(super) fn new(further: Further) -> Self {
-        Samples {
-            time_s: Vec::new(),
-            command: Vec::new(),
-            counts: Vec::new(),
-            current_a: further.current.then(Vec::new),
-            temperature_c: further.temperature.then(Vec::new),
+    pub(super) fn new(further: &Further) -> Self {
+        let mut samples = Samples {
             enabled: further.enabled.then(Vec::new),
+            ..Samples::default()
+        };
+        for channel in &further.measured {
+            samples.measured[*channel] = Some(Vec::new());
         }
+        samples
     }
 
     /// Number of samples.
@@ -49,124 +45,84 @@ impl Samples {
         self.time_s.len()
     }
 
-    /// Time of the sample before the next, s.
-    pub(super) fn last_time(&self) -> Option<f64> {
-        self.time_s.last().copied()
-    }
-
+    /// Takes the next sample; one without a command before the first that has one is left out.
     pub(super) fn push(&mut self, sample: &Sample) -> Result<(), ReadFault> {
         if self.time_s.len() == MAX_ROWS {
             return Err(ReadFault::TooManyRows { limit: MAX_ROWS });
         }
-        self.try_push(sample).map_err(|_| ReadFault::OutOfMemory)
+        let Some(command) = sample.command.or(self.command.last().copied()) else {
+            return Ok(());
+        };
+        self.held_commands += u64::from(sample.command.is_none());
+        self.try_push(sample, command)
+            .map_err(|_| ReadFault::OutOfMemory)
     }
 
-    fn try_push(&mut self, sample: &Sample) -> Result<(), TryReserveError> {
+    fn try_push(&mut self, sample: &Sample, command: f64) -> Result<(), TryReserveError> {
         append(&mut self.time_s, sample.time_s)?;
-        append(&mut self.command, sample.command)?;
-        append(&mut self.counts, sample.counts)?;
-        if let (Some(values), Some(value)) = (&mut self.current_a, sample.current_a) {
-            append(values, value)?;
+        append(&mut self.command, command)?;
+        append(&mut self.counts, sample.counts.unwrap_or(f64::NAN))?;
+        for channel in Measured::ALL {
+            if let Some(values) = &mut self.measured[channel] {
+                let last = values.last().copied().unwrap_or(f64::NAN);
+                append(values, sample.measured[channel].unwrap_or(last))?;
+            }
         }
-        if let Some(values) = &mut self.temperature_c {
-            // It changes slowly, and is logged seldom: the last one holds.
-            let last = values.last().copied().unwrap_or(f64::NAN);
-            append(values, sample.temperature_c.unwrap_or(last))?;
-        }
-        if let (Some(values), Some(value)) = (&mut self.enabled, sample.enabled) {
-            append(values, value)?;
+        if let Some(values) = &mut self.enabled {
+            let last = values.last().copied().unwrap_or(true);
+            append(values, sample.enabled.unwrap_or(last))?;
         }
         Ok(())
     }
 
-    pub(super) fn finish(
-        mut self,
-        source: &str,
-        motor: &MotorFile,
-        scale: &Scale,
-    ) -> Result<Recording, ReadFault> {
-        if self.time_s.len() < 2 {
-            return Err(ReadFault::TooFewSamples(self.time_s.len()));
-        }
-        if let AngleUnit::Speed(unit) = motor.units.angle {
-            let per_sample = unit == SpeedUnit::CountsPerSample;
-            let (counts, whole) = integrated(&self.time_s, &self.counts, per_sample)?;
-            self.counts = counts;
-            return Ok(self.recording(source, motor, scale, whole, None));
-        }
-        let mut position = (motor.position)
-            .map(|settings| self.followed(settings, motor, scale))
-            .transpose()?;
-        let dropped = match motor.units.angle {
-            AngleUnit::Counts => Some(0.0),
-            _ => snap_to_whole(&mut self.counts),
-        };
-        let targets = position.iter_mut().flat_map(|p| &mut p.target_counts);
-        targets.for_each(|target| *target -= dropped.unwrap_or(0.0));
-        Ok(self.recording(source, motor, scale, dropped.is_some(), position))
-    }
-
-    fn recording(
-        self,
-        source: &str,
-        motor: &MotorFile,
-        scale: &Scale,
-        quantised: bool,
-        position: Option<PositionDrive>,
-    ) -> Recording {
-        Recording {
-            source: source.into(),
-            time_s: self.time_s,
-            command: self.command,
-            counts: self.counts,
-            current_a: self.current_a,
-            temperature_c: self.temperature_c.and_then(from_the_first),
-            enabled: self.enabled,
-            counts_per_rev: scale.counts_per_rev,
-            quantised,
-            supply_v: motor.supply_v,
-            drive: motor.drive,
-            position,
+    /// Takes the last sample out again.
+    pub(super) fn pop(&mut self) {
+        self.time_s.pop();
+        self.command.pop();
+        self.counts.pop();
+        let columns = self.measured.0.iter_mut().flatten();
+        columns.for_each(|column| {
+            column.pop();
+        });
+        if let Some(enabled) = &mut self.enabled {
+            enabled.pop();
         }
     }
 
-    /// Targets become the volts that the loop makes of them. The readings are as they came: the loop knows no other zero.
-    fn followed(
-        &mut self,
-        settings: LoopSettings,
-        motor: &MotorFile,
-        scale: &Scale,
-    ) -> Result<PositionDrive, ReadFault> {
-        let called = || motor.called().to_owned();
-        let limit = positive("limit_v", settings.limit_v.or(motor.supply_v))?;
-        let limit = limit.ok_or_else(|| ReadFault::NoLimit { motor: called() })?;
-        let target_counts = std::mem::take(&mut self.command);
-        let follower = Follower {
-            time_s: &self.time_s,
-            target_counts: &target_counts,
-            counts: &self.counts,
-            enabled: self.enabled.as_deref(),
-            counts_per_rev: scale.counts_per_rev,
-        };
-        let control = follower.control(&settings, limit);
-        let control = control.map_err(|why| ReadFault::LoopGain {
-            why,
-            motor: called(),
-        })?;
-        self.command = follower.volts(&control);
-        Ok(PositionDrive {
-            control,
-            target_counts,
-        })
+    /// The samples from one index to another.
+    pub(super) fn rows(&self, rows: std::ops::Range<usize>) -> Self {
+        let some = |values: &[f64]| values[rows.clone()].to_vec();
+        Samples {
+            time_s: some(&self.time_s),
+            command: some(&self.command),
+            counts: some(&self.counts),
+            measured: PerMeasured(
+                self.measured
+                    .0
+                    .each_ref()
+                    .map(|column| column.as_deref().map(some)),
+            ),
+            enabled: self.enabled.as_ref().map(|all| all[rows.clone()].to_vec()),
+            held_commands: 0,
+        }
     }
-}
 
-/// A temperature with its first value in the place of those before it; none where there is no value at all.
-fn from_the_first(mut temperature: Vec<f64>) -> Option<Vec<f64>> {
-    let first = temperature.iter().copied().find(|x| !x.is_nan())?;
-    let unknown = temperature.iter_mut().take_while(|x| x.is_nan());
-    unknown.for_each(|x| *x = first);
-    Some(temperature)
+    /// Keeps some of the samples.
+    pub(super) fn keep(&mut self, keep: &[bool]) {
+        fn kept<T: Copy>(values: &mut Vec<T>, keep: &[bool]) {
+            let mut keep = keep.iter();
+            values.retain(|_| keep.next().copied().unwrap_or(false));
+        }
+        kept(&mut self.time_s, keep);
+        kept(&mut self.command, keep);
+        kept(&mut self.counts, keep);
+        for column in self.measured.0.iter_mut().flatten() {
+            kept(column, keep);
+        }
+        if let Some(enabled) = &mut self.enabled {
+            kept(enabled, keep);
+        }
+    }
 }
 
 /// Pushes where memory allows it; a plain push would abort the program.

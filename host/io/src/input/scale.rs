@@ -4,6 +4,8 @@ use super::counts::in_counter_range;
 use super::motor_file::MotorFile;
 use super::motor_units::{AngleUnit, CommandUnit, SpeedUnit};
 use super::read_error::ReadFault;
+use super::samples::Further;
+use crate::channel::Measured;
 
 /// Largest duty: all of the supply, and a little for a logger that scales by 255 of 256 or so.
 const MOST_DUTY: f64 = 1.05;
@@ -13,7 +15,10 @@ pub(super) struct Scale<'m> {
     motor: &'m MotorFile,
     /// Encoder counts per revolution.
     pub(super) counts_per_rev: f64,
-    volts_per_duty: f64,
+    /// Volts of all of the supply, where the command is a share of it and no column tells the supply.
+    supply_v: Option<f64>,
+    /// Whether the command is a share of a supply that a column tells.
+    pub(super) of_measured_supply: bool,
     angle_per_rev: f64,
     /// The same of target angles, where the command is one.
     target_per_rev: Option<f64>,
@@ -22,15 +27,16 @@ pub(super) struct Scale<'m> {
 impl<'m> Scale<'m> {
     /// # Errors
     /// A number that the conversion needs is not known, or has no meaning.
-    pub(super) fn new(motor: &'m MotorFile) -> Result<Self, ReadFault> {
+    pub(super) fn new(motor: &'m MotorFile, further: &Further) -> Result<Self, ReadFault> {
         let named = || motor.called().to_string();
         let counts_per_rev = positive("counts_per_rev", motor.encoder_counts())?
             .ok_or_else(|| ReadFault::NoCountsPerRev { motor: named() })?;
         let supply_v = positive("supply_v", motor.supply_v)?;
-        let volts_per_duty = match motor.units.voltage.full_scale() {
-            Some(_) => supply_v.ok_or_else(|| ReadFault::NoSupply { motor: named() })?,
-            None => 1.0,
-        };
+        let is_share = motor.units.voltage.full_scale().is_some() && motor.position.is_none();
+        let of_measured_supply = is_share && further.measured.contains(&Measured::Supply);
+        if is_share && !of_measured_supply && supply_v.is_none() {
+            return Err(ReadFault::NoSupply { motor: named() });
+        }
         let metres = positive("metres_per_rev", motor.metres_per_rev)?;
         let per_rev = |unit: AngleUnit| {
             let metres = match unit {
@@ -48,18 +54,20 @@ impl<'m> Scale<'m> {
         Ok(Scale {
             motor,
             counts_per_rev,
-            volts_per_duty,
+            supply_v,
+            of_measured_supply,
             angle_per_rev,
             target_per_rev,
         })
     }
 
     /// Seconds.
-    pub(super) fn time(&self, time: f64) -> Result<f64, ReadFault> {
-        Ok(self.motor.units.time.seconds(time))
+    pub(super) fn time(&self, time: f64) -> f64 {
+        self.motor.units.time.seconds(time)
     }
 
-    /// Volts, amperes where the command is a current, or counts where it is a target angle.
+    /// Volts, amperes where the command is a current, or counts where it is a target angle; a share of the supply where a column tells
+    /// that.
     pub(super) fn command(&self, command: f64) -> Result<f64, ReadFault> {
         if let Some(per_rev) = self.target_per_rev {
             return in_counter_range(command / per_rev * self.counts_per_rev);
@@ -73,7 +81,8 @@ impl<'m> Scale<'m> {
                     unit: unit.name(),
                 });
             }
-            Some(full) => command / full * self.volts_per_duty,
+            Some(full) if self.of_measured_supply => command / full,
+            Some(full) => command / full * self.supply_v.unwrap_or(1.0),
             None => match unit {
                 CommandUnit::Millivolts | CommandUnit::Milliamperes => command / 1e3,
                 _ => command,
@@ -100,15 +109,15 @@ impl<'m> Scale<'m> {
         }
     }
 
-    /// Amperes.
-    pub(super) fn current(&self, current: f64) -> Result<f64, ReadFault> {
-        let amperes = self.motor.units.current.amperes(current);
-        Ok(turned(amperes, self.motor.units.reversed.current))
+    /// A measured value in its channel's own unit.
+    pub(super) fn measured(&self, channel: Measured, value: f64) -> f64 {
+        let units = &self.motor.units;
+        turned(units.of(channel).own(value), units.reversed.measured[channel])
     }
 
-    /// °C.
-    pub(super) fn temperature(&self, temperature: f64) -> Result<f64, ReadFault> {
-        Ok(self.motor.units.temperature.celsius(temperature))
+    /// Counts after which a word of so many bits begins anew, where the column holds a speed.
+    pub(super) fn word(&self, bits: i32) -> f64 {
+        2f64.powi(bits) / self.angle_per_rev * self.counts_per_rev
     }
 }
 

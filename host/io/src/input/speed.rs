@@ -38,6 +38,36 @@ pub(super) fn integrated(
     Ok((counts, whole))
 }
 
+/// A speed is of a word that overflowed where a step is larger than this part of the word, and none is left once it is undone.
+const OVERFLOWS: (f64, f64) = (0.6, 0.3);
+
+/// Undoes the overflow of speeds that were kept in a `word` of so many counts a second; `None` where they show none. Gives how many times.
+pub(super) fn without_overflow(speeds: &mut [f64], word: f64) -> Option<usize> {
+    let within = speeds.iter().all(|speed| speed.abs() <= 0.5 * word * (1.0 + 1e-9));
+    let large = |pair: &[f64]| (pair[1] - pair[0]).abs() > OVERFLOWS.0 * word;
+    if !within || !speeds.windows(2).any(large) {
+        return None;
+    }
+    let (mut turns, mut times) = (0.0, 0);
+    let mut whole = Vec::with_capacity(speeds.len());
+    let mut before = *speeds.first()?;
+    for speed in speeds.iter() {
+        let step = speed - before;
+        before = *speed;
+        if step.abs() > 0.5 * word {
+            turns -= word * step.signum();
+            times += 1;
+        }
+        whole.push(speed + turns);
+    }
+    let left = |pair: &[f64]| (pair[1] - pair[0]).abs() > OVERFLOWS.1 * word;
+    if whole.windows(2).any(left) {
+        return None;
+    }
+    speeds.copy_from_slice(&whole);
+    Some(times)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +92,19 @@ mod tests {
             let per_second: Vec<f64> = per_sample.iter().map(|step| step / interval).collect();
             prop_assert_eq!(integrated(&time, &per_second, false).unwrap(), (counter, true));
         }
+    }
+
+    #[test]
+    fn speeds_of_sixteen_bits_are_unwrapped() {
+        let whole: Vec<f64> = (0..500)
+            .map(|k| (50_000.0 * libm::sin(0.02 * f64::from(k))).round())
+            .collect();
+        let word = 65_536.0;
+        let wrap = |x: &f64| (x + 32_768.0).rem_euclid(word) - 32_768.0;
+        let mut speeds: Vec<f64> = whole.iter().map(wrap).collect();
+        assert_eq!(without_overflow(&mut speeds, word), Some(6));
+        assert_eq!(speeds, whole);
+        assert_eq!(without_overflow(&mut speeds, word), None);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! What a file holds: its tables, their columns with ranges, and what each is guessed to be. It reads the whole file, some rows at
 //! a time, and keeps of them what a drawing shows.
 
-use super::csv_file::TextRows;
+use super::text_rows::TextRows;
 use super::envelope::Envelope;
-use super::guess::{Sought, guess, speed};
+use super::guess::{Sought, guess};
 #[cfg(feature = "formats")]
 use super::log_file::{of_format, rows_of};
 use super::motor_drive::DriveKind;
@@ -13,9 +13,11 @@ use super::open::log_of;
 use super::open::text_of;
 use super::part::Part;
 use super::place::Place;
-use super::preset::{PRESETS, Preset};
+use super::profile::Profile;
+use super::proposal::Proposal;
 use super::reached::{ROWS_TO_TELL, Reached};
 use super::read_error::{ReadError, ReadFault};
+use crate::channel::Channel;
 #[cfg(feature = "formats")]
 use servoid_formats::{Kind, Log, Table};
 #[cfg(feature = "formats")]
@@ -38,8 +40,8 @@ pub struct Survey {
     pub format: String,
     /// Its tables.
     pub tables: Vec<SurveyTable>,
-    /// The program that seems to have written it.
-    pub preset: Option<&'static Preset>,
+    /// How it may be read.
+    pub proposal: Proposal,
     /// What its reader has to say.
     pub notes: Vec<String>,
 }
@@ -59,14 +61,6 @@ pub struct SurveyTable {
     pub columns: Vec<SurveyColumn>,
 }
 
-impl SurveyTable {
-    /// How many of its columns look like something that a recording needs.
-    pub fn guessed(&self) -> usize {
-        let guesses = self.columns.iter().filter(|column| column.guess.is_some());
-        guesses.count()
-    }
-}
-
 /// One column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurveyColumn {
@@ -78,10 +72,8 @@ pub struct SurveyColumn {
     pub is_number: bool,
     /// Its unit, where the file says it.
     pub unit: Option<String>,
-    /// Least value.
-    pub least: Option<f64>,
-    /// Greatest value.
-    pub greatest: Option<f64>,
+    /// What its values are like.
+    pub profile: Profile,
     /// What it may be: a key of `[columns]`.
     pub guess: Option<&'static str>,
     /// The unit that its name tells.
@@ -90,52 +82,40 @@ pub struct SurveyColumn {
     pub envelope: Option<Envelope>,
 }
 
-/// Looks at a file. `done` is told how far it was read.
+/// Looks at a file, of each table at most so many rows. `done` is told how far it was read.
 ///
 /// # Errors
 /// The file cannot be read, or is damaged.
-pub fn survey(path: &Path, motor: &MotorFile, done: &dyn Fn(Reached)) -> Result<Survey, ReadError> {
+pub fn survey(
+    path: &Path,
+    motor: &MotorFile,
+    most_rows: Option<u64>,
+    done: &dyn Fn(Reached),
+) -> Result<Survey, ReadError> {
     let part = Part::of(path);
     let source = part.path.display().to_string();
+    let most_rows = most_rows.unwrap_or(u64::MAX);
     #[cfg(feature = "formats")]
     let log = log_of(&part.path, &source)?;
     #[cfg(feature = "formats")]
     let logged = log.map(|mut log| {
         let wanted = part.name.as_deref().or(motor.log.table.as_deref());
-        of_log(log.as_mut(), &source, wanted, done)
+        of_log(log.as_mut(), &source, wanted, most_rows, done)
     });
     #[cfg(not(feature = "formats"))]
     let logged: Option<Result<Survey, ReadError>> = None;
     let mut survey = match logged {
         Some(survey) => survey?,
-        None => of_text(&part.path, &source, motor, done)?,
+        None => of_text(&part.path, &source, motor, most_rows, done)?,
     };
-    survey.preset = motor.log.preset.or_else(|| likely(&survey.tables));
-    let kind = survey
-        .preset
-        .map_or(motor.drive_kind(), |preset| preset.drive);
-    for table in &mut survey.tables {
-        table.guess(kind, survey.preset);
-    }
+    survey.proposal = Proposal::of(&survey.tables, motor, survey.is_lerobot());
+    survey.proposal.mark(&mut survey.tables);
     Ok(survey)
 }
 
-/// The preset all of whose columns are in one table, and no other's are.
-fn likely(tables: &[SurveyTable]) -> Option<&'static Preset> {
-    let fits = |preset: &&Preset| {
-        tables.iter().any(|table| {
-            let has = |names: &[&str]| {
-                names
-                    .iter()
-                    .any(|name| table.columns.iter().any(|c| c.name == *name))
-            };
-            has(preset.command.names) && has(preset.angle.names) && has(preset.time.names)
-        })
-    };
-    let mut fitting = PRESETS.iter().filter(fits);
-    match (fitting.next(), fitting.next()) {
-        (Some(preset), None) => Some(preset),
-        _ => None,
+impl Survey {
+    fn is_lerobot(&self) -> bool {
+        self.format.starts_with("LeRobot")
     }
 }
 
@@ -144,6 +124,7 @@ fn of_log(
     log: &mut dyn Log,
     source: &str,
     wanted: Option<&str>,
+    most_rows: u64,
     done: &dyn Fn(Reached),
 ) -> Result<Survey, ReadError> {
     let listed: Vec<Table> = log.tables().to_vec();
@@ -179,7 +160,11 @@ fn of_log(
                         values.iter().for_each(|value| clock.take(*value));
                     }
                 }
-                ControlFlow::Continue(())
+                if surveyed.rows < most_rows {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
             });
             if columns.is_empty() {
                 surveyed.rows = table.rows.unwrap_or(0);
@@ -199,7 +184,7 @@ fn of_log(
     Ok(Survey {
         format: log.format().name().to_owned(),
         tables,
-        preset: None,
+        proposal: Proposal::default(),
         notes,
     })
 }
@@ -208,6 +193,7 @@ fn of_text(
     path: &Path,
     source: &str,
     motor: &MotorFile,
+    most_rows: u64,
     done: &dyn Fn(Reached),
 ) -> Result<Survey, ReadError> {
     let whole = |error| ReadError::new(Place::file(source), ReadFault::Io(error));
@@ -230,41 +216,49 @@ fn of_text(
     for column in table.columns.iter_mut().take(COLUMNS) {
         column.envelope = Some(Envelope::default());
     }
+    for (column, unit) in table.columns.iter_mut().zip(rows.units().unwrap_or_default()) {
+        column.unit = Some(unit).filter(|unit| !unit.is_empty());
+    }
     let header: Vec<String> = rows.names().to_vec();
     let sought = [Sought {
-        key: "time",
-        called: motor.columns.time.as_deref(),
+        channel: Channel::Time,
+        called: motor.columns.get(Channel::Time),
     }];
     let time = guess(&header, &sought, DriveKind::Voltage, &[])
         .pop()
         .flatten();
     let time = time.and_then(|time| header.iter().position(|name| *name == time.column));
     let mut clock = Clock::default();
-    while let Some(row) = rows.advance()? {
+    while table.rows < most_rows
+        && let Some(row) = rows.advance()?
+    {
         table.rows += 1;
         if table.rows.is_multiple_of(ROWS_TO_TELL) {
             done(count.reached(table.rows));
         }
         for (k, column) in table.columns.iter_mut().enumerate().take(COLUMNS) {
             let Some(cell) = row.get(k) else {
-                column.take(f64::NAN);
+                column.profile.take_text("");
+                column.drawn(f64::NAN);
                 continue;
             };
-            let number = cell.parse::<f64>();
-            let value = number.as_ref().copied().unwrap_or(f64::NAN);
-            column.is_number &= number.is_ok() || cell.is_empty();
-            column.take(value);
+            let value = cell.parse::<f64>().unwrap_or(f64::NAN);
+            column.profile.take_text(cell);
+            column.drawn(value);
             if Some(k) == time {
                 clock.take(value);
             }
         }
     }
+    for column in &mut table.columns {
+        column.is_number = column.profile.is_number();
+    }
     (table.span, table.interval) = clock.told();
     Ok(Survey {
         format: "text with columns".to_owned(),
         tables: vec![table],
-        preset: None,
-        notes: rows.notes(),
+        proposal: Proposal::default(),
+        notes: rows.into_notes(),
     })
 }
 
@@ -284,68 +278,6 @@ impl SurveyTable {
                     ..SurveyColumn::named(&column.name)
                 })
                 .collect(),
-        }
-    }
-
-    /// Says what columns may be: as the preset has it, else as their names tell.
-    fn guess(&mut self, kind: DriveKind, preset: Option<&'static Preset>) {
-        let numbers = self.columns.iter().filter(|column| column.is_number);
-        let header: Vec<String> = numbers.map(|column| column.name.clone()).collect();
-        let keys = [
-            "time",
-            kind.command_key(),
-            "angle",
-            "current",
-            "temperature",
-            "enabled",
-        ];
-        let presets = preset.map(|p| {
-            [
-                p.time.names,
-                p.command.names,
-                p.angle.names,
-                p.current.names,
-                p.temperature,
-                p.enabled,
-            ]
-        });
-        let mut named: Vec<(&'static str, String, Option<&'static str>)> = Vec::new();
-        for (k, key) in keys.iter().enumerate() {
-            let names = presets.map_or(&[][..], |names| names[k]);
-            if let Some(name) = names
-                .iter()
-                .find(|name| header.iter().any(|own| own == *name))
-            {
-                named.push((key, (*name).to_owned(), None));
-            }
-        }
-        if let (None, Some(time)) = (
-            named.iter().find(|(key, ..)| *key == "time"),
-            self.columns.iter().find(|column| column.is_time),
-        ) {
-            named.push(("time", time.name.clone(), None));
-        }
-        let taken: Vec<String> = named.iter().map(|(_, name, _)| name.clone()).collect();
-        let open: Vec<&'static str> = (keys.into_iter())
-            .filter(|key| named.iter().all(|(own, ..)| own != key))
-            .collect();
-        let sought: Vec<Sought<'_>> = open
-            .iter()
-            .map(|key| Sought { key, called: None })
-            .collect();
-        for (key, guess) in open.iter().zip(guess(&header, &sought, kind, &taken)) {
-            named.extend(guess.map(|guess| (*key, guess.column, guess.unit)));
-        }
-        if named.iter().all(|(key, ..)| *key != "angle") {
-            let taken: Vec<&str> = named.iter().map(|(_, name, _)| name.as_str()).collect();
-            let found = speed(&header, &taken);
-            named.extend(found.map(|guess| ("angle", guess.column, guess.unit)));
-        }
-        for (key, name, unit) in named {
-            if let Some(column) = self.columns.iter_mut().find(|column| column.name == name) {
-                column.guess = Some(key);
-                column.guessed_unit = unit;
-            }
         }
     }
 }
@@ -370,8 +302,7 @@ impl SurveyColumn {
             is_time: false,
             is_number: true,
             unit: None,
-            least: None,
-            greatest: None,
+            profile: Profile::default(),
             guess: None,
             guessed_unit: None,
             envelope: None,
@@ -379,12 +310,13 @@ impl SurveyColumn {
     }
 
     fn take(&mut self, value: f64) {
+        self.profile.take(value);
+        self.drawn(value);
+    }
+
+    fn drawn(&mut self, value: f64) {
         if let Some(envelope) = &mut self.envelope {
             envelope.take(value);
-        }
-        if value.is_finite() {
-            self.least = Some(self.least.map_or(value, |least| least.min(value)));
-            self.greatest = Some(self.greatest.map_or(value, |greatest| greatest.max(value)));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
+use servoid_io::channel::{Measured, Series};
 use super::live::left_in;
 use super::{DutyScale, FolderError, Recorded};
 use crate::schema::DeviceRun;
@@ -204,8 +205,10 @@ pub fn recording(
             .chain([0.0])
             .collect(),
         counts,
-        temperature_c: None,
-        current_a: current.then(|| milliamps.map(|ma| f64::from(ma) * 1e-3).collect()),
+        measured: Series::NONE.with(
+            Measured::Current,
+            current.then(|| milliamps.map(|ma| f64::from(ma) * 1e-3).collect()),
+        ),
         enabled: coasts.then(|| {
             rows.iter()
                 .map(|row| row.duty != OPEN)

@@ -86,7 +86,7 @@ pub(super) fn write(subject: &Subject, options: &Options) -> Result<Written, Exp
     );
     let interface = match subject.drive {
         Drive::Voltage => "voltage",
-        Drive::Current => "effort",
+        Drive::Current | Drive::Torque => "effort",
     };
     text += &format!(
         "{CONTROLLER}:\n  ros__parameters:\n    dof_names: [{JOINT}]\n    command_interface: {interface}\n    \

@@ -85,12 +85,13 @@ impl Subject {
             if NUISANCES.contains(&found.name.as_str()) {
                 continue;
             }
-            let std = found.std.map(|std| refer(&found.name, std, &found.unit));
+            let unit = result.drive.volts_unit(&found.unit);
+            let std = found.std.map(|std| refer(&found.name, std, unit));
             let std = std.transpose()?;
             values.push(Value {
                 name: found.name.clone(),
-                value: refer(&found.name, found.value, &found.unit)?,
-                unit: found.unit.clone(),
+                value: refer(&found.name, found.value, unit)?,
+                unit: unit.to_owned(),
                 std,
                 // A result that says otherwise was not written by a fit.
                 determined: found.identifiable && std.is_some(),
@@ -200,8 +201,11 @@ impl Subject {
 
     /// Volts at the winding per newton metre on the shaft, `R/Kt`, V/(N·m).
     pub fn volts_per_torque(&self) -> Option<f64> {
-        if self.drive == Drive::Current {
-            return None;
+        match self.drive {
+            Drive::Voltage => {}
+            Drive::Current => return None,
+            // The command is the torque itself.
+            Drive::Torque => return Some(1.0),
         }
         let inertia = self.physical("inertia", "kg*m^2");
         let constants = (self.physical("resistance", "ohm")).zip(self.physical("kt", "N*m/A"));
@@ -213,7 +217,7 @@ impl Subject {
 
     /// Whether viscous friction is known apart from back-EMF.
     pub fn viscous_is_apart(&self) -> bool {
-        self.drive == Drive::Current && self.is_determined("damping")
+        !self.drive.is_voltage() && self.is_determined("damping")
             || self.is_determined("viscous_part")
             || self.is_determined("viscous") && self.is_determined("kb")
     }
@@ -225,7 +229,7 @@ impl Subject {
     pub fn needs_response(&self, format: &'static str) -> Result<(), ExportError> {
         let needed: &[&str] = match self.drive {
             Drive::Voltage => &["gain", "a1"],
-            Drive::Current => &["inertia"],
+            Drive::Current | Drive::Torque => &["inertia"],
         };
         match needed.iter().find(|name| !self.is_determined(name)) {
             None => Ok(()),
@@ -244,7 +248,7 @@ impl Subject {
     pub fn needs_volts(&self, format: &'static str) -> Result<(), ExportError> {
         match self.drive {
             Drive::Voltage => Ok(()),
-            Drive::Current => Err(ExportError::CurrentDriven { format }),
+            Drive::Current | Drive::Torque => Err(ExportError::CurrentDriven { format }),
         }
     }
 
@@ -261,11 +265,12 @@ impl Subject {
             })
     }
 
-    /// A unit as it is written: behind a current loop volts are units of the command.
+    /// A unit as it is written: that of the command stands in the place of volts.
     pub fn unit_shown(&self, unit: &str) -> String {
         match self.drive {
             Drive::Voltage => unit.to_owned(),
-            Drive::Current => unit.replace('V', "command"),
+            Drive::Current => unit.replace('V', "A"),
+            Drive::Torque => unit.replace('V', "N*m"),
         }
     }
 }

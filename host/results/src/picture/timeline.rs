@@ -1,6 +1,7 @@
 //! Measured against model over time, the residual beneath with the quantiser's band, and the command. The page thins
 //! the series for what is seen of them; here they are whole.
 
+use servoid_io::channel::Measured;
 use super::{Drawing, Picture, colour};
 use crate::error::Error;
 use base64::Engine;
@@ -153,8 +154,9 @@ pub fn timeline(
         command_name: match data.drive {
             Drive::Voltage => "drive, V",
             Drive::Current => "drive, A",
+            Drive::Torque => "drive, N·m",
         },
-        current: (data.current_a.as_ref()).map(|current| pick(&|k| current[k])),
+        current: (data.measured.get(Measured::Current)).map(|current| pick(&|k| current[k])),
         band: if data.quantised { 0.5 } else { 0.0 },
         held_out_from,
         worst: runs.last().and_then(|run| worst(data, run)),

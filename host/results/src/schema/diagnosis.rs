@@ -1,5 +1,6 @@
 //! `servoid.diagnosis/1` of two recordings.
 
+use super::model::in_terms_of;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::{Bounded, Likelihood};
 use super::residual::{Residual, Where};
@@ -7,6 +8,7 @@ use super::{Machine, Model, ModelParameter, PositionLoop, RecordingError, finite
 use crate::schema::effect_curve::EffectCurve;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use servoid_io::recording::Drive;
 use servoid_identify::diagnose;
 use servoid_identify::diagnose::FittedModel;
 use servoid_identify::diagnose::discovery::Proposed;
@@ -371,6 +373,17 @@ pub struct Resembles {
     pub effect: String,
     /// Square of the correlation of what both give along the fitted recording, per cent.
     pub percent: Option<f64>,
+}
+
+impl Diagnosis {
+    /// Writes the units of all models in terms of the command of a drive.
+    pub(crate) fn in_terms_of(&mut self, drive: Drive) {
+        let steps = self.steps.iter_mut().filter_map(|step| step.model.as_mut());
+        let models = [&mut self.base.model, &mut self.last.model].into_iter().chain(steps);
+        let all = models.map(|model| &mut model.parameters);
+        let roles = self.models.iter_mut().map(|one| &mut one.parameters);
+        all.chain(roles).for_each(|parameters| in_terms_of(drive, parameters));
+    }
 }
 
 impl From<&Proposed> for ProposedLaw {

@@ -236,7 +236,7 @@ impl Fit {
                     validate_rms_counts: entry.validate_rms_counts.and_then(finite),
                 })
                 .collect(),
-            model: Model::of(&fit.candidate, fit.method),
+            model: Model::of(&fit.candidate, fit.method).driven_by(data.drive),
             recording: data.source.clone(),
             validate: validate.map(str::to_owned),
             recordings: fit.recordings.iter().map(Into::into).collect(),

@@ -91,6 +91,7 @@ impl Identified {
     ) -> Result<Self, ResultFault> {
         let drive = match set_up.drive.as_deref() {
             Some("current") => Drive::Current,
+            Some("torque") => Drive::Torque,
             Some("voltage") => Drive::Voltage,
             None => return Err(ResultFault::Missing("drive")),
             Some(other) => return Err(ResultFault::Drive(shown(other))),

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Candidate;
 use servoid_engine::simulation::Method;
+use servoid_io::recording::Drive;
 use servoid_io::input::suggest::did_you_mean;
 use shared::discretise::Discretisation;
 use shared::effects::{EffectSet, Kind, MAX_EFFECTS};
@@ -110,6 +111,20 @@ impl Machine {
     }
 }
 
+/// Writes units in terms of the command of a drive, in the place of volts.
+pub(crate) fn in_terms_of(drive: Drive, parameters: &mut [ModelParameter]) {
+    let units: Vec<&'static str> = Kind::ALL
+        .iter()
+        .flat_map(|kind| kind.parameters())
+        .map(|parameter| parameter.quantity.unit())
+        .collect();
+    for parameter in parameters {
+        if let Some(unit) = units.iter().find(|unit| **unit == parameter.unit) {
+            drive.unit(unit).clone_into(&mut parameter.unit);
+        }
+    }
+}
+
 impl ModelParameter {
     /// The parameters of `effects`, one effect after the other, with their values in the catalogue's order.
     pub fn all(effects: &[Kind], values: &[f64]) -> Vec<Self> {
@@ -129,6 +144,12 @@ impl ModelParameter {
 }
 
 impl Model {
+    /// The same in terms of the command of a drive.
+    pub fn driven_by(mut self, drive: Drive) -> Self {
+        in_terms_of(drive, &mut self.parameters);
+        self
+    }
+
     /// A model as it is written.
     pub fn of(candidate: &Candidate, method: Method) -> Self {
         let mut parameters = Vec::new();
@@ -237,7 +258,9 @@ pub(super) fn terms(
                 });
             };
             let needed = parameter.quantity.unit();
-            if known.unit != needed {
+            // Behind a current loop it is in terms of the command.
+            let drives = [Drive::Voltage, Drive::Current, Drive::Torque];
+            if drives.iter().all(|drive| drive.unit(needed) != known.unit) {
                 return Err(ModelFault::Unit {
                     place: place.to_owned(),
                     name,

@@ -162,6 +162,6 @@ fn samples(horizon: &Horizon, data: &Data) -> usize {
 pub fn constant_drive(drive: Drive) -> Kind {
     match drive {
         Drive::Voltage => Kind::OffsetVoltage,
-        Drive::Current => Kind::LoadTorque,
+        Drive::Current | Drive::Torque => Kind::LoadTorque,
     }
 }

@@ -6,7 +6,6 @@ use crate::diagnose::models::Errors;
 use crate::fit::{Options, SPEED_HALF_WIDTH};
 use servoid_engine::data::local_parabola;
 use servoid_engine::problem::{Data, Horizon};
-use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use shared::motor::Machine;
 use std::ops::Range;
@@ -35,7 +34,7 @@ impl Span {
         if options.window_s.is_some() {
             return because(options.window_s, "as asked for");
         }
-        if data.drive == Drive::Current {
+        if !data.drive.is_voltage() {
             return because(
                 usual(data),
                 "behind a current loop an error of the torque adds up twice over a whole recording",

@@ -1,5 +1,6 @@
 //! What to do next: which experiment splits what looks alike, and what no recording of voltage and angle tells.
 
+use servoid_io::channel::Measured;
 use crate::diagnose::outcome::{Diagnosis, Verdict};
 use crate::diagnose::recordings::HeldOut;
 use servoid_engine::problem::Data;
@@ -71,7 +72,7 @@ pub fn cannot_tell(data: &Data, held_out: &HeldOut, knows_torque: bool) -> Vec<S
                 "a wrong scale of the voltage leaves no trace: all constants scale with it; use a voltmeter"
                     .to_owned(),
             );
-            if data.current_a.is_none() {
+            if data.measured.get(Measured::Current).is_none() {
                 list.push(
                     "resistance and inertia are seen only as a product, and so are resistance and each torque: measure \
                      the resistance, or log the current"
@@ -79,7 +80,7 @@ pub fn cannot_tell(data: &Data, held_out: &HeldOut, knows_torque: bool) -> Vec<S
                 );
             }
         }
-        Drive::Current => list.push(
+        Drive::Current | Drive::Torque => list.push(
             "a wrong scale of the command leaves no trace: inertia and torques are per unit of it"
                 .to_owned(),
         ),

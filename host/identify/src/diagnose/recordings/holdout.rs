@@ -106,6 +106,7 @@ fn rest(recording: &Recording, length: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use servoid_io::channel::Series;
     use servoid_io::recording::Drive;
 
     /// Ten seconds at 100 Hz that turn all the time but for a rest of `rest` s that begins at `at`.
@@ -121,8 +122,7 @@ mod tests {
             source: "made up".to_owned(),
             command: time_s.iter().map(|t| f64::from(driven(t))).collect(),
             counts,
-            current_a: None,
-            temperature_c: None,
+            measured: Series::NONE,
             enabled: None,
             counts_per_rev: 100.0,
             quantised: true,

@@ -14,6 +14,7 @@ mod plane;
 mod torque;
 mod winding;
 
+use servoid_io::channel::Measured;
 use super::physical::CurrentEvidence;
 use super::remarks::EXPLAINED_COUNTS;
 use super::uncertainty::Uncertainty;
@@ -32,7 +33,7 @@ pub fn current_evidence(
     spread: &Uncertainty,
 ) -> Option<CurrentEvidence> {
     // Without one there is nothing to run the model for.
-    problem.data.current_a.as_ref()?;
+    problem.data.measured.get(Measured::Current)?;
     let is_reckoned = problem.data.recordings.loops().iter().any(Option::is_some);
     let explained = explained(problem, candidate);
     if !explained

@@ -1,5 +1,6 @@
 //! What the current says as a torque: inertia and viscous friction over the torque constant.
 
+use servoid_io::channel::Measured;
 use super::plane::Plane;
 use crate::fit::physical::Estimate;
 use crate::fit::uncertainty::Uncertainty;
@@ -71,8 +72,8 @@ pub fn torque_evidence(
 /// The same at a model, as if that were the true one.
 fn at(data: &Data, candidate: &Candidate, method: Method) -> Option<Torque> {
     let measured = data
-        .current_a
-        .as_ref()
+        .measured
+        .get(Measured::Current)
         .filter(|_| data.drive == Drive::Voltage)?;
     let simulation = Simulation::new(data, candidate, method).ok()?;
     let model = simulation.currents_and_speeds(data.centre(0));

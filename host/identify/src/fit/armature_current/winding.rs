@@ -9,6 +9,7 @@
 //! over the interval at `L/R − h·E/(1 − E)` before its end. The speed is the encoder's; all are averaged over as many intervals
 //! as make the encoder's rounding small beside the motion.
 
+use servoid_io::channel::Measured;
 use super::decay::{Row, electrical};
 use super::plane::Plane;
 use crate::fit::physical::Estimate;
@@ -43,8 +44,8 @@ pub struct Winding {
 /// little.
 pub fn winding_evidence(data: &Data, model: &Candidate) -> Option<Winding> {
     let measured = data
-        .current_a
-        .as_ref()
+        .measured
+        .get(Measured::Current)
         .filter(|_| data.drive == Drive::Voltage)?;
     let between = |place: Place| matches!(place, Place::Drive | Place::Winding);
     if (model.effects.iter()).any(|(kind, _)| between(kind.description().place)) {

@@ -105,7 +105,7 @@ impl<'a> Together<'a> {
                     .map(|(k, unknown)| OwnParameter {
                         name: unknown.name.clone(),
                         value: values[k],
-                        unit: unknown.unit,
+                        unit: problem.data.drive.unit(unknown.unit),
                         std: std(part, k),
                     })
                     .collect()

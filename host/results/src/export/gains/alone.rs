@@ -24,7 +24,7 @@ pub(super) fn close(
     };
     let method = asked.method.unwrap_or(match subject.drive {
         Drive::Voltage => Method::Cancel,
-        Drive::Current => Method::Symmetrical,
+        Drive::Current | Drive::Torque => Method::Symmetrical,
     });
     let zero = match method {
         Method::Cancel if slow < 1.0 => Zero::Pole(slow),

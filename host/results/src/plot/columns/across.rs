@@ -36,7 +36,7 @@ impl Across {
     }
 
     fn of_time(column: &SurveyColumn) -> Option<Self> {
-        let (first, last) = (column.least?, column.greatest?);
+        let [first, last] = column.profile.range()?;
         let length = last - first;
         // Also false where it is not finite.
         if !(length > 1e-200 && length < 1e200) {

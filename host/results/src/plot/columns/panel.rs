@@ -36,11 +36,12 @@ pub(super) struct Panel<'s> {
 impl<'s> Panel<'s> {
     /// None where the column has no number.
     pub(super) fn of(column: &'s SurveyColumn) -> Option<Self> {
+        let [least, greatest] = column.profile.range()?;
         Some(Panel {
             column,
             envelope: column.envelope.as_ref()?,
-            least: column.least?,
-            greatest: column.greatest?,
+            least,
+            greatest,
         })
     }
 

@@ -20,6 +20,12 @@ const ALONE: usize = 6;
 /// Characters of a line over the whole width.
 const CHARACTERS: usize = 120;
 
+/// How many columns of a table look like something that a recording needs.
+fn guessed(table: &SurveyTable) -> usize {
+    let columns = table.columns.iter();
+    columns.filter(|column| column.guess.is_some()).count()
+}
+
 /// One table as it is drawn.
 pub(super) struct Section<'s> {
     table: &'s SurveyTable,
@@ -33,7 +39,7 @@ impl<'s> Section<'s> {
     /// The tables in the order in which they are drawn, and what is to be said of what is left out.
     pub(super) fn of(survey: &'s Survey) -> (Vec<Self>, String) {
         let mut tables: Vec<&SurveyTable> = survey.tables.iter().collect();
-        tables.sort_by_key(|table| std::cmp::Reverse(table.guessed()));
+        tables.sort_by_key(|table| std::cmp::Reverse(guessed(table)));
         let mut sections = Vec::new();
         let (mut room, mut columns, mut left_out) = (PANELS, 0, 0);
         for table in tables {
@@ -73,7 +79,7 @@ impl<'s> Section<'s> {
         let (drawn, blank): (Vec<&SurveyColumn>, Vec<&SurveyColumn>) =
             others.partition(|column| column.is_number && column.envelope.is_some());
         let (mut drawn, empty): (Vec<&SurveyColumn>, Vec<&SurveyColumn>) =
-            drawn.into_iter().partition(|column| column.least.is_some());
+            drawn.into_iter().partition(|column| column.profile.range().is_some());
         // What is the motor's comes first.
         let order = ["voltage", "target", "angle", "current", "enabled"];
         let place = |column: &&SurveyColumn| {

@@ -15,7 +15,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
         let gain = diagnosis.last.candidate.machine.response().gain;
         let no_load = (gain * report.data.supply).max(report.data.units.speed);
         let models = report.models();
-        Diagnosis {
+        let mut written = Diagnosis {
             schema: SCHEMA.to_owned(),
             quantization_floor_counts: Some(FLOOR_RMS_COUNTS),
             base: Base::from(&diagnosis.base),
@@ -64,7 +64,9 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             ran_out: diagnosis.ran_out,
             model_steps: diagnosis.steps_taken,
             version: VERSION.to_owned(),
-        }
+        };
+        written.in_terms_of(report.data.drive);
+        written
     }
 }
 

@@ -1,0 +1,213 @@
+//! The facts of every channel. A new column of numbers is a variant of [`Measured`] and an entry here.
+//!
+//! Words are those of logs, exports and forum threads in English, German, French, Spanish and Chinese.
+
+use super::facts::Facts;
+use super::kind::{Channel, Measured};
+use super::unit::LinearUnit;
+
+/// Units of an angle, and of a speed in its place, by the last part of a name.
+pub(crate) const ANGLE_UNITS: &[(&str, &str)] = &[
+    ("rad", "rad"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+    ("deg", "deg"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("grad", "deg"),
+    ("grados", "deg"),
+    ("degres", "deg"),
+    ("\u{b0}", "deg"),
+    ("\u{5ea6}", "deg"),
+    ("rev", "rev"),
+    ("revs", "rev"),
+    ("rot", "rev"),
+    ("rotation", "rev"),
+    ("rotations", "rev"),
+    ("turns", "rev"),
+    ("umdrehungen", "rev"),
+    ("tours", "rev"),
+    ("vueltas", "rev"),
+    ("m", "m"),
+    ("meters", "m"),
+    ("metres", "m"),
+];
+
+/// What is wanted of a controller, and not what was measured.
+pub(crate) const WANTED: &[&str] = &[
+    "target", "goal", "ref", "reference", "set", "setpoint", "desired", "des", "cmd", "command",
+    "commanded", "error", "err", "soll", "sollwert", "ziel", "consigne", "cible", "consigna",
+    "objetivo",
+];
+
+/// One entry a channel, in the order in which they take a name that several could have.
+pub(super) const CHANNELS: &[Facts] = &[
+    Facts {
+        channel: Channel::Time,
+        key: "time",
+        title: "Time",
+        column: "t_s",
+        good_for: "",
+        words: &[
+            "t_s", "time", "timestamp", "t", "seconds", "sec", "millis", "micros", "ms", "us",
+            "clock", "elapsed", "zeit", "zeitstempel", "temps", "horodatage", "tiempo",
+            "\u{65f6}\u{95f4}", "\u{65f6}\u{95f4}\u{6233}",
+        ],
+        others: &[],
+        told_units: &[
+            ("ms", "ms"),
+            ("millis", "ms"),
+            ("milliseconds", "ms"),
+            ("us", "us"),
+            ("\u{b5}s", "us"),
+            ("\u{3bc}s", "us"),
+            ("micros", "us"),
+            ("microseconds", "us"),
+            ("ns", "ns"),
+            ("nanos", "ns"),
+            ("nanoseconds", "ns"),
+        ],
+        units: &[],
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+    },
+    Facts {
+        channel: Channel::Command,
+        key: "voltage",
+        title: "Command",
+        column: "voltage_v",
+        good_for: "",
+        words: &[
+            "voltage_v", "voltage", "volts", "volt", "duty", "pwm", "command", "cmd", "u", "uq", "v",
+            "plant_input", "control_output", "control", "input", "output", "throttle", "spannung",
+            "stellgrosse", "stellgroesse", "tastgrad", "tastverhaltnis", "aussteuerung", "tension",
+            "commande", "rapport_cyclique", "voltaje", "ciclo_de_trabajo", "mando",
+            "\u{7535}\u{538b}", "\u{5360}\u{7a7a}\u{6bd4}", "\u{63a7}\u{5236}",
+        ],
+        others: &[
+            "supply", "bus", "vbus", "battery", "bat", "batt", "vbat", "vin", "vcc", "limit", "max", "sag",
+            "versorgung", "batterie", "akku", "alimentation", "bateria", "alimentacion",
+            "speed", "velocity", "geschwindigkeit", "drehzahl", "vitesse", "velocidad",
+        ],
+        told_units: &[
+            ("v", "V"),
+            ("volt", "V"),
+            ("volts", "V"),
+            ("mv", "mV"),
+            ("duty", "duty"),
+            ("cycle", "duty"),
+            ("%", "percent"),
+            ("percent", "percent"),
+            ("pct", "percent"),
+            ("prozent", "percent"),
+            ("a", "A"),
+            ("amps", "A"),
+            ("ma", "mA"),
+            ("nm", "N*m"),
+        ],
+        units: &[],
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+    },
+    Facts {
+        channel: Channel::Angle,
+        key: "angle",
+        title: "Angle",
+        column: "angle_counts",
+        good_for: "",
+        words: &[
+            "angle_counts", "angle", "position", "counts", "count", "encoder", "ticks", "theta", "enc",
+            "pos", "q", "turns", "rotations", "winkel", "drehwinkel", "lage", "geber", "inkremente", "codeur",
+            "angulo", "posicion", "codificador", "cuentas", "\u{89d2}\u{5ea6}", "\u{8f6c}\u{89d2}",
+            "\u{4f4d}\u{7f6e}", "\u{7f16}\u{7801}\u{5668}", "\u{8ba1}\u{6570}",
+        ],
+        others: WANTED,
+        told_units: ANGLE_UNITS,
+        units: &[],
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+    },
+    Facts {
+        channel: Channel::Measured(Measured::Supply),
+        key: "supply",
+        title: "Supply voltage",
+        column: "supply_v",
+        good_for: "Makes volts of a duty row by row, with the sag of a battery.",
+        words: &[
+            "supply_v", "supply", "battery", "vbat", "bus_voltage", "vbus", "batt", "bat", "vin", "vcc",
+            "versorgung", "betriebsspannung", "zwischenkreis", "batterie", "akku", "alimentation",
+            "bateria", "alimentacion", "\u{7535}\u{6e90}", "\u{6bcd}\u{7ebf}", "\u{7535}\u{6c60}",
+        ],
+        others: &["current", "amps", "temp", "temperature", "limit", "max", "percent", "soc", "strom", "courant", "corriente", "a"],
+        told_units: &[("mv", "mV")],
+        units: &[
+            LinearUnit { name: "V", zero: 0.0, per: 1.0, columns: &["supply_v"] },
+            LinearUnit { name: "mV", zero: 0.0, per: 1e3, columns: &["supply_mv", "supply_v"] },
+        ],
+        range: [0.5, 2000.0],
+    },
+    Facts {
+        channel: Channel::Measured(Measured::Current),
+        key: "current",
+        title: "Current",
+        column: "current_a",
+        good_for: "Separates the resistance from the torque constant.",
+        words: &[
+            "current_a", "current", "amps", "amp", "i_a", "i", "iq", "strom", "ankerstrom", "courant",
+            "intensite", "corriente", "\u{7535}\u{6d41}",
+        ],
+        others: &[
+            "target", "goal", "ref", "reference", "setpoint", "desired", "limit", "max", "bus", "supply",
+            "battery", "soll", "sollwert", "consigne", "consigna",
+        ],
+        told_units: &[("ma", "mA"), ("milliamps", "mA")],
+        units: &[
+            LinearUnit { name: "A", zero: 0.0, per: 1.0, columns: &["current_a"] },
+            LinearUnit { name: "mA", zero: 0.0, per: 1e3, columns: &["current_ma", "current_a"] },
+        ],
+        range: [-1e5, 1e5],
+    },
+    Facts {
+        channel: Channel::Measured(Measured::Temperature),
+        key: "temperature",
+        title: "Temperature",
+        column: "temperature_c",
+        good_for: "A law of your own may depend on it.",
+        words: &[
+            "temperature_c", "temperature", "temp_motor", "motor_temp", "winding_temp", "temp",
+            "temperatur", "temperatura", "\u{6e29}\u{5ea6}",
+        ],
+        others: &[
+            "mos", "mosfet", "fet", "board", "pcb", "cpu", "mcu", "ambient", "driver", "esc", "inverter",
+            "limit", "max", "fault",
+        ],
+        told_units: &[("k", "K"), ("kelvin", "K"), ("f", "F")],
+        units: &[
+            LinearUnit { name: "C", zero: 0.0, per: 1.0, columns: &["temperature_c"] },
+            LinearUnit { name: "K", zero: 273.15, per: 1.0, columns: &["temperature_k", "temperature_c"] },
+            LinearUnit { name: "F", zero: 32.0, per: 1.8, columns: &["temperature_f", "temperature_c"] },
+        ],
+        range: [-90.0, 400.0],
+    },
+    Facts {
+        channel: Channel::Enabled,
+        key: "enabled",
+        title: "Bridge enabled",
+        column: "enabled",
+        good_for: "Coasting separates friction from back-EMF.",
+        words: &["enabled", "enable", "torque_enabled", "torque_enable", "armed", "freigabe", "active", "habilitado", "\u{4f7f}\u{80fd}"],
+        others: &[],
+        told_units: &[],
+        units: &[],
+        range: [0.0, 1.0],
+    },
+    Facts {
+        channel: Channel::Direction,
+        key: "direction",
+        title: "Direction",
+        column: "direction",
+        good_for: "The sign of a command that has none.",
+        words: &["direction", "dir", "drehrichtung", "richtung", "sens", "sentido", "direccion", "\u{65b9}\u{5411}"],
+        others: &[],
+        told_units: &[],
+        units: &[],
+        range: [-1.0, 1.0],
+    },
+];

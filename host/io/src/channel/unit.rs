@@ -1,0 +1,42 @@
+//! Units that a factor and a zero convert, and lists of one value a measured channel.
+
+use super::kind::Measured;
+use std::ops::{Index, IndexMut};
+
+/// A unit of a measured channel.
+#[derive(Debug, PartialEq)]
+pub struct LinearUnit {
+    /// Its name in `motor.toml`.
+    pub name: &'static str,
+    /// What stands for nothing in the channel's own unit.
+    pub zero: f64,
+    /// How many of it are one of the channel's own unit.
+    pub per: f64,
+    /// Names of columns that are looked for where the user names none, best first.
+    pub(crate) columns: &'static [&'static str],
+}
+
+impl LinearUnit {
+    /// A value in the channel's own unit.
+    pub fn own(&self, value: f64) -> f64 {
+        (value - self.zero) / self.per
+    }
+}
+
+/// One value for each measured channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PerMeasured<T>(pub [T; Measured::COUNT]);
+
+impl<T> Index<Measured> for PerMeasured<T> {
+    type Output = T;
+
+    fn index(&self, channel: Measured) -> &T {
+        &self.0[channel.place()]
+    }
+}
+
+impl<T> IndexMut<Measured> for PerMeasured<T> {
+    fn index_mut(&mut self, channel: Measured) -> &mut T {
+        &mut self.0[channel.place()]
+    }
+}

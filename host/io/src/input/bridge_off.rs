@@ -1,0 +1,45 @@
+//! A motor that stands at the beginning or the end of a log under commands that move it elsewhere: its bridge was off.
+
+use crate::recording::Recording;
+use std::ops::Range;
+
+/// Time under strong commands in which a motor that is driven has moved, s.
+const DRIVEN_S: f64 = 0.5;
+/// Commands above this part of the largest one must move a free motor.
+const STRONG: f64 = 0.5;
+
+/// The samples in which the bridge drives, and what keeps others out; `None` where none is to be left out.
+pub(super) fn driven(recording: &Recording) -> Option<Range<usize>> {
+    if recording.position.is_some() {
+        return None;
+    }
+    let counts = &recording.counts;
+    let first = counts.windows(2).position(|pair| pair[1] != pair[0])?;
+    let last = counts.windows(2).rposition(|pair| pair[1] != pair[0])? + 1;
+    let mut moving: Vec<f64> = (first..last)
+        .filter(|k| counts[*k] != counts[k + 1])
+        .map(|k| recording.command[k].abs())
+        .collect();
+    let middle = moving.len() / 2;
+    let usual = *moving.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let strong = usual.max(STRONG * largest);
+    let time = &recording.time_s;
+    let driven_s = |range: Range<usize>| -> f64 {
+        let closed = |k: &usize| recording.enabled.as_ref().is_none_or(|on| on[*k]);
+        let strong = range.filter(|k| closed(k) && recording.command[*k].abs() >= strong);
+        strong.map(|k| time[k + 1] - time[k]).sum()
+    };
+    // The last command acts until the first motion shows; some of it is left for that.
+    let from = if driven_s(0..first) > DRIVEN_S {
+        first
+    } else {
+        0
+    };
+    let to = if driven_s(last..recording.len() - 1) > DRIVEN_S {
+        last + 1
+    } else {
+        recording.len()
+    };
+    ((from, to) != (0, recording.len()) && to >= from + 2).then_some(from..to)
+}

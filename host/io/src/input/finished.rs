@@ -1,0 +1,329 @@
+//! Samples of one run to recordings: gaps closed, angles unwrapped, speeds integrated, and parted where a counter was set anew.
+
+use super::bridge_off::driven;
+use super::counts::snap_to_whole;
+use super::filtered::{Filter, unfiltered};
+use super::gaps::closed;
+use super::jumps::{set_anew, unwrapped};
+use super::motor_file::MotorFile;
+use super::motor_units::{AngleUnit, SpeedUnit};
+use super::read_error::ReadFault;
+use super::samples::Samples;
+use super::scale::{Scale, positive};
+use super::speed::{integrated, without_overflow};
+use crate::channel::{Measured, PerMeasured, Series};
+use crate::position_loop::{Follower, LoopSettings};
+use crate::recording::{PositionDrive, Recording};
+
+/// What a reader has to say of a file, a sentence each.
+pub(super) struct Notes<'s> {
+    source: &'s str,
+    pub(super) texts: Vec<String>,
+}
+
+impl<'s> Notes<'s> {
+    pub(super) fn new(source: &'s str) -> Self {
+        Notes {
+            source,
+            texts: Vec::new(),
+        }
+    }
+
+    /// Adds a sentence behind the file's name.
+    pub(super) fn add(&mut self, text: String) {
+        self.texts.push(format!("{}: {text}", self.source));
+    }
+}
+
+/// The recordings that samples of one run become, without names; only one unless `parted`.
+///
+/// # Errors
+/// Too few samples, an angle beyond any counter, or a position loop of unknown gain.
+pub(super) fn finished(
+    samples: Samples,
+    motor: &MotorFile,
+    scale: &Scale<'_>,
+    parted: bool,
+    notes: &mut Notes<'_>,
+) -> Result<Vec<Recording>, ReadFault> {
+    if samples.len() < 2 {
+        return Err(ReadFault::TooFewSamples(samples.len()));
+    }
+    if samples.held_commands > 0 {
+        notes.add(format!(
+            "{} rows have no command: the last one holds",
+            samples.held_commands
+        ));
+    }
+    let (parts, done) = closed(samples);
+    if done.rows > 0 {
+        let parted = match done.parted {
+            0 => String::new(),
+            1 => "; a longer gap parts the recording".to_owned(),
+            count => format!("; {count} longer gaps part the recording"),
+        };
+        notes.add(format!(
+            "{} rows have no angle: they count by what they command{parted}",
+            done.rows
+        ));
+    }
+    let spanned = motor.log.from_s.is_some() || motor.log.to_s.is_some();
+    let mut recordings = Vec::new();
+    for samples in parts {
+        let mut run = Run {
+            samples,
+            motor,
+            scale,
+            parted,
+        };
+        run.volts_of_shares();
+        recordings.extend(run.recordings(notes)?);
+    }
+    if !spanned {
+        for recording in &mut recordings {
+            leave_out_standing(recording, notes);
+        }
+    }
+    Ok(recordings)
+}
+
+/// Leaves out the beginning or the end of a recording in which the bridge was off.
+fn leave_out_standing(recording: &mut Recording, notes: &mut Notes<'_>) {
+    let Some(driven) = driven(recording) else {
+        return;
+    };
+    let at = |k: usize| recording.time_s[k.min(recording.len() - 1)] - recording.time_s[0];
+    let (from, to) = (at(driven.start), at(driven.end));
+    let (what, option) = match (driven.start, driven.end < recording.len()) {
+        (0, _) => (format!("from {to:.3} s on"), format!("--to {to:.3}")),
+        (_, false) => (format!("up to {from:.3} s"), format!("--from {from:.3}")),
+        _ => (
+            format!("up to {from:.3} s and from {to:.3} s on"),
+            format!("--from {from:.3} --to {to:.3}"),
+        ),
+    };
+    notes.add(format!(
+        "the motor stands {what} under commands that move it elsewhere, as with its bridge off: that part is left out, as by {option} \
+         (--from 0 keeps all)"
+    ));
+    *recording = recording.samples(driven);
+}
+
+/// Samples that each have an angle.
+struct Run<'m> {
+    samples: Samples,
+    motor: &'m MotorFile,
+    scale: &'m Scale<'m>,
+    /// Whether it may become several recordings.
+    parted: bool,
+}
+
+impl Run<'_> {
+    /// Makes volts of a share of the measured supply.
+    fn volts_of_shares(&mut self) {
+        for column in self.samples.measured.0.iter_mut() {
+            *column = column.take().and_then(from_the_first);
+        }
+        let supply = &self.samples.measured[Measured::Supply];
+        if let (true, Some(supply)) = (self.scale.of_measured_supply, supply) {
+            let commands = self.samples.command.iter_mut().zip(supply);
+            commands.for_each(|(command, supply)| *command *= supply);
+        }
+    }
+
+    fn recordings(mut self, notes: &mut Notes<'_>) -> Result<Vec<Recording>, ReadFault> {
+        let (motor, scale) = (self.motor, self.scale);
+        if let AngleUnit::Speed(unit) = motor.units.angle {
+            return self.of_speeds(unit, notes);
+        }
+        if let Some(settings) = motor.position {
+            return Ok(vec![self.behind_loop(settings)?]);
+        }
+        if let Some(wrapped) = unwrapped(&mut self.samples.counts, scale.counts_per_rev) {
+            notes.add(format!(
+                "the angle wraps every {} counts: it is unwrapped ({} times)",
+                wrapped.turn, wrapped.times
+            ));
+        }
+        let begins = set_anew(&self.samples.counts);
+        if let [first, ..] = begins[..] {
+            let times: Vec<String> = (begins.iter())
+                .map(|k| format!("{:.3} s", self.samples.time_s[*k] - self.samples.time_s[0]))
+                .collect();
+            if !self.parted {
+                return Err(ReadFault::SetAnew {
+                    sample: first + 1,
+                    time_s: self.samples.time_s[first],
+                    from: self.samples.counts[first - 1],
+                    to: self.samples.counts[first],
+                });
+            }
+            notes.add(format!(
+                "the angle jumps by {:+.0} counts at {}, as a counter that is set to another value (re-zeroed, or its index found): what is \
+                 before and behind is taken as parts of one recording",
+                self.samples.counts[first] - self.samples.counts[first - 1],
+                times.join(", ")
+            ));
+        }
+        let ends: Vec<usize> = [&[0][..], &begins, &[self.samples.len()]].concat();
+        let parts = ends.windows(2).filter(|pair| pair[1] - pair[0] >= 2);
+        let parts = parts.map(|pair| {
+            let mut samples = self.samples.rows(pair[0]..pair[1]);
+            let whole = motor.units.angle == AngleUnit::Counts
+                || snap_to_whole(&mut samples.counts).is_some();
+            recording(samples, motor, scale, whole, None)
+        });
+        Ok(parts.collect())
+    }
+
+    fn of_speeds(
+        mut self,
+        unit: SpeedUnit,
+        notes: &mut Notes<'_>,
+    ) -> Result<Vec<Recording>, ReadFault> {
+        let per_sample = unit == SpeedUnit::CountsPerSample;
+        let word = self.scale.word(16);
+        if !per_sample && let Some(times) = without_overflow(&mut self.samples.counts, word) {
+            notes.add(format!(
+                "the speed overflows its 16 bits and wraps at 65536 ({times} times): it is unwrapped"
+            ));
+        }
+        if !per_sample && self.is_even() && !is_whole(&self.samples) {
+            self.undo_filter(notes);
+        }
+        let samples = &mut self.samples;
+        let (counts, whole) = integrated(&samples.time_s, &samples.counts, per_sample)?;
+        samples.counts = counts;
+        Ok(vec![recording(
+            self.samples,
+            self.motor,
+            self.scale,
+            whole,
+            None,
+        )])
+    }
+
+    fn is_even(&self) -> bool {
+        let time = &self.samples.time_s;
+        let mean = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+        time.windows(2).all(|pair| (pair[1] - pair[0] - mean).abs() < EVEN * mean)
+    }
+
+    /// Undoes a filter that the speed went through.
+    fn undo_filter(&mut self, notes: &mut Notes<'_>) {
+        let Samples {
+            time_s,
+            command,
+            counts,
+            ..
+        } = &mut self.samples;
+        let Some(filter) = unfiltered(counts, command) else {
+            return;
+        };
+        let interval = (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64;
+        let what = match filter {
+            Filter::Average(samples) => format!("is averaged over {samples} samples"),
+            Filter::Lag(share) => format!("is filtered by a lag that takes {share} of each new value"),
+        };
+        notes.add(format!(
+            "the speed {what}, which delays it by {:.1} ms: that is undone before it is integrated, so that inertia and delay do not contain \
+             it",
+            1e3 * interval * filter.delay_samples()
+        ));
+    }
+
+    fn behind_loop(mut self, settings: LoopSettings) -> Result<Recording, ReadFault> {
+        let (motor, scale) = (self.motor, self.scale);
+        let mut position = self.followed(settings)?;
+        let dropped = match motor.units.angle {
+            AngleUnit::Counts => Some(0.0),
+            _ => snap_to_whole(&mut self.samples.counts),
+        };
+        let targets = &mut position.target_counts;
+        targets
+            .iter_mut()
+            .for_each(|target| *target -= dropped.unwrap_or(0.0));
+        Ok(recording(
+            self.samples,
+            motor,
+            scale,
+            dropped.is_some(),
+            Some(position),
+        ))
+    }
+
+    /// Targets become the volts that the loop makes of them. The readings are as they came: the loop knows no other zero.
+    fn followed(&mut self, settings: LoopSettings) -> Result<PositionDrive, ReadFault> {
+        let (motor, samples) = (self.motor, &mut self.samples);
+        let called = || motor.called().to_owned();
+        let limit = positive("limit_v", settings.limit_v.or(motor.supply_v))?;
+        let limit = limit.ok_or_else(|| ReadFault::NoLimit { motor: called() })?;
+        let target_counts = std::mem::take(&mut samples.command);
+        let follower = Follower {
+            time_s: &samples.time_s,
+            target_counts: &target_counts,
+            counts: &samples.counts,
+            enabled: samples.enabled.as_deref(),
+            counts_per_rev: self.scale.counts_per_rev,
+        };
+        let control = follower.control(&settings, limit);
+        let control = control.map_err(|why| ReadFault::LoopGain {
+            why,
+            motor: called(),
+        })?;
+        samples.command = follower.volts(&control);
+        Ok(PositionDrive {
+            control,
+            target_counts,
+        })
+    }
+}
+
+/// Steps between samples differ by no more than this part where they are even.
+const EVEN: f64 = 0.2;
+
+/// Whether speeds are whole counts a sample, as a controller that differentiates its own counter has them: these went through no filter.
+fn is_whole(samples: &Samples) -> bool {
+    let pairs = samples.time_s.windows(2).zip(&samples.counts[1..]);
+    let mut steps: Vec<f64> = pairs.map(|(time, speed)| speed * (time[1] - time[0])).collect();
+    super::counts::whole_steps(&mut steps)
+}
+
+fn recording(
+    samples: Samples,
+    motor: &MotorFile,
+    scale: &Scale<'_>,
+    quantised: bool,
+    position: Option<PositionDrive>,
+) -> Recording {
+    let PerMeasured(columns) = samples.measured;
+    let named = Measured::ALL.into_iter().zip(columns);
+    let measured = named.fold(Series::NONE, |all, (channel, values)| {
+        all.with(channel, values)
+    });
+    let most = measured.get(Measured::Supply).map(|supply| {
+        let most = supply.iter().copied();
+        most.fold(0.0, f64::max)
+    });
+    Recording {
+        source: String::new(),
+        time_s: samples.time_s,
+        command: samples.command,
+        counts: samples.counts,
+        measured,
+        enabled: samples.enabled,
+        counts_per_rev: scale.counts_per_rev,
+        quantised,
+        supply_v: most.or(motor.supply_v),
+        drive: motor.recorded_drive(),
+        position,
+    }
+}
+
+/// A column with its first value in the place of those before it; none where there is no value at all.
+fn from_the_first(mut values: Vec<f64>) -> Option<Vec<f64>> {
+    let first = values.iter().copied().find(|x| !x.is_nan())?;
+    let unknown = values.iter_mut().take_while(|x| x.is_nan());
+    unknown.for_each(|x| *x = first);
+    Some(values)
+}
