@@ -1,9 +1,9 @@
 //! A recording, from arrays or a file.
 
-use servoid_io::channel::Measured;
 use super::error::raised;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use servoid_io::channel::Measured;
 use servoid_io::input::{Arrays, Known, MotorFile, read_recording, recording_of};
 use servoid_io::recording::Recording as Read;
 use std::path::{Path, PathBuf};

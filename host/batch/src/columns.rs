@@ -1,8 +1,8 @@
 //! One row of a Parquet file of recordings: lists for the series, and what is known of the motor.
 
-use servoid_io::channel::Measured;
 use crate::row::Labels;
 use serde::{Deserialize, Serialize};
+use servoid_io::channel::Measured;
 use servoid_io::input::{Arrays, MotorFile, MotorFileError, ReadError, recording_of};
 use servoid_io::recording::Recording;
 

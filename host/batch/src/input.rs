@@ -4,15 +4,13 @@ use crate::columns::Columns;
 use crate::error::{Error, content, io as refused};
 use crate::shard::Shard;
 use arrow_array::RecordBatch;
-use arrow_cast::cast;
-use arrow_schema::{FieldRef, Schema};
+use arrow_schema::FieldRef;
 use parquet::arrow::arrow_reader::{ParquetRecordBatchReaderBuilder, RowSelection};
 use serde_arrow::schema::{SchemaLike, TracingOptions};
 use std::cell::OnceCell;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use walkdir::WalkDir;
 
 /// Rows of a Parquet file that are in memory at a time.
@@ -226,7 +224,7 @@ fn rows(
     let mut numbers = own.iter();
     for batch in reader {
         let batch = batch.map_err(content(path))?;
-        let batch = in_doubles(&batch).map_err(content(path))?;
+        let batch = projected(&batch).map_err(content(path))?;
         let columns: Vec<Columns> =
             serde_arrow::from_record_batch(&batch).map_err(content(path))?;
         for (columns, number) in columns.into_iter().zip(&mut numbers) {
@@ -243,33 +241,28 @@ fn rows(
     Ok(true)
 }
 
-/// The columns of a recording in the types in which they are used: other programs write counts as whole numbers, and texts in
-/// several ways.
-fn in_doubles(batch: &RecordBatch) -> Result<RecordBatch, String> {
+/// The columns of a recording, of all that a file has. Counts may be whole numbers, and texts written in several ways: they are read as what they
+/// are used as.
+fn projected(batch: &RecordBatch) -> Result<RecordBatch, String> {
     let wanted = fields::<Columns>().map_err(|error| error.to_string())?;
-    let (mut kept, mut arrays) = (Vec::new(), Vec::new());
+    let schema = batch.schema();
+    let mut kept = Vec::new();
     for field in wanted {
-        let Some(array) = batch.column_by_name(field.name()) else {
-            if field.is_nullable() {
-                continue;
+        match schema.index_of(field.name()) {
+            Ok(place) => kept.push(place),
+            Err(_) if field.is_nullable() => {}
+            Err(_) => {
+                let has = schema.fields().iter().map(|field| field.name().as_str());
+                let has: Vec<&str> = has.collect();
+                return Err(format!(
+                    "there is no column {}; the file has {}",
+                    field.name(),
+                    has.join(", ")
+                ));
             }
-            let schema = batch.schema();
-            let has: Vec<&str> = schema
-                .fields()
-                .iter()
-                .map(|field| field.name().as_str())
-                .collect();
-            return Err(format!(
-                "there is no column {}; the file has {}",
-                field.name(),
-                has.join(", ")
-            ));
-        };
-        let array = cast(array, field.data_type());
-        arrays.push(array.map_err(|error| format!("column {}: {error}", field.name()))?);
-        kept.push(field);
+        }
     }
-    RecordBatch::try_new(Arc::new(Schema::new(kept)), arrays).map_err(|error| error.to_string())
+    batch.project(&kept).map_err(|error| error.to_string())
 }
 
 /// The schema of values of a type, as its fields say.

@@ -39,10 +39,7 @@ impl Record for Bench {
             time_s: run.time_s,
             command: run.voltage_v,
             counts: run.counts.iter().map(|&count| count as f64).collect(),
-            measured: Series::NONE.with(
-                Measured::Current,
-                with_current.then_some(run.current_a),
-            ),
+            measured: Series::NONE.with(Measured::Current, with_current.then_some(run.current_a)),
             enabled: coasts.then_some(run.enabled),
             counts_per_rev: f64::from(self.counts_per_rev),
             quantised: true,

@@ -32,10 +32,18 @@ pub(super) fn run(session: &Session, args: &OpenArgs) -> Result<(), Error> {
 fn fitting(file: &str, proposal: &Proposal, given: &[String]) -> (String, Vec<String>) {
     let mut words = vec!["servoid fit".to_owned(), for_shell(file)];
     words.extend_from_slice(given);
-    words.extend(proposal.options().into_iter().filter(|own| !given.contains(own)));
+    words.extend(
+        proposal
+            .options()
+            .into_iter()
+            .filter(|own| !given.contains(own)),
+    );
     words.extend(proposal.needs.iter().map(|need| need.option.clone()));
     let needs = proposal.needs.iter().map(|need| need.text.clone());
-    (words.join(" "), needs.chain(proposal.doubts.iter().cloned()).collect())
+    (
+        words.join(" "),
+        needs.chain(proposal.doubts.iter().cloned()).collect(),
+    )
 }
 
 /// What the user has said by flags, to stand in the command as well.

@@ -1,12 +1,12 @@
 //! A law that is typed on the page: read, and drawn over what the chosen model misses.
 
-use servoid_io::channel::Measured;
 use super::state::Bench;
 use crate::error::Error;
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
 use servoid_formula::{Definition, Fault, Point, Used};
 use servoid_identify::diagnose::discovery::{Carrier, Curve};
+use servoid_io::channel::Measured;
 use shared::effects::formula::{Output, Variable};
 use std::f64::consts::TAU;
 
@@ -128,7 +128,10 @@ fn curve(
             transmitted: current,
             command: current,
             time: 0.0,
-            temperature: data.measured.get(Measured::Temperature).map_or(0.0, |all| all[0]),
+            temperature: data
+                .measured
+                .get(Measured::Temperature)
+                .map_or(0.0, |all| all[0]),
             states: [speed.signum(), 0.0],
         };
         let value = definition.value(values, &point);

@@ -1,7 +1,6 @@
 //! A run that is under way, as the page draws it: the last seconds of what was measured, models that run along, and what they foresee of
 //! an experiment whose commands are known.
 
-use servoid_io::channel::Measured;
 use super::device::UnderWay;
 use super::planned::Planned;
 use super::series::picked;
@@ -10,6 +9,7 @@ use crate::error::Error;
 use serde_json::{Value, json};
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle, errors};
 use servoid_engine::simulation::Method;
+use servoid_io::channel::Measured;
 use servoid_results::picture::Run;
 use shared::cost::Cost;
 use shared::wire::Stage;

@@ -1,6 +1,5 @@
 //! Whole series of samples for the lanes, as little-endian numbers: the page thins them for what is seen.
 
-use servoid_io::channel::Measured;
 use super::answer::{Refusal, aside};
 use super::details::drawn;
 use super::recordings::Recordings;
@@ -12,6 +11,7 @@ use axum::http::HeaderName;
 use axum::http::header::CONTENT_TYPE;
 use serde::Deserialize;
 use servoid_engine::problem::Data;
+use servoid_io::channel::Measured;
 use servoid_results::report::html::Model as Drawn;
 use std::ops::Range;
 

@@ -3,9 +3,15 @@
 use super::columns::Step;
 use crate::batch::Start;
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
+use arrow_array::types::{
+    ArrowPrimitiveType, Date32Type, Date64Type, Decimal32Type, Decimal64Type, Decimal128Type,
+    Decimal256Type, DurationMicrosecondType, DurationMillisecondType, DurationNanosecondType,
+    DurationSecondType, Float16Type, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type,
+    Int64Type, Time32MillisecondType, Time32SecondType, Time64MicrosecondType,
+    Time64NanosecondType, TimestampMicrosecondType, TimestampMillisecondType,
+    TimestampNanosecondType, TimestampSecondType, UInt8Type, UInt16Type, UInt32Type, UInt64Type,
+};
 use arrow_array::{Array, ArrayRef, UInt64Array};
-use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, TimeUnit};
 use arrow_select::take::take;
 
@@ -25,50 +31,120 @@ pub(crate) fn numbers(
     leaf(&array, start)
 }
 
-/// The values of an array without lists and structures.
+/// The values of an array without lists and structures. The types are few, so that the kernels of `arrow-cast`, which convert each type into each
+/// other one, would be most of what a build takes.
 pub(crate) fn leaf(array: &ArrayRef, start: &mut Start) -> Result<Vec<f64>, ArrowError> {
     match array.data_type() {
-        DataType::Dictionary(_, values) => leaf(&cast(array, values)?, start),
-        DataType::Timestamp(unit, _) => times(array, per_second(unit), start),
-        DataType::Date32 | DataType::Date64 => {
-            let unit = TimeUnit::Millisecond;
-            let array = cast(array, &DataType::Timestamp(unit, None))?;
-            times(&array, per_second(&unit), start)
+        DataType::Dictionary(..) => {
+            let Some(dictionary) = array.as_any_dictionary_opt() else {
+                return Err(unlike(array));
+            };
+            let keys = dictionary.normalized_keys().into_iter().enumerate();
+            let places = keys.map(|(row, key)| dictionary.is_valid(row).then_some(key));
+            leaf(&chosen(dictionary.values(), places)?, start)
         }
-        DataType::Time32(_) | DataType::Time64(_) => {
-            let unit = TimeUnit::Nanosecond;
-            times(
-                &cast(array, &DataType::Time64(unit))?,
-                per_second(&unit),
-                start,
-            )
+        DataType::Timestamp(unit, _) => {
+            let ticks = match unit {
+                TimeUnit::Second => ticks::<TimestampSecondType>(array),
+                TimeUnit::Millisecond => ticks::<TimestampMillisecondType>(array),
+                TimeUnit::Microsecond => ticks::<TimestampMicrosecondType>(array),
+                TimeUnit::Nanosecond => ticks::<TimestampNanosecondType>(array),
+            };
+            Ok(times(ticks?, per_second(unit), start))
+        }
+        DataType::Date32 => {
+            let days = ticks::<Date32Type>(array)?;
+            Ok(times(days, 1.0 / SECONDS_A_DAY, start))
+        }
+        DataType::Date64 => Ok(times(ticks::<Date64Type>(array)?, 1e3, start)),
+        DataType::Time32(unit) => {
+            let ticks = match unit {
+                TimeUnit::Second => ticks::<Time32SecondType>(array),
+                _ => ticks::<Time32MillisecondType>(array),
+            };
+            Ok(times(ticks?, per_second(unit), start))
+        }
+        DataType::Time64(unit) => {
+            let ticks = match unit {
+                TimeUnit::Nanosecond => ticks::<Time64NanosecondType>(array),
+                _ => ticks::<Time64MicrosecondType>(array),
+            };
+            Ok(times(ticks?, per_second(unit), start))
         }
         DataType::Duration(unit) => {
-            let array = cast(array, &DataType::Int64)?;
-            let ticks = array.as_primitive::<Int64Type>();
+            let ticks = match unit {
+                TimeUnit::Second => ticks::<DurationSecondType>(array),
+                TimeUnit::Millisecond => ticks::<DurationMillisecondType>(array),
+                TimeUnit::Microsecond => ticks::<DurationMicrosecondType>(array),
+                TimeUnit::Nanosecond => ticks::<DurationNanosecondType>(array),
+            };
             let seconds = |ticks: Option<i64>| {
                 ticks.map_or(f64::NAN, |ticks| ticks as f64 / per_second(unit))
             };
-            Ok(ticks.iter().map(seconds).collect())
+            Ok(ticks?.into_iter().map(seconds).collect())
         }
-        DataType::Float64 => Ok(plain(array)),
-        _ => Ok(plain(&cast(array, &DataType::Float64)?)),
+        DataType::Boolean => {
+            let flags = array.as_boolean_opt().ok_or_else(|| unlike(array))?;
+            let number =
+                |flag: Option<bool>| flag.map_or(f64::NAN, |flag| f64::from(u8::from(flag)));
+            Ok(flags.iter().map(number).collect())
+        }
+        DataType::Int8 => numbers_of::<Int8Type>(array, f64::from),
+        DataType::Int16 => numbers_of::<Int16Type>(array, f64::from),
+        DataType::Int32 => numbers_of::<Int32Type>(array, f64::from),
+        DataType::Int64 => numbers_of::<Int64Type>(array, |x| x as f64),
+        DataType::UInt8 => numbers_of::<UInt8Type>(array, f64::from),
+        DataType::UInt16 => numbers_of::<UInt16Type>(array, f64::from),
+        DataType::UInt32 => numbers_of::<UInt32Type>(array, f64::from),
+        DataType::UInt64 => numbers_of::<UInt64Type>(array, |x| x as f64),
+        DataType::Float16 => numbers_of::<Float16Type>(array, f64::from),
+        DataType::Float32 => numbers_of::<Float32Type>(array, f64::from),
+        DataType::Float64 => numbers_of::<Float64Type>(array, |x| x),
+        DataType::Decimal32(_, scale) => {
+            numbers_of::<Decimal32Type>(array, |x| f64::from(x) / power(*scale))
+        }
+        DataType::Decimal64(_, scale) => {
+            numbers_of::<Decimal64Type>(array, |x| x as f64 / power(*scale))
+        }
+        DataType::Decimal128(_, scale) => {
+            numbers_of::<Decimal128Type>(array, |x| x as f64 / power(*scale))
+        }
+        DataType::Decimal256(_, scale) => {
+            numbers_of::<Decimal256Type>(array, |x| x.to_f64().unwrap_or(f64::NAN) / power(*scale))
+        }
+        _ => Err(unlike(array)),
     }
 }
 
-fn plain(array: &ArrayRef) -> Vec<f64> {
-    let numbers = array.as_primitive_opt::<Float64Type>();
-    let numbers = numbers.into_iter().flatten();
-    numbers.map(|number| number.unwrap_or(f64::NAN)).collect()
+const SECONDS_A_DAY: f64 = 86_400.0;
+
+fn power(scale: i8) -> f64 {
+    10f64.powi(i32::from(scale))
 }
 
-fn times(array: &ArrayRef, per_second: f64, start: &mut Start) -> Result<Vec<f64>, ArrowError> {
-    let array = cast(array, &DataType::Int64)?;
-    let ticks = array.as_primitive_opt::<Int64Type>().into_iter().flatten();
+/// The numbers of an array of one type; NaN where it has none.
+fn numbers_of<T: ArrowPrimitiveType>(
+    array: &ArrayRef,
+    number: impl Fn(T::Native) -> f64,
+) -> Result<Vec<f64>, ArrowError> {
+    let values = array.as_primitive_opt::<T>().ok_or_else(|| unlike(array))?;
+    let values = values.iter().map(|value| value.map_or(f64::NAN, &number));
+    Ok(values.collect())
+}
+
+/// The ticks of an array of times.
+fn ticks<T: ArrowPrimitiveType>(array: &ArrayRef) -> Result<Vec<Option<i64>>, ArrowError>
+where
+    T::Native: Into<i64>,
+{
+    let values = array.as_primitive_opt::<T>().ok_or_else(|| unlike(array))?;
+    Ok(values.iter().map(|value| value.map(Into::into)).collect())
+}
+
+fn times(ticks: Vec<Option<i64>>, per_second: f64, start: &mut Start) -> Vec<f64> {
     let mut since = |ticks: i64| start.since(i128::from(ticks), per_second);
-    Ok(ticks
-        .map(|ticks| ticks.map_or(f64::NAN, &mut since))
-        .collect())
+    let seconds = |ticks: Option<i64>| ticks.map_or(f64::NAN, &mut since);
+    ticks.into_iter().map(seconds).collect()
 }
 
 fn per_second(unit: &TimeUnit) -> f64 {

@@ -290,6 +290,7 @@ fn begun_s(time: &[f64], counts: &[f64]) -> Option<f64> {
     }
     let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
     let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    let slope = mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2)).max(f64::MIN_POSITIVE);
+    let slope =
+        mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2)).max(f64::MIN_POSITIVE);
     Some((y - slope * x).clamp(0.0, first))
 }

@@ -25,7 +25,8 @@ pub(super) fn findings(recording: &Recording) -> Vec<Finding> {
     }
     let reached = steady(recording);
     let named = UNITS.iter().find(|(_, unit)| {
-        let agree = |pair: &&(f64, f64)| (pair.1 - pair.0 * unit).abs() <= AGREE * (pair.0 * unit).abs();
+        let agree =
+            |pair: &&(f64, f64)| (pair.1 - pair.0 * unit).abs() <= AGREE * (pair.0 * unit).abs();
         let agreeing = reached.iter().filter(agree).count();
         let mut levels: Vec<f64> = reached.iter().map(|pair| pair.0).collect();
         levels.sort_by(f64::total_cmp);

@@ -34,7 +34,10 @@ impl Joint {
         let row = |j: &usize| own.iter().map(|&k| spread.covariance[(*j, k)]).collect();
         let joint = Joint {
             names: own.iter().map(|&k| unknowns[k].name.clone()).collect(),
-            units: own.iter().map(|&k| problem.data.drive.unit(unknowns[k].unit)).collect(),
+            units: own
+                .iter()
+                .map(|&k| problem.data.drive.unit(unknowns[k].unit))
+                .collect(),
             values: own.iter().map(|&k| values[k]).collect(),
             covariance: own.iter().map(row).collect(),
         };

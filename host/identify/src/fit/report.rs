@@ -1,6 +1,5 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
-use servoid_io::channel::Measured;
 use super::armature_current::current_evidence;
 use super::interval::ReadingNoise;
 use super::joint::Joint;
@@ -23,6 +22,7 @@ use servoid_engine::problem::rms_counts;
 use servoid_engine::problem::{Base, Candidate, Data, FitProblem, Unknown};
 use servoid_engine::simulation::Method;
 use servoid_engine::solve::Found;
+use servoid_io::channel::Measured;
 use servoid_io::input::Known;
 use servoid_io::recording::Drive;
 use shared::motor::Response;

@@ -52,11 +52,8 @@ impl Measured {
     /// How many there are.
     pub const COUNT: usize = 3;
     /// Every one, in the order in which recordings are written.
-    pub const ALL: [Measured; Measured::COUNT] = [
-        Measured::Current,
-        Measured::Temperature,
-        Measured::Supply,
-    ];
+    pub const ALL: [Measured; Measured::COUNT] =
+        [Measured::Current, Measured::Temperature, Measured::Supply];
 
     /// Its place in lists of one value a measured channel.
     pub(crate) fn place(self) -> usize {

@@ -15,7 +15,7 @@ mod table;
 mod unit;
 
 pub use facts::Facts;
-pub(crate) use table::WANTED;
 pub use kind::{Channel, Measured};
 pub use series::Series;
+pub(crate) use table::WANTED;
 pub use unit::{LinearUnit, PerMeasured};

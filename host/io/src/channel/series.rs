@@ -32,7 +32,8 @@ impl Series {
 
     /// Some of the samples.
     pub fn rows(&self, rows: Range<usize>) -> Self {
-        let some = |column: &Option<Vec<f64>>| column.as_ref().map(|all| all[rows.clone()].to_vec());
+        let some =
+            |column: &Option<Vec<f64>>| column.as_ref().map(|all| all[rows.clone()].to_vec());
         Series(PerMeasured(self.0.0.each_ref().map(some)))
     }
 

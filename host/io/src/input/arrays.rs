@@ -1,11 +1,11 @@
 //! A recording from columns of numbers in memory, by the same conversions and with the same refusals as one from a file.
 
 use super::cell::checked;
+use super::cells::Sample;
+use super::collector::Collector;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
 use super::read_error::{ReadError, ReadFault};
-use super::cells::Sample;
-use super::collector::Collector;
 use super::samples::Further;
 use super::scale::Scale;
 use crate::channel::{Measured, PerMeasured};
@@ -54,7 +54,11 @@ pub fn recording_of(
         }
     }
     let further = Further {
-        measured: arrays.measured.iter().map(|(channel, _)| *channel).collect(),
+        measured: arrays
+            .measured
+            .iter()
+            .map(|(channel, _)| *channel)
+            .collect(),
         enabled: arrays.enabled.is_some(),
     };
     let scale = Scale::new(motor, &further).map_err(whole)?;
@@ -71,11 +75,17 @@ pub fn recording_of(
             };
         let stamp = convert(1, "time", arrays.time[k], &|x| {
             let stamp = scale.time(x);
-            increasing(k.checked_sub(1).map(|before| scale.time(arrays.time[before])), stamp)
+            increasing(
+                k.checked_sub(1)
+                    .map(|before| scale.time(arrays.time[before])),
+                stamp,
+            )
         })?;
         let mut sample = Sample {
             time_s: collector.time(stamp, k as u64).map_err(whole)?,
-            command: Some(convert(2, "command", arrays.command[k], &|x| scale.command(x))?),
+            command: Some(convert(2, "command", arrays.command[k], &|x| {
+                scale.command(x)
+            })?),
             counts: Some(convert(3, "angle", arrays.angle[k], &|x| scale.counts(x))?),
             measured: PerMeasured::default(),
             enabled: arrays.enabled.map(|enabled| enabled[k]),
@@ -92,7 +102,13 @@ pub fn recording_of(
             collector.take(&sample).map_err(whole)?;
         }
     }
-    collector.finish(source)?.only(source).map_err(whole)?.recordings.pop().ok_or_else(|| whole(ReadFault::NoAngle))
+    collector
+        .finish(source)?
+        .only(source)
+        .map_err(whole)?
+        .recordings
+        .pop()
+        .ok_or_else(|| whole(ReadFault::NoAngle))
 }
 
 /// Times in memory are those of one recording, row by row.

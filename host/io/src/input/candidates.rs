@@ -85,14 +85,20 @@ fn of(
     let kind = finder.command_and_angle();
     finder.others();
     let mut doubts = finder.rivals();
-    let angle = finder.found.iter().find(|one| one.channel == Channel::Angle);
+    let angle = finder
+        .found
+        .iter()
+        .find(|one| one.channel == Channel::Angle);
     let turns = angle
         .filter(|_| !joined && motor.log.select.is_empty())
         .and_then(|angle| turns_of(&tables[table], angle.place.1));
     if let Some(turns) = &turns {
         finder.found.retain(|one| one.column != turns.column);
     }
-    let no_command = finder.found.iter().all(|one| one.channel != Channel::Command);
+    let no_command = finder
+        .found
+        .iter()
+        .all(|one| one.channel != Channel::Command);
     if let Some(setpoint) = named.iter().find(|one| is_speed_setpoint(&one.name))
         && no_command
     {
@@ -192,10 +198,7 @@ impl Finder<'_> {
     }
 
     /// The free column that some judge calls best.
-    fn best(
-        &self,
-        judge: &dyn Fn(&Named<'_>) -> Option<(Match, usize)>,
-    ) -> Option<(usize, Match)> {
+    fn best(&self, judge: &dyn Fn(&Named<'_>) -> Option<(Match, usize)>) -> Option<(usize, Match)> {
         let free = (0..self.named.len()).filter(|at| !self.taken.contains(at));
         let judged = free.filter_map(|at| Some((at, judge(&self.named[at])?)));
         let best = judged.min_by_key(|(at, (how, place))| (std::cmp::Reverse(*how), *place, *at));
@@ -203,20 +206,26 @@ impl Finder<'_> {
     }
 
     fn time(&mut self, joined: bool) {
-        if self.has(Channel::Time) || self.motor.log.rate_hz.is_some() || joined && self.all_timed() {
+        if self.has(Channel::Time) || self.motor.log.rate_hz.is_some() || joined && self.all_timed()
+        {
             return;
         }
         if let Some(at) = self.named.iter().position(|one| one.column.is_time) {
             if !joined {
-                self.take(at, Channel::Time, Match::Whole, "the file says that it is a time");
+                self.take(
+                    at,
+                    Channel::Time,
+                    Match::Whole,
+                    "the file says that it is a time",
+                );
             }
             return;
         }
         let best = self.best(&|one| {
             let facts = Channel::Time.facts();
-            facts.called(&one.column.name).filter(|_| {
-                may_be(Channel::Time, &one.column.name, &one.column.profile)
-            })
+            facts
+                .called(&one.column.name)
+                .filter(|_| may_be(Channel::Time, &one.column.name, &one.column.profile))
         });
         if let Some((at, how)) = best {
             self.take(at, Channel::Time, how, "its name, and it rises");
@@ -294,7 +303,11 @@ impl Finder<'_> {
     fn commanded_otherwise(&mut self) -> Option<DriveKind> {
         let current = self.best(&|one| {
             let plausible = may_be(Channel::Command, &one.column.name, &one.column.profile);
-            let unit = told(Channel::Command, &one.column.name, one.column.unit.as_deref());
+            let unit = told(
+                Channel::Command,
+                &one.column.name,
+                one.column.unit.as_deref(),
+            );
             let is_current = matches!(unit, Some("A" | "mA" | "N*m"));
             let own = commanded_current(&one.column.name);
             own.filter(|_| plausible && (is_current || self.kind == DriveKind::Current))
@@ -303,7 +316,10 @@ impl Finder<'_> {
             self.take(at, Channel::Command, how, "its name and unit");
             return Some(DriveKind::Current);
         }
-        let angle = self.found.iter().find(|one| one.channel == Channel::Angle)?;
+        let angle = self
+            .found
+            .iter()
+            .find(|one| one.channel == Channel::Angle)?;
         let (place, unit, name) = (angle.place, angle.unit, angle.column.clone());
         let of_angle = self.named.iter().find(|one| one.place == place)?;
         let profile = &of_angle.column.profile;
@@ -316,7 +332,12 @@ impl Finder<'_> {
             fits.then_some((how, 2 * at + usize::from(!same_axis)))
         });
         let (at, how) = found?;
-        self.take(at, Channel::Command, how, "its name, and the angle follows it");
+        self.take(
+            at,
+            Channel::Command,
+            how,
+            "its name, and the angle follows it",
+        );
         if let Some(last) = self.found.last_mut() {
             // The target has the angle's unit if nothing else is said.
             last.unit = last.unit.filter(|own| Some(*own) != unit);
@@ -340,19 +361,35 @@ impl Finder<'_> {
             })
             .collect();
         if let [only] = moving[..] {
-            self.take(only, Channel::Angle, Match::Part, "the only column that is left");
+            self.take(
+                only,
+                Channel::Angle,
+                Match::Part,
+                "the only column that is left",
+            );
         }
     }
 
     fn others(&mut self) {
-        let share = self.found.iter().find(|one| one.channel == Channel::Command);
+        let share = self
+            .found
+            .iter()
+            .find(|one| one.channel == Channel::Command);
         let share = share.and_then(|one| one.unit);
-        let is_share = matches!(share, Some("duty" | "percent" | "pwm8" | "pwm10" | "pwm885" | "int8"))
-            || self.motor.units.voltage.full_scale().is_some();
-        let positive = self.found.iter().find(|one| one.channel == Channel::Command);
+        let is_share = matches!(
+            share,
+            Some("duty" | "percent" | "pwm8" | "pwm10" | "pwm885" | "int8")
+        ) || self.motor.units.voltage.full_scale().is_some();
+        let positive = self
+            .found
+            .iter()
+            .find(|one| one.channel == Channel::Command);
         let positive = positive.and_then(|one| self.named.iter().find(|n| n.place == one.place));
         let unsigned = positive.is_some_and(|one| {
-            one.column.profile.range().is_some_and(|[least, _]| least >= 0.0)
+            one.column
+                .profile
+                .range()
+                .is_some_and(|[least, _]| least >= 0.0)
         });
         for channel in Channel::ALL {
             let wanted = match channel {
@@ -380,7 +417,8 @@ impl Finder<'_> {
     fn rivals(&self) -> Vec<String> {
         let mut doubts = Vec::new();
         for one in &self.found {
-            if !matches!(one.channel, Channel::Command | Channel::Angle) || one.why == "you say so" {
+            if !matches!(one.channel, Channel::Command | Channel::Angle) || one.why == "you say so"
+            {
                 continue;
             }
             let facts = one.channel.facts();

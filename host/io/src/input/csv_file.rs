@@ -113,6 +113,11 @@ pub(super) fn read_text(
     let words = reader.words.into_inner();
     let settled = words.settle(&mut reading.recordings);
     let settled = settled.map(|text| format!("{source}: {text}"));
-    reading.notes = [rows.into_notes(), reading.notes, settled.into_iter().collect()].concat();
+    reading.notes = [
+        rows.into_notes(),
+        reading.notes,
+        settled.into_iter().collect(),
+    ]
+    .concat();
     Ok(reading)
 }

@@ -128,7 +128,8 @@ impl Dialect {
             dialect.pairs = row.len() >= 4
                 && (0..row.len()).all(|k| {
                     let name = if k % 2 == 0 { "x" } else { "y" };
-                    row.cell(k).is_ok_and(|cell| cell.eq_ignore_ascii_case(name))
+                    row.cell(k)
+                        .is_ok_and(|cell| cell.eq_ignore_ascii_case(name))
                 });
             first = 2;
         }
@@ -193,7 +194,11 @@ impl Dialect {
     /// Whether line 0 is of a preamble that is filled up with separators to the width of the table, which begins at that of `dialect`: no row
     /// of names has mostly empty cells.
     fn is_preamble(lines: &[&[u8]], dialect: &Dialect) -> bool {
-        dialect.before > 0 && lines.iter().take(dialect.before).all(|line| is_padded(dialect, line))
+        dialect.before > 0
+            && lines
+                .iter()
+                .take(dialect.before)
+                .all(|line| is_padded(dialect, line))
     }
 
     /// The row of units, cell by cell, of a file that begins with `head`.

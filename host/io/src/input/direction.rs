@@ -61,5 +61,7 @@ impl DirectionWords {
 /// How much the motion has the sign of the command.
 fn along(recording: &Recording) -> f64 {
     let steps = recording.counts.windows(2).zip(&recording.command);
-    steps.map(|(pair, command)| (pair[1] - pair[0]) * command).sum()
+    steps
+        .map(|(pair, command)| (pair[1] - pair[0]) * command)
+        .sum()
 }

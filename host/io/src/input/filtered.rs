@@ -86,7 +86,11 @@ fn error(speeds: &[f64], command: &[f64]) -> Option<f64> {
     let mut right = Vector4::zeros();
     let (mut all, mut rows) = (0.0, 0usize);
     let row = |k: usize| {
-        let sign = if speeds[k] == 0.0 { 0.0 } else { speeds[k].signum() };
+        let sign = if speeds[k] == 0.0 {
+            0.0
+        } else {
+            speeds[k].signum()
+        };
         // A speed in an interval is driven by the command at its beginning.
         Vector4::new(speeds[k], command[k], sign, 1.0)
     };

@@ -206,7 +206,8 @@ impl Run<'_> {
     fn is_even(&self) -> bool {
         let time = &self.samples.time_s;
         let mean = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-        time.windows(2).all(|pair| (pair[1] - pair[0] - mean).abs() < EVEN * mean)
+        time.windows(2)
+            .all(|pair| (pair[1] - pair[0] - mean).abs() < EVEN * mean)
     }
 
     /// Undoes a filter that the speed went through.
@@ -223,7 +224,9 @@ impl Run<'_> {
         let interval = (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64;
         let what = match filter {
             Filter::Average(samples) => format!("is averaged over {samples} samples"),
-            Filter::Lag(share) => format!("is filtered by a lag that takes {share} of each new value"),
+            Filter::Lag(share) => {
+                format!("is filtered by a lag that takes {share} of each new value")
+            }
         };
         notes.add(format!(
             "the speed {what}, which delays it by {:.1} ms: that is undone before it is integrated, so that inertia and delay do not contain \
@@ -285,7 +288,9 @@ const EVEN: f64 = 0.2;
 /// Whether speeds are whole counts a sample, as a controller that differentiates its own counter has them: these went through no filter.
 fn is_whole(samples: &Samples) -> bool {
     let pairs = samples.time_s.windows(2).zip(&samples.counts[1..]);
-    let mut steps: Vec<f64> = pairs.map(|(time, speed)| speed * (time[1] - time[0])).collect();
+    let mut steps: Vec<f64> = pairs
+        .map(|(time, speed)| speed * (time[1] - time[0]))
+        .collect();
     super::counts::whole_steps(&mut steps)
 }
 

@@ -39,7 +39,12 @@ pub(super) fn guess(
         .filter(|name| !name.is_empty() && !taken.iter().any(|taken| taken == name))
         .collect();
     let mut found: Vec<Option<Guess>> = vec![None; sought.len()];
-    for how in [None, Some(Match::Whole), Some(Match::Part), Some(Match::Nearly)] {
+    for how in [
+        None,
+        Some(Match::Whole),
+        Some(Match::Part),
+        Some(Match::Nearly),
+    ] {
         for (sought, found) in sought.iter().zip(&mut found) {
             if found.is_some() {
                 continue;
@@ -167,8 +172,14 @@ mod tests {
                 "Zeit [s],Spannung [mV],Winkel [Grad],Strom",
                 "Zeit [s],Spannung [mV],Winkel [Grad],Strom,|,mV,deg",
             ),
-            ("temps,tension,position (tr),courant", "temps,tension,position (tr),courant,|,,"),
-            ("tiempo (ms),voltaje,ángulo (grados)", "tiempo (ms),voltaje,ángulo (grados),,|ms,,deg"),
+            (
+                "temps,tension,position (tr),courant",
+                "temps,tension,position (tr),courant,|,,",
+            ),
+            (
+                "tiempo (ms),voltaje,ángulo (grados)",
+                "tiempo (ms),voltaje,ángulo (grados),,|ms,,deg",
+            ),
             ("时间,电压,角度", "时间,电压,角度,,|,,"),
         ] {
             let found = guess(&names(header), &all(), DriveKind::Voltage, &[]);

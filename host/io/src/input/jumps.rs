@@ -133,7 +133,12 @@ mod tests {
 
     #[test]
     fn wrapped_angles_are_unwrapped() {
-        for (turn, fastest) in [(4096.0, 50.0), (4096.0, 1500.0), (360.0, 100.0), (65536.0, 300.0)] {
+        for (turn, fastest) in [
+            (4096.0, 50.0),
+            (4096.0, 1500.0),
+            (360.0, 100.0),
+            (65536.0, 300.0),
+        ] {
             let whole = motion(fastest);
             let mut wrapped: Vec<f64> = whole.iter().map(|x| x.rem_euclid(turn)).collect();
             let found = unwrapped(&mut wrapped, turn).expect("it wraps");
@@ -154,7 +159,10 @@ mod tests {
             assert!(set_anew(&whole).is_empty());
         }
         // Too fast to tell.
-        let mut counts: Vec<f64> = motion(2000.0).iter().map(|x| x.rem_euclid(4096.0)).collect();
+        let mut counts: Vec<f64> = motion(2000.0)
+            .iter()
+            .map(|x| x.rem_euclid(4096.0))
+            .collect();
         assert_eq!(unwrapped(&mut counts, 4096.0), None);
     }
 

@@ -137,6 +137,7 @@ impl Layout {
     }
 
     /// Every column that is read, one that is asked for twice as often.
+    #[cfg(feature = "formats")]
     pub(super) fn columns(&self) -> impl Iterator<Item = &Column> {
         let one = [Some(&self.command), Some(&self.angle)];
         let others = [

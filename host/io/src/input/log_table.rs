@@ -273,7 +273,11 @@ impl Merged {
         let mut row = Row::new();
         for one in &mut self.series {
             let mut is_new = false;
-            while one.values.get(one.next).is_some_and(|pair| pair[0] <= time + self.cycle_s) {
+            while one
+                .values
+                .get(one.next)
+                .is_some_and(|pair| pair[0] <= time + self.cycle_s)
+            {
                 one.next += 1;
                 is_new = true;
             }
@@ -295,7 +299,10 @@ fn on_change(values: &[[f64; 2]]) -> bool {
 
 /// The median time from one value to the next, s.
 fn usual_step(values: &[[f64; 2]]) -> f64 {
-    let mut steps: Vec<f64> = values.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+    let mut steps: Vec<f64> = values
+        .windows(2)
+        .map(|pair| pair[1][0] - pair[0][0])
+        .collect();
     if steps.is_empty() {
         return 0.0;
     }
@@ -304,7 +311,11 @@ fn usual_step(values: &[[f64; 2]]) -> f64 {
 }
 
 fn sample(row: &Row, scale: &Scale<'_>, time_s: f64) -> Result<Sample, ReadFault> {
-    let value = |channel| row.iter().find(|(own, _)| *own == channel).map(|(_, value)| *value);
+    let value = |channel| {
+        row.iter()
+            .find(|(own, _)| *own == channel)
+            .map(|(_, value)| *value)
+    };
     let direction = value(Channel::Direction);
     let command = value(Channel::Command).map(|command| directed(command, direction));
     let convert = |value: Option<f64>, to: &dyn Fn(f64) -> Result<f64, ReadFault>| {

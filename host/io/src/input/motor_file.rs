@@ -93,7 +93,9 @@ impl Columns {
 
     /// All that are named.
     pub fn iter(&self) -> impl Iterator<Item = (Channel, &str)> {
-        self.0.iter().map(|(channel, name)| (*channel, name.as_str()))
+        self.0
+            .iter()
+            .map(|(channel, name)| (*channel, name.as_str()))
     }
 
     /// Whether any is named by a number, as the columns of a table without names are.

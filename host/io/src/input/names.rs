@@ -65,7 +65,9 @@ pub(super) fn is_called(name: &str, word: &str) -> bool {
 
 /// Whether one of these words is a part of a name.
 pub(super) fn has_part(name: &str, words: &[&str]) -> bool {
-    parts(name).iter().any(|part| words.contains(&part.as_str()))
+    parts(name)
+        .iter()
+        .any(|part| words.contains(&part.as_str()))
 }
 
 impl Facts {
@@ -84,7 +86,10 @@ impl Facts {
         }
         let nearly = match whole.len() {
             0 | 1 => false,
-            2 => self.words.iter().any(|word| word.len() == 1 && whole.starts_with(word)),
+            2 => self
+                .words
+                .iter()
+                .any(|word| word.len() == 1 && whole.starts_with(word)),
             _ => {
                 let long = self.words.iter().copied().filter(|word| word.len() > 2);
                 nearest(&whole, long).is_some()

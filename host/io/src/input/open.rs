@@ -4,12 +4,12 @@ use super::csv_file::{How, read_text};
 use super::missing::Advice;
 use super::motor_file::MotorFile;
 use super::part::Part;
-use super::profile::KEPT;
-use super::survey::survey;
 use super::place::Place;
+use super::profile::KEPT;
 use super::reached::{Count, CountedFile, Reached};
 use super::read_error::{ReadError, ReadFault};
 use super::reading::Reading;
+use super::survey::survey;
 use crate::recording::Recording;
 use encoding_rs_io::DecodeReaderBytesBuilder;
 #[cfg(feature = "formats")]

@@ -85,7 +85,10 @@ impl Span {
         let alone = self.count == 1;
         if let Some(earlier) = earlier.filter(|_| alone) {
             let step = now - earlier.last;
-            if step > 0.0 && !earlier.is_absurd(step) && (now - self.last).abs() > ABSURD * earlier.usual {
+            if step > 0.0
+                && !earlier.is_absurd(step)
+                && (now - self.last).abs() > ABSURD * earlier.usual
+            {
                 return Ok(Next::Resumes);
             }
         }
@@ -152,7 +155,9 @@ mod tests {
     #[test]
     fn counters_of_microseconds_run_over() {
         let lost = 2f64.powi(32) / 1e6;
-        let times: Vec<f64> = (0..100).map(|k| lost - 0.995 + 0.01 * f64::from(k)).collect();
+        let times: Vec<f64> = (0..100)
+            .map(|k| lost - 0.995 + 0.01 * f64::from(k))
+            .collect();
         let span = run(&times);
         assert_eq!(span.ran_over(0.005, TimeUnit::Microseconds), Some(lost));
         assert_eq!(span.ran_over(0.005, TimeUnit::Seconds), None);

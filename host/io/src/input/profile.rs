@@ -91,7 +91,8 @@ impl Profile {
 
     /// The largest number without its sign.
     pub(super) fn largest(&self) -> f64 {
-        self.range.map_or(0.0, |[low, high]| low.abs().max(high.abs()))
+        self.range
+            .map_or(0.0, |[low, high]| low.abs().max(high.abs()))
     }
 
     /// Whether all numbers are whole.
@@ -101,7 +102,8 @@ impl Profile {
 
     /// Whether it holds numbers, and hardly anything else.
     pub(super) fn is_number(&self) -> bool {
-        self.words.is_empty() || self.numbers > 0 && self.words.len() < 3 && self.numbers * 20 > self.rows * 19
+        self.words.is_empty()
+            || self.numbers > 0 && self.words.len() < 3 && self.numbers * 20 > self.rows * 19
     }
 
     /// Whether all numbers are one.

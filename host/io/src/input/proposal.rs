@@ -74,7 +74,10 @@ impl Proposal {
             proposal.take_preset(preset);
         }
         let all = candidates(tables, &proposal.motor);
-        let Some(best) = all.into_iter().max_by_key(|one| (one.worth(), std::cmp::Reverse(one.place()))) else {
+        let Some(best) = all
+            .into_iter()
+            .max_by_key(|one| (one.worth(), std::cmp::Reverse(one.place())))
+        else {
             return proposal;
         };
         proposal.take(best, tables);
@@ -125,7 +128,8 @@ impl Proposal {
             }
             if *how < Match::Part && !said(*channel) {
                 let key = self.motor.drive_kind().key(*channel);
-                self.doubts.push(format!("`{column}` may or may not be the {key}"));
+                self.doubts
+                    .push(format!("`{column}` may or may not be the {key}"));
             }
             self.columns.push(Proposed {
                 channel: *channel,
@@ -139,8 +143,13 @@ impl Proposal {
         self.doubts.extend(best.doubts);
         if let Some(Turns { column, values }) = best.turns {
             let value = values.into_iter().next().unwrap_or_default();
-            self.doubts.push(format!("the rows of several motors take turns in `{column}`"));
-            self.motor.log.select.push(super::log_part::Selection { column, value });
+            self.doubts.push(format!(
+                "the rows of several motors take turns in `{column}`"
+            ));
+            self.motor
+                .log
+                .select
+                .push(super::log_part::Selection { column, value });
             self.select = true;
         }
         self.what_is_needed();
@@ -173,14 +182,18 @@ impl Proposal {
             Channel::Command if usual && self.motor.drive_kind() == DriveKind::Voltage => {
                 let (unit, sure) = command_unit(name, profile);
                 if !sure {
-                    self.doubts.push(format!("the unit of `{name}` is not sure"));
+                    self.doubts
+                        .push(format!("the unit of `{name}` is not sure"));
                 }
                 unit
             }
-            Channel::Angle if usual && known.angle == AngleUnit::Counts && name != "angle_counts" => {
+            Channel::Angle
+                if usual && known.angle == AngleUnit::Counts && name != "angle_counts" =>
+            {
                 let Some((unit, counts)) = angle_step(profile) else {
                     if !profile.is_whole() {
-                        self.doubts.push(format!("the unit of `{name}` is not told"));
+                        self.doubts
+                            .push(format!("the unit of `{name}` is not told"));
                         self.needs.push(Need {
                             option: "--unit angle=UNIT".to_owned(),
                             text: format!("the unit of `{name}`: deg, rad or rev"),
@@ -252,7 +265,8 @@ impl Proposal {
             });
         }
         if !missing.is_empty() {
-            self.doubts.push("a column that is needed is missing".to_owned());
+            self.doubts
+                .push("a column that is needed is missing".to_owned());
         }
     }
 
@@ -283,7 +297,10 @@ impl Proposal {
         for one in &self.columns {
             let key = kind.key(one.channel);
             if self.motor.columns.get(one.channel) == Some(&one.column) {
-                words.push(format!("--column {}", for_shell(&format!("{key}={}", one.column))));
+                words.push(format!(
+                    "--column {}",
+                    for_shell(&format!("{key}={}", one.column))
+                ));
             }
             let is_usual = one.channel == Channel::Command
                 && kind == DriveKind::Current
@@ -351,7 +368,11 @@ fn likely(tables: &[SurveyTable]) -> Option<&'static Preset> {
                 let mut names = preset.names_of(channel).iter();
                 names.find_map(|name| table.columns.iter().find(|c| c.name == *name))
             };
-            let all = (column(Channel::Time), column(Channel::Command), column(Channel::Angle));
+            let all = (
+                column(Channel::Time),
+                column(Channel::Command),
+                column(Channel::Angle),
+            );
             let (Some(time), Some(command), Some(angle)) = all else {
                 return false;
             };

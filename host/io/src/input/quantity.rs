@@ -7,8 +7,22 @@ use crate::channel::Channel;
 
 /// What speeds are called, the likeliest first.
 const SPEEDS: &[&str] = &[
-    "speed", "velocity", "omega", "velo", "vel", "rpm", "dtheta", "dq", "qd", "w", "geschwindigkeit",
-    "drehzahl", "vitesse", "velocidad", "\u{901f}\u{5ea6}", "\u{8f6c}\u{901f}",
+    "speed",
+    "velocity",
+    "omega",
+    "velo",
+    "vel",
+    "rpm",
+    "dtheta",
+    "dq",
+    "qd",
+    "w",
+    "geschwindigkeit",
+    "drehzahl",
+    "vitesse",
+    "velocidad",
+    "\u{901f}\u{5ea6}",
+    "\u{8f6c}\u{901f}",
 ];
 /// How names end that tell a speed's unit, the longest first.
 const SPEED_ENDS: &[(&str, &str)] = &[
@@ -34,19 +48,64 @@ const SPEED_ENDS: &[(&str, &str)] = &[
 ];
 /// What is wanted of a position loop, the likeliest first.
 const TARGETS: &[&str] = &[
-    "target", "goal", "setpoint", "reference", "desired", "ref", "command", "commanded", "cmd", "action", "soll",
-    "sollwert", "ziel", "consigne", "cible", "consigna", "objetivo", "\u{76ee}\u{6807}",
+    "target",
+    "goal",
+    "setpoint",
+    "reference",
+    "desired",
+    "ref",
+    "command",
+    "commanded",
+    "cmd",
+    "action",
+    "soll",
+    "sollwert",
+    "ziel",
+    "consigne",
+    "cible",
+    "consigna",
+    "objetivo",
+    "\u{76ee}\u{6807}",
 ];
 const NO_TARGETS: &[&str] = &[
-    "speed", "velocity", "vel", "torque", "current", "error", "voltage", "volts", "pwm", "duty",
-    "geschwindigkeit", "drehzahl", "moment", "strom",
+    "speed",
+    "velocity",
+    "vel",
+    "torque",
+    "current",
+    "error",
+    "voltage",
+    "volts",
+    "pwm",
+    "duty",
+    "geschwindigkeit",
+    "drehzahl",
+    "moment",
+    "strom",
 ];
 /// What a drive that closes a current loop is commanded by, the likeliest first.
 const CURRENTS: &[&str] = &[
-    "current_command", "iq_setpoint", "iq_ref", "iq_cmd", "command", "cmd", "setpoint", "current_a", "current", "torque",
-    "iq", "i", "sollstrom", "drehmoment", "strom", "voltage", "u",
+    "current_command",
+    "iq_setpoint",
+    "iq_ref",
+    "iq_cmd",
+    "command",
+    "cmd",
+    "setpoint",
+    "current_a",
+    "current",
+    "torque",
+    "iq",
+    "i",
+    "sollstrom",
+    "drehmoment",
+    "strom",
+    "voltage",
+    "u",
 ];
-const NO_CURRENTS: &[&str] = &["limit", "max", "bus", "supply", "battery", "measured", "meas", "actual", "mos"];
+const NO_CURRENTS: &[&str] = &[
+    "limit", "max", "bus", "supply", "battery", "measured", "meas", "actual", "mos",
+];
 
 /// How surely a name means one of these words, and which.
 fn called(name: &str, words: &[&str], others: &[&str]) -> Option<(Match, usize)> {
@@ -94,7 +153,9 @@ pub(super) fn speed_unit(name: &str) -> Option<&'static str> {
     });
     by_end.map(|(_, unit)| *unit).or_else(|| {
         let unit = unit_of(Channel::Angle, bracketed(name)?)?;
-        unit.contains('/').then_some(unit).or_else(|| (unit == "rpm").then_some(unit))
+        unit.contains('/')
+            .then_some(unit)
+            .or_else(|| (unit == "rpm").then_some(unit))
     })
 }
 
@@ -126,6 +187,8 @@ pub(super) fn has_foreign_unit(channel: Channel, name: &str) -> bool {
         return false;
     }
     let newton_metres = ["nm", "n*m", "n.m"].contains(&super::names::folded(inside).as_str());
-    let known = Channel::ALL.into_iter().any(|other| unit_of(other, inside).is_some());
+    let known = Channel::ALL
+        .into_iter()
+        .any(|other| unit_of(other, inside).is_some());
     known || newton_metres
 }

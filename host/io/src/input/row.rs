@@ -56,7 +56,10 @@ impl Row {
                 let cell = &mut self.text[start..*end];
                 start = *end;
                 // Names and texts keep their commas.
-                if cell.iter().all(|byte| byte.is_ascii_digit() || b" +-.,eE".contains(byte)) {
+                if cell
+                    .iter()
+                    .all(|byte| byte.is_ascii_digit() || b" +-.,eE".contains(byte))
+                {
                     let commas = cell.iter_mut().filter(|byte| **byte == b',');
                     commas.for_each(|byte| *byte = b'.');
                 }

@@ -112,7 +112,10 @@ impl<'m> Scale<'m> {
     /// A measured value in its channel's own unit.
     pub(super) fn measured(&self, channel: Measured, value: f64) -> f64 {
         let units = &self.motor.units;
-        turned(units.of(channel).own(value), units.reversed.measured[channel])
+        turned(
+            units.of(channel).own(value),
+            units.reversed.measured[channel],
+        )
     }
 
     /// Counts after which a word of so many bits begins anew, where the column holds a speed.

@@ -43,7 +43,9 @@ const OVERFLOWS: (f64, f64) = (0.6, 0.3);
 
 /// Undoes the overflow of speeds that were kept in a `word` of so many counts a second; `None` where they show none. Gives how many times.
 pub(super) fn without_overflow(speeds: &mut [f64], word: f64) -> Option<usize> {
-    let within = speeds.iter().all(|speed| speed.abs() <= 0.5 * word * (1.0 + 1e-9));
+    let within = speeds
+        .iter()
+        .all(|speed| speed.abs() <= 0.5 * word * (1.0 + 1e-9));
     let large = |pair: &[f64]| (pair[1] - pair[0]).abs() > OVERFLOWS.0 * word;
     if !within || !speeds.windows(2).any(large) {
         return None;

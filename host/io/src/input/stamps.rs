@@ -94,14 +94,19 @@ mod tests {
             let Some(Spread::Even { interval_s, .. }) = spread(&mut rows) else {
                 panic!("{rate} Hz");
             };
-            assert!((interval_s * rate - 1.0).abs() < 1e-4, "{rate}: {interval_s}");
+            assert!(
+                (interval_s * rate - 1.0).abs() < 1e-4,
+                "{rate}: {interval_s}"
+            );
             assert!(rows.time_s.windows(2).all(|pair| pair[1] > pair[0]));
         }
     }
 
     #[test]
     fn copies_are_left_out_and_what_cannot_be_told_is_refused() {
-        let mut time: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.001 + f64::from(k / 100)).collect();
+        let mut time: Vec<f64> = (0..1000)
+            .map(|k| f64::from(k) * 0.001 + f64::from(k / 100))
+            .collect();
         time[500] = time[499];
         let mut rows = samples(time.clone());
         assert_eq!(spread(&mut rows.clone()), None);

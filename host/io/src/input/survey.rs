@@ -1,7 +1,6 @@
 //! What a file holds: its tables, their columns with ranges, and what each is guessed to be. It reads the whole file, some rows at
 //! a time, and keeps of them what a drawing shows.
 
-use super::text_rows::TextRows;
 use super::envelope::Envelope;
 use super::guess::{Sought, guess};
 #[cfg(feature = "formats")]
@@ -17,6 +16,7 @@ use super::profile::Profile;
 use super::proposal::Proposal;
 use super::reached::{ROWS_TO_TELL, Reached};
 use super::read_error::{ReadError, ReadFault};
+use super::text_rows::TextRows;
 use crate::channel::Channel;
 #[cfg(feature = "formats")]
 use servoid_formats::{Kind, Log, Table};
@@ -216,7 +216,11 @@ fn of_text(
     for column in table.columns.iter_mut().take(COLUMNS) {
         column.envelope = Some(Envelope::default());
     }
-    for (column, unit) in table.columns.iter_mut().zip(rows.units().unwrap_or_default()) {
+    for (column, unit) in table
+        .columns
+        .iter_mut()
+        .zip(rows.units().unwrap_or_default())
+    {
         column.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
     let header: Vec<String> = rows.names().to_vec();
@@ -309,6 +313,7 @@ impl SurveyColumn {
         }
     }
 
+    #[cfg(feature = "formats")]
     fn take(&mut self, value: f64) {
         self.profile.take(value);
         self.drawn(value);

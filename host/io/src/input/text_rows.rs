@@ -106,8 +106,8 @@ impl<'s, R: BufRead> TextRows<'s, R> {
     /// Whether the row has a cell for each name, and what stands behind is empty.
     fn has_width(&self) -> bool {
         let behind = self.names.len()..self.row.len();
-        self.row.len() >= self.names.len()
-            && { behind }.all(|k| self.row.cell(k).is_ok_and(str::is_empty))
+        self.row.len() >= self.names.len() && { behind }
+            .all(|k| self.row.cell(k).is_ok_and(str::is_empty))
     }
 
     /// Whether the row holds the names once more, as in logs that were put together.

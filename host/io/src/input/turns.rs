@@ -49,7 +49,9 @@ fn takes_turns(profile: &Profile) -> Option<Vec<f64>> {
         return None;
     }
     let first = &profile.first;
-    let periodic = (count..rows).filter(|k| first[*k] == first[*k - count]).count();
+    let periodic = (count..rows)
+        .filter(|k| first[*k] == first[*k - count])
+        .count();
     let changing = (1..rows).filter(|k| first[*k] != first[*k - 1]).count();
     let enough = |found: usize, of: usize| found as f64 >= IN_TURN * of as f64;
     (enough(periodic, rows - count) && enough(changing, rows - 1)).then_some(levels)
@@ -57,15 +59,22 @@ fn takes_turns(profile: &Profile) -> Option<Vec<f64>> {
 
 /// Whether a name says whose row it is.
 fn is_identity(name: &str) -> bool {
-    let words = ["id", "motor", "axis", "joint", "node", "can", "device", "servo", "achse", "axe"];
-    let mut parts = name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase);
+    let words = [
+        "id", "motor", "axis", "joint", "node", "can", "device", "servo", "achse", "axe",
+    ];
+    let mut parts = name
+        .split(|c: char| !c.is_alphanumeric())
+        .map(str::to_lowercase);
     parts.any(|part| words.contains(&part.as_str()) || part.ends_with("id"))
 }
 
 /// Whether an angle is smooth within the rows of one value, and jumps between them.
 fn parts(angle: &[f64], by: &[f64]) -> bool {
     let moved = |a: f64, b: f64| Some((a - b).abs()).filter(|step| step.is_finite());
-    let over: f64 = angle.windows(2).filter_map(|pair| moved(pair[1], pair[0])).sum();
+    let over: f64 = angle
+        .windows(2)
+        .filter_map(|pair| moved(pair[1], pair[0]))
+        .sum();
     let mut last: Vec<(f64, f64)> = Vec::new();
     let mut within = 0.0;
     for (value, key) in angle.iter().zip(by) {
@@ -84,7 +93,11 @@ fn parts(angle: &[f64], by: &[f64]) -> bool {
 mod tests {
     use super::*;
 
-    fn columns(ids: &str, id: impl Fn(u32) -> f64, angle: impl Fn(u32) -> f64) -> Vec<(String, Profile)> {
+    fn columns(
+        ids: &str,
+        id: impl Fn(u32) -> f64,
+        angle: impl Fn(u32) -> f64,
+    ) -> Vec<(String, Profile)> {
         let (mut by, mut of) = (Profile::default(), Profile::default());
         for k in 0..200 {
             by.take(id(k));
@@ -97,7 +110,10 @@ mod tests {
     fn motors_that_take_turns_are_told() {
         let two = columns("motor_id", |k| f64::from(1 + k % 2), |k| f64::from(k / 2));
         let found = several(&two, 1).expect("two motors");
-        assert_eq!((found.column.as_str(), found.values), ("motor_id", vec!["1".to_owned(), "2".to_owned()]));
+        assert_eq!(
+            (found.column.as_str(), found.values),
+            ("motor_id", vec!["1".to_owned(), "2".to_owned()])
+        );
         // Without such a name the angle must jump.
         let jumps = |k: u32| f64::from(k / 3) + 1000.0 * f64::from(k % 3);
         assert!(several(&columns("x", |k| f64::from(k % 3), jumps), 1).is_some());

@@ -73,7 +73,10 @@ pub(super) fn with_units<'u>(
     let usual = motor.log.preset.map(Preset::units).unwrap_or_default();
     let named = |channel: Channel, column: &Column| unit_of(channel, unit(column.index)?);
     let kind = motor.drive_kind();
-    if let Some(name) = layout.time.as_ref().and_then(|column| named(Channel::Time, column))
+    if let Some(name) = layout
+        .time
+        .as_ref()
+        .and_then(|column| named(Channel::Time, column))
         && motor.units.time == usual.time
     {
         told.set_unit(Channel::Time, name);

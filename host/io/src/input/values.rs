@@ -22,7 +22,9 @@ pub(super) fn is_plausible(channel: Channel, profile: &Profile) -> bool {
         return match channel {
             Channel::Time => profile.dates > 0,
             Channel::Direction => is_two_words(profile),
-            Channel::Enabled => profile.words.len() <= 2 && profile.words.iter().all(|w| is_switch(w)),
+            Channel::Enabled => {
+                profile.words.len() <= 2 && profile.words.iter().all(|w| is_switch(w))
+            }
             _ => false,
         };
     };
@@ -30,9 +32,7 @@ pub(super) fn is_plausible(channel: Channel, profile: &Profile) -> bool {
     let within = least >= range[0] && greatest <= range[1];
     match channel {
         Channel::Time => profile.is_rising(),
-        Channel::Command => {
-            profile.is_number() && !profile.is_constant() && !profile.is_rising()
-        }
+        Channel::Command => profile.is_number() && !profile.is_constant() && !profile.is_rising(),
         Channel::Angle => profile.is_number() && !profile.is_constant(),
         Channel::Measured(crate::channel::Measured::Supply) => {
             within && greatest < SUPPLY * least && !profile.is_rising()
@@ -51,7 +51,9 @@ fn is_two_words(profile: &Profile) -> bool {
 }
 
 fn is_switch(word: &str) -> bool {
-    ["true", "false"].iter().any(|own| word.eq_ignore_ascii_case(own))
+    ["true", "false"]
+        .iter()
+        .any(|own| word.eq_ignore_ascii_case(own))
 }
 
 /// The unit of a time without one: the largest for which its steps are those of a motor's log; none for seconds.
@@ -81,7 +83,12 @@ pub(super) fn command_unit(name: &str, profile: &Profile) -> (Option<&'static st
     let words = parts(name);
     let is = |word: &str| words.iter().any(|part| part.contains(word));
     let largest = profile.largest();
-    let is_share = is("pwm") || is("duty") || is("tastgrad") || is("throttle") || is("ciclo") || is("tastverh");
+    let is_share = is("pwm")
+        || is("duty")
+        || is("tastgrad")
+        || is("throttle")
+        || is("ciclo")
+        || is("tastverh");
     if !is_share {
         return (None, largest <= 1000.0);
     }
@@ -103,10 +110,16 @@ pub(super) fn command_unit(name: &str, profile: &Profile) -> (Option<&'static st
 /// number of it. None where it is whole counts, or no plain part of a turn.
 pub(super) fn angle_step(profile: &Profile) -> Option<(&'static str, f64)> {
     let least = profile.least_step.filter(|_| !profile.is_whole())?;
-    let steps = profile.first.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    let near: Vec<f64> = steps.filter(|step| *step >= 0.5 * least && *step < 1.5 * least).collect();
+    let steps = profile
+        .first
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs());
+    let near: Vec<f64> = steps
+        .filter(|step| *step >= 0.5 * least && *step < 1.5 * least)
+        .collect();
     let mean = near.iter().sum::<f64>() / near.len().max(1) as f64;
-    let counts = [("deg", 360.0), ("rad", TAU), ("rev", 1.0)].map(|(unit, turn)| (unit, turn / mean));
+    let counts =
+        [("deg", 360.0), ("rad", TAU), ("rev", 1.0)].map(|(unit, turn)| (unit, turn / mean));
     let mut fitting = counts.into_iter().filter(|(_, counts)| {
         let round = usual_counts(*counts);
         (COUNTS[0]..=COUNTS[1]).contains(counts) && round.is_some()
@@ -122,7 +135,10 @@ fn usual_counts(counts: f64) -> Option<f64> {
     if (counts / power - 1.0).abs() < 0.005 {
         return Some(power);
     }
-    let lines = [100.0, 120.0, 128.0, 200.0, 250.0, 256.0, 300.0, 360.0, 400.0, 500.0, 512.0, 600.0, 720.0, 1000.0, 1250.0, 2000.0, 2500.0, 5000.0];
+    let lines = [
+        100.0, 120.0, 128.0, 200.0, 250.0, 256.0, 300.0, 360.0, 400.0, 500.0, 512.0, 600.0, 720.0,
+        1000.0, 1250.0, 2000.0, 2500.0, 5000.0,
+    ];
     let near = |lines: &f64| (counts / (4.0 * lines) - 1.0).abs() < WHOLE / 4.0;
     lines.iter().copied().find(near).map(|lines| 4.0 * lines)
 }
@@ -152,7 +168,12 @@ mod tests {
 
     #[test]
     fn the_unit_of_a_time_is_told_by_its_steps() {
-        for (step, wanted) in [(0.001, None), (5.0, Some("ms")), (1000.0, Some("us")), (1e6, Some("ns"))] {
+        for (step, wanted) in [
+            (0.001, None),
+            (5.0, Some("ms")),
+            (1000.0, Some("us")),
+            (1e6, Some("ns")),
+        ] {
             let times = profile((0..100).map(|k| step * f64::from(k)));
             assert_eq!(time_unit(&times), wanted, "{step}");
         }

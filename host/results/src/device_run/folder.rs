@@ -1,10 +1,10 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
-use servoid_io::channel::{Measured, Series};
 use super::live::left_in;
 use super::{DutyScale, FolderError, Recorded};
 use crate::schema::DeviceRun;
 use crate::schema::device::FILE as DEVICE;
+use servoid_io::channel::{Measured, Series};
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_io::output::{write_recording, write_whole};
 use servoid_io::recording::{Drive, Recording};

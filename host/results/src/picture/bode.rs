@@ -1,9 +1,7 @@
 //! Bode plot of several position loops, with the lines at which margins are read.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use plotly::common::{DashType, Line, Mode};
-use plotly::layout::AxisType;
-use plotly::{Plot, Scatter};
 use servoid_identify::fit::margins::Loop;
 
 const POINTS: usize = 240;
@@ -14,36 +12,36 @@ pub fn bode(id: &str, loops: &[(String, Loop)]) -> Picture {
     let frequencies: Vec<f64> = (0..=POINTS)
         .map(|k| rounded(from * (to / from).powf(k as f64 / POINTS as f64)))
         .collect();
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let mut table = Table::new(&["loop", "gain margin, dB", "phase margin, degrees"]);
     for (k, (name, l)) in loops.iter().enumerate() {
         // Equal loops lie on each other: the wide ones below, so that all show.
         let width = 1.5 + 1.2 * (loops.len() - 1 - k) as f64;
         let line = || {
-            Line::new()
-                .color(colour::of(loops.len() - 1 - k))
-                .width(width)
-                .simplify(false)
+            Properties::default()
+                .set("color", colour::of(loops.len() - 1 - k))
+                .set("width", width)
+                .set("simplify", false)
         };
         let of = |value: fn((f64, f64)) -> f64| -> Vec<f64> {
             let values = frequencies.iter().map(|&w| rounded(value(l.response(w))));
             values.collect()
         };
-        plot.add_trace(
-            Scatter::new(frequencies.clone(), of(|(size, _)| 20.0 * size.log10()))
-                .name(name)
-                .legend_group(name)
-                .mode(Mode::Lines)
-                .line(line()),
+        plot.add(
+            scatter(frequencies.clone(), of(|(size, _)| 20.0 * size.log10()))
+                .set("name", name)
+                .set("legendgroup", name)
+                .set("mode", "lines")
+                .set("line", line()),
         );
-        plot.add_trace(
-            Scatter::new(frequencies.clone(), of(|(_, phase)| phase))
-                .name(name)
-                .legend_group(name)
-                .show_legend(false)
-                .mode(Mode::Lines)
-                .line(line())
-                .y_axis("y2"),
+        plot.add(
+            scatter(frequencies.clone(), of(|(_, phase)| phase))
+                .set("name", name)
+                .set("legendgroup", name)
+                .set("showlegend", false)
+                .set("mode", "lines")
+                .set("line", line())
+                .set("yaxis", "y2"),
         );
         let cells = match l.margins() {
             Some(m) if m.gain_db.is_finite() => {
@@ -56,28 +54,38 @@ pub fn bode(id: &str, loops: &[(String, Loop)]) -> Picture {
         table.row([name.clone(), gain, phase]);
     }
     for (mark, pane) in [(0.0, "y"), (-180.0, "y2")] {
-        plot.add_trace(
-            Scatter::new(vec![rounded(from), rounded(to)], vec![mark; 2])
-                .mode(Mode::Lines)
-                .show_legend(false)
-                .hover_info(plotly::common::HoverInfo::Skip)
-                .line(
-                    Line::new()
-                        .color(colour::QUIET)
-                        .width(1.0)
-                        .dash(DashType::Dash),
+        plot.add(
+            scatter(vec![rounded(from), rounded(to)], vec![mark; 2])
+                .set("mode", "lines")
+                .set("showlegend", false)
+                .set("hoverinfo", "skip")
+                .set(
+                    "line",
+                    Properties::default()
+                        .set("color", colour::QUIET)
+                        .set("width", 1.0)
+                        .set("dash", "dash"),
                 )
-                .y_axis(pane),
+                .set("yaxis", pane),
         );
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(520)
-            .x_axis(axis("frequency, rad/s").type_(AxisType::Log).anchor("y2"))
-            .y_axis(axis("magnitude, dB(rad/V)").domain(&[0.54, 1.0]))
-            .y_axis2(
+            .set(
+                "xaxis",
+                axis("frequency, rad/s")
+                    .set("type", "log")
+                    .set("anchor", "y2"),
+            )
+            .set(
+                "yaxis",
+                axis("magnitude, dB(rad/V)").set("domain", &[0.54, 1.0]),
+            )
+            .set(
+                "yaxis2",
                 axis("phase, degrees")
-                    .domain(&[0.0, 0.46])
-                    .range(vec![-280.0, -80.0]),
+                    .set("domain", &[0.0, 0.46])
+                    .set("range", vec![-280.0, -80.0]),
             ),
     );
     Picture {
@@ -86,7 +94,7 @@ pub fn bode(id: &str, loops: &[(String, Loop)]) -> Picture {
         caption: "Angle per volt of the linear motor, closed with unity feedback in radians as in the paper. The gain \
                   margin is read where the phase crosses -180 degrees, the phase margin where the magnitude crosses 0 dB."
             .to_owned(),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     }
 }

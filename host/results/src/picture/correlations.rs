@@ -1,10 +1,8 @@
 //! The residual's correlation with itself and with the command, with honest bands (Ljung, *System Identification*, 1999,
 //! section 16.6).
 
+use super::chart::{Chart, Properties, bars, scatter};
 use super::{Drawing, Picture, axis, colour, layout, rounded};
-use plotly::common::{DashType, Line, Marker, Mode};
-use plotly::layout::{LayoutGrid, Shape, ShapeLayer, ShapeLine, ShapeType};
-use plotly::{Bar, Plot, Scatter};
 use servoid_identify::diagnose::residual_analysis::Correlations;
 
 /// Half the width of the drawn band, standard deviations: nineteen of twenty independent values lie within.
@@ -12,30 +10,36 @@ const WIDE: f64 = 1.96;
 
 /// Draws the correlations of the residuals of `models`, each with its name.
 pub fn correlations(id: &str, models: &[(&str, &Correlations)]) -> Picture {
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     for (k, (name, found)) in models.iter().enumerate() {
         let colour = [colour::BASE, colour::MODEL][k.min(1)];
         let lags: Vec<usize> = (0..found.own.len()).collect();
         let own: Vec<f64> = found.own.iter().map(|r| rounded(*r)).collect();
-        plot.add_trace(
-            Bar::new(lags, own)
-                .name(*name)
-                .legend_group(*name)
-                .marker(Marker::new().color(colour)),
+        plot.add(
+            bars(lags, own)
+                .set("name", *name)
+                .set("legendgroup", *name)
+                .set("marker", Properties::default().set("color", colour)),
         );
         let first = -(found.input.len() as i64 / 2);
         let lags: Vec<i64> = (0..found.input.len() as i64).map(|k| first + k).collect();
         let input: Vec<f64> = found.input.iter().map(|r| rounded(*r)).collect();
-        plot.add_trace(
-            Scatter::new(lags, input)
-                .name(*name)
-                .legend_group(*name)
-                .show_legend(false)
-                .mode(Mode::LinesMarkers)
-                .line(Line::new().color(colour).width(1.5))
-                .marker(Marker::new().color(colour).size(5))
-                .x_axis("x2")
-                .y_axis("y2"),
+        plot.add(
+            scatter(lags, input)
+                .set("name", *name)
+                .set("legendgroup", *name)
+                .set("showlegend", false)
+                .set("mode", "lines+markers")
+                .set(
+                    "line",
+                    Properties::default().set("color", colour).set("width", 1.5),
+                )
+                .set(
+                    "marker",
+                    Properties::default().set("color", colour).set("size", 5),
+                )
+                .set("xaxis", "x2")
+                .set("yaxis", "y2"),
         );
     }
     let mut shapes = Vec::new();
@@ -44,38 +48,40 @@ pub fn correlations(id: &str, models: &[(&str, &Correlations)]) -> Picture {
         for (x, y) in [("x domain", "y"), ("x2 domain", "y2")] {
             for side in [-band, band] {
                 shapes.push(
-                    Shape::new()
-                        .shape_type(ShapeType::Line)
-                        .layer(ShapeLayer::Above)
-                        .x_ref(x)
-                        .y_ref(y)
-                        .x0(0)
-                        .x1(1)
-                        .y0(rounded(side))
-                        .y1(rounded(side))
-                        .line(
-                            ShapeLine::new()
-                                .color(colour::FLOOR)
-                                .dash(DashType::Dash)
-                                .width(1.5),
+                    Properties::default()
+                        .set("type", "line")
+                        .set("layer", "above")
+                        .set("xref", x)
+                        .set("yref", y)
+                        .set("x0", 0)
+                        .set("x1", 1)
+                        .set("y0", rounded(side))
+                        .set("y1", rounded(side))
+                        .set(
+                            "line",
+                            Properties::default()
+                                .set("color", colour::FLOOR)
+                                .set("dash", "dash")
+                                .set("width", 1.5),
                         ),
                 );
             }
         }
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(340)
-            .grid(
-                LayoutGrid::new()
-                    .rows(1)
-                    .columns(2)
-                    .pattern(plotly::layout::GridPattern::Independent),
+            .set(
+                "grid",
+                Properties::default()
+                    .set("rows", 1)
+                    .set("columns", 2)
+                    .set("pattern", "independent"),
             )
-            .x_axis(axis("lag, samples"))
-            .y_axis(axis("with itself").range(vec![-1.05, 1.05]))
-            .x_axis2(axis("lead of the command, samples"))
-            .y_axis2(axis("with the command"))
-            .shapes(shapes),
+            .set("xaxis", axis("lag, samples"))
+            .set("yaxis", axis("with itself").set("range", vec![-1.05, 1.05]))
+            .set("xaxis2", axis("lead of the command, samples"))
+            .set("yaxis2", axis("with the command"))
+            .set("shapes", shapes),
     );
     let samples = models
         .last()
@@ -89,7 +95,7 @@ pub fn correlations(id: &str, models: &[(&str, &Correlations)]) -> Picture {
              nineteen of twenty correlations of so many independent samples would lie.",
             samples.0, samples.1
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: None,
     }
 }

@@ -1,15 +1,13 @@
 //! Best cost against model evaluations: median over the seeds and the middle half as a band.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
 use crate::schema::contest::Row;
-use plotly::common::{Fill, Line, Mode};
-use plotly::layout::AxisType;
-use plotly::{Plot, Scatter};
 
 /// Draws the curves of all methods, both axes logarithmic; `None` where no method has one.
 pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<Picture> {
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let mut table = Table::new(&[
         "method",
         "median cost",
@@ -30,25 +28,31 @@ pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<
             let back = runs.curve_band.iter().rev().map(|p| (p.0, p.2));
             let (x, y): (Vec<usize>, Vec<f64>) =
                 forth.chain(back).map(|(n, c)| (n, rounded(c))).unzip();
-            plot.add_trace(
-                Scatter::new(x, y)
-                    .legend_group(&row.algorithm)
-                    .show_legend(false)
-                    .hover_info(plotly::common::HoverInfo::Skip)
-                    .mode(Mode::Lines)
-                    .line(Line::new().width(0.0).color(colour))
-                    .fill(Fill::ToSelf)
-                    .fill_color(format!("{colour}33")),
+            plot.add(
+                scatter(x, y)
+                    .set("legendgroup", &row.algorithm)
+                    .set("showlegend", false)
+                    .set("hoverinfo", "skip")
+                    .set("mode", "lines")
+                    .set(
+                        "line",
+                        Properties::default().set("width", 0.0).set("color", colour),
+                    )
+                    .set("fill", "toself")
+                    .set("fillcolor", format!("{colour}33")),
             );
         }
         let (x, y): (Vec<usize>, Vec<f64>) =
             runs.curve.iter().map(|&(n, c)| (n, rounded(c))).unzip();
-        plot.add_trace(
-            Scatter::new(x, y)
-                .name(&row.algorithm)
-                .legend_group(&row.algorithm)
-                .mode(Mode::Lines)
-                .line(Line::new().color(colour).width(2.0)),
+        plot.add(
+            scatter(x, y)
+                .set("name", &row.algorithm)
+                .set("legendgroup", &row.algorithm)
+                .set("mode", "lines")
+                .set(
+                    "line",
+                    Properties::default().set("color", colour).set("width", 2.0),
+                ),
         );
         let cell = |x: Option<f64>| x.map_or("-".to_owned(), short);
         table.row([
@@ -66,10 +70,10 @@ pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<
     if !any {
         return None;
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(440)
-            .x_axis(axis("model evaluations").type_(AxisType::Log))
-            .y_axis(axis("best cost so far").type_(AxisType::Log)),
+            .set("xaxis", axis("model evaluations").set("type", "log"))
+            .set("yaxis", axis("best cost so far").set("type", "log")),
     );
     Some(Picture {
         id: id.to_owned(),
@@ -79,7 +83,7 @@ pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<
              run proves nothing: costs often spread fivefold over seeds.",
             if seeds == 1 { "seed" } else { "seeds" }
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }

@@ -1,10 +1,9 @@
 //! A quantity over many motors: how often which value, the population's curve, and the motors that are odd.
 
+use super::chart::{Chart, Properties, bars, scatter};
 use super::histogram::histogram;
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
-use plotly::common::{Line, Marker, MarkerSymbol, Mode};
-use plotly::{Bar, Plot, Scatter};
 
 /// Points of the curve.
 const POINTS: usize = 121;
@@ -41,14 +40,19 @@ pub fn distribution(id: &str, shown: &Distribution<'_>) -> Option<Picture> {
             count.to_string(),
         ]);
     }
-    let mut plot = Plot::new();
-    plot.add_trace(
-        Bar::new(
+    let mut plot = Chart::default();
+    plot.add(
+        bars(
             middles.iter().copied().map(rounded).collect::<Vec<_>>(),
             counts,
         )
-        .name("motors")
-        .marker(Marker::new().color(colour::MODEL).opacity(0.55)),
+        .set("name", "motors")
+        .set(
+            "marker",
+            Properties::default()
+                .set("color", colour::MODEL)
+                .set("opacity", 0.55),
+        ),
     );
     if let Some((centre, spread)) = shown.curve.filter(|(_, spread)| *spread > 0.0) {
         let (x, y): (Vec<f64>, Vec<f64>) = (0..POINTS)
@@ -67,16 +71,21 @@ pub fn distribution(id: &str, shown: &Distribution<'_>) -> Option<Picture> {
                 )
             })
             .unzip();
-        plot.add_trace(
-            Scatter::new(x, y)
-                .name("population")
-                .mode(Mode::Lines)
-                .line(Line::new().color(colour::MEASURED).width(2.0)),
+        plot.add(
+            scatter(x, y)
+                .set("name", "population")
+                .set("mode", "lines")
+                .set(
+                    "line",
+                    Properties::default()
+                        .set("color", colour::MEASURED)
+                        .set("width", 2.0),
+                ),
         );
     }
     if !shown.odd.is_empty() {
-        plot.add_trace(
-            Scatter::new(
+        plot.add(
+            scatter(
                 shown
                     .odd
                     .iter()
@@ -84,20 +93,22 @@ pub fn distribution(id: &str, shown: &Distribution<'_>) -> Option<Picture> {
                     .collect::<Vec<_>>(),
                 vec![0.04 * highest; shown.odd.len()],
             )
-            .name("odd")
-            .mode(Mode::Markers)
-            .text_array(
+            .set("name", "odd")
+            .set("mode", "markers")
+            .set(
+                "text",
                 shown
                     .odd
                     .iter()
                     .map(|(name, _)| name.clone())
                     .collect::<Vec<_>>(),
             )
-            .marker(
-                Marker::new()
-                    .color(colour::BASE)
-                    .size(9)
-                    .symbol(MarkerSymbol::Diamond),
+            .set(
+                "marker",
+                Properties::default()
+                    .set("color", colour::BASE)
+                    .set("size", 9)
+                    .set("symbol", "diamond"),
             ),
         );
     }
@@ -105,17 +116,17 @@ pub fn distribution(id: &str, shown: &Distribution<'_>) -> Option<Picture> {
         "1" => shown.name.to_owned(),
         unit => format!("{}, {unit}", shown.name),
     };
-    plot.set_layout(
+    plot.lay_out(
         layout(260)
-            .x_axis(axis(&title))
-            .y_axis(axis("motors"))
-            .bar_gap(0.06),
+            .set("xaxis", axis(&title))
+            .set("yaxis", axis("motors"))
+            .set("bargap", 0.06),
     );
     Some(Picture {
         id: id.to_owned(),
         title: shown.name.to_owned(),
         caption: String::new(),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }

@@ -1,10 +1,9 @@
 //! An effect beside a curve that was found without its form.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
 use crate::schema::effect_curve::{CurvePoint, EffectCurve};
-use plotly::common::{Fill, Line, Marker, Mode};
-use plotly::{Plot, Scatter};
 
 /// Draws the law, and the recording's own curve with its band.
 pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
@@ -16,38 +15,50 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
             .map(|point| rounded(of(point)))
             .collect()
     };
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let edge = |y: Vec<f64>| {
-        let line = Line::new().color(colour::QUIET).width(0.0);
-        Scatter::new(x.clone(), y).mode(Mode::Lines).line(line)
+        let line = Properties::default()
+            .set("color", colour::QUIET)
+            .set("width", 0.0);
+        scatter(x.clone(), y).set("mode", "lines").set("line", line)
     };
-    plot.add_trace(edge(y(&|p| p.found_v - p.band_v)).show_legend(false));
-    plot.add_trace(
+    plot.add(edge(y(&|p| p.found_v - p.band_v)).set("showlegend", false));
+    plot.add(
         edge(y(&|p| p.found_v + p.band_v))
-            .name("band of 95 %")
-            .fill(Fill::ToNextY),
+            .set("name", "band of 95 %")
+            .set("fill", "tonexty"),
     );
-    plot.add_trace(
-        Scatter::new(x.clone(), y(&|p| p.found_v))
-            .name("measured, without a form")
-            .mode(Mode::Markers)
-            .marker(Marker::new().color(colour::MEASURED).size(7)),
+    plot.add(
+        scatter(x.clone(), y(&|p| p.found_v))
+            .set("name", "measured, without a form")
+            .set("mode", "markers")
+            .set(
+                "marker",
+                Properties::default()
+                    .set("color", colour::MEASURED)
+                    .set("size", 7),
+            ),
     );
-    plot.add_trace(
-        Scatter::new(x.clone(), y(&|p| p.law_v))
-            .name(effect)
-            .mode(Mode::Lines)
-            .line(Line::new().color(colour::MODEL).width(2.0)),
+    plot.add(
+        scatter(x.clone(), y(&|p| p.law_v))
+            .set("name", effect)
+            .set("mode", "lines")
+            .set(
+                "line",
+                Properties::default()
+                    .set("color", colour::MODEL)
+                    .set("width", 2.0),
+            ),
     );
     let variable = match curve.variable.as_str() {
         "current" => "current as the voltage across the resistance",
         "angle" => "angle within the revolution",
         other => other,
     };
-    plot.set_layout(
+    plot.lay_out(
         layout(360)
-            .x_axis(axis(&format!("{variable}, {}", curve.unit)))
-            .y_axis(axis("drive asked for, V").zero_line(true)),
+            .set("xaxis", axis(&format!("{variable}, {}", curve.unit)))
+            .set("yaxis", axis("drive asked for, V").set("zeroline", true)),
     );
     let mut table = Table::new(&[
         &format!("{}, {}", curve.variable, curve.unit),
@@ -76,7 +87,7 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
             "The drive that the effect asks for along the {}, and that the recording asks for there when no form is stated. {says}",
             curve.variable
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     }
 }

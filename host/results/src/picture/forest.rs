@@ -1,11 +1,10 @@
 //! Parameters with intervals, several estimates side by side: each as a part of the first one's value, since units and
 //! sizes differ.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::stated;
 use crate::schema::Estimate;
-use plotly::common::{ErrorData, ErrorType, Marker, Mode};
-use plotly::{Plot, Scatter};
 
 /// Half the width of a drawn interval, standard errors.
 const WIDE: f64 = 1.96;
@@ -26,7 +25,7 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
         found.filter(|p| p.identifiable && p.std.is_some_and(f64::is_finite) && p.value != 0.0)
     };
     let mut table = Table::new(&["parameter", "source", "value", "unit", "interval of 95 %"]);
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let mut drawn = 0;
     for (k, source) in sources.iter().enumerate() {
         let (mut x, mut y, mut wide) = (Vec::new(), Vec::new(), Vec::new());
@@ -43,22 +42,39 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
             y.push(parameter.name.clone());
         }
         drawn = drawn.max(x.len());
-        plot.add_trace(
-            Scatter::new(x, y)
-                .name(&source.name)
-                .mode(Mode::Markers)
-                .marker(Marker::new().color(colour::of(k)).size(9))
-                .error_x(ErrorData::new(ErrorType::Data).array(wide).thickness(2.0)),
+        plot.add(
+            scatter(x, y)
+                .set("name", &source.name)
+                .set("mode", "markers")
+                .set(
+                    "marker",
+                    Properties::default()
+                        .set("color", colour::of(k))
+                        .set("size", 9),
+                )
+                .set(
+                    "error_x",
+                    Properties::default()
+                        .set("type", "data")
+                        .set("array", wide)
+                        .set("thickness", 2.0),
+                ),
         );
     }
     if table.rows.is_empty() {
         return None;
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(130 + 34 * drawn)
-            .x_axis(axis(&format!("off {}, %", first.name)).zero_line(true))
+            .set(
+                "xaxis",
+                axis(&format!("off {}, %", first.name)).set("zeroline", true),
+            )
             // The first on top.
-            .y_axis(axis("").range(vec![drawn as f64 - 0.5, -0.5])),
+            .set(
+                "yaxis",
+                axis("").set("range", vec![drawn as f64 - 0.5, -0.5]),
+            ),
     );
     Some(Picture {
         id: id.to_owned(),
@@ -69,7 +85,7 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
             first.name
         ),
         drawing: if drawn > 0 {
-            Drawing::Chart(Box::new(plot))
+            Drawing::Chart(plot)
         } else {
             Drawing::Nothing
         },

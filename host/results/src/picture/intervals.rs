@@ -1,10 +1,8 @@
 //! How even the samples are.
 
+use super::chart::{Chart, Properties, bars};
 use super::histogram::histogram;
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use plotly::common::Marker;
-use plotly::layout::AxisType;
-use plotly::{Bar, Plot};
 use servoid_engine::problem::Data;
 
 const BINS: usize = 60;
@@ -22,19 +20,28 @@ pub fn intervals(id: &str, data: &Data) -> Option<Picture> {
         return None;
     }
     let (middles, counts) = histogram(&steps, BINS);
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let middles: Vec<f64> = middles.into_iter().map(rounded).collect();
-    plot.add_trace(
-        Bar::new(middles, counts)
-            .width((0.9 * (most - least) / BINS as f64).max(0.02 * most))
-            .marker(Marker::new().color(colour::MEASURED))
-            .hover_template("%{x} ms: %{y} samples<extra></extra>"),
+    plot.add(
+        bars(middles, counts)
+            .set(
+                "width",
+                (0.9 * (most - least) / BINS as f64).max(0.02 * most),
+            )
+            .set(
+                "marker",
+                Properties::default().set("color", colour::MEASURED),
+            )
+            .set("hovertemplate", "%{x} ms: %{y} samples<extra></extra>"),
     );
-    plot.set_layout(
+    plot.lay_out(
         layout(260)
-            .show_legend(false)
-            .x_axis(axis("sample interval, ms").range(shown(least, most)))
-            .y_axis(axis("samples").type_(AxisType::Log)),
+            .set("showlegend", false)
+            .set(
+                "xaxis",
+                axis("sample interval, ms").set("range", shown(least, most)),
+            )
+            .set("yaxis", axis("samples").set("type", "log")),
     );
     let mut table = Table::new(&["", "ms"]);
     let median = 1e3 * data.units.interval;
@@ -49,7 +56,7 @@ pub fn intervals(id: &str, data: &Data) -> Option<Picture> {
              shows. The model steps over each as long as it was.",
             steps.len()
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }

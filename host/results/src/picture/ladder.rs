@@ -1,10 +1,8 @@
 //! The error as effects are added, fitted and held out, down to what the encoder alone leaves.
 
+use super::chart::{Chart, Properties, bars, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::report::diagnosis::bars::counts;
-use plotly::common::{DashType, Line, Marker, Mode, TextPosition};
-use plotly::layout::{AxisType, Shape, ShapeLine, ShapeType};
-use plotly::{Bar, Plot, Scatter};
 use shared::encoder::FLOOR_RMS_COUNTS;
 
 /// One model on the way.
@@ -21,7 +19,7 @@ pub struct LadderBar {
 /// Draws the ladder.
 pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
     let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     // The first and the last model have their colours; how full they are tells what was fitted.
     let colours: Vec<&str> = (0..entries.len())
         .map(|k| match k {
@@ -34,44 +32,56 @@ pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
         if entries.iter().any(|entry| of(entry).is_some()) {
             let values: Vec<Option<f64>> = entries.iter().map(|r| of(r).map(rounded)).collect();
             let shown = entries.iter().map(|r| of(r).map_or(String::new(), counts));
-            plot.add_trace(
-                Bar::new(names.clone(), values)
-                    .name(name)
-                    .marker(Marker::new().color_array(colours.clone()))
-                    .opacity(full)
-                    .text_position(TextPosition::Outside)
-                    .text_array(shown.collect())
-                    .hover_template("%{x}: %{text} counts RMS"),
+            plot.add(
+                bars(names.clone(), values)
+                    .set("name", name)
+                    .set(
+                        "marker",
+                        Properties::default().set("color", colours.clone()),
+                    )
+                    .set("opacity", full)
+                    .set("textposition", "outside")
+                    .set("text", shown.collect::<Vec<_>>())
+                    .set("hovertemplate", "%{x}: %{text} counts RMS"),
             );
         }
     };
     bars("fitted (pale)", 0.45, |entry| entry.fitted);
     bars("held out, never fitted (full)", 1.0, |entry| entry.held_out);
-    plot.add_trace(
-        Scatter::new(names.clone(), vec![rounded(FLOOR_RMS_COUNTS); names.len()])
-            .name("what the encoder alone leaves")
-            .mode(Mode::Lines)
-            .line(Line::new().color(colour::FLOOR).dash(DashType::Dash)),
+    plot.add(
+        scatter(names.clone(), vec![rounded(FLOOR_RMS_COUNTS); names.len()])
+            .set("name", "what the encoder alone leaves")
+            .set("mode", "lines")
+            .set(
+                "line",
+                Properties::default()
+                    .set("color", colour::FLOOR)
+                    .set("dash", "dash"),
+            ),
     );
     // The line of the floor over the whole width, which a trace over names does not have.
-    let floor = Shape::new()
-        .shape_type(ShapeType::Line)
-        .x_ref("paper")
-        .x0(0)
-        .x1(1)
-        .y0(rounded(FLOOR_RMS_COUNTS))
-        .y1(rounded(FLOOR_RMS_COUNTS))
-        .line(
-            ShapeLine::new()
-                .color(colour::FLOOR)
-                .dash(DashType::Dash)
-                .width(2.0),
+    let floor = Properties::default()
+        .set("type", "line")
+        .set("xref", "paper")
+        .set("x0", 0)
+        .set("x1", 1)
+        .set("y0", rounded(FLOOR_RMS_COUNTS))
+        .set("y1", rounded(FLOOR_RMS_COUNTS))
+        .set(
+            "line",
+            Properties::default()
+                .set("color", colour::FLOOR)
+                .set("dash", "dash")
+                .set("width", 2.0),
         );
-    plot.set_layout(
+    plot.lay_out(
         layout(360)
-            .shapes(vec![floor])
-            .x_axis(axis(""))
-            .y_axis(axis("error of the free run, counts RMS").type_(AxisType::Log)),
+            .set("shapes", vec![floor])
+            .set("xaxis", axis(""))
+            .set(
+                "yaxis",
+                axis("error of the free run, counts RMS").set("type", "log"),
+            ),
     );
     let mut table = Table::new(&["model", "fitted, counts RMS", "held out, counts RMS"]);
     for entry in entries {
@@ -85,7 +95,7 @@ pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
             "Error of the free run over the whole recording as effects are added, logarithmic. No model can leave less \
              than the encoder's own {FLOOR_RMS_COUNTS:.3} counts for long."
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     }
 }

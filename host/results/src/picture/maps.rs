@@ -1,22 +1,26 @@
-//! The volts that a model's equation misses along the measured motion, against everything that could tell why.
+//! The command that a model's equation misses, volts at the winding for a voltage, along the measured motion, against everything that could tell why.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
-use plotly::common::{ErrorData, ErrorType, Line, Marker, Mode};
-use plotly::{Plot, Scatter, Trace};
 use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, ResidualAnalysis};
 
 /// Half the width of a drawn interval, standard errors.
 const WIDE: f64 = 2.0;
 
 /// One drawing for each quantity: each of `models` with its name.
-pub fn maps(id: &str, models: &[(&str, &ResidualAnalysis)]) -> Vec<Picture> {
+pub fn maps(id: &str, models: &[(&str, &ResidualAnalysis)], symbol: &str) -> Vec<Picture> {
     let all = Against::ALL.iter();
-    all.filter_map(|&against| map(id, against, models))
+    all.filter_map(|&against| map(id, against, models, symbol))
         .collect()
 }
 
-fn map(id: &str, against: Against, models: &[(&str, &ResidualAnalysis)]) -> Option<Picture> {
+fn map(
+    id: &str,
+    against: Against,
+    models: &[(&str, &ResidualAnalysis)],
+    symbol: &str,
+) -> Option<Picture> {
     let (name, unit) = against.name();
     let name = name.replace('_', " ");
     let split = if against == Against::Speed {
@@ -24,8 +28,15 @@ fn map(id: &str, against: Against, models: &[(&str, &ResidualAnalysis)]) -> Opti
     } else {
         ""
     };
-    let mut plot = Plot::new();
-    let mut table = Table::new(&["model", "from", "to", "missing, V", "± V", "samples"]);
+    let mut plot = Chart::default();
+    let mut table = Table::new(&[
+        "model",
+        "from",
+        "to",
+        &format!("missing, {symbol}"),
+        &format!("± {symbol}"),
+        "samples",
+    ]);
     let mut said = Vec::new();
     for (k, (model, found)) in models.iter().enumerate() {
         let Some(map) = found.map(against) else {
@@ -33,7 +44,7 @@ fn map(id: &str, against: Against, models: &[(&str, &ResidualAnalysis)]) -> Opti
         };
         let colour = [colour::BASE, colour::MODEL][k.min(1)];
         for line in lines(against, map, model, colour) {
-            plot.add_trace(line);
+            plot.add(line);
         }
         if map.beyond_chance {
             said.push(format!(
@@ -55,10 +66,13 @@ fn map(id: &str, against: Against, models: &[(&str, &ResidualAnalysis)]) -> Opti
     if table.rows.is_empty() {
         return None;
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(320)
-            .x_axis(axis(&format!("{name}, {unit}")))
-            .y_axis(axis("missing, V").zero_line(true)),
+            .set("xaxis", axis(&format!("{name}, {unit}")))
+            .set(
+                "yaxis",
+                axis(&format!("missing, {symbol}")).set("zeroline", true),
+            ),
     );
     let turned = matches!(against, Against::Time | Against::Reversal);
     let sign = if turned {
@@ -75,16 +89,16 @@ fn map(id: &str, against: Against, models: &[(&str, &ResidualAnalysis)]) -> Opti
         id: format!("{id}-{}", against.name().0.replace('_', "-")),
         title: format!("What is missing, against {name}"),
         caption: format!(
-            "Volts at the winding that the model's equation misses along the measured motion, mean and two standard \
+            "Command, in {symbol}, that the model's equation misses along the measured motion, mean and two standard \
              errors in each bin; a torque {sign} counts positive: {said}.{split}"
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }
 
 /// The bins of a map as a line; against speed one for each direction, since friction changes its sign there.
-fn lines(against: Against, map: &Map, model: &str, colour: &'static str) -> Vec<Box<dyn Trace>> {
+fn lines(against: Against, map: &Map, model: &str, colour: &'static str) -> Vec<Properties> {
     let middle = |bin: &Bin| 0.5 * (bin.low + bin.high);
     let parts: Vec<(String, Vec<&Bin>)> = if against == Against::Speed {
         let side = |forward: bool| -> Vec<&Bin> {
@@ -109,24 +123,35 @@ fn lines(against: Against, map: &Map, model: &str, colour: &'static str) -> Vec<
             let known = |x: f64| if x.is_finite() { rounded(x) } else { 0.0 };
             let wide: Vec<f64> = bins.iter().map(|bin| known(WIDE * bin.error_v)).collect();
             let symbol = if part == 0 && against == Against::Speed {
-                plotly::common::MarkerSymbol::TriangleLeft
+                "triangle-left"
             } else if against == Against::Speed {
-                plotly::common::MarkerSymbol::TriangleRight
+                "triangle-right"
             } else {
-                plotly::common::MarkerSymbol::Circle
+                "circle"
             };
-            let line: Box<dyn Trace> = Scatter::new(x, y)
-                .name(name)
-                .legend_group(model)
-                .show_legend(part == 0)
-                .mode(Mode::LinesMarkers)
-                .line(Line::new().color(colour).width(1.5))
-                .marker(Marker::new().color(colour).size(8).symbol(symbol))
-                .error_y(
-                    ErrorData::new(ErrorType::Data)
-                        .array(wide)
-                        .color(colour)
-                        .thickness(1.0),
+            let line: Properties = scatter(x, y)
+                .set("name", name)
+                .set("legendgroup", model)
+                .set("showlegend", part == 0)
+                .set("mode", "lines+markers")
+                .set(
+                    "line",
+                    Properties::default().set("color", colour).set("width", 1.5),
+                )
+                .set(
+                    "marker",
+                    Properties::default()
+                        .set("color", colour)
+                        .set("size", 8)
+                        .set("symbol", symbol),
+                )
+                .set(
+                    "error_y",
+                    Properties::default()
+                        .set("type", "data")
+                        .set("array", wide)
+                        .set("color", colour)
+                        .set("thickness", 1.0),
                 );
             line
         })

@@ -3,6 +3,7 @@
 //!
 //! | file | shows |
 //! |---|---|
+//! | `chart` | charts as plain data |
 //! | `timeline` | measured against model, the residual with the quantiser's band, the command |
 //! | `ladder` | the error as effects are added, down to the encoder's own |
 //! | `maps` | the volts that a model misses against speed, current, voltage, time, time since reversal |
@@ -19,6 +20,7 @@
 //! | `histogram` | counting values into bins |
 
 mod bode;
+mod chart;
 mod correlations;
 mod curves;
 mod distribution;
@@ -35,6 +37,7 @@ mod steady;
 mod timeline;
 
 pub use bode::bode;
+pub use chart::Chart;
 pub use correlations::correlations;
 pub use curves::cost_curves;
 pub use distribution::{Distribution, distribution};
@@ -50,9 +53,8 @@ pub use steady::{SteadyLine, steady_curve, steady_residual};
 pub use timeline::{IN_A_FILE, Run, Timeline, timeline};
 
 use crate::palette as colour;
-use plotly::Plot;
-use plotly::common::{Font, Title};
-use plotly::layout::{Axis, Legend, Margin};
+use chart::Properties;
+use serde_json::json;
 
 /// A drawing with its words and its numbers.
 pub struct Picture {
@@ -71,7 +73,7 @@ pub struct Picture {
 /// What is drawn.
 pub enum Drawing {
     /// A chart that the page hands to plotly as it is.
-    Chart(Box<Plot>),
+    Chart(Chart),
     /// Long series, which the page thins for the width that is seen.
     Timeline(Box<Timeline>),
     /// Nothing: there are numbers only.
@@ -103,30 +105,25 @@ impl Table {
 }
 
 /// An axis with its title; the page gives it the colours of light or dark.
-fn axis(title: &str) -> Axis {
-    Axis::new()
-        .title(Title::with_text(title))
-        .zero_line(false)
-        .auto_margin(true)
+fn axis(title: &str) -> Properties {
+    Properties::default()
+        .set("title", json!({ "text": title }))
+        .set("zeroline", false)
+        .set("automargin", true)
 }
 
-/// A legend above the drawing, where it hides nothing.
-fn legend_above() -> Legend {
-    Legend::new()
-        .orientation(plotly::common::Orientation::Horizontal)
-        .x(0.0)
-        .y(1.02)
-        .x_anchor(plotly::common::Anchor::Left)
-        .y_anchor(plotly::common::Anchor::Bottom)
-}
-
-/// What all charts share.
-fn layout(height: usize) -> plotly::Layout {
-    plotly::Layout::new()
-        .height(height)
-        .margin(Margin::new().left(64).right(16).top(36).bottom(48))
-        .legend(legend_above())
-        .font(Font::new().family("system-ui, sans-serif").size(13))
+/// What all charts share: a height, px, and a legend above the drawing, where it hides nothing.
+fn layout(height: usize) -> Properties {
+    let legend =
+        json!({ "orientation": "h", "x": 0.0, "y": 1.02, "xanchor": "left", "yanchor": "bottom" });
+    Properties::default()
+        .set("height", height)
+        .set("margin", json!({ "l": 64, "r": 16, "t": 36, "b": 48 }))
+        .set("legend", legend)
+        .set(
+            "font",
+            json!({ "family": "system-ui, sans-serif", "size": 13 }),
+        )
 }
 
 /// Four digits are more than a drawing shows.

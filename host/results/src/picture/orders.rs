@@ -1,10 +1,8 @@
 //! Lines of the missing volts in the angle, forward above and backward mirrored below: a torque of the magnets stands
 //! at the same orders in both directions.
 
+use super::chart::{Chart, Properties, bars};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use plotly::common::Marker;
-use plotly::layout::BarMode;
-use plotly::{Bar, Plot};
 use servoid_identify::diagnose::residual_analysis::{Line, Spectrum};
 
 /// Orders that are drawn: as many as are the strongest of each direction.
@@ -12,7 +10,13 @@ const STRONGEST: usize = 12;
 
 /// Draws the strongest lines of what the `model` misses, and those of the orders that are `named` in a model; `None` where
 /// the motor never turned slowly enough.
-pub fn orders(id: &str, model: &str, spectrum: &Spectrum, named: &[usize]) -> Option<Picture> {
+pub fn orders(
+    id: &str,
+    model: &str,
+    spectrum: &Spectrum,
+    named: &[usize],
+    symbol: &str,
+) -> Option<Picture> {
     if spectrum.forward.is_empty() && spectrum.backward.is_empty() {
         return None;
     }
@@ -26,11 +30,11 @@ pub fn orders(id: &str, model: &str, spectrum: &Spectrum, named: &[usize]) -> Op
     let mut drawn = strongest(&spectrum.forward);
     drawn.extend(strongest(&spectrum.backward));
     drawn.extend_from_slice(named);
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let mut table = Table::new(&[
         "direction",
         "order",
-        "amplitude, V",
+        &format!("amplitude, {symbol}"),
         "crest, degrees",
         "of the missing, %",
     ]);
@@ -56,18 +60,24 @@ pub fn orders(id: &str, model: &str, spectrum: &Spectrum, named: &[usize]) -> Op
             .iter()
             .map(|line| rounded(sign * line.volts))
             .collect();
-        plot.add_trace(
-            Bar::new(orders, volts)
-                .name(name)
-                .marker(Marker::new().color(colour))
-                .hover_template("order %{x}: %{y:.4f} V"),
+        plot.add(
+            bars(orders, volts)
+                .set("name", name)
+                .set("marker", Properties::default().set("color", colour))
+                .set(
+                    "hovertemplate",
+                    format!("order %{{x}}: %{{y:.4f}} {symbol}"),
+                ),
         );
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(320)
-            .bar_mode(BarMode::Overlay)
-            .x_axis(axis("order, waves a revolution"))
-            .y_axis(axis("amplitude, V (backward mirrored)").zero_line(true)),
+            .set("barmode", "overlay")
+            .set("xaxis", axis("order, waves a revolution"))
+            .set(
+                "yaxis",
+                axis(&format!("amplitude, {symbol} (backward mirrored)")).set("zeroline", true),
+            ),
     );
     Some(Picture {
         id: id.to_owned(),
@@ -78,7 +88,7 @@ pub fn orders(id: &str, model: &str, spectrum: &Spectrum, named: &[usize]) -> Op
              same orders in both directions, as high in both; what stands in one only is something else, or chance. Low \
              orders also pick up friction that changes with the speed."
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }

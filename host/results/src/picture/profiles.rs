@@ -2,11 +2,10 @@
 //! straight is as its standard error says (the profile t plot of D. M. Bates and D. G. Watts, *Nonlinear Regression Analysis*, 1988,
 //! ch. 6).
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::{interval, short};
 use crate::schema::profile::Profile;
-use plotly::common::{DashType, Line, Mode};
-use plotly::{Plot, Scatter};
 use servoid_identify::fit::RISE_95;
 
 /// Standard errors to both sides that are shown.
@@ -17,7 +16,7 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
     if profiles.is_empty() {
         return None;
     }
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let flat = |height: f64| (vec![-SHOWN, SHOWN], vec![height, height]);
     let straight = (vec![-SHOWN, SHOWN], vec![-SHOWN, SHOWN]);
     let root = RISE_95.sqrt();
@@ -27,17 +26,19 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
         } else {
             "95 %"
         };
-        let dash = if k == 0 {
-            DashType::Solid
-        } else {
-            DashType::Dash
-        };
-        plot.add_trace(
-            Scatter::new(x, y)
-                .name(name)
-                .show_legend(k < 2)
-                .mode(Mode::Lines)
-                .line(Line::new().color(colour::QUIET).width(1.0).dash(dash)),
+        let dash = if k == 0 { "solid" } else { "dash" };
+        plot.add(
+            scatter(x, y)
+                .set("name", name)
+                .set("showlegend", k < 2)
+                .set("mode", "lines")
+                .set(
+                    "line",
+                    Properties::default()
+                        .set("color", colour::QUIET)
+                        .set("width", 1.0)
+                        .set("dash", dash),
+                ),
         );
     }
     let drawn = profiles
@@ -52,17 +53,25 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
             .filter(|(x, y)| x.abs() <= SHOWN && y.abs() <= SHOWN)
             .map(|(x, y)| (rounded(x), rounded(y)))
             .unzip();
-        plot.add_trace(
-            Scatter::new(x, y)
-                .name(&profile.name)
-                .mode(Mode::LinesMarkers)
-                .line(Line::new().color(colour::of(k)).width(1.8)),
+        plot.add(
+            scatter(x, y)
+                .set("name", &profile.name)
+                .set("mode", "lines+markers")
+                .set(
+                    "line",
+                    Properties::default()
+                        .set("color", colour::of(k))
+                        .set("width", 1.8),
+                ),
         );
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(440)
-            .x_axis(axis("distance from the best value, standard errors"))
-            .y_axis(axis("signed root of the deviance")),
+            .set(
+                "xaxis",
+                axis("distance from the best value, standard errors"),
+            )
+            .set("yaxis", axis("signed root of the deviance")),
     );
     let mut table = Table::new(&["parameter", "best", "95 % interval"]);
     for profile in profiles {
@@ -80,7 +89,7 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
                   says all; where a line bends, its interval, which ends at the dashes, is not symmetric. A line that stays \
                   within them has no bound on that side."
             .to_owned(),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }

@@ -1,9 +1,8 @@
 //! Where a model is refuted: the few readings that no model of its structure meets together, along the recording.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::schema::certificate::{Certificate, Contradicting};
-use plotly::common::{Line, Marker, MarkerSymbol, Mode};
-use plotly::{Plot, Scatter};
 
 /// Most points of the drawn recording.
 const MOST_POINTS: usize = 4000;
@@ -16,17 +15,22 @@ pub fn refuted(id: &str, certificate: &Certificate, measured: &[(f64, f64)]) -> 
         return None;
     }
     let every = measured.len().div_ceil(MOST_POINTS).max(1);
-    let (times, counts) = measured.iter().step_by(every).copied().unzip();
-    let mut plot = Plot::new();
-    plot.add_trace(
-        Scatter::new(times, counts)
-            .name("measured")
-            .mode(Mode::Lines)
-            .line(Line::new().color(colour::MEASURED).width(1.2)),
+    let (times, counts): (Vec<f64>, Vec<f64>) = measured.iter().step_by(every).copied().unzip();
+    let mut plot = Chart::default();
+    plot.add(
+        scatter(times, counts)
+            .set("name", "measured")
+            .set("mode", "lines")
+            .set(
+                "line",
+                Properties::default()
+                    .set("color", colour::MEASURED)
+                    .set("width", 1.2),
+            ),
     );
     for (above, name, symbol) in [
-        (true, "models lie above", MarkerSymbol::TriangleUp),
-        (false, "models lie below", MarkerSymbol::TriangleDown),
+        (true, "models lie above", "triangle-up"),
+        (false, "models lie below", "triangle-down"),
     ] {
         let some = certificate
             .contradiction
@@ -36,18 +40,24 @@ pub fn refuted(id: &str, certificate: &Certificate, measured: &[(f64, f64)]) -> 
             .map(|reading| (rounded(reading.time_s), reading.counts))
             .unzip();
         if !times.is_empty() {
-            plot.add_trace(
-                Scatter::new(times, counts)
-                    .name(name)
-                    .mode(Mode::Markers)
-                    .marker(Marker::new().color(colour::MODEL).size(MARK).symbol(symbol)),
+            plot.add(
+                scatter(times, counts)
+                    .set("name", name)
+                    .set("mode", "markers")
+                    .set(
+                        "marker",
+                        Properties::default()
+                            .set("color", colour::MODEL)
+                            .set("size", MARK)
+                            .set("symbol", symbol),
+                    ),
             );
         }
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(340)
-            .x_axis(axis("time, s"))
-            .y_axis(axis("angle, counts")),
+            .set("xaxis", axis("time, s"))
+            .set("yaxis", axis("angle, counts")),
     );
     let mut table = Table::new(&[
         "time, s",
@@ -70,7 +80,7 @@ pub fn refuted(id: &str, certificate: &Certificate, measured: &[(f64, f64)]) -> 
             certificate.contradiction.len(),
             -certificate.room_counts
         ),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     })
 }

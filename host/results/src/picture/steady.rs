@@ -1,8 +1,7 @@
 //! A motor's steady speed against its voltage, and what a straight line misses of it.
 
+use super::chart::{Chart, Properties, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use plotly::common::{Line, Marker, Mode};
-use plotly::{Plot, Scatter};
 
 /// A line `V = slope·ω + drop·sign ω` through steady speeds.
 pub struct SteadyLine {
@@ -27,36 +26,36 @@ fn sign(speed: f64) -> f64 {
 
 /// Measured points (V, rad/s) and lines through them.
 pub fn steady_curve(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) -> Picture {
-    let mut plot = Plot::new();
-    let measured = Scatter::new(
-        points.iter().map(|p| rounded(p.1)).collect(),
-        points.iter().map(|p| rounded(p.0)).collect(),
+    let mut plot = Chart::default();
+    let measured = scatter(
+        points.iter().map(|p| rounded(p.1)).collect::<Vec<_>>(),
+        points.iter().map(|p| rounded(p.0)).collect::<Vec<_>>(),
     );
-    plot.add_trace(
-        measured
-            .name("measured")
-            .mode(Mode::Markers)
-            .marker(Marker::new().color(colour::MEASURED).size(8)),
+    plot.add(
+        measured.set("name", "measured").set("mode", "markers").set(
+            "marker",
+            Properties::default()
+                .set("color", colour::MEASURED)
+                .set("size", 8),
+        ),
     );
     let ends = ends(points);
     for (line, colour) in lines.iter().zip([colour::BASE, colour::MODEL]) {
-        let drawn = Scatter::new(
-            ends.iter().map(|speed| rounded(*speed)).collect(),
+        let drawn = scatter(
+            ends.iter().map(|speed| rounded(*speed)).collect::<Vec<_>>(),
             ends.iter()
                 .map(|speed| rounded(line.volts(*speed)))
-                .collect(),
+                .collect::<Vec<_>>(),
         );
-        plot.add_trace(
-            drawn
-                .name(line.name)
-                .mode(Mode::Lines)
-                .line(Line::new().color(colour).width(1.5)),
-        );
+        plot.add(drawn.set("name", line.name).set("mode", "lines").set(
+            "line",
+            Properties::default().set("color", colour).set("width", 1.5),
+        ));
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(360)
-            .x_axis(axis("steady speed, rad/s"))
-            .y_axis(axis("voltage, V").zero_line(true)),
+            .set("xaxis", axis("steady speed, rad/s"))
+            .set("yaxis", axis("voltage, V").set("zeroline", true)),
     );
     let mut table = Table::new(&["voltage, V", "speed, rad/s"]);
     for (volts, speed) in points {
@@ -68,14 +67,14 @@ pub fn steady_curve(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) -> Pi
         caption: "An unloaded motor with viscous friction alone follows a straight line through the origin; a constant \
                   loss shifts each half of it away from there."
             .to_owned(),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     }
 }
 
 /// What each line misses at each point.
 pub fn steady_residual(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) -> Picture {
-    let mut plot = Plot::new();
+    let mut plot = Chart::default();
     let mut head = vec!["speed, rad/s".to_owned()];
     head.extend(
         lines
@@ -89,19 +88,25 @@ pub fn steady_residual(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) ->
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
     for (line, colour) in lines.iter().zip([colour::BASE, colour::MODEL]) {
-        let missed = Scatter::new(
-            sorted.iter().map(|p| rounded(p.1)).collect(),
+        let missed = scatter(
+            sorted.iter().map(|p| rounded(p.1)).collect::<Vec<_>>(),
             sorted
                 .iter()
                 .map(|p| rounded(p.0 - line.volts(p.1)))
-                .collect(),
+                .collect::<Vec<_>>(),
         );
-        plot.add_trace(
+        plot.add(
             missed
-                .name(line.name)
-                .mode(Mode::LinesMarkers)
-                .line(Line::new().color(colour).width(1.5))
-                .marker(Marker::new().color(colour).size(7)),
+                .set("name", line.name)
+                .set("mode", "lines+markers")
+                .set(
+                    "line",
+                    Properties::default().set("color", colour).set("width", 1.5),
+                )
+                .set(
+                    "marker",
+                    Properties::default().set("color", colour).set("size", 7),
+                ),
         );
     }
     for (volts, speed) in &sorted {
@@ -110,10 +115,10 @@ pub fn steady_residual(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) ->
             .map(|line| format!("{:+.4}", volts - line.volts(*speed)));
         table.row(std::iter::once(speed.to_string()).chain(missed));
     }
-    plot.set_layout(
+    plot.lay_out(
         layout(320)
-            .x_axis(axis("steady speed, rad/s"))
-            .y_axis(axis("missing, V").zero_line(true)),
+            .set("xaxis", axis("steady speed, rad/s"))
+            .set("yaxis", axis("missing, V").set("zeroline", true)),
     );
     Picture {
         id: id.to_owned(),
@@ -121,7 +126,7 @@ pub fn steady_residual(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) ->
         caption: "Measured less the line. What is left should scatter about zero; a bend that comes back in both \
                   directions is physics."
             .to_owned(),
-        drawing: Drawing::Chart(Box::new(plot)),
+        drawing: Drawing::Chart(plot),
         table: Some(table),
     }
 }

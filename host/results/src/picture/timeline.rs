@@ -1,7 +1,6 @@
 //! Measured against model over time, the residual beneath with the quantiser's band, and the command. The page thins
 //! the series for what is seen of them; here they are whole.
 
-use servoid_io::channel::Measured;
 use super::{Drawing, Picture, colour};
 use crate::error::Error;
 use base64::Engine;
@@ -11,6 +10,7 @@ use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
 use servoid_identify::fit::scores::whole;
 use servoid_identify::fit::validation_errors;
+use servoid_io::channel::Measured;
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_RMS_COUNTS;
 

@@ -1,18 +1,18 @@
 //! `servoid.diagnosis/1` of two recordings.
 
-use super::model::in_terms_of;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::{Bounded, Likelihood};
+use super::model::in_terms_of;
 use super::residual::{Residual, Where};
 use super::{Machine, Model, ModelParameter, PositionLoop, RecordingError, finite};
 use crate::schema::effect_curve::EffectCurve;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use servoid_io::recording::Drive;
 use servoid_identify::diagnose;
 use servoid_identify::diagnose::FittedModel;
 use servoid_identify::diagnose::discovery::Proposed;
 use servoid_identify::fit;
+use servoid_io::recording::Drive;
 
 /// RMS errors of the last model in windows and over whole runs, counts.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
@@ -379,10 +379,13 @@ impl Diagnosis {
     /// Writes the units of all models in terms of the command of a drive.
     pub(crate) fn in_terms_of(&mut self, drive: Drive) {
         let steps = self.steps.iter_mut().filter_map(|step| step.model.as_mut());
-        let models = [&mut self.base.model, &mut self.last.model].into_iter().chain(steps);
+        let models = [&mut self.base.model, &mut self.last.model]
+            .into_iter()
+            .chain(steps);
         let all = models.map(|model| &mut model.parameters);
         let roles = self.models.iter_mut().map(|one| &mut one.parameters);
-        all.chain(roles).for_each(|parameters| in_terms_of(drive, parameters));
+        all.chain(roles)
+            .for_each(|parameters| in_terms_of(drive, parameters));
     }
 }
 

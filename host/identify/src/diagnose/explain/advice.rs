@@ -1,9 +1,9 @@
 //! What to do next: which experiment splits what looks alike, and what no recording of voltage and angle tells.
 
-use servoid_io::channel::Measured;
 use crate::diagnose::outcome::{Diagnosis, Verdict};
 use crate::diagnose::recordings::HeldOut;
 use servoid_engine::problem::Data;
+use servoid_io::channel::Measured;
 use servoid_io::recording::Drive;
 use shared::effects::Kind;
 

@@ -14,11 +14,11 @@ mod plane;
 mod torque;
 mod winding;
 
-use servoid_io::channel::Measured;
 use super::physical::CurrentEvidence;
 use super::remarks::EXPLAINED_COUNTS;
 use super::uncertainty::Uncertainty;
 use servoid_engine::problem::{Candidate, FitProblem, rms_counts};
+use servoid_io::channel::Measured;
 use torque::{Torque, torque_evidence};
 use winding::{Winding, winding_evidence};
 

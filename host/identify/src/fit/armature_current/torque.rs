@@ -1,12 +1,12 @@
 //! What the current says as a torque: inertia and viscous friction over the torque constant.
 
-use servoid_io::channel::Measured;
 use super::plane::Plane;
 use crate::fit::physical::Estimate;
 use crate::fit::uncertainty::Uncertainty;
 use nalgebra::DVector;
 use servoid_engine::problem::{Candidate, Data, FitProblem};
 use servoid_engine::simulation::{Method, Simulation};
+use servoid_io::channel::Measured;
 use servoid_io::recording::Drive;
 
 /// A reading at an end of all readings is the sensor's end, and no measurement, where the model has by this part more current.

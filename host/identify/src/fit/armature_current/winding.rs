@@ -9,11 +9,11 @@
 //! over the interval at `L/R − h·E/(1 − E)` before its end. The speed is the encoder's; all are averaged over as many intervals
 //! as make the encoder's rounding small beside the motion.
 
-use servoid_io::channel::Measured;
 use super::decay::{Row, electrical};
 use super::plane::Plane;
 use crate::fit::physical::Estimate;
 use servoid_engine::problem::{Candidate, Data};
+use servoid_io::channel::Measured;
 use servoid_io::recording::Drive;
 use shared::effects::Place;
 use shared::encoder::FLOOR_RMS_COUNTS;

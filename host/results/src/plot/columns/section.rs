@@ -78,8 +78,9 @@ impl<'s> Section<'s> {
         let others = table.columns.iter().filter(|column| !is_across(column));
         let (drawn, blank): (Vec<&SurveyColumn>, Vec<&SurveyColumn>) =
             others.partition(|column| column.is_number && column.envelope.is_some());
-        let (mut drawn, empty): (Vec<&SurveyColumn>, Vec<&SurveyColumn>) =
-            drawn.into_iter().partition(|column| column.profile.range().is_some());
+        let (mut drawn, empty): (Vec<&SurveyColumn>, Vec<&SurveyColumn>) = drawn
+            .into_iter()
+            .partition(|column| column.profile.range().is_some());
         // What is the motor's comes first.
         let order = ["voltage", "target", "angle", "current", "enabled"];
         let place = |column: &&SurveyColumn| {

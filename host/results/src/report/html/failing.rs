@@ -67,8 +67,10 @@ pub fn missing_drive(id: &str, data: &Data, models: &[Model]) -> Result<Option<S
     }
     let mut fails = Section::new(&format!("{id}-where"), "Where it fails");
     let maps: Vec<(&str, &ResidualAnalysis)> = found.iter().map(|(n, w)| (*n, w)).collect();
-    fails.blocks.push(Block::Text(missing(&found)));
-    let mut pictures = picture::maps(&format!("{id}-against"), &maps);
+    fails
+        .blocks
+        .push(Block::Text(missing(&found, data.drive.symbol())));
+    let mut pictures = picture::maps(&format!("{id}-against"), &maps, data.drive.symbol());
     // What a wave in the angle explains shows only without it.
     let (name, flat) = match without_waves(&best.candidate) {
         Some(flat) => (
@@ -84,6 +86,7 @@ pub fn missing_drive(id: &str, data: &Data, models: &[Model]) -> Result<Option<S
         &name,
         &lines,
         &named,
+        data.drive.symbol(),
     ));
     fails.blocks.push(Block::Pictures(pictures));
     Ok(Some(fails))
@@ -131,7 +134,7 @@ fn orders_of(candidate: &Candidate) -> Vec<usize> {
     orders.collect()
 }
 
-fn missing(found: &[(&str, ResidualAnalysis)]) -> String {
+fn missing(found: &[(&str, ResidualAnalysis)], symbol: &str) -> String {
     let said: Vec<String> = found
         .iter()
         .map(|(name, found)| {
@@ -144,12 +147,15 @@ fn missing(found: &[(&str, ResidualAnalysis)]) -> String {
                     format!(", of which the largest part, {percent}, goes with {against}")
                 }
             });
-            format!("the {name} misses {:.4} V RMS{most}", found.volts_rms)
+            format!(
+                "the {name} misses {:.4} {symbol} RMS{most}",
+                found.volts_rms
+            )
         })
         .collect();
     let perfect = found.last().map_or(0.0, |(_, w)| w.perfect_volts_rms);
     format!(
-        "Along the measured motion {}; a perfect model would show {perfect:.4} V here, which is the encoder's.",
+        "Along the measured motion {}; a perfect model would show {perfect:.4} {symbol} here, which is the encoder's.",
         said.join(", and ")
     )
 }
