@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             read_recording(Path::new(&file), &motor)?
         }
         None => showcase::record(
-            &Hidden::typical("coulomb", &showcase::machine())?,
+            &[Hidden::typical("coulomb", &showcase::machine())?],
             1,
             "bench",
         )?,

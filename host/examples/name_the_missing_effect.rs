@@ -10,8 +10,8 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     let effect = std::env::args().nth(1).unwrap_or("cogging".to_owned());
     let hidden = Hidden::typical(&effect, &showcase::machine())?;
-    let fitted = showcase::record(&hidden, 1, "fitted")?;
-    let held_out = showcase::record(&hidden, 2, "held out")?;
+    let fitted = showcase::record(std::slice::from_ref(&hidden), 1, "fitted")?;
+    let held_out = showcase::record(std::slice::from_ref(&hidden), 2, "held out")?;
 
     let found = diagnose(
         &fitted,

@@ -78,6 +78,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// Whether a log cannot be read only because it was not said what its columns are, or a fact that they need.
+    pub fn asks_what_a_log_is(&self) -> bool {
+        matches!(self, Error::Read(error) if error.fault.asks_what_a_log_is())
+    }
+
     /// Exit code: 2 for wrong use, 1 for work that failed.
     pub fn exit_code(&self) -> u8 {
         match self {

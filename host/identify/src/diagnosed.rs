@@ -43,8 +43,8 @@ pub struct Diagnosed {
 /// use servoid_plant::Hidden;
 ///
 /// let hidden = Hidden::typical("coulomb", &showcase::machine())?;
-/// let recording = showcase::record(&hidden, 1, "fitted")?;
-/// let other = showcase::record(&hidden, 2, "held out")?;
+/// let recording = showcase::record(std::slice::from_ref(&hidden), 1, "fitted")?;
+/// let other = showcase::record(std::slice::from_ref(&hidden), 2, "held out")?;
 ///
 /// let found = diagnose(&recording, Some(&other), &Options::default(), &Silent::default())?;
 /// let named: Vec<&str> = found.diagnosis.steps.iter().map(|step| step.added.name()).collect();

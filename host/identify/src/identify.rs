@@ -40,7 +40,7 @@ pub const LEAST_SQUARES: &str = "lm";
 ///
 /// // Twenty seconds of a gearmotor with Coulomb friction, from the virtual bench.
 /// let friction = Hidden::typical("coulomb", &showcase::machine())?;
-/// let recording = showcase::record(&friction, 1, "bench")?;
+/// let recording = showcase::record(std::slice::from_ref(&friction), 1, "bench")?;
 ///
 /// let linear = identify(&recording, &Options::default(), &Silent::default())?;
 /// let with_friction = Options { effects: vec![Kind::Coulomb], ..Options::default() };
@@ -316,7 +316,7 @@ mod tests {
     #[test]
     fn a_search_that_was_stopped_before_its_first_model_is_an_error() {
         let friction = Hidden::typical("coulomb", &showcase::machine()).unwrap();
-        let recording = showcase::record(&friction, 1, "bench").unwrap();
+        let recording = showcase::record(std::slice::from_ref(&friction), 1, "bench").unwrap();
         let stopped = StoppedAtOnce(AtomicBool::new(true));
         let error = identify(&recording, &Options::default(), &stopped).unwrap_err();
         assert!(

@@ -19,14 +19,14 @@ pub fn machine() -> Machine {
 /// One recording of it with `hidden` in it; `name` is its source.
 ///
 /// # Errors
-/// Parameters of the hidden effect that the bench refuses.
-pub fn record(hidden: &Hidden, seed: u64, name: &str) -> Result<Recording, BenchError> {
+/// Parameters of a hidden effect that the bench refuses.
+pub fn record(hidden: &[Hidden], seed: u64, name: &str) -> Result<Recording, BenchError> {
     let machine = machine();
     let mut bench = Bench::new(machine);
     bench.counts_per_rev = COUNTS_PER_REV;
     bench.sample_s = INTERVAL_S;
     bench.seed = seed;
-    bench.effects = vec![hidden.clone()];
+    bench.effects = hidden.to_vec();
     let drive = excitation::drive(&COMMISSIONING, INTERVAL_S, seed, machine.supply_v);
     bench.record(&drive, name, false)
 }

@@ -4,11 +4,11 @@ use super::motor;
 use crate::cli::BenchArgs;
 use crate::error::Error;
 use crate::session::Session;
-use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, Source};
+use crate::workbench::{FAMILY, Loaded, Opening, Server, SessionFile, read};
 use serde::Serialize;
-use servoid_io::output::{is_same_file, write_csv};
+use servoid_io::output::is_same_file;
 use std::fs;
-use std::io::{Read, Write};
+use std::io::{Read as _, Write};
 use std::path::{Path, PathBuf};
 
 #[derive(Serialize)]
@@ -111,10 +111,15 @@ fn opening(session: &Session, args: &BenchArgs) -> Result<Opening, Error> {
         }
         return saved(first);
     }
-    let fitted = loaded(session, args, args.fitted())?;
+    let unknown = || Opening::Unknown(args.fitted().to_vec(), args.held_out().to_vec());
+    let Some(fitted) = loaded(session, args, args.fitted())? else {
+        return Ok(unknown());
+    };
     let mut held_out: Option<Loaded> = None;
     for path in args.held_out() {
-        let other = loaded(session, args, std::slice::from_ref(path))?;
+        let Some(other) = loaded(session, args, std::slice::from_ref(path))? else {
+            return Ok(unknown());
+        };
         if other.has_copy_of(&fitted) {
             session.remark(&format!(
                 "--validate {}: is fitted, too, which is no test: it is not held out",
@@ -156,32 +161,31 @@ fn text(path: &Path) -> Result<String, Error> {
         .map_err(|error| Error::Failed(format!("{}: cannot be read: {error}", path.display())))
 }
 
-fn loaded(session: &Session, args: &BenchArgs, paths: &[PathBuf]) -> Result<Loaded, Error> {
-    let mut sources = Vec::new();
+/// Reads what is named; none where it must be said first what the columns of one of them are, which the page asks.
+fn loaded(
+    session: &Session,
+    args: &BenchArgs,
+    paths: &[PathBuf],
+) -> Result<Option<Loaded>, Error> {
+    let mut all: Option<Loaded> = None;
     for path in paths {
-        // Read once as every verb does, for its messages.
-        let (recordings, motor) = motor::all_of(session, &args.motor, path)?;
-        if let ([_], Ok(csv)) = (&recordings[..], text(path)) {
-            sources.push(Source {
-                name: path.display().to_string(),
-                csv,
-                motor: motor.to_toml(),
-                span_s: None,
-            });
-            continue;
+        let motor = motor::motor_file(&args.motor, path)?;
+        let name = path.display().to_string();
+        let (loaded, notes) = match read(path, &name, &motor) {
+            Ok(found) => found,
+            Err(error) if error.asks_what_a_log_is() => {
+                session.remark(&format!("{error}\nThe page asks for it."));
+                return Ok(None);
+            }
+            Err(error) => return Err(error),
+        };
+        for note in &notes {
+            session.remark(note);
         }
-        // The page reads text in UTF-8, and one recording a file.
-        for recording in &recordings {
-            let mut csv = Vec::new();
-            let written = write_csv(&mut csv, recording, &[]);
-            written.map_err(|error| Error::Failed(format!("{}: {error}", recording.source)))?;
-            sources.push(Source {
-                name: recording.source.clone(),
-                csv: String::from_utf8_lossy(&csv).into_owned(),
-                motor: motor.for_written(recording).to_toml(),
-                span_s: None,
-            });
-        }
+        all = Some(match all {
+            Some(others) => others.with(&loaded)?,
+            None => loaded,
+        });
     }
-    Loaded::read(sources)
+    Ok(all)
 }

@@ -1,4 +1,4 @@
-//! A blind demonstration: recordings of a motor in which something is hidden.
+//! Demonstrations: a motor with Coulomb friction and cogging, and motors in which something is hidden.
 
 use super::loaded::{Loaded, Source};
 use super::recordings::Recordings;
@@ -12,8 +12,9 @@ use std::sync::Arc;
 /// The two recordings of a seed's motor, and what is hidden in it.
 pub(super) fn demonstration(seed: u64) -> Result<(Recordings, Secret), Error> {
     let hidden = surprise(&showcase::machine(), seed)?;
-    let first = recorded(&hidden, seed, &format!("blind demo {seed}"))?;
-    let second = recorded(&hidden, seed.wrapping_add(1), "its second recording")?;
+    let one = std::slice::from_ref(&hidden);
+    let first = recorded(one, seed, &format!("blind demo {seed}"))?;
+    let second = recorded(one, seed.wrapping_add(1), "its second recording")?;
     let recordings = Recordings::new(first, Some(second));
     let secret = Secret {
         hidden,
@@ -23,8 +24,18 @@ pub(super) fn demonstration(seed: u64) -> Result<(Recordings, Secret), Error> {
     Ok((recordings, secret))
 }
 
+/// The two recordings of a motor with friction and magnets that hold, as in the picture of the README.
+pub(super) fn story() -> Result<Recordings, Error> {
+    let machine = showcase::machine();
+    let hidden = ["coulomb", "cogging"].map(|name| Hidden::typical(name, &machine));
+    let hidden: Vec<Hidden> = hidden.into_iter().collect::<Result<_, _>>()?;
+    let first = recorded(&hidden, 1, "demo motor")?;
+    let second = recorded(&hidden, 2, "its second recording")?;
+    Ok(Recordings::new(first, Some(second)))
+}
+
 /// As it would come from a user, so that it is kept and opened again as a user's.
-pub(super) fn recorded(hidden: &Hidden, seed: u64, name: &str) -> Result<Arc<Loaded>, Error> {
+pub(super) fn recorded(hidden: &[Hidden], seed: u64, name: &str) -> Result<Arc<Loaded>, Error> {
     let recording = showcase::record(hidden, seed, name)?;
     let mut csv = "t_s,voltage_v,angle_counts\n".to_owned();
     for k in 0..recording.len() {

@@ -1,42 +1,66 @@
-//! What each effect of the catalogue leaves in a recording, for a bench on which nothing lies yet: drawn of the virtual bench's motor.
+//! What each effect of the catalogue leaves in a recording, for a bench on which nothing lies yet. It is drawn of the virtual bench's motor when the
+//! program is made, and a law compares the file with what the program would draw.
 
-use super::proposals::drawn;
-use crate::error::Error;
-use rayon::prelude::*;
-use serde_json::{Value, json};
-use servoid_engine::problem::Data;
-use servoid_engine::simulation::Method;
-use servoid_identify::diagnose::residual_analysis::signature;
-use servoid_identify::truth;
-use servoid_io::showcase;
-use servoid_plant::Hidden;
-use shared::effects::Kind;
+/// Every effect with its signature, if a quantity tells it, as JSON.
+pub(super) const EFFECTS: &str = include_str!("assets/gallery.json");
 
-/// Every effect with its signature, if a quantity tells it.
-///
-/// # Errors
-/// A bench that does not run.
-pub(super) fn effects() -> Result<Value, Error> {
-    let entries: Result<Vec<Value>, Error> =
-        Kind::ALL.par_iter().map(|&kind| entry(kind)).collect();
-    Ok(Value::Array(entries?))
-}
+#[cfg(test)]
+mod tests {
+    use super::EFFECTS;
+    use crate::workbench::proposals::drawn;
+    use rayon::prelude::*;
+    use serde_json::{Value, json};
+    use servoid_engine::problem::Data;
+    use servoid_engine::simulation::Method;
+    use servoid_identify::diagnose::residual_analysis::signature;
+    use servoid_identify::truth;
+    use servoid_io::showcase;
+    use servoid_plant::Hidden;
+    use shared::effects::Kind;
 
-fn entry(kind: Kind) -> Result<Value, Error> {
-    let machine = showcase::machine();
-    let hidden = Hidden::typical(kind.name(), &machine)?;
-    let recording = showcase::record(&hidden, 1, kind.name())?;
-    let candidate = truth::model(
-        &machine,
-        std::slice::from_ref(&hidden),
-        showcase::COUNTS_PER_REV,
-    )?;
-    let found = signature(&Data::new(&recording)?, &candidate, kind, Method::default());
-    let description = kind.description();
-    Ok(json!({
-        "effect": kind.name(),
-        "title": description.title,
-        "said": description.signature,
-        "signature": found.as_ref().map(drawn),
-    }))
+    /// Digits of a small drawing.
+    fn rounded(value: &Value) -> Value {
+        match value {
+            Value::Number(number) => {
+                let text = format!("{:.3e}", number.as_f64().unwrap_or(0.0));
+                json!(text.parse::<f64>().unwrap_or(0.0))
+            }
+            Value::Array(all) => Value::Array(all.iter().map(rounded).collect()),
+            other => other.clone(),
+        }
+    }
+
+    fn entry(kind: Kind) -> Value {
+        let machine = showcase::machine();
+        let hidden = [Hidden::typical(kind.name(), &machine).expect("an effect")];
+        let recording = showcase::record(&hidden, 1, kind.name()).expect("a recording");
+        let candidate = truth::model(&machine, &hidden, showcase::COUNTS_PER_REV).expect("a model");
+        let data = Data::new(&recording).expect("data");
+        let found = signature(&data, &candidate, kind, Method::default());
+        let description = kind.description();
+        let drawn = found.as_ref().map(|found| {
+            let own = drawn(found);
+            json!({ "against": own["against"], "unit": own["unit"], "curve": rounded(&own["curve"]) })
+        });
+        json!({
+            "effect": kind.name(),
+            "title": description.title,
+            "said": description.signature,
+            "signature": drawn,
+        })
+    }
+
+    /// `SERVOID_PIN=1 cargo test -p host --lib gallery` writes the file.
+    #[test]
+    fn the_gallery_is_what_the_catalogue_leaves() {
+        let effects: Vec<Value> = Kind::ALL.par_iter().map(|&kind| entry(kind)).collect();
+        let lines: Vec<String> = effects.iter().map(Value::to_string).collect();
+        let text = format!("[\n{}\n]\n", lines.join(",\n"));
+        if std::env::var_os("SERVOID_PIN").is_some() {
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/workbench/assets/gallery.json");
+            std::fs::write(path, &text).expect("written");
+            return;
+        }
+        assert!(text == EFFECTS, "the gallery has changed: write it with SERVOID_PIN=1");
+    }
 }

@@ -13,7 +13,7 @@
 //! | `device` | a device that is connected, its limits, and its run that is under way |
 //! | `driven`, `planned` | work that drives its motor, and the experiment that decides |
 //! | `live` | what the page draws of a run |
-//! | `preview` | the first rows of a file, and which column may be what |
+//! | `dropped`, `intake` | files that wait to be read, and what their columns may be |
 //! | `shown`, `proposals`, `sliders` | what the page says |
 //! | `series`, `failing`, `details`, `drawings` | what it draws: lanes, where models fail, tabs, each made once |
 //! | `remedy` | a speed loop with and without what is known of the effects |
@@ -37,10 +37,12 @@ mod device;
 mod download;
 mod drawings;
 mod driven;
+mod dropped;
 mod failing;
 mod files;
 mod guard;
 mod history;
+mod intake;
 mod job;
 mod law;
 mod live;
@@ -49,7 +51,6 @@ mod lock;
 mod model;
 mod opened;
 mod planned;
-mod preview;
 mod proposals;
 mod recordings;
 mod remedy;
@@ -64,6 +65,7 @@ mod words;
 mod work;
 
 pub use device::Device;
+pub use intake::read;
 pub use loaded::{Loaded, Source};
 pub use server::{Opening, Server};
 pub use session_file::{FAMILY, SessionFile};

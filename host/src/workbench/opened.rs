@@ -2,22 +2,21 @@
 
 use super::answer::{Answer, aside, done};
 use super::blind;
-use super::loaded::{Loaded, Source};
-use super::preview::Mapping;
+use super::intake::Asked;
+use super::loaded::Loaded;
 use super::recordings::{self, Recordings};
 use super::routes::Shared;
-use super::session_file::SessionFile;
 use super::state::Bench;
 use crate::error::Error;
 use axum::Json;
-use axum::extract::{Query, State};
-use serde::Deserialize;
+use axum::extract::State;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
 use std::sync::Arc;
 
 /// What a recording is taken as.
-#[derive(Clone, Copy, PartialEq, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Role {
     /// The one to fit, on a bench of its own.
@@ -29,45 +28,8 @@ pub(super) enum Role {
     HeldOut,
 }
 
-#[derive(Deserialize)]
-pub(super) struct Sent {
-    name: String,
-    csv: String,
-    #[serde(default)]
-    role: Role,
-    mapping: Option<Mapping>,
-    /// A `motor.toml` in the place of a mapping.
-    motor: Option<String>,
-    /// Whether it is only tried.
-    #[serde(default)]
-    check: bool,
-}
-
-pub(super) async fn recording(State(bench): Shared, Json(sent): Json<Sent>) -> Answer {
-    let answer = aside(move || {
-        let mapping = sent.mapping.map(|mapping| mapping.motor());
-        let motor = sent.motor.or(mapping).unwrap_or_default();
-        let loaded = Loaded::read(vec![Source {
-            name: sent.name,
-            csv: sent.csv,
-            motor,
-            span_s: None,
-        }])?;
-        if sent.check {
-            return Ok(meaning(&loaded.data));
-        }
-        let before = bench.state().recordings.clone();
-        let recordings = placed(loaded, sent.role, before)?;
-        free(&bench)?;
-        bench.change(|state| state.begin(recordings));
-        Ok(json!({}))
-    })
-    .await?;
-    Ok(Json(answer))
-}
-
 /// What a recording says under a mapping, in numbers that an engineer can check by feel.
-fn meaning(data: &Data) -> Value {
+pub(super) fn meaning(data: &Data) -> Value {
     let turns = |counts: f64| counts / data.units.counts_per_rev;
     let mut with = 0.0;
     for k in 1..data.len() {
@@ -100,9 +62,9 @@ fn fastest(data: &Data) -> f64 {
     })
 }
 
-/// The mapping as a `motor.toml`.
-pub(super) async fn motor(Json(mapping): Json<Mapping>) -> Answer {
-    Ok(Json(json!({ "text": mapping.motor() })))
+/// What is said of a log, as a `motor.toml`.
+pub(super) async fn motor(Json(asked): Json<Asked>) -> Answer {
+    Ok(Json(json!({ "text": asked.text() })))
 }
 
 /// The recordings of the bench with one more.
@@ -149,37 +111,21 @@ pub(super) fn free(bench: &Bench) -> Result<(), Error> {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Tried {
-    /// Whether it is only tried.
-    #[serde(default)]
-    check: bool,
-}
-
-pub(super) async fn session(
-    State(bench): Shared,
-    Query(tried): Query<Tried>,
-    body: String,
-) -> Answer {
-    aside(move || {
-        let file = SessionFile::parse(&body, "the session")?;
-        if tried.check {
-            return Ok(());
-        }
-        free(&bench)?;
-        bench.change(|state| file.lay(state))
-    })
-    .await?;
-    done()
-}
-
-#[derive(Deserialize)]
 pub(super) struct Drawn {
     seed: Option<u64>,
+    /// Whether what is in the motor is hidden.
+    #[serde(default)]
+    blind: bool,
 }
 
 pub(super) async fn demo(State(bench): Shared, Json(drawn): Json<Drawn>) -> Answer {
     aside(move || {
         free(&bench)?;
+        if !drawn.blind {
+            let recordings = blind::story()?;
+            bench.change(|state| state.begin(recordings));
+            return Ok(());
+        }
         let seed = match drawn.seed {
             Some(seed) => seed,
             None => u64::from(

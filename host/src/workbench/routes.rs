@@ -5,11 +5,10 @@ use super::begun::begin;
 use super::details::Tab;
 use super::files::files;
 use super::job::Watch;
-use super::opened::{demo, free, motor, recording, roles, session, span};
-use super::preview::preview;
+use super::opened::{demo, free, motor, roles, span};
 use super::state::{Bench, Telling, Way};
 use super::{
-    catalogue, details, download, failing, guard, law, live, remedy, series, shown, sliders,
+    catalogue, details, download, dropped, failing, guard, law, live, remedy, series, shown, sliders,
 };
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Path, Query, State};
@@ -20,7 +19,7 @@ use axum::routing::{get, post};
 use axum::{Json, Router, middleware};
 use futures_util::stream::{self, Stream};
 use serde::Deserialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use std::convert::Infallible;
 use std::sync::Arc;
 use tokio::sync::broadcast::error::RecvError;
@@ -47,12 +46,13 @@ pub(super) fn routes(bench: Arc<Bench>, secret: &str) -> Router {
         .route("/series/{what}", get(series::of_recording))
         .route("/series/model/{id}", get(series::of_model))
         .route("/series/proposal/{id}/{effect}", get(series::of_proposal))
-        .route("/preview", post(previewed))
         .route("/motor", post(motor))
         .route("/roles", post(roles))
         .route("/span", post(span))
-        .route("/recording", post(recording))
-        .route("/session", post(session))
+        .route("/dropped", get(dropped::waiting).post(dropped::sent))
+        .route("/dropped/proposal", post(dropped::proposed))
+        .route("/dropped/read", post(dropped::read))
+        .route("/dropped/session", post(dropped::session))
         .route("/demo", post(demo))
         .route("/reveal", post(reveal))
         .route("/work", post(begin))
@@ -116,11 +116,9 @@ async fn failing(State(bench): Shared) -> Answer {
     drawn(&bench, "failing", failing::of).await
 }
 
-/// The effects that servoid knows, with their signatures; drawn once.
-async fn catalogue(State(bench): Shared) -> Answer {
-    let draw = aside(catalogue::effects);
-    let found = bench.drawings.get("catalogue".to_owned(), draw).await?;
-    Ok(Json((*found).clone()))
+/// The effects that servoid knows, with their signatures.
+async fn catalogue() -> impl IntoResponse {
+    ([(CONTENT_TYPE, "application/json")], catalogue::EFFECTS)
 }
 
 /// The speed loop of the chosen model.
@@ -140,10 +138,6 @@ async fn drawn(
         .get(key, aside(move || draw(&from)))
         .await?;
     Ok(Json((*found).clone()))
-}
-
-async fn previewed(body: String) -> Json<Value> {
-    Json(json!(preview(&body)))
 }
 
 async fn reveal(State(bench): Shared) -> Answer {

@@ -5,6 +5,7 @@ use super::guard;
 use super::job::{self, ALONE};
 use super::loaded::Loaded;
 use super::lock::Lock;
+use super::opened::Role;
 use super::recordings::Recordings;
 use super::routes::routes;
 use super::session_file::SessionFile;
@@ -38,6 +39,8 @@ pub enum Opening {
     Recording(Box<Loaded>, Option<Box<Loaded>>),
     /// A session that was saved.
     Session(Box<SessionFile>),
+    /// Logs of which it must be said what their columns are: fitted ones, and others that are held out.
+    Unknown(Vec<PathBuf>, Vec<PathBuf>),
 }
 
 /// A workbench that listens.
@@ -75,6 +78,15 @@ impl Server {
                 bench.change(|state| state.begin(recordings));
             }
             Opening::Session(session) => bench.change(|state| session.lay(state))?,
+            Opening::Unknown(fitted, held_out) => {
+                for (k, path) in fitted.iter().enumerate() {
+                    let role = if k == 0 { Role::Fitted } else { Role::Beside };
+                    bench.dropped.name(path, role);
+                }
+                for path in &held_out {
+                    bench.dropped.name(path, Role::HeldOut);
+                }
+            }
         }
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(2)

@@ -2,6 +2,7 @@
 
 use super::device::Device;
 use super::drawings::Drawings;
+use super::dropped::Dropped;
 use super::history::History;
 use super::job::Job;
 use super::model::Model;
@@ -34,6 +35,8 @@ pub(super) struct Bench {
     /// Drawings of what is looked at.
     pub(super) drawings: Drawings,
     device: Option<Device>,
+    /// Files that wait until it is said what their columns are.
+    pub(super) dropped: Dropped,
 }
 
 /// Which way through the history.
@@ -255,6 +258,7 @@ impl Bench {
     pub(super) fn new(file: Option<PathBuf>, device: Option<Device>) -> Arc<Self> {
         Arc::new(Bench {
             device,
+            dropped: Dropped::default(),
             state: Mutex::default(),
             tellings: broadcast::channel(TELLINGS).0,
             job: Job::default(),

@@ -50,7 +50,7 @@ fn one_motor_reproduces_every_reading_and_the_true_one_is_within_the_bounds() {
     for seed in 1..=many_minutes(4, 1) {
         for name in EFFECTS {
             let hidden = Hidden::typical(name, &machine).unwrap();
-            let recording = showcase::record(&hidden, seed, "bench").unwrap();
+            let recording = showcase::record(std::slice::from_ref(&hidden), seed, "bench").unwrap();
             let found = certificate(&recording, &[name]);
             println!("seed {seed}, {name}: {found:?}");
             assert!(found.is_feasible(), "seed {seed}, {name}: {found:?}");
@@ -80,7 +80,7 @@ fn one_motor_reproduces_every_reading_and_the_true_one_is_within_the_bounds() {
 fn a_model_that_lacks_an_effect_is_refuted_by_a_few_readings() {
     for name in EFFECTS {
         let hidden = Hidden::typical(name, &showcase::machine()).unwrap();
-        let recording = showcase::record(&hidden, 1, "bench").unwrap();
+        let recording = showcase::record(std::slice::from_ref(&hidden), 1, "bench").unwrap();
         let found = certificate(&recording, &[]);
         assert!(
             !found.is_feasible() && found.bounds.is_empty(),

@@ -27,7 +27,7 @@ fn the_steps_that_a_fit_begins_with_do_not_change_its_parameters() {
     for seed in 1..=many_minutes(2, 1) {
         for effect in EFFECTS {
             let hidden = Hidden::typical(effect, &showcase::machine()).unwrap();
-            let recording = showcase::record(&hidden, seed, "bench").unwrap();
+            let recording = showcase::record(std::slice::from_ref(&hidden), seed, "bench").unwrap();
             let (coarse, fine) = (fit(&recording, effect, 1), fit(&recording, effect, 16));
             for one in &coarse.parameters {
                 let same = fine.parameters.iter().find(|other| other.name == one.name);

@@ -20,7 +20,7 @@ fn an_effect_of_typical_size_is_named_whatever_the_held_out_end_begins_with() {
             .filter(|name| *name != LEAVES_MORE)
         {
             let hidden = Hidden::typical(effect, &showcase::machine()).unwrap();
-            let recording = showcase::record(&hidden, seed, "bench").unwrap();
+            let recording = showcase::record(std::slice::from_ref(&hidden), seed, "bench").unwrap();
             let found =
                 diagnose(&recording, None, &Options::default(), &Silent::default()).unwrap();
             let steps = &found.diagnosis.steps;

@@ -2,9 +2,10 @@
 //! type, and what is written is read back the same. (proptest prints the seed of a failure.)
 
 use proptest::prelude::*;
+use servoid_io::channel::{Channel, Measured, PerMeasured, Series};
 use servoid_io::input::{
-    AngleUnit, CommandUnit, CurrentUnit, Fact, Known, LogPart, MotorFile, Reversed, Selection,
-    TemperatureUnit, TimeUnit, Units,
+    AngleUnit, CommandUnit, Fact, Known, LogPart, MotorFile, Reversed, Selection,
+    TimeUnit, Units,
 };
 use servoid_io::input::{Columns, read_recording_from};
 use servoid_io::output::{write_csv, write_recording};
@@ -17,9 +18,9 @@ fn check_promises(recording: &Recording) {
     assert_eq!((recording.command.len(), recording.counts.len()), (n, n));
     assert!(
         recording
-            .current_a
-            .as_ref()
-            .is_none_or(|current| current.len() == n)
+            .measured
+            .told()
+            .all(|(_, values)| values.len() == n && values.iter().all(|x| x.is_finite()))
     );
     assert!(
         recording
@@ -32,7 +33,6 @@ fn check_promises(recording: &Recording) {
     assert!(
         columns
             .into_iter()
-            .chain(&recording.current_a)
             .flatten()
             .all(|x| x.is_finite())
     );
@@ -61,16 +61,15 @@ fn read_every_way(bytes: &[u8]) {
             read_one_way(bytes, &motor);
         }
     }
+    let mut columns = Columns::default();
+    columns.set(Channel::Command, Some("voltage_v".into()));
     for (_, angle) in AngleUnit::ALL {
         for gain in [None, Some(3.0)] {
             let motor = MotorFile {
                 counts_per_rev: Some(2048.0),
                 supply_v: Some(24.0),
                 metres_per_rev: Some(0.0025),
-                columns: Columns {
-                    voltage: Some("voltage_v".into()),
-                    ..Columns::default()
-                },
+                columns: columns.clone(),
                 units: Units {
                     target: Some(*angle),
                     ..Units::default()
@@ -183,8 +182,10 @@ fn recording() -> impl Strategy<Value = Recording> {
                 time_s,
                 command: samples.iter().map(|sample| sample.1).collect(),
                 counts: samples.iter().map(|sample| f64::from(sample.2)).collect(),
-                temperature_c: None,
-                current_a: with_current.then(|| samples.iter().map(|sample| sample.3).collect()),
+                measured: Series::NONE.with(
+                    Measured::Current,
+                    with_current.then(|| samples.iter().map(|sample| sample.3).collect()),
+                ),
                 enabled: with_enabled.then(|| samples.iter().map(|sample| sample.4).collect()),
                 counts_per_rev: 2048.0,
                 quantised: true,
@@ -217,15 +218,21 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
     let columns = (name(), name(), name(), name(), name()).prop_map(
         |(time, voltage, angle, current, enabled)| {
             let trimmed = |name: Option<String>| name.map(|name| name.trim().to_string());
-            Columns {
-                time: trimmed(time),
-                voltage: trimmed(voltage),
-                angle: trimmed(angle),
-                temperature: trimmed(enabled.clone().map(|name| format!("{name}_c"))),
-                current: trimmed(current),
-                enabled: trimmed(enabled.clone()),
-                direction: trimmed(enabled.map(|name| format!("{name}_direction"))),
+            let further = |end: &str| enabled.clone().map(|name| format!("{name}_{end}"));
+            let mut columns = Columns::default();
+            for (channel, name) in [
+                (Channel::Time, time),
+                (Channel::Command, voltage),
+                (Channel::Angle, angle),
+                (Channel::Measured(Measured::Temperature), further("c")),
+                (Channel::Measured(Measured::Supply), further("v")),
+                (Channel::Measured(Measured::Current), current),
+                (Channel::Enabled, enabled.clone()),
+                (Channel::Direction, further("direction")),
+            ] {
+                columns.set(channel, trimmed(name));
             }
+            columns
         },
     );
     let known =
@@ -301,12 +308,11 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                     voltage,
                     target: target.map(|(_, unit)| *unit),
                     angle: angles[a % angles.len()].1,
-                    current: CurrentUnit::ALL[i].1,
-                    temperature: TemperatureUnit::ALL[t % TemperatureUnit::ALL.len()].1,
+                    measured: PerMeasured([i % 2, t % 3, i % 2]),
                     reversed: Reversed {
                         voltage: turned_v && position.is_none(),
                         angle: turned_a,
-                        current: turned_i,
+                        measured: PerMeasured([turned_i, false, false]),
                     },
                 },
                 log: LogPart {
@@ -431,7 +437,7 @@ fn units_agree() {
             );
             assert_eq!(recording.time_s[3], 0.003);
             assert!(recording.command.iter().all(|x| *x == 6.0));
-            assert!(recording.current_a.unwrap().iter().all(|x| *x == 0.25));
+            assert!(recording.measured.get(Measured::Current).unwrap().iter().all(|x| *x == 0.25));
         }
     }
 }

@@ -9,7 +9,6 @@ use crate::error::{FormatError, FormatFault};
 use crate::log::{Column, Kind, ROWS_AT_A_TIME, Table};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef};
-use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType};
 use std::ops::ControlFlow;
 
@@ -100,9 +99,7 @@ pub(crate) fn tables(file: &ParquetFile, columns: &[Column]) -> Result<Vec<Table
         let Some(names) = batch.columns().first() else {
             return Ok(ControlFlow::Break(()));
         };
-        let names = cast(names, &DataType::Utf8)?;
-        let names = names.as_string_opt::<i32>();
-        names.into_iter().flatten().for_each(&mut add);
+        each_text(names, &mut add);
         Ok(ControlFlow::Continue(()))
     })?;
     Ok(tables)
@@ -200,6 +197,24 @@ fn series_of(kind: &DataType) -> Option<&DataType> {
         return None;
     };
     (kind_of(item.data_type()) != Kind::Text).then(|| item.data_type())
+}
+
+/// The texts of an array, in whichever of several ways it keeps them.
+fn each_text(array: &ArrayRef, add: &mut dyn FnMut(Option<&str>)) {
+    if let Some(texts) = array.as_string_opt::<i32>() {
+        texts.iter().for_each(add);
+    } else if let Some(texts) = array.as_string_opt::<i64>() {
+        texts.iter().for_each(add);
+    } else if let Some(texts) = array.as_string_view_opt() {
+        texts.iter().for_each(add);
+    } else if let Some(dictionary) = array.as_any_dictionary_opt() {
+        let mut all: Vec<Option<String>> = Vec::new();
+        each_text(dictionary.values(), &mut |text| all.push(text.map(str::to_owned)));
+        for (row, key) in dictionary.normalized_keys().into_iter().enumerate() {
+            let text = all.get(key).and_then(Option::as_deref);
+            add(text.filter(|_| dictionary.is_valid(row)));
+        }
+    }
 }
 
 fn is_text(kind: &DataType) -> bool {

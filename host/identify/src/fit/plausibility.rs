@@ -110,14 +110,14 @@ mod tests {
 
     fn recorded() -> Data {
         let hidden = Hidden::typical("coulomb", &showcase::machine()).unwrap();
-        Data::new(&showcase::record(&hidden, 1, "bench").unwrap()).unwrap()
+        Data::new(&showcase::record(std::slice::from_ref(&hidden), 1, "bench").unwrap()).unwrap()
     }
 
     #[test]
     fn a_motor_that_can_be_contradicts_nothing_and_each_impossible_number_is_named() {
         let data = recorded();
         let recording = showcase::record(
-            &Hidden::typical("coulomb", &showcase::machine()).unwrap(),
+            &[Hidden::typical("coulomb", &showcase::machine()).unwrap()],
             1,
             "bench",
         );

@@ -84,6 +84,14 @@ impl Profile {
         }
     }
 
+    /// The value of one of the first rows as a text; none where there is nothing.
+    pub fn first_as_text(&self, row: usize) -> Option<String> {
+        let value = self.first.get(row).filter(|value| !value.is_nan())?;
+        let is_word = self.numbers == 0 && !self.words.is_empty();
+        let word = self.words.get(*value as usize).filter(|_| is_word);
+        Some(word.cloned().unwrap_or_else(|| value.to_string()))
+    }
+
     /// Least and greatest number.
     pub fn range(&self) -> Option<[f64; 2]> {
         self.range

@@ -451,6 +451,24 @@ pub enum ReadFault {
     },
 }
 
+impl ReadFault {
+    /// Whether the log can be read once it is said what its columns are, or a fact that they need.
+    pub fn asks_what_a_log_is(&self) -> bool {
+        matches!(
+            self,
+            ReadFault::NoHeader { .. }
+                | ReadFault::MissingColumns { .. }
+                | ReadFault::FractionalCounts { .. }
+                | ReadFault::NoCountsPerRev { .. }
+                | ReadFault::NoSupply { .. }
+                | ReadFault::NoLimit { .. }
+                | ReadFault::NoMetresPerRev { .. }
+                | ReadFault::SeveralMotors { .. }
+                | ReadFault::DutyBeyondSupply { .. }
+        )
+    }
+}
+
 fn samples(count: usize) -> &'static str {
     match count {
         0 => "no sample",

@@ -13,7 +13,11 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let mut best = None;
     let mut best_score = LEAST_SIMILARITY;
     for candidate in candidates {
-        let score = strsim::jaro_winkler(&name, &folded(candidate));
+        let candidate_name = folded(candidate);
+        // Two letters that are exchanged make a short word another one.
+        let slip = name.len() > 2 && strsim::osa_distance(&name, &candidate_name) == 1;
+        let least = if slip { LEAST_SIMILARITY } else { 0.0 };
+        let score = strsim::jaro_winkler(&name, &candidate_name).max(least);
         if score > best_score || (best.is_none() && score >= best_score) {
             best = Some(candidate);
             best_score = score;

@@ -7,7 +7,10 @@ async function answer(path, body) {
     headers: { "content-type": text ? "text/plain" : "application/json" },
     body: text ? body : JSON.stringify(body),
   };
-  const response = await fetch(path, options);
+  return answered(await fetch(path, options));
+}
+
+async function answered(response) {
   if (response.ok) return response;
   const said = await response.text();
   let error = said || `${response.status} ${response.statusText}`;
@@ -23,6 +26,12 @@ async function answer(path, body) {
 export async function ask(path, body) {
   const text = await (await answer(path, body)).text();
   return text ? JSON.parse(text) : {};
+}
+
+/** Sends a file as it is; the answer as JSON. */
+export async function send(path, file) {
+  const response = await answered(await fetch(path, { method: "POST", headers: { "content-type": "application/octet-stream" }, body: file }));
+  return response.json();
 }
 
 /** The answer as numbers of a kind: `Float32Array`, `Float64Array`, `Uint8Array`. */

@@ -169,6 +169,7 @@ function show() {
   at("undo").disabled = Boolean(job) || !bench.undo;
   at("redo").disabled = Boolean(job) || !bench.redo;
   at("demo").disabled = Boolean(job);
+  at("blind").disabled = Boolean(job);
   if (wrong.startsWith(SILENT)) wrong = "";
   showFault();
   showWork();
@@ -312,7 +313,8 @@ events.addEventListener("error", () => refresh());
 
 // ---- files
 
-const take = (files) => mapping.take(Array.from(files), { bench: () => bench, say, putAway, fit: fitNow }).catch(say);
+const doing = { bench: () => bench, say, putAway, fit: fitNow };
+const take = (files) => mapping.take(Array.from(files), doing).catch(say);
 
 at("file").addEventListener("change", (event) => {
   take(event.target.files).finally(() => {
@@ -332,15 +334,17 @@ document.addEventListener("drop", (event) => {
 
 // ---- buttons and keys
 
-at("demo").addEventListener("click", async () => {
+async function demonstrate(blind) {
   if (!await putAway()) return;
   try {
-    await ask("demo", {});
+    await ask("demo", { blind });
     await fitNow([]);
   } catch (fault) {
     say(fault);
   }
-});
+}
+at("demo").addEventListener("click", () => demonstrate(false));
+at("blind").addEventListener("click", () => demonstrate(true));
 at("put-away-yes").addEventListener("click", () => at("put-away").close("yes"));
 at("put-away-no").addEventListener("click", () => at("put-away").close(""));
 at("undo").addEventListener("click", () => act("undo", {}));
@@ -390,3 +394,5 @@ lanes.onWindow(() => {
 });
 at("use-span").addEventListener("click", () => does.span({ what: "samples", ...lanes.part() }));
 details.begin();
+// What was named on the command line, and not understood there.
+mapping.waiting(doing).catch(say);

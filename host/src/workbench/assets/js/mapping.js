@@ -1,32 +1,26 @@
-// A file that was dropped: what it is, which column is what, and what that means.
+// Files that were dropped: the program says what is in them and what their columns may be; the user corrects it, and sees what it means.
 
-import { ask } from "./ask.js";
+import { ask, send } from "./ask.js";
 import { at, el, path, save, svg } from "./elements.js";
 import { digits } from "./numbers.js";
 
-const QUANTITIES = [
-  ["time", "Time", ["s", "ms", "us"], ""],
-  ["voltage", "Command", ["V", "duty"], ""],
-  ["angle", "Angle", ["counts", "deg", "rad", "rev"], ""],
-  ["current", "Current", null, "Optional, in A. Separates resistance from the torque constant."],
-  ["temperature", "Temperature", null, "Optional, in °C. A law of your own may go with it."],
-  ["enabled", "Bridge enabled", null, "Optional. Coasting separates friction from back-EMF."],
-];
 const ROLES = [
   ["fitted", "Fitted", "a new bench: models learn from it"], ["held_out", "Held out", "judges the models, is never fitted"],
   ["beside", "Fitted with the others", "another run of the same motor"],
 ];
 const NUMBERS = ["counts_per_rev", "supply_v", "resistance_ohm"];
-// What files begin with that are no tables.
+// What files begin with that hold no log at all.
 const OTHERS = [
-  ["\x89PNG", "a PNG picture"], ["\xff\xd8\xff", "a JPEG picture"], ["GIF8", "a GIF picture"], ["%PDF", "a PDF document"], ["\x1f\x8b", "a gzip archive"],
-  ["PK\x03\x04", "a ZIP archive or a spreadsheet; save it as CSV"], ["\x89HDF", "an HDF5 file; export it as CSV"], ["PAR1", "a Parquet file; export it as CSV"],
-  ["MATLAB 5.0", "a MATLAB file; export it with writetable"], ["\x7fELF", "a program"], ["SQLite format", "a database"],
+  ["\x89PNG", "a PNG picture"], ["\xff\xd8\xff", "a JPEG picture"], ["GIF8", "a GIF picture"], ["%PDF", "a PDF document"], ["\x7fELF", "a program"],
+  ["SQLite format", "a database"],
 ];
+// Nobody waits longer for a sign of life.
+const PATIENCE_MS = 300;
 
-let dropped = null;
+// The logs of which it is asked what they are, the first one's tables, and what was said of it.
+let logs = [];
 let does = null;
-let preview = null;
+let shown = null;
 let checks = 0;
 
 /** Takes files; `with_` holds `bench`, `say`, `putAway`, `fit` and `act`. */
@@ -34,61 +28,87 @@ export async function take(files, with_) {
   does = with_;
   does.say(null);
   if (does.bench()?.job) throw new Error(`The bench is busy (${does.bench().job}): wait for it, or stop it first.`);
-  const texts = [];
+  const told = [];
   for (const file of files) {
     const head = String.fromCharCode(...new Uint8Array(await file.slice(0, 16).arrayBuffer()));
     const other = OTHERS.find(([begins]) => head.startsWith(begins));
-    if (other) throw new Error(`${file.name}: this is ${other[1]}. A recording is a table as text: CSV with time, voltage and angle.`);
+    if (other) throw new Error(`${file.name}: this is ${other[1]}. A recording is a log with time, voltage and angle.`);
     if (!file.size) throw new Error(`${file.name}: this file is empty.`);
-    texts.push({ name: file.name, text: await file.text() });
+    told.push(await patiently(`Reading ${file.name}`, send(`dropped?name=${encodeURIComponent(file.name)}`, file)));
   }
-  const session = texts.find((file) => /^[\s\uFEFF]*\{/.test(file.text) || file.name.toLowerCase().endsWith(".json"));
+  await taken(told);
+}
+
+/** Asks for what was named on the command line, if there is any of which it must be said what it is. */
+export async function waiting(with_) {
+  does = with_;
+  const told = await patiently("Reading", ask("dropped"));
+  if (told.length) await taken(told);
+}
+
+async function taken(told) {
+  const session = told.find((one) => one.kind === "session");
   if (session) {
-    const text = session.text.replace(/^\uFEFF/, "");
-    await ask("session?check=true", text);
-    if (await does.putAway()) await ask("session", text);
+    await ask("dropped/session", { id: session.id, check: true });
+    if (await does.putAway()) await ask("dropped/session", { id: session.id });
     return;
   }
-  const motor = texts.find((file) => file.name.toLowerCase().endsWith(".toml"));
-  const tables = texts.filter((file) => file !== motor);
-  if (!tables.length) throw new Error("There is no recording among these files: drop a CSV with time, voltage and angle.");
-  dropped = { name: tables[0].name, csv: tables[0].text };
+  const motor = told.find((one) => one.kind === "motor");
+  logs = told.filter((one) => one.kind === "log");
+  if (!logs.length) throw new Error("There is no recording among these files: drop a log with time, voltage and angle.");
+  // As on the command line: the first is fitted, of several the last judges.
+  logs.forEach((log, k) => {
+    const last = k > 0 && k === logs.length - 1;
+    log.role = log.role && log.role !== "fitted" ? log.role : k === 0 ? "fitted" : last ? "held_out" : "beside";
+  });
   if (motor) {
     try {
-      await send({ motor: motor.text, check: true });
+      await read({ motor: motor.text, check: true });
     } catch (error) {
       does.say(error);
       await open();
       return;
     }
     if (!await does.putAway()) return;
-    // As on the command line: of several the last judges, and the others are fitted together.
-    for (const [place, file] of tables.entries()) {
-      dropped = { name: file.name, csv: file.text };
-      const last = place > 0 && place === tables.length - 1;
-      await send({ motor: motor.text, role: place === 0 ? "fitted" : last ? "held_out" : "beside" });
-    }
+    await patiently("Reading", read({ motor: motor.text }));
     await does.fit([]);
     return;
   }
   await open();
 }
 
-const send = (more) => ask("recording", { ...dropped, ...more });
+// Says what is being done, once it takes longer than a moment.
+async function patiently(what, work) {
+  const sign = setTimeout(() => {
+    at("reading-what").textContent = what;
+    at("reading").hidden = false;
+  }, PATIENCE_MS);
+  try {
+    return await work;
+  } finally {
+    clearTimeout(sign);
+    at("reading").hidden = true;
+  }
+}
+
+const read = (more) => ask("dropped/read", { files: logs.filter((log) => log.role !== "unused").map(({ id, role }) => ({ id, role })), ...more });
 
 async function open() {
-  preview = await ask("preview", dropped.csv.slice(0, 262144));
-  at("file-name").textContent = dropped.name;
-  const columns = `${preview.header.length} column${preview.header.length === 1 ? "" : "s"}`;
-  at("file-about").textContent = `${columns}, separated by ${{ ",": "commas", ";": "semicolons", "\t": "tabs" }[preview.divider] ?? "commas"}`;
-  const heads = ["Quantity", "Column", "Unit", "First rows", "Guessed from"];
-  at("mapping").replaceChildren(el("thead", {}, el("tr", {}, ...heads.map((text, k) => el("th", { class: k === 3 ? "view" : k === 4 ? "why" : "" }, text)))),
-    el("tbody", {}, ...QUANTITIES.map(row)));
-  at("first-rows").replaceChildren(el("thead", {}, el("tr", {}, ...preview.header.map((text) => el("th", {}, text)))),
-    el("tbody", {}, ...preview.rows.map((cells) => el("tr", {}, ...cells.map((text) => el("td", {}, text))))));
+  const [first] = logs;
+  at("file-name").textContent = logs.length === 1 ? first.name : `${logs.length} logs`;
+  at("file-about").textContent = [first.format, ...first.notes].join("; ");
   const standing = Boolean(does.bench()?.recording);
+  const alone = logs.length === 1;
+  at("role").hidden = !alone;
+  at("files").hidden = alone;
   at("role").replaceChildren(el("legend", {}, "Use it as"), ...ROLES.filter(([name]) => standing || name === "fitted").map(([name, title, what], k) =>
-    el("label", {}, el("input", { type: "radio", name: "role", value: name, checked: k === 0 }), el("strong", {}, title), el("span", { class: "quiet" }, what))));
+    el("label", {}, el("input", { type: "radio", name: "role", value: name, checked: k === 0, onchange: () => { first.role = name; } }), el("strong", {}, title),
+      el("span", { class: "quiet" }, what))));
+  if (alone) first.role = "fitted";
+  at("files").replaceChildren(el("h3", {}, "Use them as"), ...logs.map((log) => el("label", { class: "file-role" }, el("span", {}, log.name),
+    el("select", { "aria-label": `Role of ${log.name}`, onchange: (event) => { log.role = event.target.value; } },
+      ...[...ROLES, ["unused", "Not used", ""]].map(([name, title]) => el("option", { value: name, selected: name === log.role }, title))))));
+  fill(first);
   // Nothing is known of this file yet; what was said of the one before is not of this one.
   show("");
   at("load").disabled = true;
@@ -96,28 +116,87 @@ async function open() {
   await check();
 }
 
-function row([what, title, units, hint]) {
-  const guessed = preview.guess[what];
-  const select = el("select", { id: `map-${what}`, "aria-label": `Column of ${title.toLowerCase()}`, onchange: () => redraw() },
-    el("option", { value: "" }, "not recorded"), ...preview.header.map((name) => el("option", { value: name, selected: name === guessed }, name)));
-  const unit = units && el("select", { id: `map-${what}_unit`, "aria-label": `Unit of ${title.toLowerCase()}` },
-    ...units.map((name) => el("option", { value: name, selected: name === preview.guess[`${what}_unit`] }, name === "us" ? "µs" : name)));
+// Fills the dialog with what the program proposes for a log.
+function fill(log) {
+  shown = log;
+  const { proposal } = log;
+  const tables = log.tables.filter((table) => table.columns.length);
+  const best = proposal.table ?? tables.reduce((most, table) => (guessed(table, proposal) > guessed(most, proposal) ? table : most), tables[0] ?? { columns: [] }).name;
+  const joined = Object.values(proposal.columns).some(({ column }) => !tables.some((table) => table.columns.some((one) => one.name === column)));
+  shown.columns = joined
+    ? tables.flatMap((table) => table.columns.map((one) => ({ ...one, name: `${table.name}:${one.name}` })))
+    : tables.find((table) => table.name === best)?.columns ?? [];
+  at("presets").replaceChildren(
+    choice("map-drive", "Drive", log.drives.map(({ name, title }) => [name, title]), proposal.drive),
+    choice("map-preset", "Written by", [["", "nobody that is known"], ...log.presets.map(({ name }) => [name, name])], proposal.preset ?? ""),
+    ...(tables.length > 1 && !joined ? [choice("map-table", "Tables", [["", "all that have these columns"], ...tables.map(({ name }) => [name, name])], "")] : []),
+  );
+  const heads = ["Quantity", "Column", "Unit", "First rows", "Guessed from"];
+  at("mapping").replaceChildren(el("thead", {}, el("tr", {}, ...heads.map((text, k) => el("th", { class: k === 3 ? "view" : k === 4 ? "why" : "" }, text)))),
+    el("tbody", {}, ...log.channels.map(row)));
+  const rows = log.first_rows;
+  at("first-rows").replaceChildren(el("thead", {}, el("tr", {}, ...rows.names.map((text) => el("th", {}, text)))),
+    el("tbody", {}, ...rows.rows.map((cells) => el("tr", {}, ...cells.map((text) => el("td", {}, text ?? ""))))));
+  for (const key of ["counts_per_rev", "supply_v"]) {
+    const field = at(`map-${key}`);
+    if (proposal[key]) field.value = proposal[key];
+  }
+  at("doubts").replaceChildren(...[...proposal.doubts].map((text) => el("li", {}, text)));
+  at("doubts").hidden = !proposal.doubts.length;
+}
+
+const guessed = (table, proposal) => {
+  const names = new Set(table.columns.map((one) => one.name));
+  return Object.values(proposal.columns).filter(({ column }) => names.has(column)).length;
+};
+
+function choice(id, title, options, chosen) {
+  return el("label", {}, title, el("select", { id, onchange: again }, ...options.map(([value, text]) => el("option", { value, selected: value === chosen }, text))));
+}
+
+// Another drive or preset has other columns: the program proposes them.
+async function again(event) {
+  if (event.target.id === "map-table") return;
+  try {
+    const preset = at("map-preset").value;
+    const drive = event.target.id === "map-drive" ? at("map-drive").value : "";
+    const told = await ask("dropped/proposal", { id: shown.id, preset, drive });
+    fill({ ...shown, ...told });
+    await check();
+  } catch (error) {
+    show(error.message);
+  }
+}
+
+function row({ key, title, units, good_for: hint }) {
+  const proposed = shown.proposal.columns[key];
+  const guess = proposed?.column;
+  const named = shown.columns.some((one) => one.name === guess);
+  const options = shown.columns.filter((one) => one.is_number || one.is_time || one.name === guess || key === "direction" || key === "time");
+  const select = el("select", { id: `map-${key}`, "aria-label": `Column of ${title.toLowerCase()}`, onchange: () => redraw() },
+    el("option", { value: "" }, "not recorded"), ...options.map((one) => el("option", { value: one.name, selected: named && one.name === guess }, one.name)));
+  const unit = units.length ? el("select", { id: `map-${key}_unit`, "aria-label": `Unit of ${title.toLowerCase()}` },
+    el("option", { value: "" }, "as usual"), ...units.map((name) => el("option", { value: name, selected: name === proposed?.unit }, spelt(name)))) : null;
   const view = el("td", { class: "view" });
   const why = el("td", { class: "why" });
   const redraw = () => {
-    const column = preview.header.indexOf(select.value);
-    view.replaceChildren(column < 0 ? "" : spark(preview.values[column] ?? []));
-    const own = select.value === guessed && guessed;
-    why.textContent = select.value === "" ? hint || "Needed: choose its column." : own ? `its name${range(preview.values[column])}` : `chosen by you${range(preview.values[column])}`;
+    const column = shown.columns.find((one) => one.name === select.value);
+    view.replaceChildren(column?.drawn ? spark(column.drawn) : "");
+    const own = select.value === guess && guess;
+    why.textContent = select.value === "" ? (hint ? `Optional. ${hint}` : "Needed: choose its column.") : `${own ? proposed.why : "chosen by you"}${range(column)}`;
     select.classList.toggle("doubt", select.value === "" && !hint);
   };
   redraw();
   return el("tr", {}, el("td", {}, title), el("td", {}, select), el("td", {}, unit ?? ""), view, why);
 }
 
-function range(values) {
-  const found = (values ?? []).filter((x) => x !== null);
-  return found.length ? `; from ${digits(Math.min(...found), 4)} to ${digits(Math.max(...found), 4)}` : "; no numbers";
+// Units as people write them.
+const spelt = (unit) => ({ us: "µs", percent: "%", pwm8: "PWM, 8 bits (±255)", pwm10: "PWM, 10 bits (±1023)", pwm885: "PWM of Dynamixel (±885)", int8: "a byte (±127)",
+  duty: "duty (±1)", deg: "°", "N*m": "N·m", C: "°C", F: "°F" }[unit] ?? unit);
+
+function range(column) {
+  if (!column?.range) return "; no numbers";
+  return `; from ${digits(column.range[0], 4)} to ${digits(column.range[1], 4)}`;
 }
 
 function spark(values) {
@@ -127,19 +206,22 @@ function spark(values) {
   return svg("svg", { width: 136, height: 32, "aria-hidden": "true" }, svg("path", { d: path(points), fill: "none", stroke: "var(--ink-2)" }));
 }
 
-function mapping() {
-  const chosen = {};
-  for (const [what, , units] of QUANTITIES) {
-    chosen[what] = at(`map-${what}`).value;
-    if (units) chosen[`${what}_unit`] = at(`map-${what}_unit`).value;
+// What is said in the dialog, by the keys of a motor file.
+function said() {
+  const asked = { columns: {}, units: {}, drive: at("map-drive").value, preset: at("map-preset").value, table: at("map-table")?.value ?? "" };
+  if (shown.proposal.select) asked.select = shown.proposal.select;
+  for (const { key } of shown.channels) {
+    asked.columns[key] = at(`map-${key}`).value;
+    const unit = at(`map-${key}_unit`);
+    if (unit && asked.columns[key]) asked.units[key] = unit.value;
   }
   for (const key of NUMBERS) {
     const field = at(`map-${key}`);
-    chosen[key] = field.value === "" ? null : Number(field.value);
+    asked[key] = field.value === "" ? null : Number(field.value);
     // What is no number has no value, and must not pass for a field that was left empty.
     if (field.validity.badInput) throw new Error(`${field.closest("label").firstChild.textContent.trim()}: this is not a number`);
   }
-  return chosen;
+  return asked;
 }
 
 async function check() {
@@ -147,12 +229,14 @@ async function check() {
   const own = checks;
   let fault = "";
   let means = null;
+  const sign = setTimeout(() => own === checks && at("means").replaceChildren(el("dd", { class: "hint", style: "grid-column:1/3" }, "Reading …")), PATIENCE_MS);
   try {
-    means = await send({ mapping: mapping(), check: true });
+    means = await read({ ...said(), check: true });
   } catch (error) {
     // Fields have no lines.
     fault = error.message.replace(/^motor\.toml:\d+:\d+: /, "");
   }
+  clearTimeout(sign);
   // An answer to what is no longer chosen says nothing.
   if (own !== checks) return;
   show(fault);
@@ -162,8 +246,9 @@ async function check() {
     ["Drive", `±${digits(means.drive, 3)} ${means.drive_unit}`], ["Top speed", `${digits(means.rpm, 4)} rpm`], ["Travel", `${digits(means.turns, 4)} rev`],
     ["Positive drive turns", means.forward ? "positive" : "negative"], ["Samples", `${means.samples}, ${digits(means.interval_s * 1e3, 4)} ms apart`],
   ] : [];
-  at("means").replaceChildren(...rows.flatMap(([name, text]) => [el("dt", {}, name), el("dd", {}, text)]),
-    ...(means ? [el("dd", { class: "hint", style: "grid-column:1/3" }, `Does ${digits(means.rpm, 3)} rpm look right? If not, the counts per revolution or a unit is wrong.`)] : []));
+  const wide = { class: "hint", style: "grid-column:1/3" };
+  at("means").replaceChildren(...rows.flatMap(([name, text]) => [el("dt", {}, name), el("dd", {}, text)]), ...(means?.notes ?? []).map((note) => el("dd", wide, note)),
+    ...(means ? [el("dd", wide, `Does ${digits(means.rpm, 3)} rpm look right? If not, the counts per revolution or a unit is wrong.`)] : []));
 }
 
 function show(fault) {
@@ -180,9 +265,8 @@ at("columns").addEventListener("input", () => {
 at("columns").addEventListener("change", check);
 at("load").addEventListener("click", async () => {
   try {
-    const role = at("role").querySelector("input:checked")?.value ?? "fitted";
-    if (role === "fitted" && !await does.putAway()) return;
-    await send({ mapping: mapping(), role });
+    if (logs.some((log) => log.role === "fitted") && !await does.putAway()) return;
+    await patiently("Reading", read(said()));
     at("columns").close();
     await does.fit([]);
   } catch (error) {
@@ -194,7 +278,7 @@ at("load").addEventListener("click", async () => {
 });
 at("save-motor").addEventListener("click", async () => {
   try {
-    const { text } = await ask("motor", mapping());
+    const { text } = await ask("motor", said());
     save("motor.toml", new Blob([text]));
   } catch (error) {
     show(error.message);
