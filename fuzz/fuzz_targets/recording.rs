@@ -29,7 +29,8 @@ fuzz_target!(|data: &[u8]| {
     assert!(n >= 2 && recording.command.len() == n && recording.counts.len() == n);
     assert!(recording.time_s.windows(2).all(|pair| pair[0] < pair[1]));
     let columns = [&recording.time_s, &recording.command, &recording.counts];
-    assert!(columns.into_iter().chain(&recording.current_a).flatten().all(|x| x.is_finite()));
+    let measured = recording.measured.told().flat_map(|(_, values)| values);
+    assert!(columns.into_iter().flatten().chain(measured).all(|x| x.is_finite()));
     let _ = recording.check_excited();
     if recording.quantised {
         let mut bytes = Vec::new();

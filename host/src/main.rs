@@ -41,7 +41,9 @@ fn parsed(mut words: Vec<OsString>) -> Cli {
     let verbs = command.get_subcommands().map(clap::Command::get_name);
     let name = painted(BAD.bold(), "servoid");
     match nearest(word, verbs) {
-        Some(near) => anstream::eprintln!("{name}: no verb is called `{word}`; did you mean `servoid {near}`?"),
+        Some(near) => anstream::eprintln!(
+            "{name}: no verb is called `{word}`; did you mean `servoid {near}`?"
+        ),
         None => anstream::eprintln!(
             "{name}: no verb and no file is called `{word}`; `servoid --help` lists the verbs, and `servoid LOG` opens a log"
         ),

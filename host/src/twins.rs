@@ -170,7 +170,8 @@ mod tests {
     fn twins_of_a_motor_with_an_effect_are_named_as_it() {
         let hidden = Hidden::typical("coulomb", &showcase::machine()).expect("an effect");
         let data = |seed| {
-            let recording = showcase::record(std::slice::from_ref(&hidden), seed, "bench").expect("a recording");
+            let recording = showcase::record(std::slice::from_ref(&hidden), seed, "bench")
+                .expect("a recording");
             Data::new(&recording).expect("data")
         };
         let model = truth::model(

@@ -162,11 +162,7 @@ fn text(path: &Path) -> Result<String, Error> {
 }
 
 /// Reads what is named; none where it must be said first what the columns of one of them are, which the page asks.
-fn loaded(
-    session: &Session,
-    args: &BenchArgs,
-    paths: &[PathBuf],
-) -> Result<Option<Loaded>, Error> {
+fn loaded(session: &Session, args: &BenchArgs, paths: &[PathBuf]) -> Result<Option<Loaded>, Error> {
     let mut all: Option<Loaded> = None;
     for path in paths {
         let motor = motor::motor_file(&args.motor, path)?;

@@ -7,14 +7,19 @@ use crate::session::Session;
 use servoid_identify::check::{Severity, examine};
 use servoid_results::report::check;
 use servoid_results::schema::check::{Check, Checked};
+use servoid_results::schema::read::Read;
 
 pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
     let mut recordings = Vec::new();
     let mut refused = Vec::new();
+    let mut read: Option<Read> = None;
     for path in &args.recordings {
         motor::check_outputs(session, &[], &args.motor, path, None)?;
-        let (all, _) = motor::all_of(session, &args.motor, path)?;
-        for recording in &all {
+        let reading = motor::all_of(session, &args.motor, path)?;
+        read.get_or_insert_with(|| Read::of(&reading.motor, Vec::new()))
+            .remarks
+            .extend(reading.notes);
+        for recording in &reading.recordings {
             let findings = examine(recording);
             if findings.iter().any(|f| f.severity == Severity::Refusal) {
                 refused.push(recording.source.clone());
@@ -22,7 +27,10 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
             recordings.push(Checked::new(recording, &findings));
         }
     }
-    let json = Check::new(recordings);
+    let json = Check {
+        read,
+        ..Check::new(recordings)
+    };
     session.deliver(&check::text(&json), &json)?;
     if refused.is_empty() {
         return Ok(());

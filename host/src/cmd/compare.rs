@@ -25,7 +25,7 @@ pub(super) fn run(session: &Session, args: &CompareArgs) -> Result<(), Error> {
     let merged = args.merge.iter();
     let merged: Vec<_> = merged.map(|path| ("a file of --merge", &**path)).collect();
     session.check_outputs(&outputs, &merged)?;
-    let (recording, motor_file) = motor::recording(&args.motor, &args.recording)?;
+    let (recording, motor_file) = motor::recording(session, &args.motor, &args.recording)?;
     let data = Data::new(&recording)?;
     let options = model::options(&args.model, motor_file.known, session.seed, args.budget)?;
     let problem = bounded_problem(&data, &options)?;

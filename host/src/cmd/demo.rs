@@ -31,7 +31,8 @@ pub(super) fn run(session: &Session, args: &DemoArgs) -> Result<(), Error> {
         hidden(&args.hide, &machine)?
     };
     let record = |seed: u64, name: &str| -> Result<Data, Error> {
-        let recording = showcase::record(std::slice::from_ref(&secret), seed, name).map_err(wrong_flag)?;
+        let recording =
+            showcase::record(std::slice::from_ref(&secret), seed, name).map_err(wrong_flag)?;
         Ok(Data::new(&recording)?)
     };
     let data = record(session.seed, "demo recording")?;

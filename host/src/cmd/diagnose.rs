@@ -45,7 +45,10 @@ pub(super) fn run(session: &Session, args: &DiagnoseArgs) -> Result<(), Error> {
     drop(watched);
     let Datasets { fitted, kind, .. } = &datasets;
     let outcome = DiagnosisReport::new(&found, fitted, kind, session.seed, session.json_file());
-    let json = Diagnosis::from(&outcome);
+    let json = Diagnosis {
+        read: Some(read.how),
+        ..Diagnosis::from(&outcome)
+    };
     let drawn = html::Recordings {
         fitted: Some(datasets.whole.as_deref().unwrap_or(fitted)),
         held_out: kind.source().map(|_| &datasets.held_out),

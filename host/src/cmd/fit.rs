@@ -37,7 +37,10 @@ pub(super) fn run(session: &Session, args: &FitArgs) -> Result<(), Error> {
         session.write_plot(path, &drawing)?;
     }
     let source = held_out.map(|data| data.source.as_str());
-    let json = schema::Fit::new(&fit, data, source);
+    let json = schema::Fit {
+        read: Some(read.how),
+        ..schema::Fit::new(&fit, data, source)
+    };
     let drawn = html::Recordings {
         fitted: Some(data),
         held_out,

@@ -7,10 +7,11 @@ use crate::error::Error;
 use crate::session::Session;
 use servoid_io::channel::Channel;
 use servoid_io::input::{
-    Columns, DriveKind, MotorFile, Part, Preset, read_recording, read_recordings_with,
+    Columns, DriveKind, MotorFile, Part, Preset, Reading, read_one, read_recordings_with,
 };
 use servoid_io::position_loop::LoopSettings;
 use servoid_io::recording::Recording;
+use servoid_results::schema;
 use std::path::{Path, PathBuf};
 
 /// Checks that the `outputs` of a verb, and its JSON, replace nothing that it reads.
@@ -54,6 +55,8 @@ pub(super) struct Read {
     pub(super) held_out: Vec<Recording>,
     /// What is known of the motor that made the first.
     pub(super) motor: MotorFile,
+    /// How the logs were read.
+    pub(super) how: schema::read::Read,
 }
 
 /// Reads the recordings of a fit or a diagnosis, once its `outputs` replace none of them.
@@ -71,14 +74,20 @@ pub(super) fn read(
     };
     check_outputs_of(session, outputs, args, &fitted, &held_out)?;
     // Each with whether its path means a part of a file.
-    let mut known = None;
+    let (mut known, mut notes) = (None, Vec::new());
     let mut all = |paths: &[&Path]| -> Result<Vec<(bool, Recording)>, Error> {
         let mut all = Vec::new();
         for path in paths {
             let is_part = Part::of(path).name.is_some();
-            let (recordings, motor) = all_of(session, args, path)?;
-            known.get_or_insert(motor);
-            all.extend(recordings.into_iter().map(|recording| (is_part, recording)));
+            let reading = all_of(session, args, path)?;
+            known.get_or_insert(reading.motor);
+            notes.extend(reading.notes);
+            all.extend(
+                reading
+                    .recordings
+                    .into_iter()
+                    .map(|recording| (is_part, recording)),
+            );
         }
         Ok(all)
     };
@@ -104,10 +113,12 @@ pub(super) fn read(
         let beside = first.with_file_name("motor.toml");
         session.remark(&write_motor(session, &beside, &motor)?);
     }
+    let how = schema::read::Read::of(&motor, notes);
     Ok(Read {
         fitted,
         held_out,
         motor,
+        how,
     })
 }
 
@@ -196,19 +207,26 @@ fn motor_path(args: &MotorArgs, recording: &Path) -> PathBuf {
 }
 
 /// Reads the only recording of a file and checks that there is something to fit in it.
-pub(super) fn recording(args: &MotorArgs, path: &Path) -> Result<(Recording, MotorFile), Error> {
-    let motor = motor_file(args, path)?;
-    let recording = read_recording(path, &motor)?;
-    recording.check_excited()?;
-    Ok((recording, motor))
-}
-
-/// Reads all recordings of a file, checks that there is something to fit in each, and says what their reader has to say.
-pub(super) fn all_of(
+pub(super) fn recording(
     session: &Session,
     args: &MotorArgs,
     path: &Path,
-) -> Result<(Vec<Recording>, MotorFile), Error> {
+) -> Result<(Recording, MotorFile), Error> {
+    let motor = motor_file(args, path)?;
+    let mut reading = read_one(path, &motor)?;
+    for note in &reading.notes {
+        session.remark(note);
+    }
+    let recording = reading
+        .recordings
+        .pop()
+        .ok_or_else(|| Error::Failed(format!("{}: holds no recording", path.display())))?;
+    recording.check_excited()?;
+    Ok((recording, reading.motor))
+}
+
+/// Reads all recordings of a file, checks that there is something to fit in each, and says what their reader has to say.
+pub(super) fn all_of(session: &Session, args: &MotorArgs, path: &Path) -> Result<Reading, Error> {
     let motor = motor_file(args, path)?;
     let bar = FileBar::new(session, "read");
     let reading = read_recordings_with(path, &motor, &|reached| bar.reached(reached))?;
@@ -219,7 +237,7 @@ pub(super) fn all_of(
     for recording in &reading.recordings {
         recording.check_excited()?;
     }
-    Ok((reading.recordings, reading.motor))
+    Ok(reading)
 }
 
 /// What the flags say, read as lines of a motor file: its reader has all the checks and suggestions. Each

@@ -44,7 +44,7 @@ pub(super) fn run(session: &Session, args: &ReportArgs) -> Result<(), Error> {
         motor::check_outputs(session, &outputs, &args.motor, path, None)?;
     }
     let read = |path: Option<PathBuf>| {
-        path.map(|path| motor::recording(&args.motor, &path))
+        path.map(|path| motor::recording(session, &args.motor, &path))
             .transpose()
     };
     let (fitted, name) = read(fitted)?

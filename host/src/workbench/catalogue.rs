@@ -57,10 +57,16 @@ mod tests {
         let lines: Vec<String> = effects.iter().map(Value::to_string).collect();
         let text = format!("[\n{}\n]\n", lines.join(",\n"));
         if std::env::var_os("SERVOID_PIN").is_some() {
-            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/workbench/assets/gallery.json");
+            let path = concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/src/workbench/assets/gallery.json"
+            );
             std::fs::write(path, &text).expect("written");
             return;
         }
-        assert!(text == EFFECTS, "the gallery has changed: write it with SERVOID_PIN=1");
+        assert!(
+            text == EFFECTS,
+            "the gallery has changed: write it with SERVOID_PIN=1"
+        );
     }
 }

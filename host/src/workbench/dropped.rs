@@ -66,7 +66,8 @@ impl Dropped {
 
     /// A place for a file that is sent. Its own name ends the path, since readers speak of it.
     fn place(&self, name: &str) -> Result<(usize, PathBuf), Error> {
-        let failed = |error: std::io::Error| Error::Failed(format!("{name}: cannot be kept: {error}"));
+        let failed =
+            |error: std::io::Error| Error::Failed(format!("{name}: cannot be kept: {error}"));
         let mut kept = self.kept();
         kept.next += 1;
         let id = kept.next;
@@ -144,7 +145,9 @@ pub(super) async fn sent(
 }
 
 async fn kept(path: &Path, mut body: BodyDataStream) -> Result<u64, Error> {
-    let failed = |error: &dyn std::fmt::Display| Error::Failed(format!("the file was not received: {error}"));
+    let failed = |error: &dyn std::fmt::Display| {
+        Error::Failed(format!("the file was not received: {error}"))
+    };
     let mut file = fs::File::create(path).map_err(|error| failed(&error))?;
     let mut length = 0;
     while let Some(part) = body.next().await {
@@ -164,11 +167,17 @@ fn described(waiting: &Waiting) -> Result<Value, Error> {
         return Ok(json!({ "id": id, "name": name, "kind": "motor", "text": text }));
     }
     let begin = beginning(path);
-    if begin.contains(FAMILY) && begin.trim_start_matches(['\u{feff}', ' ', '\n', '\r']).starts_with('{') {
+    if begin.contains(FAMILY)
+        && begin
+            .trim_start_matches(['\u{feff}', ' ', '\n', '\r'])
+            .starts_with('{')
+    {
         return Ok(json!({ "id": id, "name": name, "kind": "session" }));
     }
     let looked = looked_at(path, name, &Asked::default());
-    let is_json = begin.trim_start_matches(['\u{feff}', ' ', '\n', '\r']).starts_with(['{', '[']);
+    let is_json = begin
+        .trim_start_matches(['\u{feff}', ' ', '\n', '\r'])
+        .starts_with(['{', '[']);
     if is_json && !matches!(&looked, Ok(found) if found.has_columns()) {
         // It may be meant for a session.
         let text = fs::read_to_string(path).unwrap_or_default();

@@ -100,8 +100,8 @@ mod tests {
     fn prepared() -> Vec<(Recordings, Model)> {
         let with = |name: &str| {
             let hidden = Hidden::typical(name, &showcase::machine()).expect("an effect");
-            let [fitted, other] =
-                [1, 2].map(|seed| recorded(std::slice::from_ref(&hidden), seed, name).expect("recorded"));
+            let [fitted, other] = [1, 2]
+                .map(|seed| recorded(std::slice::from_ref(&hidden), seed, name).expect("recorded"));
             let recordings = Recordings::new(fitted, Some(other));
             let (data, held_out) = recordings.parts();
             let asked = options(&recordings.fitted, &[]);

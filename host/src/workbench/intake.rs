@@ -7,8 +7,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use servoid_io::channel::Channel;
 use servoid_io::input::{
-    AngleUnit, CommandUnit, DriveKind, Envelope, MotorFile, PRESETS, ReadError, Survey, SurveyColumn, SurveyTable, TimeUnit,
-    read_recordings, survey,
+    AngleUnit, CommandUnit, DriveKind, Envelope, MotorFile, PRESETS, ReadError, Survey,
+    SurveyColumn, SurveyTable, TimeUnit, read_recordings, survey,
 };
 use servoid_io::output::write_csv;
 use std::collections::BTreeMap;
@@ -62,7 +62,8 @@ impl Asked {
         };
         let texts = |all: &BTreeMap<String, String>| -> toml::Table {
             let told = all.iter().filter(|(_, text)| !text.is_empty());
-            told.map(|(key, text)| (key.clone(), text.clone().into())).collect()
+            told.map(|(key, text)| (key.clone(), text.clone().into()))
+                .collect()
         };
         section("columns", texts(&self.columns));
         section("units", texts(&self.units));
@@ -98,7 +99,9 @@ pub(super) struct Looked {
 impl Looked {
     /// Whether it has a table of which something may be a recording.
     pub(super) fn has_columns(&self) -> bool {
-        self.told["proposal"]["columns"].as_object().is_some_and(|all| !all.is_empty())
+        self.told["proposal"]["columns"]
+            .as_object()
+            .is_some_and(|all| !all.is_empty())
     }
 }
 
@@ -115,7 +118,11 @@ pub(super) fn looked_at(path: &Path, name: &str, asked: &Asked) -> Result<Looked
             (kind.key(one.channel).to_owned(), told)
         })
         .collect();
-    let needs: Vec<&str> = proposal.needs.iter().map(|need| need.text.as_str()).collect();
+    let needs: Vec<&str> = proposal
+        .needs
+        .iter()
+        .map(|need| need.text.as_str())
+        .collect();
     let log = &proposal.motor.log;
     let told = json!({
         "format": found.format,
@@ -229,17 +236,15 @@ fn first_rows(found: &Survey) -> Value {
     let columns = || table.columns.iter().take(COLUMNS);
     let names: Vec<&str> = columns().map(|column| column.name.as_str()).collect();
     let rows = (0..SHOWN).map(|k| -> Vec<Option<String>> {
-        columns().map(|column| column.profile.first_as_text(k)).collect()
+        columns()
+            .map(|column| column.profile.first_as_text(k))
+            .collect()
     });
     json!({ "names": names, "rows": rows.collect::<Vec<_>>() })
 }
 
 /// Reads all recordings of a log as it is said to be, each as a text of our own, and what its reader has to say.
-pub fn read(
-    path: &Path,
-    name: &str,
-    motor: &MotorFile,
-) -> Result<(Loaded, Vec<String>), Error> {
+pub fn read(path: &Path, name: &str, motor: &MotorFile) -> Result<(Loaded, Vec<String>), Error> {
     let reading = read_recordings(path, motor).map_err(|error| called(path, name, error))?;
     let own = path.display().to_string();
     let shown = |text: &str| text.replace(&own, name);
@@ -277,7 +282,10 @@ mod tests {
         };
         let motor = asked.motor().expect("a motor file");
         assert_eq!(motor.columns.get(Channel::Angle), Some("a \"b\""));
-        assert_eq!(motor.columns.get(Channel::Measured(Measured::Current)), None);
+        assert_eq!(
+            motor.columns.get(Channel::Measured(Measured::Current)),
+            None
+        );
         assert_eq!(motor.counts_per_rev, Some(2048.0));
         assert!(motor.known.resistance_ohm.is_some());
     }
@@ -294,7 +302,9 @@ mod tests {
                         units: [(key.clone(), unit.clone())].into(),
                         ..Asked::default()
                     };
-                    asked.motor().unwrap_or_else(|error| panic!("{key} {unit}: {error}"));
+                    asked
+                        .motor()
+                        .unwrap_or_else(|error| panic!("{key} {unit}: {error}"));
                 }
             }
         }

@@ -8,7 +8,8 @@ use super::job::Watch;
 use super::opened::{demo, free, motor, roles, span};
 use super::state::{Bench, Telling, Way};
 use super::{
-    catalogue, details, download, dropped, failing, guard, law, live, remedy, series, shown, sliders,
+    catalogue, details, download, dropped, failing, guard, law, live, remedy, series, shown,
+    sliders,
 };
 use crate::error::Error;
 use axum::extract::{DefaultBodyLimit, Path, Query, State};

@@ -338,8 +338,9 @@ mod tests {
             ("cogging", vec![Kind::Cogging]),
         ] {
             let hidden = Hidden::typical(name, &showcase::machine()).expect("an effect");
-            let [first, second] = [(1, "a.csv"), (2, "b.csv")]
-                .map(|(seed, name)| recorded(std::slice::from_ref(&hidden), seed, name).expect("a recording"));
+            let [first, second] = [(1, "a.csv"), (2, "b.csv")].map(|(seed, name)| {
+                recorded(std::slice::from_ref(&hidden), seed, name).expect("a recording")
+            });
             let recordings = Recordings::new(first, Some(second));
             let bench = Bench::new(None, None);
             let shown = fitted(&bench, &recordings, &effects, USUAL, None).expect("a fit");

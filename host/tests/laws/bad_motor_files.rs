@@ -26,7 +26,10 @@ fn the_contract_is_read() {
         (motor.counts_per_rev, motor.supply_v),
         (Some(2048.0), Some(24.0))
     );
-    assert_eq!(motor.columns.get(servoid_io::channel::Channel::Angle), Some("qm"));
+    assert_eq!(
+        motor.columns.get(servoid_io::channel::Channel::Angle),
+        Some("qm")
+    );
     assert_eq!(motor.units.angle, AngleUnit::Radians);
     assert_eq!(motor.drive, Drive::Voltage);
     assert_eq!(

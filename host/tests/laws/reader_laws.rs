@@ -4,8 +4,7 @@
 use proptest::prelude::*;
 use servoid_io::channel::{Channel, Measured, PerMeasured, Series};
 use servoid_io::input::{
-    AngleUnit, CommandUnit, Fact, Known, LogPart, MotorFile, Reversed, Selection,
-    TimeUnit, Units,
+    AngleUnit, CommandUnit, Fact, Known, LogPart, MotorFile, Reversed, Selection, TimeUnit, Units,
 };
 use servoid_io::input::{Columns, read_recording_from};
 use servoid_io::output::{write_csv, write_recording};
@@ -30,12 +29,7 @@ fn check_promises(recording: &Recording) {
     );
     assert!(recording.time_s.windows(2).all(|pair| pair[0] < pair[1]));
     let columns = [&recording.time_s, &recording.command, &recording.counts];
-    assert!(
-        columns
-            .into_iter()
-            .flatten()
-            .all(|x| x.is_finite())
-    );
+    assert!(columns.into_iter().flatten().all(|x| x.is_finite()));
     assert!(recording.counts.iter().all(|x| x.abs() <= 2f64.powi(31)));
     assert!(!recording.quantised || recording.counts.iter().all(|x| x.fract() == 0.0));
     let targets = recording.position.as_ref().map(|p| &p.target_counts);
@@ -437,7 +431,14 @@ fn units_agree() {
             );
             assert_eq!(recording.time_s[3], 0.003);
             assert!(recording.command.iter().all(|x| *x == 6.0));
-            assert!(recording.measured.get(Measured::Current).unwrap().iter().all(|x| *x == 0.25));
+            assert!(
+                recording
+                    .measured
+                    .get(Measured::Current)
+                    .unwrap()
+                    .iter()
+                    .all(|x| *x == 0.25)
+            );
         }
     }
 }

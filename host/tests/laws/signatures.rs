@@ -13,7 +13,8 @@ use shared::effects::Kind;
 /// The bench's recording with an effect hidden in it, and the model that is true of it.
 fn recorded(hidden: &Hidden, seed: u64) -> (Data, Candidate, Kind) {
     let machine = showcase::machine();
-    let recording = showcase::record(std::slice::from_ref(&hidden), seed, "bench").expect("a recording");
+    let recording =
+        showcase::record(std::slice::from_ref(&hidden), seed, "bench").expect("a recording");
     let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
     let candidate = truth::model(
         &machine,

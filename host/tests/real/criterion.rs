@@ -13,7 +13,9 @@ use std::sync::atomic::AtomicBool;
 /// Fitted and held out, and whether whole runs say little of them.
 fn pairs() -> Vec<(Data, Data, bool)> {
     let friction = Hidden::typical("coulomb", &showcase::machine()).expect("an effect");
-    let bench = |seed| showcase::record(std::slice::from_ref(&friction), seed, "bench").expect("a recording");
+    let bench = |seed| {
+        showcase::record(std::slice::from_ref(&friction), seed, "bench").expect("a recording")
+    };
     // It turns one way only.
     let gearmotor = vendored("un_dcmotor/prbs_open");
     let (first, rest) = (gearmotor.split_at(0.7 * gearmotor.duration_s())).expect("two parts");

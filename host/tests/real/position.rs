@@ -58,7 +58,10 @@ fn the_voltage_behind_the_loop_is_the_measured_one() {
             let name = format!("{motion}_kp{kp}");
             let told = by_target(&name, Some(gain_v_per_rad(kp))).unwrap();
             let pwm = read(&name, "bam_xl330.toml", |motor| {
-                motor.columns.set(servoid_io::channel::Channel::Command, Some("pwm_counts".into()));
+                motor.columns.set(
+                    servoid_io::channel::Channel::Command,
+                    Some("pwm_counts".into()),
+                );
             });
             let duty: Vec<f64> = pwm.unwrap().command.iter().map(|x| x / PWM_STEPS).collect();
             let share: Vec<f64> = told.command.iter().map(|volts| volts / SUPPLY_V).collect();

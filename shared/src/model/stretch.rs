@@ -5,7 +5,7 @@ use super::coupled::Coupled;
 use super::dyadic::{DyadicMaps, LEVELS};
 use crate::effects::Lowered;
 use crate::error::ModelError;
-use crate::scalar::{FromLanes, Mask, Real, Scalar};
+use crate::scalar::{FromLanes, Mask, Real, Scalar, parts};
 
 /// A stretch of a step: its maps and its substeps.
 #[derive(Clone, Copy, Debug)]
@@ -24,9 +24,9 @@ where
 {
     fn from_lanes(each: [&Stretch<f64>; N]) -> Option<Self> {
         Some(Stretch {
-            motor: FromLanes::from_lanes(each.map(|one| &one.motor))?,
-            coupled: FromLanes::from_lanes(each.map(|one| &one.coupled))?,
-            substeps: FromLanes::from_lanes(each.map(|one| &one.substeps))?,
+            motor: FromLanes::from_lanes(parts(each, |one| &one.motor))?,
+            coupled: FromLanes::from_lanes(parts(each, |one| &one.coupled))?,
+            substeps: FromLanes::from_lanes(parts(each, |one| &one.substeps))?,
             // More halvings are only finer.
             grade: each.iter().fold(0, |most, one| most.max(one.grade)),
         })

@@ -2,7 +2,6 @@
 //! each candidate. So there is one way to lower a model, and one way to run it.
 
 use super::Scalar;
-use core::array::from_fn;
 use core::marker::PhantomData;
 
 /// A value whose lanes are `N` values of type `T`.
@@ -11,9 +10,24 @@ pub trait FromLanes<T, const N: usize>: Sized {
     fn from_lanes(each: [&T; N]) -> Option<Self>;
 }
 
+/// A part of each value. As an array's own `map` would, but with a pointer to the function: a build makes hundreds of these, and each closure
+/// would make several functions of its own.
+pub fn parts<'v, T, P, const N: usize>(each: [&'v T; N], part: fn(&'v T) -> &'v P) -> [&'v P; N] {
+    // There is at least one lane.
+    let mut parts = [part(each[0]); N];
+    for (part_of, one) in parts.iter_mut().zip(each) {
+        *part_of = part(one);
+    }
+    parts
+}
+
 impl<W: From<[f64; N]>, const N: usize> FromLanes<f64, N> for W {
     fn from_lanes(each: [&f64; N]) -> Option<Self> {
-        Some(W::from(each.map(|x| *x)))
+        let mut values = [0.0; N];
+        for (value, one) in values.iter_mut().zip(each) {
+            *value = *one;
+        }
+        Some(W::from(values))
     }
 }
 
@@ -25,10 +39,18 @@ impl<W: Scalar, const N: usize> FromLanes<PhantomData<f64>, N> for PhantomData<W
 
 impl<A, B: FromLanes<A, N> + Copy, const K: usize, const N: usize> FromLanes<[A; K], N> for [B; K] {
     fn from_lanes(each: [&[A; K]; N]) -> Option<Self> {
-        let entries: [Option<B>; K] = from_fn(|k| B::from_lanes(each.map(|one| &one[k])));
-        let first = (*entries.first()?)?;
-        let all = entries.iter().all(Option::is_some);
-        all.then(|| entries.map(|entry| entry.unwrap_or(first)))
+        let entry = |k: usize| {
+            let mut entries = [each[0].get(k)?; N];
+            for (entry, one) in entries.iter_mut().zip(each) {
+                *entry = one.get(k)?;
+            }
+            B::from_lanes(entries)
+        };
+        let mut entries = [entry(0)?; K];
+        for (k, own) in entries.iter_mut().enumerate() {
+            *own = entry(k)?;
+        }
+        Some(entries)
     }
 }
 
@@ -38,7 +60,10 @@ impl<A, B: FromLanes<A, N>, const N: usize> FromLanes<Option<A>, N> for Option<B
             return each.iter().all(|one| one.is_none()).then_some(None);
         };
         let all = each.iter().all(|one| one.is_some());
-        let entries = each.map(|one| one.as_ref().unwrap_or(first));
+        let mut entries = [first; N];
+        for (entry, one) in entries.iter_mut().zip(each) {
+            *entry = one.as_ref().unwrap_or(first);
+        }
         all.then(|| B::from_lanes(entries)).flatten().map(Some)
     }
 }
@@ -65,7 +90,7 @@ macro_rules! lanes {
         {
             fn from_lanes(each: [&$type<f64>; N]) -> Option<Self> {
                 Some($type {
-                    $($field: $crate::scalar::FromLanes::from_lanes(each.map(|one| &one.$field))?),*
+                    $($field: $crate::scalar::FromLanes::from_lanes($crate::scalar::parts(each, |one| &one.$field))?),*
                 })
             }
         }

@@ -16,8 +16,8 @@ mod mask;
 
 pub(crate) use fixed::product;
 pub use fixed::{Fixed, FixedCoefficient};
-pub use lanes::FromLanes;
 pub(crate) use lanes::lanes;
+pub use lanes::{FromLanes, parts};
 pub use mask::Mask;
 
 use core::fmt::Debug;

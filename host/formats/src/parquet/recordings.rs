@@ -209,7 +209,9 @@ fn each_text(array: &ArrayRef, add: &mut dyn FnMut(Option<&str>)) {
         texts.iter().for_each(add);
     } else if let Some(dictionary) = array.as_any_dictionary_opt() {
         let mut all: Vec<Option<String>> = Vec::new();
-        each_text(dictionary.values(), &mut |text| all.push(text.map(str::to_owned)));
+        each_text(dictionary.values(), &mut |text| {
+            all.push(text.map(str::to_owned))
+        });
         for (row, key) in dictionary.normalized_keys().into_iter().enumerate() {
             let text = all.get(key).and_then(Option::as_deref);
             add(text.filter(|_| dictionary.is_valid(row)));

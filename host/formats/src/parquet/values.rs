@@ -109,9 +109,9 @@ pub(crate) fn leaf(array: &ArrayRef, start: &mut Start) -> Result<Vec<f64>, Arro
         DataType::Decimal128(_, scale) => {
             numbers_of::<Decimal128Type>(array, |x| x as f64 / power(*scale))
         }
-        DataType::Decimal256(_, scale) => {
-            numbers_of::<Decimal256Type>(array, |x| x.to_i128().map_or(f64::NAN, |x| x as f64) / power(*scale))
-        }
+        DataType::Decimal256(_, scale) => numbers_of::<Decimal256Type>(array, |x| {
+            x.to_i128().map_or(f64::NAN, |x| x as f64) / power(*scale)
+        }),
         _ => Err(unlike(array)),
     }
 }

@@ -133,7 +133,8 @@ mod tests {
     #[test]
     fn an_effect_of_typical_size_matters_and_a_thousandth_of_it_does_not() {
         let hidden = Hidden::typical("coulomb", &showcase::machine()).unwrap();
-        let data = Data::new(&showcase::record(std::slice::from_ref(&hidden), 1, "bench").unwrap()).unwrap();
+        let data = Data::new(&showcase::record(std::slice::from_ref(&hidden), 1, "bench").unwrap())
+            .unwrap();
         let mut tried = 0;
         for &kind in Kind::ALL {
             let parameters = kind.parameters();

@@ -113,12 +113,19 @@ fn read_as_said(
 /// # Errors
 /// As [`read_recordings`]; the file holds several.
 pub fn read_recording(path: &Path, motor: &MotorFile) -> Result<Recording, ReadError> {
+    let recording = read_one(path, motor)?.recordings.pop();
+    let source = || Part::of(path).path.display().to_string();
+    recording.ok_or_else(|| ReadError::new(Place::file(&source()), ReadFault::TooFewSamples(0)))
+}
+
+/// The same with what the reader has to say. A last row that was cut off is an error here.
+///
+/// # Errors
+/// As [`read_recording`].
+pub fn read_one(path: &Path, motor: &MotorFile) -> Result<Reading, ReadError> {
     let source = Part::of(path).path.display().to_string();
-    let whole = |fault| ReadError::new(Place::file(&source), fault);
-    // Nobody sees the notes: a last row that was cut off is an error here.
     let reading = read(path, motor, false, &|_| ())?.only(&source);
-    let recording = reading.map_err(whole)?.recordings.pop();
-    recording.ok_or_else(|| whole(ReadFault::TooFewSamples(0)))
+    reading.map_err(|fault| ReadError::new(Place::file(&source), fault))
 }
 
 /// A log of another format than text; `None` where it may be a text.

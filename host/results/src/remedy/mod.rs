@@ -151,7 +151,8 @@ mod tests {
             ("backlash", Kind::Backlash, 1.3),
         ] {
             let hidden = Hidden::typical(name, &showcase::machine()).expect("an effect");
-            let recording = showcase::record(std::slice::from_ref(&hidden), 1, "bench").expect("a recording");
+            let recording =
+                showcase::record(std::slice::from_ref(&hidden), 1, "bench").expect("a recording");
             let asked = FitOptions {
                 effects: vec![kind],
                 ..FitOptions::default()

@@ -1,5 +1,6 @@
 //! `servoid.check/1`: what recordings can be trusted for.
 
+use super::read::Read;
 use super::{PositionLoop, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,9 @@ pub struct Check {
     pub schema: String,
     /// The recordings, in the order in which they were given.
     pub recordings: Vec<Checked>,
+    /// How the log was read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub read: Option<Read>,
     /// Version of the program.
     #[serde(default)]
     pub version: String,
@@ -68,6 +72,7 @@ impl Check {
         Check {
             schema: SCHEMA.to_owned(),
             recordings,
+            read: None,
             version: VERSION.to_owned(),
         }
     }

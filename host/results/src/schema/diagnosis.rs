@@ -3,6 +3,7 @@
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::{Bounded, Likelihood};
 use super::model::in_terms_of;
+use super::read::Read;
 use super::residual::{Residual, Where};
 use super::{Machine, Model, ModelParameter, PositionLoop, RecordingError, finite};
 use crate::schema::effect_curve::EffectCurve;
@@ -136,6 +137,9 @@ pub struct Diagnosis {
     pub position_loops: Vec<PositionLoop>,
     /// Seed of everything random.
     pub seed: u64,
+    /// How the log was read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub read: Option<Read>,
     /// Whether the user stopped the work.
     #[serde(default)]
     pub interrupted: bool,

@@ -5,6 +5,7 @@ use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
 use super::likelihood::Likelihood;
 use super::profile::Profile;
+use super::read::Read;
 use super::{Model, PositionLoop, RecordingError, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -83,6 +84,9 @@ pub struct Fit {
     pub counts_per_rev: Option<f64>,
     /// Sample interval, s.
     pub sample_s: Option<f64>,
+    /// How the log was read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub read: Option<Read>,
     /// Whether the user stopped the search.
     #[serde(default)]
     pub interrupted: bool,
@@ -245,6 +249,7 @@ impl Fit {
             supply_v: finite(data.supply),
             counts_per_rev: finite(data.units.counts_per_rev),
             sample_s: finite(data.units.interval),
+            read: None,
             interrupted: fit.interrupted,
             likelihood: fit.likelihood.as_ref().map(Likelihood::from),
             certificate: fit.certificate.as_ref().map(Certificate::from),

@@ -49,6 +49,7 @@ pub mod plan;
 pub mod position_loop;
 pub mod profile;
 pub mod proof;
+pub mod read;
 mod recording_error;
 pub mod residual;
 pub mod steady;

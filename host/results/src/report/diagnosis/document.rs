@@ -60,6 +60,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             drive: report.data.drive.name().to_owned(),
             position_loops: PositionLoop::all(report.data),
             seed: report.seed,
+            read: None,
             interrupted: report.interrupted,
             ran_out: diagnosis.ran_out,
             model_steps: diagnosis.steps_taken,

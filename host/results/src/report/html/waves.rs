@@ -125,7 +125,8 @@ mod tests {
         for order in [3, 7, 12] {
             let spec = format!("cogging:order={order}");
             let hidden = Hidden::parse(&spec, &motor).expect("an effect");
-            let recording = showcase::record(std::slice::from_ref(&hidden), 1, &spec).expect("a recording");
+            let recording =
+                showcase::record(std::slice::from_ref(&hidden), 1, &spec).expect("a recording");
             let data = Data::new(&recording).expect("data");
             let candidate = Candidate {
                 machine: truth::physical(&motor).machine(),
