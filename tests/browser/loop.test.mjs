@@ -205,9 +205,9 @@ test("a blind demonstration: find what is missing, then reveal it", async () => 
   const bench = await at.desk.bench("");
   const page = await open(at.chrome, bench.url);
   // One motor in place of any: some take far longer to diagnose than others.
-  await page.route("**/demo", (route) => route.continue({ postData: JSON.stringify({ seed: 11 }) }));
+  await page.route("**/demo", (route) => route.continue({ postData: JSON.stringify({ seed: 11, blind: true }) }));
   // By the keyboard alone.
-  await page.focus("#demo");
+  await page.focus("#blind");
   await page.keyboard.press("Enter");
   await settled(page, 1);
   assert.equal(await page.textContent("#secret"), "");

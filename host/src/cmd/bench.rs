@@ -167,7 +167,7 @@ fn loaded(session: &Session, args: &BenchArgs, paths: &[PathBuf]) -> Result<Opti
     for path in paths {
         let motor = motor::motor_file(&args.motor, path)?;
         let name = path.display().to_string();
-        let (loaded, notes) = match read(path, &name, &motor) {
+        let (loaded, notes) = match read(path, &name, &motor, true) {
             Ok(found) => found,
             Err(error) if error.asks_what_a_log_is() => {
                 session.remark(&format!("{error}\nThe page asks for it."));

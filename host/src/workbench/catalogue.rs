@@ -50,13 +50,13 @@ mod tests {
         })
     }
 
-    /// `SERVOID_PIN=1 cargo test -p host --lib gallery` writes the file.
+    /// `UPDATE_REFERENCE=1 cargo test -p host --lib gallery` writes the file anew.
     #[test]
     fn the_gallery_is_what_the_catalogue_leaves() {
         let effects: Vec<Value> = Kind::ALL.par_iter().map(|&kind| entry(kind)).collect();
         let lines: Vec<String> = effects.iter().map(Value::to_string).collect();
         let text = format!("[\n{}\n]\n", lines.join(",\n"));
-        if std::env::var_os("SERVOID_PIN").is_some() {
+        if std::env::var_os("UPDATE_REFERENCE").is_some() {
             let path = concat!(
                 env!("CARGO_MANIFEST_DIR"),
                 "/src/workbench/assets/gallery.json"
@@ -66,7 +66,7 @@ mod tests {
         }
         assert!(
             text == EFFECTS,
-            "the gallery has changed: write it with SERVOID_PIN=1"
+            "the gallery is stale: write it anew with UPDATE_REFERENCE=1 cargo test -p host --lib gallery"
         );
     }
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use servoid_io::channel::Channel;
 use servoid_io::input::{
     AngleUnit, CommandUnit, DriveKind, Envelope, MotorFile, PRESETS, ReadError, Survey,
-    SurveyColumn, SurveyTable, TimeUnit, read_recordings, survey,
+    SurveyColumn, SurveyTable, TimeUnit, read_as_said, read_recordings, survey,
 };
 use servoid_io::output::write_csv;
 use std::collections::BTreeMap;
@@ -243,9 +243,20 @@ fn first_rows(found: &Survey) -> Value {
     json!({ "names": names, "rows": rows.collect::<Vec<_>>() })
 }
 
-/// Reads all recordings of a log as it is said to be, each as a text of our own, and what its reader has to say.
-pub fn read(path: &Path, name: &str, motor: &MotorFile) -> Result<(Loaded, Vec<String>), Error> {
-    let reading = read_recordings(path, motor).map_err(|error| called(path, name, error))?;
+/// Reads all recordings of a log as it is said to be, or with a `guess` where nothing is said, each as a text of our own; and what its reader has
+/// to say.
+pub fn read(
+    path: &Path,
+    name: &str,
+    motor: &MotorFile,
+    guess: bool,
+) -> Result<(Loaded, Vec<String>), Error> {
+    let reading = if guess {
+        read_recordings(path, motor)
+    } else {
+        read_as_said(path, motor, &|_| ())
+    };
+    let reading = reading.map_err(|error| called(path, name, error))?;
     let own = path.display().to_string();
     let shown = |text: &str| text.replace(&own, name);
     let mut sources = Vec::new();

@@ -81,7 +81,7 @@ pub use motor_drive::DriveKind;
 pub use motor_error::{MotorFault, MotorFileError};
 pub use motor_file::{Columns, Fact, Known, MAX_FILE_BYTES, MotorFile};
 pub use motor_units::{AngleUnit, CommandUnit, Reversed, SpeedUnit, TimeUnit, Units};
-pub use open::{read_one, read_recording, read_recordings, read_recordings_with};
+pub use open::{read_as_said, read_one, read_recording, read_recordings, read_recordings_with};
 pub use part::Part;
 pub use place::{Cell, Place};
 pub use preset::{PRESETS, Preset};

@@ -45,7 +45,7 @@ fn read(
     lenient: bool,
     done: &dyn Fn(Reached),
 ) -> Result<Reading, ReadError> {
-    let mut error = match read_as_said(path, motor, lenient, done) {
+    let mut error = match as_said(path, motor, lenient, done) {
         Ok(mut reading) => {
             reading.motor = motor.clone();
             return Ok(reading);
@@ -71,7 +71,7 @@ fn read(
         }
         return Err(error);
     }
-    let mut reading = read_as_said(path, &proposal.motor, lenient, done)?;
+    let mut reading = as_said(path, &proposal.motor, lenient, done)?;
     let source = Part::of(path).path.display().to_string();
     reading
         .notes
@@ -80,7 +80,21 @@ fn read(
     Ok(reading)
 }
 
-fn read_as_said(
+/// As [`read_recordings`], of which nothing is guessed: columns that are not said are refused.
+///
+/// # Errors
+/// As [`read_recordings`].
+pub fn read_as_said(
+    path: &Path,
+    motor: &MotorFile,
+    done: &dyn Fn(Reached),
+) -> Result<Reading, ReadError> {
+    let mut reading = as_said(path, motor, true, done)?;
+    reading.motor = motor.clone();
+    Ok(reading)
+}
+
+fn as_said(
     path: &Path,
     motor: &MotorFile,
     lenient: bool,

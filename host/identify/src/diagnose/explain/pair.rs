@@ -35,6 +35,9 @@ const SELDOM: usize = 100;
 /// Samples to each side over which a jump must stay, and which part of it.
 const STAYS: (usize, f64) = (40, 0.7);
 
+/// An impact in a gear follows a reversal of the shaft within this time, s.
+const REVERSAL_S: f64 = 0.1;
+
 /// Samples to each side in which nothing else may change, beyond this part of the jump.
 const ALONE: (usize, f64) = (3, 0.5);
 
@@ -64,7 +67,7 @@ pub fn remarks(
     let own = scores::whole(data, &last.candidate, last.method)?;
     let other = fit::validation_errors(held_out, &last.candidate, last.method)?;
     let found = jumps(data, &own).into_iter().chain(jumps(held_out, &other));
-    Ok(found.map(Remark::cause).collect())
+    Ok(found.collect())
 }
 
 /// Whether one kind of model explains each recording by itself, with constants that differ.
@@ -192,21 +195,22 @@ fn differences(one: &Fit, other: &Fit, least: f64) -> Option<String> {
 }
 
 /// Jumps of the reading that the motor cannot have made, a sentence for each recording that has any.
-fn jumps(data: &Data, errors: &[f64]) -> Vec<String> {
+fn jumps(data: &Data, errors: &[f64]) -> Vec<Remark> {
     if rms_counts(data, errors) < 2.0 * NOISE_COUNTS {
         return Vec::new();
     }
     let each = data.recordings.ranges().zip(data.recordings.sources());
     each.filter_map(|(range, source)| {
         let times = &data.time_s[range.clone()];
-        jumps_of_one(source, times, &errors[range])
+        let found = jumps_of_one(times, &errors[range.clone()])?;
+        Some(remark(data, range.start, source, times, &found))
     })
     .collect()
 }
 
-/// As [`jumps`], within one recording.
-fn jumps_of_one(source: &str, times: &[f64], errors: &[f64]) -> Option<String> {
-    if errors.len() < 4 * STAYS.0 {
+/// The samples of one recording before which the reading jumps, each with its height, counts.
+fn jumps_of_one(times: &[f64], errors: &[f64]) -> Option<Vec<(usize, f64)>> {
+    if errors.len().min(times.len()) < 4 * STAYS.0 {
         return None;
     }
     let change: Vec<f64> = errors.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -229,18 +233,49 @@ fn jumps_of_one(source: &str, times: &[f64], errors: &[f64]) -> Option<String> {
     let found: Vec<usize> = (STAYS.0..errors.len() - STAYS.0 - 1)
         .filter(|&k| change[k].abs() > least && alone(k) && stays(k))
         .collect();
-    let &first = found.first()?;
-    if found.len() * SELDOM > errors.len() {
+    if found.is_empty() || found.len() * SELDOM > errors.len() {
         return None;
     }
     // The error is model minus reading.
-    Some(format!(
-        "{}: the reading jumps {} time{} where the motor cannot have, first by {:+.0} counts at {:.3} s: the counter \
-         misses counts (or the shaft slips in its coupling); check the encoder's wiring and its highest speed",
-        source,
+    Some(found.into_iter().map(|k| (k + 1, -change[k])).collect())
+}
+
+/// What jumps of a reading tell. One alone explains no error of a whole recording, and jumps that each follow a reversal of the shaft may as
+/// well be impacts in a gear.
+fn remark(
+    data: &Data,
+    start: usize,
+    source: &str,
+    times: &[f64],
+    found: &[(usize, f64)],
+) -> Remark {
+    let (first, height) = found[0];
+    let seen = format!(
+        "{source}: the reading jumps {} time{} where the motor cannot have, first by {height:+.0} counts at {:.3} s",
         found.len(),
         if found.len() == 1 { "" } else { "s" },
-        -change[first],
-        times[first + 1] - times[0]
-    ))
+        times[first] - times[0]
+    );
+    if found.len() > 1 && found.iter().all(|(k, _)| reverses_before(data, start + k)) {
+        return Remark::aside(format!(
+            "{seen}, each shortly after the shaft reverses: impacts in a gear with backlash, or lost counts"
+        ));
+    }
+    let text = format!(
+        "{seen}: the counter misses counts (or the shaft slips in its coupling); check the encoder's wiring and its highest speed"
+    );
+    if found.len() == 1 {
+        Remark::aside(text)
+    } else {
+        Remark::cause(text)
+    }
+}
+
+/// Whether the shaft reversed within a short time before a sample.
+fn reverses_before(data: &Data, sample: usize) -> bool {
+    let speed = |k: usize| data.rate_of(&data.counts, k, STAYS.0 / 4);
+    let before = (0..sample).rev();
+    let near = before.take_while(|k| data.time_s[sample] - data.time_s[*k] <= REVERSAL_S);
+    let now = speed(sample);
+    near.step_by(STAYS.0 / 4).any(|k| speed(k) * now < 0.0)
 }
