@@ -25,7 +25,7 @@ class Recording:
     temperature : temperature of the motor, °C; NaN where a sample does not tell it.
     enabled : False while the bridge is open and the motor coasts.
     counts_per_rev : counts per revolution of the encoder, all edges counted.
-    supply_v : supply voltage, V.
+    supply_v : supply voltage, V; or as measured, one a sample: then a `duty` is a share of that.
     known : facts about the motor, as in `{"resistance_ohm": (1.2, 0.05), "kt_equals_kb": True}`; a pair is a value and its
         relative tolerance.
     name : the motor's name.
@@ -49,7 +49,7 @@ class Recording:
         temperature: ArrayLike | None = None,
         enabled: ArrayLike | None = None,
         counts_per_rev: float | None = None,
-        supply_v: float | None = None,
+        supply_v: float | ArrayLike | None = None,
         time_unit: str = "s",
         known: Facts | None = None,
         name: str | None = None,
@@ -62,10 +62,11 @@ class Recording:
         sensed, (read, angle_unit) = _one_of(
             "what the encoder read", {"counts": (counts, "counts"), "angle": (angle, angle_unit)}
         )
+        measured = supply_v is not None and np.ndim(supply_v) > 0
         motor = motor_toml(
             name=name,
             counts_per_rev=counts_per_rev,
-            supply_v=supply_v,
+            supply_v=None if measured else supply_v,
             units={"time": time_unit, "voltage": unit, "angle": angle_unit},
             drive="current" if unit == "A" else "voltage",
             known=known,
@@ -76,6 +77,7 @@ class Recording:
             numbers(sensed, read),
             current=None if current is None else numbers("current", current),
             temperature=None if temperature is None else numbers("temperature", temperature),
+            supply=numbers("supply_v", supply_v) if measured else None,
             enabled=None if enabled is None else switches("enabled", enabled),
             motor=motor,
             source=source,
@@ -113,6 +115,11 @@ class Recording:
         return self._own.source
 
     @property
+    def remarks(self) -> list[str]:
+        """What its reader took, repaired or left out, a sentence each."""
+        return self._own.remarks
+
+    @property
     def motor(self) -> str | None:
         """The motor's name, if its owner gave one."""
         return self._own.motor
@@ -129,7 +136,7 @@ class Recording:
 
 
 def read(path: str | PathLike[str], *, motor: str | PathLike[str] | None = None) -> Recording:
-    """Reads a CSV file, with the `motor.toml` that lies beside it unless `motor` names another."""
+    """Reads a log of any format that `servoid open` knows, with the `motor.toml` that lies beside it unless `motor` names another."""
     return Recording._of(_servoid.read(path, motor_file=motor))
 
 

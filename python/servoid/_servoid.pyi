@@ -39,6 +39,7 @@ class Recording:
         *,
         current: NDArray[np.float64] | None = None,
         temperature: NDArray[np.float64] | None = None,
+        supply: NDArray[np.float64] | None = None,
         enabled: NDArray[np.bool_] | None = None,
         motor: str | None = None,
         source: str = "arrays",
@@ -53,6 +54,8 @@ class Recording:
     def counts_per_rev(self) -> float: ...
     @property
     def source(self) -> str: ...
+    @property
+    def remarks(self) -> list[str]: ...
     @property
     def motor(self) -> str | None: ...
     def between(self, start_s: float, end_s: float) -> Recording: ...

@@ -4,7 +4,7 @@ use super::error::raised;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use servoid_io::channel::Measured;
-use servoid_io::input::{Arrays, Known, MotorFile, read_recording, recording_of};
+use servoid_io::input::{Arrays, Known, MotorFile, read_one, recording_of};
 use servoid_io::recording::Recording as Read;
 use std::path::{Path, PathBuf};
 
@@ -14,6 +14,8 @@ pub(crate) struct Recording {
     pub(crate) read: Read,
     pub(crate) known: Known,
     name: Option<String>,
+    /// What its reader has to say.
+    remarks: Vec<String>,
 }
 
 /// What is known of the motor, as TOML text, beside or instead of the file that is named or lies beside the recording.
@@ -77,7 +79,14 @@ impl Recording {
             read: read.map_err(|error| raised("recording", error))?,
             known: motor.known,
             name: motor.name,
+            remarks: Vec::new(),
         })
+    }
+
+    /// What its reader took, repaired or left out, a sentence each.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.remarks.clone()
     }
 
     /// Times, s.
@@ -128,6 +137,7 @@ impl Recording {
             read: part,
             known: self.known.clone(),
             name: self.name.clone(),
+            remarks: self.remarks.clone(),
         })
     }
 
@@ -155,10 +165,13 @@ pub(crate) fn read(
     motor: Option<&str>,
 ) -> PyResult<Recording> {
     let motor = motor_of(motor, Some(&path), motor_file.as_deref())?;
-    let read = py.detach(|| read_recording(&path, &motor));
+    let read = py.detach(|| read_one(&path, &motor));
+    let mut reading = read.map_err(|error| raised("recording", error))?;
+    let none = || raised("recording", format!("{}: holds no recording", path.display()));
     Ok(Recording {
-        read: read.map_err(|error| raised("recording", error))?,
-        known: motor.known,
-        name: motor.name,
+        read: reading.recordings.pop().ok_or_else(none)?,
+        known: reading.motor.known,
+        name: reading.motor.name,
+        remarks: reading.notes,
     })
 }
