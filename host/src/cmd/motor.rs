@@ -140,6 +140,7 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
         motor.columns = Columns::default();
         motor.units = flags.units;
         motor.drive = flags.drive;
+        motor.drive_said |= args.drive.is_some();
         motor.position = flags.position;
     }
     if flags.drive_kind() != motor.drive_kind() {

@@ -171,14 +171,14 @@ fn a_swapped_sign_is_named_for_either_recording() {
 #[test]
 fn what_is_no_number_or_nothing_is_refused_with_its_place() {
     let desk = pair();
-    rewritten(&desk, "other.csv", "nan.csv", |row, cells| {
+    rewritten(&desk, "other.csv", "text.csv", |row, cells| {
         if row == 100 {
-            cells[2] = "NaN".to_owned();
+            cells[2] = "12x".to_owned();
         }
     });
     desk.write("empty.csv", "");
     let cases: [(&str, &[&str]); 2] = [
-        ("nan.csv", &["nan.csv:102:3", "angle_counts", "NaN"]),
+        ("text.csv", &["text.csv:102:3", "angle_counts", "12x"]),
         ("empty.csv", &["empty.csv: is empty"]),
     ];
     for (file, says) in cases {
@@ -189,6 +189,19 @@ fn what_is_no_number_or_nothing_is_refused_with_its_place() {
             desk.refused(&line, 1, says);
         }
     }
+}
+
+#[test]
+fn a_cell_that_says_nothing_is_passed_over_with_a_remark() {
+    let desk = pair();
+    rewritten(&desk, "other.csv", "nan.csv", |row, cells| {
+        if row == 100 {
+            cells[2] = "NaN".to_owned();
+        }
+    });
+    let said = desk.done("diagnose rec.csv --validate nan.csv").stderr;
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.contains("nan.csv: 1 row has no angle"), "{said}");
 }
 
 #[test]

@@ -159,7 +159,7 @@ fn columns_of_several_tables_are_joined() {
         outcome.stderr
     );
     assert!(
-        outcome.stderr.contains("the last command before it"),
+        outcome.stderr.contains("each holds until its next value"),
         "{}",
         outcome.stderr
     );

@@ -36,10 +36,42 @@ pub(super) fn driven(recording: &Recording) -> Option<Range<usize>> {
     } else {
         0
     };
-    let to = if driven_s(last..recording.len() - 1) > DRIVEN_S {
-        last + 1
+    let to = if driven_s(last..recording.len() - 1) > DRIVEN_S && !is_abrupt(counts, last) {
+        coasting_from(counts, last)
     } else {
         recording.len()
     };
     ((from, to) != (0, recording.len()) && to >= from + 2).then_some(from..to)
+}
+
+/// Readings over which a speed is taken while a motor coasts.
+const BLOCK: usize = 10;
+/// So few counts in a block tell no change of the speed.
+const FEW_COUNTS: f64 = 2.0;
+
+/// Where a motor that is at rest from a sample on began to coast: before it slowed down all the way. If the command braked it at first,
+/// this is earlier than the bridge opened, which does no harm.
+fn coasting_from(counts: &[f64], rest: usize) -> usize {
+    let (mut fastest, mut from) = (0.0, rest + 1);
+    let mut end = rest;
+    while let Some(begin) = end.checked_sub(BLOCK) {
+        let speed = (counts[end] - counts[begin]).abs();
+        if speed <= fastest && fastest > FEW_COUNTS {
+            break;
+        }
+        (fastest, from, end) = (speed, begin, begin);
+    }
+    from
+}
+
+/// The last step of a motor that coasts to rest is smaller than this part of its steps before.
+const ABRUPT: f64 = 0.5;
+
+/// Whether a reading stops at full speed, as only one that is stuck does.
+fn is_abrupt(counts: &[f64], rest: usize) -> bool {
+    let (Some(before), Some(begin)) = (rest.checked_sub(1), rest.checked_sub(BLOCK + 1)) else {
+        return true;
+    };
+    let usual = (counts[before] - counts[begin]).abs() / BLOCK as f64;
+    (counts[rest] - counts[before]).abs() > (ABRUPT * usual).max(FEW_COUNTS)
 }

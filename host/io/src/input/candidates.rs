@@ -247,15 +247,17 @@ impl Finder<'_> {
     fn command_and_angle(&mut self) -> Option<DriveKind> {
         let angle = |one: &Named<'_>| {
             let own = Channel::Angle.facts().called(&one.name);
-            own.filter(|_| {
-                speed_unit(&one.column.name).is_none()
+            own.filter(|(how, _)| {
+                (*how > Match::Nearly || !is_another(Channel::Angle, &one.column.name))
+                    && speed_unit(&one.column.name).is_none()
                     && may_be(Channel::Angle, &one.column.name, &one.column.profile)
             })
         };
         let volts = |one: &Named<'_>| {
             let own = Channel::Command.facts().called(&one.name);
-            own.filter(|_| {
-                speed_unit(&one.column.name).is_none()
+            own.filter(|(how, _)| {
+                (*how > Match::Nearly || !is_another(Channel::Command, &one.column.name))
+                    && speed_unit(&one.column.name).is_none()
                     && may_be(Channel::Command, &one.column.name, &one.column.profile)
             })
         };
@@ -312,6 +314,9 @@ impl Finder<'_> {
             let own = commanded_current(&one.column.name);
             own.filter(|_| plausible && (is_current || self.kind == DriveKind::Current))
         });
+        if self.motor.drive_said && self.kind == DriveKind::Voltage {
+            return None;
+        }
         if let Some((at, how)) = current.filter(|_| self.kind != DriveKind::Position) {
             self.take(at, Channel::Command, how, "its name and unit");
             return Some(DriveKind::Current);
@@ -453,4 +458,13 @@ fn has_axis(column: &str, vector: &str) -> bool {
 fn behind_the_last_dot(name: &str) -> Option<String> {
     let parts: Vec<&str> = name.split('.').collect();
     (parts.len() > 2).then(|| parts[parts.len() - 2..].join("."))
+}
+
+/// Whether a name surely means a speed or another channel.
+fn is_another(own: Channel, name: &str) -> bool {
+    let surely = |channel: Channel| {
+        let called = channel.facts().called(name);
+        channel != own && called.is_some_and(|(how, _)| how > Match::Nearly)
+    };
+    speed(name).is_some() || Channel::ALL.into_iter().any(surely)
 }

@@ -17,9 +17,15 @@ pub(super) fn number(text: &str) -> Result<f64, ReadFault> {
     }
 }
 
-/// Whether a cell says something: loggers leave it empty, or write `nan`, where a slow sensor has nothing new.
+/// What loggers and spreadsheets write where a slow sensor has nothing new; lower case.
+const NOTHING: [&str; 10] = [
+    "", "nan", "na", "n/a", "#n/a", "null", "nil", "none", "-", "--",
+];
+
+/// Whether a cell says something.
 pub(super) fn is_told(text: &str) -> bool {
-    !(text.trim().is_empty() || text.trim().eq_ignore_ascii_case("nan"))
+    let text = text.trim();
+    !NOTHING.iter().any(|none| text.eq_ignore_ascii_case(none))
 }
 
 /// A number from memory; what is none is refused as its text would be.

@@ -169,6 +169,16 @@ impl<'m> Collector<'m> {
         // The beginning of one more, cut off, is none.
         let enough = |done: &Done| done.samples.len() >= 2;
         if self.done.len() > 1 && self.done.iter().any(enough) {
+            let rows = (self.done.iter())
+                .filter(|done| !enough(done))
+                .map(|done| done.samples.len());
+            let alone: usize = rows.sum();
+            if alone > 0 {
+                notes.add(format!(
+                    "{alone} row{} alone before or after a time that goes back, and left out",
+                    if alone == 1 { " stands" } else { "s stand" }
+                ));
+            }
             self.done.retain(enough);
         }
         let (motor, scale, several) = (self.motor, self.scale, self.several);
@@ -185,9 +195,9 @@ impl<'m> Collector<'m> {
                         interval_s,
                     } => format!(
                         "{repeated} time stamps repeat the one before, since the clock counts whole {} ms: the rows are spread evenly, \
-                         {:.6} ms apart (--rate states another rate)",
-                        tick_s * 1e3,
-                        interval_s * 1e3
+                         {} ms apart (--rate states another rate)",
+                        milliseconds(tick_s),
+                        milliseconds(interval_s)
                     ),
                     Spread::Copies(rows) => {
                         format!("{rows} rows are copies of the row before, and are left out")
@@ -239,4 +249,9 @@ impl<'m> Collector<'m> {
         ));
         Ok(())
     }
+}
+
+/// A time in ms to the nanosecond, without the zeros behind it.
+fn milliseconds(seconds: f64) -> f64 {
+    (seconds * 1e9).round() / 1e6
 }

@@ -2,14 +2,19 @@
 //! the speed is integrated, so that neither inertia nor delay contain it.
 //!
 //! Which filter it is the motion tells: of a motor that is driven by the command the next speed follows from the last one, the command and the
-//! sign of the speed, and best so once the filter is undone.
+//! sign of the speed. Behind a moving average it follows from the averages of both, and behind a lag once that is undone.
+//!
+//! An average of speeds that were rounded or measured afterwards cannot be undone, since each rounding would stay for ever. The command is
+//! averaged likewise then: a filter behind a linear system acts as one before it.
 
 use nalgebra::{Matrix4, Vector4};
 
 /// Longest moving average that is looked for, samples.
 const LONGEST: usize = 64;
-/// Shares of the new value in a first-order lag.
+/// Shares of the new value in a first-order lag: so many are tried at first.
 const SHARES: usize = 40;
+/// Steps by which the best of them is refined: to a hundred-thousandth.
+const SECTIONS: usize = 16;
 /// A filter is told where the next speed follows so much better once it is undone: part of the RMS error that is left.
 const BETTER: f64 = 0.3;
 /// Fewest samples that tell a filter.
@@ -58,42 +63,112 @@ impl Filter {
     }
 }
 
-/// Undoes the filter of speeds that were sampled evenly beside their commands; `None` where they show none.
-pub(super) fn unfiltered(speeds: &mut [f64], command: &[f64]) -> Option<Filter> {
+/// How a filter was taken into account.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// The speeds are those before the filter.
+    Undone,
+    /// The command went through the filter as well.
+    CommandToo,
+}
+
+/// Undoes the filter of speeds that were sampled evenly beside their commands, or averages the commands likewise; `None` where they show no
+/// filter.
+pub(super) fn unfiltered(speeds: &mut [f64], command: &mut [f64]) -> Option<(Filter, Way)> {
     if speeds.len() < FEWEST {
         return None;
     }
-    let raw = error(speeds, command)?;
-    let averages = (2..=LONGEST).map(Filter::Average);
-    let lags = (1..SHARES).map(|k| Filter::Lag(k as f64 / SHARES as f64));
-    let tried = averages.chain(lags).filter_map(|filter| {
-        let undone = filter.undone(speeds);
-        let error = error(&undone, command)?;
-        Some((error, filter, undone))
-    });
-    let (least, filter, undone) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let signs: Vec<f64> = speeds.iter().map(|speed| sign(*speed)).collect();
+    let raw = error(speeds, command, &signs)?;
+    let lengths = 2..=LONGEST;
+    let undone = |filter: Filter| {
+        let error = error_undone(&filter.undone(speeds), command)?;
+        Some((error, filter, Way::Undone))
+    };
+    let command_too = |length: usize| {
+        let signs = averaged(&ahead(&signs, (length - 1) / 2), length);
+        let error = error(speeds, &averaged(command, length), &signs)?;
+        Some((error, Filter::Average(length), Way::CommandToo))
+    };
+    let tried = (lengths.clone().map(Filter::Average)).filter_map(undone);
+    let tried = tried.chain(lengths.filter_map(command_too));
+    let tried = tried.chain(least_lag(&|share| Some(undone(Filter::Lag(share))?.0)));
+    let (least, filter, way) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
     if least > BETTER * raw {
         return None;
     }
-    speeds.copy_from_slice(&undone);
-    Some(filter)
+    match (way, filter) {
+        (Way::CommandToo, Filter::Average(length)) => {
+            command.copy_from_slice(&averaged(command, length));
+        }
+        _ => speeds.copy_from_slice(&filter.undone(speeds)),
+    }
+    Some((filter, way))
+}
+
+/// The first-order lag that leaves the least error: the best of a grid, and then between its neighbours by golden section.
+fn least_lag(error: &dyn Fn(f64) -> Option<f64>) -> Option<(f64, Filter, Way)> {
+    let of_share = |share: f64| Some((error(share)?, share));
+    let grid = (1..SHARES).filter_map(|k| of_share(k as f64 / SHARES as f64));
+    let mut best = grid.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (mut low, mut high) = (best.1 - 1.0 / SHARES as f64, best.1 + 1.0 / SHARES as f64);
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..SECTIONS {
+        let (left, right) = (high - golden * (high - low), low + golden * (high - low));
+        let (at_left, at_right) = (of_share(left)?, of_share(right)?);
+        let better = if at_left.0 < at_right.0 {
+            high = right;
+            at_left
+        } else {
+            low = left;
+            at_right
+        };
+        if better.0 < best.0 {
+            best = better;
+        }
+    }
+    Some((best.0, Filter::Lag(best.1), Way::Undone))
+}
+
+/// The mean of the last values, and of the first one before there were so many.
+fn averaged(values: &[f64], length: usize) -> Vec<f64> {
+    let Some(first) = values.first() else {
+        return Vec::new();
+    };
+    let mut sum = first * length as f64;
+    let mean = values.iter().enumerate().map(|(k, value)| {
+        sum += value - k.checked_sub(length).map_or(first, |place| &values[place]);
+        sum / length as f64
+    });
+    mean.collect()
+}
+
+/// Values as they will be some samples later.
+fn ahead(values: &[f64], samples: usize) -> Vec<f64> {
+    let last = values.len().saturating_sub(1);
+    (0..values.len())
+        .map(|k| values[(k + samples).min(last)])
+        .collect()
+}
+
+fn sign(speed: f64) -> f64 {
+    if speed == 0.0 { 0.0 } else { speed.signum() }
+}
+
+/// The error of speeds before a filter.
+fn error_undone(speeds: &[f64], command: &[f64]) -> Option<f64> {
+    let signs: Vec<f64> = speeds.iter().map(|speed| sign(*speed)).collect();
+    error(speeds, command, &signs)
 }
 
 /// RMS error of the next speed as it follows from the last one, the command, the sign of the speed and a constant; as a part of the speed's
 /// own change, so that a filter gains nothing by making all small.
-fn error(speeds: &[f64], command: &[f64]) -> Option<f64> {
+fn error(speeds: &[f64], command: &[f64], signs: &[f64]) -> Option<f64> {
     let mut products = Matrix4::zeros();
     let mut right = Vector4::zeros();
     let (mut all, mut rows) = (0.0, 0usize);
-    let row = |k: usize| {
-        let sign = if speeds[k] == 0.0 {
-            0.0
-        } else {
-            speeds[k].signum()
-        };
-        // A speed in an interval is driven by the command at its beginning.
-        Vector4::new(speeds[k], command[k], sign, 1.0)
-    };
+    // A speed in an interval is driven by the command at its beginning.
+    let row = |k: usize| Vector4::new(speeds[k], command[k], signs[k], 1.0);
     let moving = |k: &usize| speeds[*k] != 0.0 && speeds[k + 1] != 0.0;
     let used = || (0..speeds.len() - 1).filter(moving);
     for k in used() {
@@ -135,40 +210,59 @@ mod tests {
         (speeds, commands)
     }
 
-    fn average(values: &[f64], length: usize) -> Vec<f64> {
-        let mean = |k: usize| {
-            let from = (k + 1).saturating_sub(length);
-            let missing = (length - (k + 1 - from)) as f64;
-            (values[from..=k].iter().sum::<f64>() + missing * values[0]) / length as f64
-        };
-        (0..values.len()).map(mean).collect()
-    }
-
     #[test]
     fn filters_are_told_and_undone() {
-        let (speeds, commands) = motor();
+        let (speeds, mut commands) = motor();
         for length in [4, 12, 30] {
-            let mut filtered = average(&speeds, length);
-            let found = unfiltered(&mut filtered, &commands);
-            assert_eq!(found, Some(Filter::Average(length)));
+            let mut filtered = averaged(&speeds, length);
+            let found = unfiltered(&mut filtered, &mut commands);
+            assert_eq!(found, Some((Filter::Average(length), Way::Undone)));
             let worst = filtered.iter().zip(&speeds).map(|(a, b)| (a - b).abs());
             assert!(worst.fold(0.0, f64::max) < 1e-6, "{length}");
         }
-        let mut lagged = Vec::new();
-        for speed in &speeds {
-            let before = lagged.last().copied().unwrap_or(0.0);
-            lagged.push(before + 0.25 * (speed - before));
+        for share in [0.25, 0.0392] {
+            let mut lagged = Vec::new();
+            for speed in &speeds {
+                let before = lagged.last().copied().unwrap_or(0.0);
+                lagged.push(before + share * (speed - before));
+            }
+            let Some((Filter::Lag(found), Way::Undone)) = unfiltered(&mut lagged, &mut commands)
+            else {
+                panic!("no lag at {share}");
+            };
+            // Friction that holds the motor bends it a little.
+            assert!((found / share - 1.0).abs() < 0.1, "{found} for {share}");
         }
-        assert_eq!(unfiltered(&mut lagged, &commands), Some(Filter::Lag(0.25)));
+    }
+
+    #[test]
+    fn averages_of_rounded_speeds_are_told_and_the_command_is_averaged() {
+        let (speeds, commands) = motor();
+        for (length, digit) in [(4, 0.01), (12, 0.1), (12, 0.5)] {
+            let rounded = averaged(&speeds, length);
+            let mut rounded: Vec<f64> = rounded
+                .iter()
+                .map(|x| (x / digit).round() * digit)
+                .collect();
+            let (before, mut own) = (rounded.clone(), commands.clone());
+            let found = unfiltered(&mut rounded, &mut own);
+            assert_eq!(
+                found,
+                Some((Filter::Average(length), Way::CommandToo)),
+                "{digit}"
+            );
+            assert_eq!(rounded, before);
+            assert_eq!(own, averaged(&commands, length));
+        }
     }
 
     #[test]
     fn a_speed_without_a_filter_is_left_alone() {
-        let (speeds, commands) = motor();
+        let (speeds, mut commands) = motor();
         let mut own = speeds.clone();
-        assert_eq!(unfiltered(&mut own, &commands), None);
+        assert_eq!(unfiltered(&mut own, &mut commands), None);
         let mut rounded: Vec<f64> = speeds.iter().map(|speed| speed.round()).collect();
-        assert_eq!(unfiltered(&mut rounded, &commands), None);
+        assert_eq!(unfiltered(&mut rounded, &mut commands), None);
         assert_eq!(own, speeds);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::bridge_off::driven;
 use super::counts::snap_to_whole;
-use super::filtered::{Filter, unfiltered};
-use super::gaps::closed;
+use super::filtered::{Filter, Way, unfiltered};
+use super::gaps::{closed, pauses};
 use super::jumps::{set_anew, unwrapped};
 use super::motor_file::MotorFile;
 use super::motor_units::{AngleUnit, SpeedUnit};
@@ -50,21 +50,24 @@ pub(super) fn finished(
         return Err(ReadFault::TooFewSamples(samples.len()));
     }
     if samples.held_commands > 0 {
-        notes.add(format!(
-            "{} rows have no command: the last one holds",
-            samples.held_commands
-        ));
+        let (rows, have) = rows(samples.held_commands);
+        notes.add(format!("{rows} {have} no command: the last one holds"));
     }
+    let count = samples.len();
     let (parts, done) = closed(samples);
+    let left = parts.iter().map(Samples::len).max().unwrap_or(0);
+    if left < 2 && done.rows < count {
+        return Err(ReadFault::TooFewSamples(left.max(1)));
+    }
     if done.rows > 0 {
         let parted = match done.parted {
             0 => String::new(),
             1 => "; a longer gap parts the recording".to_owned(),
             count => format!("; {count} longer gaps part the recording"),
         };
+        let (rows, have) = rows(done.rows);
         notes.add(format!(
-            "{} rows have no angle: they count by what they command{parted}",
-            done.rows
+            "{rows} {have} no angle: what is commanded there acts all the same{parted}"
         ));
     }
     let spanned = motor.log.from_s.is_some() || motor.log.to_s.is_some();
@@ -103,7 +106,8 @@ fn leave_out_standing(recording: &mut Recording, notes: &mut Notes<'_>) {
         ),
     };
     notes.add(format!(
-        "the motor stands {what} under commands that move it elsewhere, as with its bridge off: that part is left out, as by {option} \
+        "the motor stands {what} under commands that move it elsewhere, as with its bridge off: that part, and its coasting to rest, is \
+         left out, as by {option} \
          (--from 0 keeps all)"
     ));
     *recording = recording.samples(driven);
@@ -145,25 +149,44 @@ impl Run<'_> {
                 wrapped.turn, wrapped.times
             ));
         }
-        let begins = set_anew(&self.samples.counts);
-        if let [first, ..] = begins[..] {
-            let times: Vec<String> = (begins.iter())
-                .map(|k| format!("{:.3} s", self.samples.time_s[*k] - self.samples.time_s[0]))
-                .collect();
+        let anew = set_anew(&self.samples.time_s, &self.samples.counts);
+        let at_s = |k: usize| self.samples.time_s[k] - self.samples.time_s[0];
+        if let [first, ..] = anew[..] {
             if !self.parted {
                 return Err(ReadFault::SetAnew {
-                    sample: first + 1,
-                    time_s: self.samples.time_s[first],
-                    from: self.samples.counts[first - 1],
-                    to: self.samples.counts[first],
+                    sample: first.at + 1,
+                    time_s: self.samples.time_s[first.at],
+                    from: self.samples.counts[first.at - 1],
+                    to: self.samples.counts[first.at],
                 });
             }
+            let jumps = anew
+                .iter()
+                .map(|set| format!("{:+.0} counts at {:.3} s", set.by, at_s(set.at)));
             notes.add(format!(
-                "the angle jumps by {:+.0} counts at {}, as a counter that is set to another value (re-zeroed, or its index found): what is \
-                 before and behind is taken as parts of one recording",
-                self.samples.counts[first] - self.samples.counts[first - 1],
-                times.join(", ")
+                "the angle jumps by {}, as a counter that is set to another value (re-zeroed, or its index found): what is before and \
+                 behind is taken as parts of one recording",
+                jumps.collect::<Vec<_>>().join(" and ")
             ));
+        }
+        let mut begins: Vec<usize> = anew.iter().map(|set| set.at).collect();
+        if self.parted {
+            let pauses = pauses(&self.samples.time_s);
+            if let [first, ..] = pauses[..] {
+                notes.add(format!(
+                    "no rows were logged from {:.3} to {:.3} s{}, and what was commanded there is not known: what is before and behind is \
+                     taken as parts of one recording",
+                    at_s(first - 1),
+                    at_s(first),
+                    match pauses.len() {
+                        1 => String::new(),
+                        count => format!(" and in {} more pauses", count - 1),
+                    }
+                ));
+            }
+            begins.extend(pauses);
+            begins.sort_unstable();
+            begins.dedup();
         }
         let ends: Vec<usize> = [&[0][..], &begins, &[self.samples.len()]].concat();
         let parts = ends.windows(2).filter(|pair| pair[1] - pair[0] >= 2);
@@ -218,19 +241,22 @@ impl Run<'_> {
             counts,
             ..
         } = &mut self.samples;
-        let Some(filter) = unfiltered(counts, command) else {
+        let Some((filter, way)) = unfiltered(counts, command) else {
             return;
         };
         let interval = (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64;
         let what = match filter {
             Filter::Average(samples) => format!("is averaged over {samples} samples"),
             Filter::Lag(share) => {
-                format!("is filtered by a lag that takes {share} of each new value")
+                format!("is filtered by a lag that takes {share:.4} of each new value")
             }
         };
+        let done = match way {
+            Way::Undone => "that is undone before it is integrated",
+            Way::CommandToo => "the command is averaged likewise",
+        };
         notes.add(format!(
-            "the speed {what}, which delays it by {:.1} ms: that is undone before it is integrated, so that inertia and delay do not contain \
-             it",
+            "the speed {what}, which delays it by {:.1} ms: {done}, so that inertia and delay do not contain it",
             1e3 * interval * filter.delay_samples()
         ));
     }
@@ -331,4 +357,12 @@ fn from_the_first(mut values: Vec<f64>) -> Option<Vec<f64>> {
     let unknown = values.iter_mut().take_while(|x| x.is_nan());
     unknown.for_each(|x| *x = first);
     Some(values)
+}
+
+/// So many rows, with their verb.
+fn rows(count: usize) -> (String, &'static str) {
+    match count {
+        1 => ("1 row".to_owned(), "has"),
+        count => (format!("{count} rows"), "have"),
+    }
 }

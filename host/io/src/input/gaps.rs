@@ -1,12 +1,32 @@
 //! Rows that tell no angle. What they command acts all the same: in a short gap as the mean over the time between two readings, which
 //! moves the motor as far up to the second order of that time; a longer gap parts the recording.
 
+use super::jumps::usual_interval;
 use super::samples::Samples;
 
 /// A gap of so many usual intervals between readings is closed; in a longer one the mean of the commands would bend the motion.
 const SHORT: f64 = 3.5;
 /// A part of fewer readings tells too little to be kept.
 const LEAST: usize = 20;
+
+/// A logger pauses where no row comes for so many usual intervals, and so long, s.
+const PAUSE: (f64, f64) = (20.0, 0.5);
+/// More of them are a log that only tells changes.
+const MOST_PAUSES: usize = 8;
+
+/// The first samples after pauses in which nothing was logged.
+pub(super) fn pauses(time_s: &[f64]) -> Vec<usize> {
+    if time_s.len() < 2 {
+        return Vec::new();
+    }
+    let least = (PAUSE.0 * usual_interval(time_s)).max(PAUSE.1);
+    let ends = (1..time_s.len()).filter(|k| time_s[*k] - time_s[k - 1] > least);
+    let ends: Vec<usize> = ends.take(MOST_PAUSES + 1).collect();
+    if ends.len() > MOST_PAUSES {
+        return Vec::new();
+    }
+    ends
+}
 
 /// What was done about rows without an angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,13 +49,11 @@ pub(super) fn closed(mut samples: Samples) -> (Vec<Samples>, Closed) {
     if done.rows == 0 {
         return (vec![samples], done);
     }
-    let between = |pair: &[usize]| samples.time_s[pair[1]] - samples.time_s[pair[0]];
-    let mut intervals: Vec<f64> = told.windows(2).map(between).collect();
-    if intervals.is_empty() {
+    if told.len() < 2 {
         return (Vec::new(), done);
     }
-    let middle = intervals.len() / 2;
-    let usual = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let times: Vec<f64> = told.iter().map(|k| samples.time_s[*k]).collect();
+    let usual = usual_interval(&times);
     // Places among those that are told at which a part begins.
     let mut begins = vec![0];
     for (place, pair) in told.windows(2).enumerate() {

@@ -6,12 +6,17 @@ const TOLD: f64 = 0.4;
 const LIKE: (f64, f64) = (4.0, 4.0);
 /// Part of the jumps that must agree.
 const AGREE: f64 = 0.9;
-/// A counter was set anew where a step is so many times farther off its neighbours than any other, and by so many counts.
-const SET: (f64, f64) = (4.0, 20.0);
+/// A counter was set anew where a step is so many times farther off its neighbours than any other, and by so many counts; fewer are
+/// counts that an encoder lost, which the diagnosis names.
+const SET: (f64, f64) = (4.0, 64.0);
 /// The steps before and after it are alike to this part of it.
 const ALIKE: f64 = 0.25;
 /// More of them are a fault of another kind.
 const MOST_SET: usize = 3;
+/// Part of all steps that must lie apart from jumps to tell what is usual.
+const APART: f64 = 0.2;
+/// Rows are missing where readings are so many usual intervals apart.
+const MISSING: f64 = 1.5;
 /// Fewest readings that tell anything.
 const FEWEST: usize = 30;
 
@@ -65,12 +70,15 @@ fn wraps(counts: &[f64], turn: f64) -> bool {
     let bends: Vec<f64> = (1..steps.len() - 1)
         .map(|k| (near(steps[k]) - 0.5 * (near(steps[k - 1]) + near(steps[k + 1]))).abs())
         .collect();
-    let mut sorted = bends.clone();
-    let place = sorted.len() * 95 / 100;
-    let usual = *sorted.select_nth_unstable_by(place, f64::total_cmp).1;
+    let is_jump = |k: usize| steps[k].abs() > turn / 2.0;
+    // A jump that is none bends its neighbours as well: those apart from all jumps tell what is usual.
+    let apart = (1..steps.len() - 1).filter(|k| !(k - 1..=k + 1).any(is_jump));
+    let apart: Vec<f64> = apart.map(|k| bends[k - 1]).collect();
+    let tells = apart.len() as f64 > APART * bends.len() as f64;
+    let usual = usually(if tells { &apart } else { &bends });
     let (mut jumps, mut agree) = (0, 0);
-    for (step, bend) in steps[1..].iter().zip(&bends) {
-        if step.abs() > turn / 2.0 {
+    for (k, bend) in (1..).zip(&bends) {
+        if is_jump(k) {
             jumps += 1;
             agree += usize::from(*bend <= LIKE.0 * usual + LIKE.1);
         }
@@ -78,15 +86,41 @@ fn wraps(counts: &[f64], turn: f64) -> bool {
     jumps > 0 && agree as f64 >= AGREE * f64::from(jumps)
 }
 
-/// The first readings after a counter was set to another value: a single step far off its neighbours, which are alike.
-pub(super) fn set_anew(counts: &[f64]) -> Vec<usize> {
+/// What 95 of a hundred values do not exceed; of one at least.
+fn usually(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    let place = values.len() * 95 / 100;
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
+}
+
+/// Where a counter was set to another value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SetAnew {
+    /// The first reading after it.
+    pub(super) at: usize,
+    /// By how many counts: the step without the motion.
+    pub(super) by: f64,
+}
+
+/// Where a counter was set to another value: a single step far off its neighbours, which are alike. A step over missing rows, which
+/// the times show, tells nothing.
+pub(super) fn set_anew(time_s: &[f64], counts: &[f64]) -> Vec<SetAnew> {
     let steps: Vec<f64> = counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if steps.len() < FEWEST {
         return Vec::new();
     }
-    let off = |k: usize| (steps[k] - 0.5 * (steps[k - 1] + steps[k + 1])).abs();
-    let inner = 1..steps.len() - 1;
-    let mut farthest: Vec<usize> = inner.clone().collect();
+    let usual_s = usual_interval(time_s);
+    let is_near = |k: usize| time_s[k + 1] - time_s[k] < MISSING * usual_s;
+    let excess = |k: usize| steps[k] - 0.5 * (steps[k - 1] + steps[k + 1]);
+    let off = |k: usize| excess(k).abs();
+    let inner: Vec<usize> = (1..steps.len() - 1)
+        .filter(|k| (k - 1..=k + 1).all(is_near))
+        .collect();
+    if inner.is_empty() {
+        return Vec::new();
+    }
+    let usual = usually(&inner.iter().map(|k| off(*k)).collect::<Vec<_>>());
+    let mut farthest = inner.clone();
     let kept = (3 * MOST_SET + 1).min(farthest.len());
     farthest.select_nth_unstable_by(kept - 1, |a, b| off(*b).total_cmp(&off(*a)));
     farthest.truncate(kept);
@@ -100,19 +134,33 @@ pub(super) fn set_anew(counts: &[f64]) -> Vec<usize> {
             }
         }
         let others = inner
-            .clone()
-            .filter(|k| found.iter().all(|other| other.abs_diff(*k) > 1));
-        let rest = others.map(off).fold(0.0, f64::max);
+            .iter()
+            .filter(|k| found.iter().all(|other| other.abs_diff(**k) > 1));
+        let rest = others.map(|k| off(*k)).fold(0.0, f64::max);
         let is_set = |k: &usize| {
+            let change = (steps[k + 1] - steps[k - 1]).abs();
             off(*k) >= (SET.0 * rest).max(SET.1)
-                && (steps[k + 1] - steps[k - 1]).abs() <= ALIKE * off(*k)
+                && change <= ALIKE * off(*k)
+                // A reading that was stuck goes on at full speed.
+                && change <= 2.0 * (LIKE.0 * usual + LIKE.1)
         };
         if found.len() == count && found.iter().all(is_set) {
             found.sort_unstable();
-            return found.into_iter().map(|k| k + 1).collect();
+            let set = |k: usize| SetAnew {
+                at: k + 1,
+                by: excess(k),
+            };
+            return found.into_iter().map(set).collect();
         }
     }
     Vec::new()
+}
+
+/// The median time between readings, s; of two readings at least.
+pub(super) fn usual_interval(time_s: &[f64]) -> f64 {
+    let mut intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let middle = intervals.len() / 2;
+    *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]
@@ -129,6 +177,30 @@ mod tests {
                 f64::floor(angle)
             })
             .collect()
+    }
+
+    fn found(counts: &[f64]) -> Vec<usize> {
+        let times: Vec<f64> = (0..counts.len()).map(|k| 0.005 * k as f64).collect();
+        set_anew(&times, counts).iter().map(|set| set.at).collect()
+    }
+
+    #[test]
+    fn rows_that_are_missing_are_no_jump() {
+        for missing in [700..701, 700..712] {
+            let mut counts = motion(45.0);
+            let mut times: Vec<f64> = (0..counts.len()).map(|k| 0.005 * k as f64).collect();
+            counts.drain(missing.clone());
+            times.drain(missing);
+            assert_eq!(set_anew(&times, &counts), []);
+        }
+    }
+
+    #[test]
+    fn a_reading_that_was_stuck_is_no_jump() {
+        let mut counts = motion(45.0);
+        let held = counts[300];
+        counts[300..500].fill(held);
+        assert!(found(&counts).is_empty());
     }
 
     #[test]
@@ -156,7 +228,7 @@ mod tests {
             let mut counts = whole.clone();
             assert_eq!(unwrapped(&mut counts, 4096.0), None);
             assert_eq!(counts, whole);
-            assert!(set_anew(&whole).is_empty());
+            assert!(found(&whole).is_empty());
         }
         // Too fast to tell.
         let mut counts: Vec<f64> = motion(2000.0)
@@ -168,14 +240,19 @@ mod tests {
 
     #[test]
     fn a_counter_that_is_set_anew_is_found() {
-        for (at, by) in [(700, -460.0), (300, 60.0), (1500, -41_816.0)] {
+        for (at, by) in [(700, -460.0), (300, 90.0), (1500, -41_816.0)] {
             let mut counts = motion(45.0);
             counts[at..].iter_mut().for_each(|x| *x += by);
-            assert_eq!(set_anew(&counts), [at], "{by}");
+            let times: Vec<f64> = (0..counts.len()).map(|k| 0.005 * k as f64).collect();
+            let [set] = set_anew(&times, &counts)[..] else {
+                panic!("{by}: {:?}", found(&counts));
+            };
+            assert_eq!(set.at, at);
+            assert!((set.by - by).abs() < 5.0, "{by}: {}", set.by);
         }
         let mut counts = motion(45.0);
         counts[500..].iter_mut().for_each(|x| *x += 300.0);
         counts[900..].iter_mut().for_each(|x| *x -= 5000.0);
-        assert_eq!(set_anew(&counts), [500, 900]);
+        assert_eq!(found(&counts), [500, 900]);
     }
 }

@@ -36,6 +36,8 @@ pub struct MotorFile {
     pub units: Units,
     /// What the motor gets.
     pub drive: Drive,
+    /// Whether a user says so: nothing else is guessed then.
+    pub drive_said: bool,
     /// What is said of the position loop, where the command is a target angle.
     pub position: Option<LoopSettings>,
     /// Facts from a datasheet or a meter.
@@ -115,6 +117,7 @@ impl Default for MotorFile {
             columns: Columns::default(),
             units: Units::default(),
             drive: Drive::Voltage,
+            drive_said: false,
             position: None,
             known: Known::default(),
             log: LogPart::default(),

@@ -50,6 +50,7 @@ impl MotorFile {
         let column_section = top.section("columns")?;
         let unit_section = top.section("units")?;
         let drive_section = top.section("drive")?;
+        file.drive_said = drive_section.is_some();
         file.log = log_part(top.section("log")?)?;
         let preset = file.log.preset;
         let kind;

@@ -14,6 +14,9 @@ pub(super) enum Match {
     Whole,
 }
 
+/// Words of so many letters are told in the middle of others, as in `Batteriespannung`.
+const LONG: usize = 4;
+
 /// A name in lower case, without accents.
 pub(super) fn folded(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
@@ -39,7 +42,9 @@ pub(super) fn parts(name: &str) -> Vec<String> {
     let mut before: Option<char> = None;
     for c in name.chars() {
         let is_word = c.is_alphanumeric() || matches!(c, '%' | '\u{b0}');
-        let begins = before.is_none_or(|b| b.is_lowercase() && c.is_uppercase());
+        // In `u_mV` the small letter is the unit's prefix.
+        let is_prefix = parts.last().is_some_and(|last| last.chars().count() == 1);
+        let begins = before.is_none_or(|b| b.is_lowercase() && c.is_uppercase() && !is_prefix);
         if is_word {
             if begins {
                 parts.push(String::new());
@@ -63,6 +68,16 @@ pub(super) fn is_called(name: &str, word: &str) -> bool {
     }
 }
 
+/// Whether one of these words is a part of a name, or a long one stands in it.
+pub(super) fn speaks_of(name: &str, words: &[&str]) -> bool {
+    let long = |word: &&&str| word.len() >= LONG;
+    has_part(name, words)
+        || words
+            .iter()
+            .filter(long)
+            .any(|word| folded(name).contains(word))
+}
+
 /// Whether one of these words is a part of a name.
 pub(super) fn has_part(name: &str, words: &[&str]) -> bool {
     parts(name)
@@ -73,7 +88,7 @@ pub(super) fn has_part(name: &str, words: &[&str]) -> bool {
 impl Facts {
     /// How surely a name means this quantity, and the place of the word that says so: of several the likeliest.
     pub(super) fn called(&self, name: &str) -> Option<(Match, usize)> {
-        if has_part(name, self.others) {
+        if speaks_of(name, self.others) {
             return None;
         }
         let whole = folded(name.trim());

@@ -36,7 +36,7 @@ impl Profile {
     pub(super) fn take_text(&mut self, cell: &str) {
         match cell.parse::<f64>() {
             Ok(value) => self.take(value),
-            Err(_) if cell.is_empty() => self.take(f64::NAN),
+            Err(_) if !super::cell::is_told(cell) => self.take(f64::NAN),
             Err(_) => self.take_word(cell),
         }
     }

@@ -118,6 +118,9 @@ impl Proposal {
                 ..
             } = found;
             let profile = &tables[place.0].columns[place.1].profile;
+            // A name that says duty does not say of what it is a share.
+            let beyond = *channel == Channel::Command && profile.largest() > 1.05;
+            let unit = unit.filter(|unit| !(beyond && *unit == "duty"));
             let unit = unit.or_else(|| self.unit_by_values(*channel, column, profile));
             let usual = self.is_usual(*channel, column);
             if !usual || best.joined {

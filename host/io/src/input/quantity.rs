@@ -1,7 +1,7 @@
 //! What a name says beside the words of its channel: whether it is of a speed, of a target, of a commanded current, and the unit that it
 //! has in brackets.
 
-use super::names::{Match, has_part, is_called, parts};
+use super::names::{Match, has_part, is_called, parts, speaks_of};
 use super::units_told::unit_of;
 use crate::channel::Channel;
 
@@ -46,6 +46,8 @@ const SPEED_ENDS: &[(&str, &str)] = &[
     ("tr_min", "rpm"),
     ("1_min", "rpm"),
 ];
+/// Units of a speed that mean nothing else, wherever they stand in a name.
+const SPEED_UNITS: &[(&str, &str)] = &[("rpm", "rpm"), ("rps", "rev/s"), ("dps", "deg/s")];
 /// What is wanted of a position loop, the likeliest first.
 const TARGETS: &[&str] = &[
     "target",
@@ -109,7 +111,7 @@ const NO_CURRENTS: &[&str] = &[
 
 /// How surely a name means one of these words, and which.
 fn called(name: &str, words: &[&str], others: &[&str]) -> Option<(Match, usize)> {
-    if has_part(name, others) {
+    if speaks_of(name, others) {
         return None;
     }
     let whole = super::names::folded(name.trim());
@@ -151,7 +153,11 @@ pub(super) fn speed_unit(name: &str) -> Option<&'static str> {
         let rest = plain.strip_suffix(end);
         rest.is_some_and(|rest| rest.is_empty() || rest.ends_with('_'))
     });
-    by_end.map(|(_, unit)| *unit).or_else(|| {
+    let anywhere = || {
+        let mut units = SPEED_UNITS.iter();
+        units.find(|(word, _)| has_part(name, &[word]))
+    };
+    by_end.or_else(anywhere).map(|(_, unit)| *unit).or_else(|| {
         let unit = unit_of(Channel::Angle, bracketed(name)?)?;
         unit.contains('/')
             .then_some(unit)

@@ -437,7 +437,8 @@ pub enum ReadFault {
     /// An angle that starts anew every turn.
     #[error(
         "the angle jumps from {from} to {to} counts at t = {time_s} s, and again later, as one does that wraps every \
-         {turn} counts; unwrap it first: add the turns, so that the reading is cumulative (numpy's or MATLAB's unwrap)"
+         {turn} counts; some of its steps are too large a part of that to tell their direction, so that nothing can unwrap it: log the \
+         counter as it is (cumulative), or more often"
     )]
     Wraps {
         /// Time of the second reading of the first jump, s.
