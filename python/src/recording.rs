@@ -167,7 +167,12 @@ pub(crate) fn read(
     let motor = motor_of(motor, Some(&path), motor_file.as_deref())?;
     let read = py.detach(|| read_one(&path, &motor));
     let mut reading = read.map_err(|error| raised("recording", error))?;
-    let none = || raised("recording", format!("{}: holds no recording", path.display()));
+    let none = || {
+        raised(
+            "recording",
+            format!("{}: holds no recording", path.display()),
+        )
+    };
     Ok(Recording {
         read: reading.recordings.pop().ok_or_else(none)?,
         known: reading.motor.known,

@@ -50,7 +50,7 @@ pub(super) fn finished(
         return Err(ReadFault::TooFewSamples(samples.len()));
     }
     if samples.held_commands > 0 {
-        let (rows, have) = rows(samples.held_commands);
+        let (rows, have) = rows(samples.held_commands as usize);
         notes.add(format!("{rows} {have} no command: the last one holds"));
     }
     let count = samples.len();

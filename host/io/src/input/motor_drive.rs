@@ -114,12 +114,13 @@ impl MotorFile {
     }
 }
 
-/// The kind, the `usual` one if not said, and with a position drive what is said of its loop.
+/// The kind, the `usual` one if not said, whether it is said, and with a position drive what is said of its loop.
 pub(super) fn drive(
     mut section: Section<'_>,
     usual: DriveKind,
-) -> Result<(DriveKind, Option<LoopSettings>), MotorFileError> {
+) -> Result<(DriveKind, bool, Option<LoopSettings>), MotorFileError> {
     let kind = section.word("kind", DriveKind::ALL)?;
+    let said = kind.is_some();
     let kind = kind.map_or(usual, |found| found.value);
     let mut first = None;
     let mut number = |key: &'static str| -> Result<Option<f64>, MotorFileError> {
@@ -147,5 +148,9 @@ pub(super) fn drive(
         return Err(section.error(&span, fault));
     }
     section.finish(|key| super::motor_parse::home_of(key, "drive"))?;
-    Ok((kind, (kind == DriveKind::Position).then_some(settings)))
+    Ok((
+        kind,
+        said,
+        (kind == DriveKind::Position).then_some(settings),
+    ))
 }

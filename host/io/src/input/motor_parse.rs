@@ -50,11 +50,10 @@ impl MotorFile {
         let column_section = top.section("columns")?;
         let unit_section = top.section("units")?;
         let drive_section = top.section("drive")?;
-        file.drive_said = drive_section.is_some();
         file.log = log_part(top.section("log")?)?;
         let preset = file.log.preset;
         let kind;
-        (kind, file.position) = drive(
+        (kind, file.drive_said, file.position) = drive(
             drive_section,
             preset.map_or(DriveKind::Voltage, |preset| preset.drive),
         )?;
