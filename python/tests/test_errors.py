@@ -75,7 +75,9 @@ def test_it_is_refused(call, cause, said):
 def test_ctrl_c_stops_with_the_best_so_far(desk):
     program = textwrap.dedent(
         """
-        import warnings, servoid as sv
+        import signal, warnings, servoid as sv
+        # A runner that was started in the background ignores the signal, and its children would, too.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         recordings = [sv.read("rec.csv"), sv.read("other.csv")]
         print("begins", flush=True)
         with warnings.catch_warnings(record=True) as said:

@@ -324,6 +324,7 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
                 } else {
                     Drive::Current
                 },
+                drive_said: position.is_some() || !bridge,
                 position,
                 known,
             }

@@ -91,7 +91,7 @@ impl MotorFile {
         }));
         let units = section("units", &units_of);
         let usual = (self.log.preset).map_or(DriveKind::Voltage, |preset| preset.drive);
-        let kind = Some(self.drive_kind()).filter(|kind| *kind != usual);
+        let kind = Some(self.drive_kind()).filter(|kind| self.drive_said || *kind != usual);
         let control = self.position.unwrap_or_default();
         let drive = section(
             "drive",
