@@ -40,6 +40,14 @@ impl Drive {
         }
     }
 
+    /// All of them.
+    pub const ALL: [Drive; 3] = [Drive::Voltage, Drive::Current, Drive::Torque];
+
+    /// The one of a name in files.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Drive::ALL.into_iter().find(|drive| drive.name() == name)
+    }
+
     /// Whether the command is a voltage on the winding, so that back-EMF is seen.
     pub fn is_voltage(self) -> bool {
         self == Drive::Voltage

@@ -53,7 +53,7 @@ const BAD: &[(&str, &[&str])] = &[
     ),
     (
         "t_s,voltage_v,angle_counts\n0,1,0\n0,1,5\n",
-        &["rec.csv:3:1", "repeats"],
+        &["rec.csv:3", "repeats"],
     ),
     (
         "t_s,voltage_v,angle_counts\n0,1,3000000000\n",

@@ -68,7 +68,7 @@ const BAD_ROWS: &[(&str, &str, &str)] = &[
     ),
     (
         "0,1,0\n0.1,1,1\n0.1,1,2\n",
-        "rec.csv:4:1: column `t_s`: time repeats 0.1 s",
+        "rec.csv:4: time repeats 0.1 s",
         "remove the repeated row",
     ),
     (
@@ -223,12 +223,6 @@ const BAD_FILES: &[(&str, &str, &str, &[&str])] = &[
         "counts_per_rev = 4\n[units]\nangle = \"m\"",
         "rec.csv: the angle is in metres",
         &["metres_per_rev"],
-    ),
-    (
-        "t_s,voltage_v,angle_counts\n\"0,001\",1,0\n",
-        "counts_per_rev = 4",
-        "rec.csv:2:1: column `t_s`: \"0,001\" is not a number",
-        &["point for the decimal comma"],
     ),
     (
         "t_s,voltage_v,angle_counts,enabled\n0,1,0,2\n",

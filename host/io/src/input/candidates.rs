@@ -2,11 +2,12 @@
 
 use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
+use super::motor_units::CommandUnit;
 use super::names::Match;
 use super::proposal::{Candidates, may_be, told, turns_of};
 use super::quantity::{commanded_current, is_speed_setpoint, speed, speed_unit, target};
 use super::survey::{SurveyColumn, SurveyTable};
-use super::values::follows;
+use super::values::{command_unit, follows};
 use crate::channel::{Channel, Measured};
 
 /// A column that may be a channel.
@@ -376,21 +377,17 @@ impl Finder<'_> {
     }
 
     fn others(&mut self) {
-        let share = self
+        let command = self
             .found
             .iter()
             .find(|one| one.channel == Channel::Command);
-        let share = share.and_then(|one| one.unit);
-        let is_share = matches!(
-            share,
-            Some("duty" | "percent" | "pwm8" | "pwm10" | "pwm885" | "int8")
-        ) || self.motor.units.voltage.full_scale().is_some();
-        let positive = self
-            .found
-            .iter()
-            .find(|one| one.channel == Channel::Command);
-        let positive = positive.and_then(|one| self.named.iter().find(|n| n.place == one.place));
-        let unsigned = positive.is_some_and(|one| {
+        let column = command.and_then(|one| self.named.iter().find(|n| n.place == one.place));
+        let by_values = || command_unit(&column?.column.name, &column?.column.profile).0;
+        let unit = command.and_then(|one| one.unit).or_else(by_values);
+        let unit = unit.and_then(CommandUnit::by_name);
+        let is_share = unit.is_some_and(|unit| unit.full_scale().is_some())
+            || self.motor.units.voltage.full_scale().is_some();
+        let unsigned = column.is_some_and(|one| {
             one.column
                 .profile
                 .range()

@@ -2,7 +2,7 @@
 //! the speed is integrated, so that neither inertia nor delay contain it.
 //!
 //! Which filter it is the motion tells: of a motor that is driven by the command the next speed follows from the last one, the command and the
-//! sign of the speed. Behind a moving average it follows from the averages of both, and behind a lag once that is undone.
+//! sign of the speed. Behind a filter it follows from both as they come out of the same filter.
 //!
 //! An average of speeds that were rounded or measured afterwards cannot be undone, since each rounding would stay for ever. The command is
 //! averaged likewise then: a filter behind a linear system acts as one before it.
@@ -93,6 +93,11 @@ pub(super) fn unfiltered(speeds: &mut [f64], command: &mut [f64]) -> Option<(Fil
     let tried = (lengths.clone().map(Filter::Average)).filter_map(undone);
     let tried = tried.chain(lengths.filter_map(command_too));
     let tried = tried.chain(least_lag(&|share| Some(undone(Filter::Lag(share))?.0)));
+    let tried = tried.chain(least_lag(&|share| {
+        let filter = Filter::Lag(share);
+        let signs: Vec<f64> = filter.undone(speeds).into_iter().map(sign).collect();
+        error(speeds, &lagged(command, share), &lagged(&signs, share))
+    }));
     let (least, filter, way) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
     if least > BETTER * raw {
         return None;
@@ -141,6 +146,16 @@ fn averaged(values: &[f64], length: usize) -> Vec<f64> {
         sum / length as f64
     });
     mean.collect()
+}
+
+/// Values behind a lag that takes this share of each new one.
+fn lagged(values: &[f64], share: f64) -> Vec<f64> {
+    let mut before = values.first().copied().unwrap_or(0.0);
+    let each = values.iter().map(|value| {
+        before += share * (value - before);
+        before
+    });
+    each.collect()
 }
 
 /// Values as they will be some samples later.
@@ -221,16 +236,11 @@ mod tests {
             assert!(worst.fold(0.0, f64::max) < 1e-6, "{length}");
         }
         for share in [0.25, 0.0392] {
-            let mut lagged = Vec::new();
-            for speed in &speeds {
-                let before = lagged.last().copied().unwrap_or(0.0);
-                lagged.push(before + share * (speed - before));
-            }
-            let Some((Filter::Lag(found), Way::Undone)) = unfiltered(&mut lagged, &mut commands)
+            let mut filtered = lagged(&speeds, share);
+            let Some((Filter::Lag(found), Way::Undone)) = unfiltered(&mut filtered, &mut commands)
             else {
                 panic!("no lag at {share}");
             };
-            // Friction that holds the motor bends it a little.
             assert!((found / share - 1.0).abs() < 0.1, "{found} for {share}");
         }
     }

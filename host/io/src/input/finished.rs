@@ -98,17 +98,16 @@ fn leave_out_standing(recording: &mut Recording, notes: &mut Notes<'_>) {
     let at = |k: usize| recording.time_s[k.min(recording.len() - 1)] - recording.time_s[0];
     let (from, to) = (at(driven.start), at(driven.end));
     let (what, option) = match (driven.start, driven.end < recording.len()) {
-        (0, _) => (format!("from {to:.3} s on"), format!("--to {to:.3}")),
-        (_, false) => (format!("up to {from:.3} s"), format!("--from {from:.3}")),
+        (0, _) => (format!("from {to:.3} s on,"), format!("--to {to:.3}")),
+        (_, false) => (format!("up to {from:.3} s,"), format!("--from {from:.3}")),
         _ => (
-            format!("up to {from:.3} s and from {to:.3} s on"),
+            format!("up to {from:.3} s and from {to:.3} s on,"),
             format!("--from {from:.3} --to {to:.3}"),
         ),
     };
     notes.add(format!(
-        "the motor stands {what} under commands that move it elsewhere, as with its bridge off: that part, and its coasting to rest, is \
-         left out, as by {option} \
-         (--from 0 keeps all)"
+        "{what} the motor stands, or coasts to rest, under commands that move it elsewhere, as with its bridge off: that part is left out, as by \
+         {option} (--from 0 keeps all)"
     ));
     *recording = recording.samples(driven);
 }

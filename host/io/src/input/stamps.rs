@@ -4,6 +4,8 @@ use super::samples::Samples;
 
 /// Even times may be so many ticks of the clock off the stamps.
 const WITHIN: f64 = 1.5;
+/// Fewer rows tell no even times.
+const FEWEST: usize = 20;
 /// Copies of rows may be so small a part of all.
 const COPIES: f64 = 0.02;
 
@@ -42,7 +44,10 @@ pub(super) fn spread(samples: &mut Samples) -> Option<Spread> {
     let mean = (0..count).map(|k| time[k] - first - interval_s * k as f64);
     let offset = mean.sum::<f64>() / count as f64;
     let at = |k: usize| first + offset + interval_s * k as f64;
-    if last > first && (0..count).all(|k| (time[k] - at(k)).abs() <= WITHIN * tick_s) {
+    if count >= FEWEST
+        && last > first
+        && (0..count).all(|k| (time[k] - at(k)).abs() <= WITHIN * tick_s)
+    {
         samples.time_s = (0..count).map(at).collect();
         return Some(Spread::Even {
             repeated,

@@ -6,7 +6,7 @@ use crate::number_text::short;
 use crate::schema::effect_curve::{CurvePoint, EffectCurve};
 
 /// Draws the law, and the recording's own curve with its band.
-pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
+pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve, symbol: &str) -> Picture {
     let x: Vec<f64> = curve.points.iter().map(|point| rounded(point.at)).collect();
     let y = |of: &dyn Fn(&CurvePoint) -> f64| -> Vec<f64> {
         curve
@@ -58,13 +58,16 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve) -> Picture {
     plot.lay_out(
         layout(360)
             .set("xaxis", axis(&format!("{variable}, {}", curve.unit)))
-            .set("yaxis", axis("drive asked for, V").set("zeroline", true)),
+            .set(
+                "yaxis",
+                axis(&format!("drive asked for, {symbol}")).set("zeroline", true),
+            ),
     );
     let mut table = Table::new(&[
         &format!("{}, {}", curve.variable, curve.unit),
-        "law, V",
-        "measured, V",
-        "± (95 %), V",
+        &format!("law, {symbol}"),
+        &format!("measured, {symbol}"),
+        &format!("± (95 %), {symbol}"),
     ]);
     for point in &curve.points {
         table.row([point.at, point.law_v, point.found_v, point.band_v].map(short));

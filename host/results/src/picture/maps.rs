@@ -9,7 +9,7 @@ use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, ResidualA
 const WIDE: f64 = 2.0;
 
 /// One drawing for each quantity: each of `models` with its name.
-pub fn maps(id: &str, models: &[(&str, &ResidualAnalysis)], symbol: &str) -> Vec<Picture> {
+pub fn maps(id: &str, models: &[(&str, &ResidualAnalysis)], symbol: &'static str) -> Vec<Picture> {
     let all = Against::ALL.iter();
     all.filter_map(|&against| map(id, against, models, symbol))
         .collect()
@@ -19,9 +19,9 @@ fn map(
     id: &str,
     against: Against,
     models: &[(&str, &ResidualAnalysis)],
-    symbol: &str,
+    symbol: &'static str,
 ) -> Option<Picture> {
-    let (name, unit) = against.name();
+    let (name, unit) = (against.name().0, against.unit(symbol));
     let name = name.replace('_', " ");
     let split = if against == Against::Speed {
         " Triangles point the way the shaft turned."

@@ -89,13 +89,9 @@ impl Identified {
         found: Found,
         place: &'static str,
     ) -> Result<Self, ResultFault> {
-        let drive = match set_up.drive.as_deref() {
-            Some("current") => Drive::Current,
-            Some("torque") => Drive::Torque,
-            Some("voltage") => Drive::Voltage,
-            None => return Err(ResultFault::Missing("drive")),
-            Some(other) => return Err(ResultFault::Drive(shown(other))),
-        };
+        let drive = set_up.drive.as_deref();
+        let drive = drive.ok_or(ResultFault::Missing("drive"))?;
+        let drive = Drive::by_name(drive).ok_or_else(|| ResultFault::Drive(shown(drive)))?;
         Ok(Identified {
             schema,
             recording: set_up.recording,

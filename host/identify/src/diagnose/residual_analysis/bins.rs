@@ -41,6 +41,14 @@ impl Against {
         }
     }
 
+    /// Its unit where the command is in a unit of this symbol.
+    pub fn unit(self, command: &'static str) -> &'static str {
+        match self {
+            Against::Voltage | Against::Current if command != "V" => command,
+            _ => self.name().1,
+        }
+    }
+
     /// Whether the volts are counted against the motion, instead of against forward motion.
     pub fn turned(self) -> bool {
         matches!(self, Against::Time | Against::Reversal)

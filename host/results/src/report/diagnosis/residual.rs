@@ -11,9 +11,13 @@ use servoid_identify::diagnose::residual_analysis::{Against, Map, ResidualAnalys
 const HALF: usize = 12;
 
 /// The shares of all quantities, and the table of the `wanted` one, or of that which explains most.
-pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String {
+pub(super) fn table(
+    found: &ResidualAnalysis,
+    wanted: Option<Against>,
+    symbol: &'static str,
+) -> String {
     let mut out = format!(
-        "   missing along the measured motion: {} V RMS\n   (a perfect model would show {} V here)\n",
+        "   missing along the measured motion: {} {symbol} RMS\n   (a perfect model would show {} {symbol} here)\n",
         plain(found.volts_rms),
         plain(found.perfect_volts_rms)
     );
@@ -23,11 +27,11 @@ pub(super) fn table(found: &ResidualAnalysis, wanted: Option<Against>) -> String
     out += &(folded(&format!("   {}", explained(found)), "     ") + "\n");
     let own = wanted.and_then(|against| found.map(against));
     let most = own.filter(|map| map.beyond_chance).unwrap_or(most);
-    let (name, unit) = most.against.name();
+    let (name, unit) = (most.against.name().0, most.against.unit(symbol));
     out += &format!(
         "   {:>22}   {:>9}\n",
         format!("{}, {unit}", name.replace('_', " ")),
-        "missing, V"
+        format!("missing, {symbol}")
     );
     let sizes = most.bins.iter().map(|bin| bin.mean_v.abs());
     let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);

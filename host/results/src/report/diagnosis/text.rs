@@ -50,7 +50,7 @@ impl DiagnosisReport<'_> {
             };
             let heading = painted(HEADING, "where the last model fails,");
             writeln!(out, "\n{heading} {what}")?;
-            out.push_str(&table(found, None));
+            out.push_str(&table(found, None, self.data.drive.symbol()));
         }
         let white = whiteness_text(self.findings.last_whiteness.as_ref());
         writeln!(out, "\n{}", folded(&white, ""))?;
@@ -223,7 +223,11 @@ impl DiagnosisReport<'_> {
         }
         say("confidence", &format!("{:.2}", step.confidence))?;
         if let Some(found) = self.findings.steps.get(index).and_then(Option::as_ref) {
-            out.push_str(&table(found, evidence::axis(step.added)));
+            out.push_str(&table(
+                found,
+                evidence::axis(step.added),
+                self.data.drive.symbol(),
+            ));
         }
         Ok(())
     }

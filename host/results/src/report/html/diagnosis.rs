@@ -13,6 +13,7 @@ use crate::report::diagnosis::nothing_else;
 use crate::schema::diagnosis::Step;
 use crate::schema::{Demo, Diagnosis};
 use servoid_identify::fit::margins::Loop;
+use servoid_io::recording::Drive;
 
 /// Candidates that are listed for each step.
 const LISTED: usize = 8;
@@ -147,10 +148,13 @@ fn seen(
 fn named_effects(diagnosis: &Diagnosis) -> Vec<Section> {
     let steps = diagnosis.steps.iter().enumerate();
     let stopped = diagnosis.interrupted || diagnosis.ran_out;
-    steps.map(|(k, step)| effect(k, step, stopped)).collect()
+    let symbol = Drive::by_name(&diagnosis.drive).map_or("V", Drive::symbol);
+    steps
+        .map(|(k, step)| effect(k, step, stopped, symbol))
+        .collect()
 }
 
-fn effect(index: usize, step: &Step, stopped: bool) -> Section {
+fn effect(index: usize, step: &Step, stopped: bool, symbol: &str) -> Section {
     let description = servoid_formula::by_name(&step.added).map(|kind| kind.description());
     let title = description.map_or("", |d| d.title);
     let heading = format!("{}. {}: {title}", index + 1, step.added);
@@ -182,6 +186,7 @@ fn effect(index: usize, step: &Step, stopped: bool) -> Section {
             &id,
             &step.added,
             curve,
+            symbol,
         )));
     }
     if !step.candidates.is_empty() {
