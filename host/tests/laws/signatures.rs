@@ -14,7 +14,7 @@ use shared::effects::Kind;
 fn recorded(hidden: &Hidden, seed: u64) -> (Data, Candidate, Kind) {
     let machine = showcase::machine();
     let recording =
-        showcase::record(std::slice::from_ref(&hidden), seed, "bench").expect("a recording");
+        showcase::record(std::slice::from_ref(hidden), seed, "bench").expect("a recording");
     let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
     let candidate = truth::model(
         &machine,

@@ -183,7 +183,7 @@ impl Finder<'_> {
                     let mut all = 0..self.named.len();
                     all.find(|at| is(&self.named[*at].name, name) && free(at))
                 };
-                names.iter().find_map(|name| own(&name))
+                names.iter().find_map(own)
             };
             let exact = called(&|own, name| own == name);
             // A vector has a column for each of its axes.
@@ -263,14 +263,15 @@ impl Finder<'_> {
             })
         };
         let mut kind = None;
-        if !self.has(Channel::Command) && self.kind == DriveKind::Voltage {
-            if let Some((at, how)) = self.best(&volts).filter(|(_, how)| *how >= Match::Part) {
-                self.take(at, Channel::Command, how, "its name");
-                if let Some(last) = self.found.last()
-                    && matches!(last.unit, Some("A" | "mA" | "N*m"))
-                {
-                    kind = Some(DriveKind::Current);
-                }
+        if !self.has(Channel::Command)
+            && self.kind == DriveKind::Voltage
+            && let Some((at, how)) = self.best(&volts).filter(|(_, how)| *how >= Match::Part)
+        {
+            self.take(at, Channel::Command, how, "its name");
+            if let Some(last) = self.found.last()
+                && matches!(last.unit, Some("A" | "mA" | "N*m"))
+            {
+                kind = Some(DriveKind::Current);
             }
         }
         if !self.has(Channel::Angle) {

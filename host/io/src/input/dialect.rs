@@ -131,6 +131,10 @@ impl Dialect {
                     row.cell(k)
                         .is_ok_and(|cell| cell.eq_ignore_ascii_case(name))
                 });
+            // No column without a name has a unit.
+            if next.width > names.width && !dialect.pairs {
+                return None;
+            }
             first = 2;
         }
         if names.is_numbers() {
@@ -198,7 +202,7 @@ impl Dialect {
             && lines
                 .iter()
                 .take(dialect.before)
-                .all(|line| is_padded(dialect, line))
+                .all(|line| is_filled_up(dialect, line))
     }
 
     /// The row of units, cell by cell, of a file that begins with `head`.
@@ -264,6 +268,13 @@ fn is_padded(dialect: &Dialect, line: &[u8]) -> bool {
     }
     let shape = Shape::of(&row);
     2 * shape.empty >= shape.cells && shape.width <= 2
+}
+
+/// Whether a row has one or two cells, as a preamble does, and empty ones behind them.
+fn is_filled_up(dialect: &Dialect, line: &[u8]) -> bool {
+    let mut row = Row::new(dialect);
+    let shape = row.split(line).map(|()| Shape::of(&row));
+    shape.is_ok_and(|shape| shape.cells >= 3 && shape.width <= 2)
 }
 
 /// Whether a cell is a date with a time of the day.

@@ -67,7 +67,7 @@ fn read(
     let proposal = survey.proposal;
     if !proposal.is_sure() {
         if !proposal.columns.is_empty() {
-            *advice = Some(Advice::of(&proposal));
+            *advice = Some(Box::new(Advice::of(&proposal)));
         }
         return Err(error);
     }

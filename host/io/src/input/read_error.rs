@@ -99,7 +99,7 @@ pub enum ReadFault {
         first: String,
     },
     /// Columns that are not there.
-    #[error("{}", missing_text(.missing, .header, .motor, .advice.as_ref()))]
+    #[error("{}", missing_text(.missing, .header, .motor, .advice.as_deref()))]
     MissingColumns {
         /// What is missing.
         missing: Vec<MissingColumn>,
@@ -108,7 +108,7 @@ pub enum ReadFault {
         /// How to speak of the motor file.
         motor: String,
         /// What the values of the columns tell.
-        advice: Option<Advice>,
+        advice: Option<Box<Advice>>,
     },
     /// Two columns of one name.
     #[error("the header has this name {times} times; rename all but the one that is meant")]

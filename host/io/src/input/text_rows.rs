@@ -123,7 +123,8 @@ impl<'s, R: BufRead> TextRows<'s, R> {
     fn is_text(&self, was_split: bool) -> bool {
         let line = self.lines.bytes().trim_ascii();
         let starts = line.first().is_some_and(|byte| {
-            !(byte.is_ascii_digit() || b"+-.,;\t\"".contains(byte)) && !byte.is_ascii_control()
+            let of_number = byte.is_ascii_digit() || b"+-.,;\t\"".contains(byte);
+            !of_number && !byte.is_ascii_control()
         });
         let numbers = (0..self.row.len()).filter(|k| {
             let cell = self.row.cell(*k);

@@ -79,12 +79,12 @@ pub fn bode(id: &str, loops: &[(String, Loop)]) -> Picture {
             )
             .set(
                 "yaxis",
-                axis("magnitude, dB(rad/V)").set("domain", &[0.54, 1.0]),
+                axis("magnitude, dB(rad/V)").set("domain", [0.54, 1.0]),
             )
             .set(
                 "yaxis2",
                 axis("phase, degrees")
-                    .set("domain", &[0.0, 0.46])
+                    .set("domain", [0.0, 0.46])
                     .set("range", vec![-280.0, -80.0]),
             ),
     );

@@ -6,6 +6,7 @@ use super::model::{define, terms};
 use super::partial::Alike;
 use super::{ModelFault, json_place, number};
 use servoid_identify::plan::{Hypothesis, Setup};
+use servoid_io::recording::Drive;
 use std::fs;
 use std::path::Path;
 
@@ -69,12 +70,13 @@ fn hypothesis(index: usize, model: &Alternative) -> Result<Hypothesis, ModelFaul
     let place = format!("models[{index}]");
     let (mut effects, mut values) = (Vec::new(), Vec::new());
     define(&model.formulas, &place)?;
-    for (kind, own) in terms(&model.effects, &model.parameters, &place)? {
+    // A plan is of voltages.
+    let drives = [Drive::Voltage];
+    for (kind, own) in terms(&model.effects, &model.parameters, &place, &drives)? {
         effects.push(kind);
         values.extend(own);
     }
     let machine = model.machine.machine(&place)?;
-    // A plan is of voltages.
     let key = format!("{place}.machine.kb_v_s_rad");
     number(&key, machine.kb, machine.kb > 0.0, "a positive number")?;
     Ok(Hypothesis {

@@ -217,11 +217,12 @@ impl Model {
     /// An effect or unit that is unknown, a parameter that is not there, too many effects.
     pub fn terms(&self, place: &str) -> Result<Vec<(Kind, Vec<f64>)>, ModelFault> {
         define(&self.formulas, place)?;
-        terms(&self.effects, &self.parameters, place)
+        terms(&self.effects, &self.parameters, place, &Drive::ALL)
     }
 }
 
-/// Each of `effects` with its parameters in the catalogue's order. `place` is where the model stands in the file.
+/// Each of `effects` with its parameters in the catalogue's order. `place` is where the model stands in the file,
+/// and its units are of one of `drives`.
 ///
 /// # Errors
 /// An effect or unit that is unknown, a parameter that is not there, too many effects.
@@ -229,6 +230,7 @@ pub(super) fn terms(
     effects: &[String],
     parameters: &[ModelParameter],
     place: &str,
+    drives: &[Drive],
 ) -> Result<Vec<(Kind, Vec<f64>)>, ModelFault> {
     let many = effects.len();
     number(
@@ -259,7 +261,6 @@ pub(super) fn terms(
             };
             let needed = parameter.quantity.unit();
             // Behind a current loop it is in terms of the command.
-            let drives = [Drive::Voltage, Drive::Current, Drive::Torque];
             if drives.iter().all(|drive| drive.unit(needed) != known.unit) {
                 return Err(ModelFault::Unit {
                     place: place.to_owned(),
