@@ -1,6 +1,6 @@
 // Logs as people have them: dropped together, packed, of other formats, or named on the command line.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 import { close, error, open, opened, settled, state, test, workplace } from "./bench.mjs";
 
@@ -10,7 +10,7 @@ const at = workplace(
 );
 
 const rows = (name) => readFileSync(at.desk.path(name), "utf8").split("\n").filter((line) => /^[0-9]/.test(line)).map((line) => line.split(",").map(Number));
-const foreign = (name) => ["when,u,enc", ...rows(name).map((cells) => cells.join(","))].join("\n");
+const foreign = (name) => ["zeit,spannung,winkel", ...rows(name).map((cells) => cells.join(","))].join("\n");
 // A sketch's prints: whole milliseconds and eight bits of the supply.
 const sketch = (name) => ["Motor test rig v1.3", "Encoder OK", "millis\tpwm\tenc",
   ...rows(name).map(([t, volts, counts]) => [Math.round(t * 1000), Math.round((volts / 12) * 255), counts].join("\t"))].join("\r\n");
@@ -35,6 +35,9 @@ async function load(page, more = async () => {}) {
   await settled(page, 1);
 }
 
+// A log of which something is not known is answered with what is missing, which the browser counts as a failed request.
+const faults = (page) => page.faults.filter((fault) => !fault.includes("422"));
+
 const sources = async (page) => (await state(page)).recording.sources.map((one) => [one.name, one.role]);
 
 test("two logs that are dropped together are both used, the second one held out", async () => {
@@ -47,7 +50,7 @@ test("two logs that are dropped together are both used, the second one held out"
   await load(page);
   assert.deepEqual(await sources(page), [["first.csv", "fitted"], ["second.csv", "held out"]]);
   assert.equal(await error(page), right);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(faults(page), []);
   await close(page, bench);
 });
 
@@ -62,14 +65,16 @@ test("packed logs and logs of other formats are read as on the command line", as
     const [[shown]] = await sources(page);
     assert.ok(shown.startsWith(name), shown);
     assert.equal((await state(page)).recording.samples, columns.length);
-    assert.deepEqual(page.faults, []);
+    assert.deepEqual(faults(page), []);
     await close(page, bench);
   }
 });
 
 test("a sketch's log on the command line opens the page with the dialog filled in", async () => {
-  writeFileSync(at.desk.path("sketch.txt"), sketch("rec.csv"));
-  for (const line of ["bench sketch.txt", "sketch.txt"]) {
+  // No motor.toml stands beside it.
+  mkdirSync(at.desk.path("bare"));
+  writeFileSync(at.desk.path("bare/sketch.txt"), sketch("rec.csv"));
+  for (const line of ["bench bare/sketch.txt", "bare/sketch.txt"]) {
     const bench = await at.desk.served(line);
     const page = await open(at.chrome, bench.url);
     await load(page, async () => {
@@ -78,7 +83,7 @@ test("a sketch's log on the command line opens the page with the dialog filled i
       await page.fill("#map-supply_v", "12");
     });
     assert.deepEqual(await sources(page), [["sketch.txt", "fitted"]]);
-    assert.deepEqual(page.faults, []);
+    assert.deepEqual(faults(page), []);
     await close(page, bench);
   }
 });
@@ -89,6 +94,6 @@ test("the demo motor is there in a moment, and says what is in it", async () => 
   await page.click("#demo");
   await settled(page, 1);
   assert.deepEqual((await sources(page)).map(([, role]) => role), ["fitted", "held out"]);
-  assert.deepEqual(page.faults, []);
+  assert.deepEqual(faults(page), []);
   await close(page, bench);
 });
