@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from os import PathLike
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,7 +66,7 @@ class Recording:
         motor = motor_toml(
             name=name,
             counts_per_rev=counts_per_rev,
-            supply_v=None if measured else supply_v,
+            supply_v=None if measured else cast("float | None", supply_v),
             units={"time": time_unit, "voltage": unit, "angle": angle_unit},
             drive="current" if unit == "A" else "voltage",
             known=known,

@@ -3,14 +3,20 @@
 use crate::columns::Columns;
 use crate::error::{Error, content, io as refused};
 use crate::shard::Shard;
-use arrow_array::RecordBatch;
-use arrow_schema::FieldRef;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{
+    Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
+    UInt32Type, UInt64Type,
+};
+use arrow_array::{ArrayRef, LargeListArray, ListArray, RecordBatch};
+use arrow_schema::{DataType, Field, FieldRef};
 use parquet::arrow::arrow_reader::{ParquetRecordBatchReaderBuilder, RowSelection};
 use serde_arrow::schema::{SchemaLike, TracingOptions};
 use std::cell::OnceCell;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use walkdir::WalkDir;
 
 /// Rows of a Parquet file that are in memory at a time.
@@ -249,7 +255,15 @@ fn projected(batch: &RecordBatch) -> Result<RecordBatch, String> {
     let mut kept = Vec::new();
     for field in wanted {
         match schema.index_of(field.name()) {
-            Ok(place) => kept.push(place),
+            Ok(place) => {
+                let own = batch.column(place);
+                let own = if is_of_numbers(field.data_type()) {
+                    as_numbers(own)
+                } else {
+                    own.clone()
+                };
+                kept.push((field.name().clone(), own));
+            }
             Err(_) if field.is_nullable() => {}
             Err(_) => {
                 let has = schema.fields().iter().map(|field| field.name().as_str());
@@ -262,7 +276,61 @@ fn projected(batch: &RecordBatch) -> Result<RecordBatch, String> {
             }
         }
     }
-    batch.project(&kept).map_err(|error| error.to_string())
+    RecordBatch::try_from_iter(kept).map_err(|error| error.to_string())
+}
+
+fn is_of_numbers(wanted: &DataType) -> bool {
+    match wanted {
+        DataType::Float64 => true,
+        DataType::List(each) | DataType::LargeList(each) => is_of_numbers(each.data_type()),
+        _ => false,
+    }
+}
+
+/// Whole and single numbers, and lists of them, in double precision.
+fn as_numbers(array: &ArrayRef) -> ArrayRef {
+    macro_rules! doubled {
+        ($kind:ty) => {
+            Arc::new((array.as_primitive::<$kind>()).unary::<_, Float64Type>(|x| x as f64))
+        };
+    }
+    let of = |each: &FieldRef| {
+        Arc::new(Field::new(
+            each.name(),
+            DataType::Float64,
+            each.is_nullable(),
+        ))
+    };
+    match array.data_type() {
+        DataType::Int8 => doubled!(Int8Type),
+        DataType::Int16 => doubled!(Int16Type),
+        DataType::Int32 => doubled!(Int32Type),
+        DataType::Int64 => doubled!(Int64Type),
+        DataType::UInt8 => doubled!(UInt8Type),
+        DataType::UInt16 => doubled!(UInt16Type),
+        DataType::UInt32 => doubled!(UInt32Type),
+        DataType::UInt64 => doubled!(UInt64Type),
+        DataType::Float32 => doubled!(Float32Type),
+        DataType::List(each) if each.data_type().is_primitive() => {
+            let (_, offsets, values, nulls) = array.as_list::<i32>().clone().into_parts();
+            Arc::new(ListArray::new(
+                of(each),
+                offsets,
+                as_numbers(&values),
+                nulls,
+            ))
+        }
+        DataType::LargeList(each) if each.data_type().is_primitive() => {
+            let (_, offsets, values, nulls) = array.as_list::<i64>().clone().into_parts();
+            Arc::new(LargeListArray::new(
+                of(each),
+                offsets,
+                as_numbers(&values),
+                nulls,
+            ))
+        }
+        _ => array.clone(),
+    }
 }
 
 /// The schema of values of a type, as its fields say.
