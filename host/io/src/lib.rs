@@ -2,10 +2,11 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `channel` | what a log may have a column of
+//! | `channel` | what a log may have a column of |
 //! | `recording` | one recording in SI units and encoder counts |
 //! | `position_loop` | from target angles to the volts of a drive that closes a position loop |
 //! | `input` | readers of foreign CSV files and of `motor.toml` |
+//! | `median` | the usual one of several values |
 //! | `output` | files written whole or not at all |
 //! | `excitation` | excitations by name, and what an amplifier is told by one |
 //! | `record` | the virtual bench as a recorder |
@@ -15,6 +16,7 @@
 pub mod channel;
 pub mod excitation;
 pub mod input;
+pub mod median;
 pub mod output;
 pub mod position_loop;
 pub mod record;

@@ -129,16 +129,7 @@ impl Recording {
 
     /// Median time between samples, s; zero for fewer than two. Of an even number the upper of the middle two.
     pub fn median_interval_s(&self) -> f64 {
-        let mut steps: Vec<f64> = self
-            .time_s
-            .windows(2)
-            .map(|pair| pair[1] - pair[0])
-            .collect();
-        if steps.is_empty() {
-            return 0.0;
-        }
-        let middle = steps.len() / 2;
-        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+        crate::median::median_interval(&self.time_s)
     }
 
     /// The samples before `seconds` after the first, and the rest; `None` where either would have fewer than

@@ -7,6 +7,7 @@ pub use joined::JoinError;
 pub use recordings::Recordings;
 
 use servoid_io::channel::{Measured, Series};
+use servoid_io::median::median_interval;
 use servoid_io::recording::{Drive, Recording};
 use shared::effects::Kind;
 use shared::error::ModelError;
@@ -346,15 +347,6 @@ pub fn local_parabola(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64,
         ),
         Err(_) => (0.0, 0.0),
     }
-}
-
-fn median_interval(time_s: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if steps.is_empty() {
-        return 0.0;
-    }
-    let middle = steps.len() / 2;
-    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// Rounds the sample *times* (so that no error adds up) to a grid just fine enough for the fastest

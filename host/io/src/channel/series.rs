@@ -32,9 +32,7 @@ impl Series {
 
     /// Some of the samples.
     pub fn rows(&self, rows: Range<usize>) -> Self {
-        let some =
-            |column: &Option<Vec<f64>>| column.as_ref().map(|all| all[rows.clone()].to_vec());
-        Series(PerMeasured(self.0.0.each_ref().map(some)))
+        Series(self.0.rows(&rows))
     }
 
     /// Puts the samples of another recording behind. A column that only one of the two has is left out.
@@ -42,5 +40,11 @@ impl Series {
         for (own, next) in self.0.0.iter_mut().zip(next.0.0) {
             *own = own.take().zip(next).map(|(own, next)| [own, next].concat());
         }
+    }
+}
+
+impl From<PerMeasured<Option<Vec<f64>>>> for Series {
+    fn from(columns: PerMeasured<Option<Vec<f64>>>) -> Self {
+        Series(columns)
     }
 }

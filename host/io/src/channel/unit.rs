@@ -1,7 +1,7 @@
 //! Units that a factor and a zero convert, and lists of one value a measured channel.
 
 use super::kind::Measured;
-use std::ops::{Index, IndexMut};
+use std::ops::{Index, IndexMut, Range};
 
 /// A unit of a measured channel.
 #[derive(Debug, PartialEq)]
@@ -38,5 +38,14 @@ impl<T> Index<Measured> for PerMeasured<T> {
 impl<T> IndexMut<Measured> for PerMeasured<T> {
     fn index_mut(&mut self, channel: Measured) -> &mut T {
         &mut self.0[channel.place()]
+    }
+}
+
+impl PerMeasured<Option<Vec<f64>>> {
+    /// Some of the samples of each column.
+    pub(crate) fn rows(&self, rows: &Range<usize>) -> Self {
+        let some =
+            |column: &Option<Vec<f64>>| column.as_ref().map(|all| all[rows.clone()].to_vec());
+        PerMeasured(self.0.each_ref().map(some))
     }
 }

@@ -1,6 +1,6 @@
 //! A recording from columns of numbers in memory, by the same conversions and with the same refusals as one from a file.
 
-use super::cell::checked;
+use super::cell::converted;
 use super::cells::Sample;
 use super::collector::Collector;
 use super::motor_file::MotorFile;
@@ -66,8 +66,7 @@ pub fn recording_of(
     for k in 0..samples {
         let convert =
             |number, name: &str, value: f64, to: &dyn Fn(f64) -> Result<f64, ReadFault>| {
-                let read = checked(value).and_then(to).and_then(checked);
-                read.map_err(|fault| {
+                converted(value, to).map_err(|fault| {
                     let name = name.to_owned();
                     let cell = Cell { number, name };
                     ReadError::new(Place::cell(source, k as u64, &cell), fault)

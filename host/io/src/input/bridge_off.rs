@@ -1,5 +1,6 @@
 //! A motor that stands at the beginning or the end of a log under commands that move it elsewhere: its bridge was off.
 
+use crate::median::median;
 use crate::recording::Recording;
 use std::ops::Range;
 
@@ -8,26 +9,25 @@ const DRIVEN_S: f64 = 0.5;
 /// Commands above this part of the largest one must move a free motor.
 const STRONG: f64 = 0.5;
 
-/// The samples in which the bridge drives, and what keeps others out; `None` where none is to be left out.
+/// The samples in which the bridge drives, and what keeps others out; `None` where none is to be left out, and where the log itself says
+/// when the bridge drives: a servo that holds a weight stands under strong commands, too.
 pub(super) fn driven(recording: &Recording) -> Option<Range<usize>> {
-    if recording.position.is_some() {
+    if recording.position.is_some() || recording.enabled.is_some() {
         return None;
     }
     let counts = &recording.counts;
     let first = counts.windows(2).position(|pair| pair[1] != pair[0])?;
     let last = counts.windows(2).rposition(|pair| pair[1] != pair[0])? + 1;
-    let mut moving: Vec<f64> = (first..last)
+    let moving: Vec<f64> = (first..last)
         .filter(|k| counts[*k] != counts[k + 1])
         .map(|k| recording.command[k].abs())
         .collect();
-    let middle = moving.len() / 2;
-    let usual = *moving.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = median(moving)?;
     let largest = recording.command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let strong = usual.max(STRONG * largest);
     let time = &recording.time_s;
     let driven_s = |range: Range<usize>| -> f64 {
-        let closed = |k: &usize| recording.enabled.as_ref().is_none_or(|on| on[*k]);
-        let strong = range.filter(|k| closed(k) && recording.command[*k].abs() >= strong);
+        let strong = range.filter(|k| recording.command[*k].abs() >= strong);
         strong.map(|k| time[k + 1] - time[k]).sum()
     };
     // The last command acts until the first motion shows; some of it is left for that.

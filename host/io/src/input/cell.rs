@@ -28,6 +28,17 @@ pub(super) fn is_told(text: &str) -> bool {
     !NOTHING.iter().any(|none| text.eq_ignore_ascii_case(none))
 }
 
+/// A number in our unit.
+///
+/// # Errors
+/// It, or what is made of it, is not finite.
+pub(super) fn converted(
+    value: f64,
+    to: impl FnOnce(f64) -> Result<f64, ReadFault>,
+) -> Result<f64, ReadFault> {
+    checked(value).and_then(to).and_then(checked)
+}
+
 /// A number from memory; what is none is refused as its text would be.
 pub(super) fn checked(value: f64) -> Result<f64, ReadFault> {
     if value.is_finite() {

@@ -1,5 +1,6 @@
 //! One row of a file of any format to one sample.
 
+use super::cell::converted;
 use super::layout::{Column, Layout};
 use super::read_error::{ReadError, ReadFault};
 use super::scale::Scale;
@@ -38,11 +39,9 @@ impl Sample {
         time_s: f64,
     ) -> Result<Self, ReadError> {
         let number = |column: &Column, convert: &dyn Fn(f64) -> Result<f64, ReadFault>| {
-            let read = || match cells.number(column)? {
-                Some(value) => finite(convert(value)?).map(Some),
-                None => Ok(None),
-            };
-            read().map_err(|fault| cells.error(Some(column), fault))
+            let told = cells.number(column);
+            let own = told.and_then(|told| told.map(|value| converted(value, convert)).transpose());
+            own.map_err(|fault| cells.error(Some(column), fault))
         };
         let direction = layout.direction.as_ref().map(|column| {
             let read = cells.direction(column);
@@ -68,15 +67,6 @@ impl Sample {
             measured,
             enabled: enabled.transpose()?.flatten(),
         })
-    }
-}
-
-fn finite(value: f64) -> Result<f64, ReadFault> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        let text = value.to_string();
-        Err(ReadFault::Infinite { text })
     }
 }
 

@@ -11,7 +11,7 @@ use super::read_error::ReadFault;
 use super::samples::Samples;
 use super::scale::{Scale, positive};
 use super::speed::{integrated, without_overflow};
-use crate::channel::{Measured, PerMeasured, Series};
+use crate::channel::{Measured, Series};
 use crate::position_loop::{Follower, LoopSettings};
 use crate::recording::{PositionDrive, Recording};
 
@@ -326,11 +326,7 @@ fn recording(
     quantised: bool,
     position: Option<PositionDrive>,
 ) -> Recording {
-    let PerMeasured(columns) = samples.measured;
-    let named = Measured::ALL.into_iter().zip(columns);
-    let measured = named.fold(Series::NONE, |all, (channel, values)| {
-        all.with(channel, values)
-    });
+    let measured = Series::from(samples.measured);
     let most = measured.get(Measured::Supply).map(|supply| {
         let most = supply.iter().copied();
         most.fold(0.0, f64::max)

@@ -1,8 +1,8 @@
 //! Rows that tell no angle. What they command acts all the same: in a short gap as the mean over the time between two readings, which
 //! moves the motor as far up to the second order of that time; a longer gap parts the recording.
 
-use super::jumps::usual_interval;
 use super::samples::Samples;
+use crate::median::median_interval;
 
 /// A gap of so many usual intervals between readings is closed; in a longer one the mean of the commands would bend the motion.
 const SHORT: f64 = 3.5;
@@ -19,7 +19,7 @@ pub(super) fn pauses(time_s: &[f64]) -> Vec<usize> {
     if time_s.len() < 2 {
         return Vec::new();
     }
-    let least = (PAUSE.0 * usual_interval(time_s)).max(PAUSE.1);
+    let least = (PAUSE.0 * median_interval(time_s)).max(PAUSE.1);
     let ends = (1..time_s.len()).filter(|k| time_s[*k] - time_s[k - 1] > least);
     let ends: Vec<usize> = ends.take(MOST_PAUSES + 1).collect();
     if ends.len() > MOST_PAUSES {
@@ -53,7 +53,7 @@ pub(super) fn closed(mut samples: Samples) -> (Vec<Samples>, Closed) {
         return (Vec::new(), done);
     }
     let times: Vec<f64> = told.iter().map(|k| samples.time_s[*k]).collect();
-    let usual = usual_interval(&times);
+    let usual = median_interval(&times);
     // Places among those that are told at which a part begins.
     let mut begins = vec![0];
     for (place, pair) in told.windows(2).enumerate() {

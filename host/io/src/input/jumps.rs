@@ -1,5 +1,7 @@
 //! Single steps of an angle that no shaft makes: where it wraps, and where its counter was set to another value.
 
+use crate::median::median_interval;
+
 /// A step within this part of a turn tells its direction.
 const TOLD: f64 = 0.4;
 /// A step that is left when the turn is added may differ from its neighbours by so many of the usual differences, and counts.
@@ -71,7 +73,7 @@ fn wraps(counts: &[f64], turn: f64) -> bool {
         .map(|k| (near(steps[k]) - 0.5 * (near(steps[k - 1]) + near(steps[k + 1]))).abs())
         .collect();
     let is_jump = |k: usize| steps[k].abs() > turn / 2.0;
-    // A jump that is none bends its neighbours as well: those apart from all jumps tell what is usual.
+    // What only looks like a jump bends its neighbours as well: the steps apart from all jumps tell what is usual.
     let apart = (1..steps.len() - 1).filter(|k| !(k - 1..=k + 1).any(is_jump));
     let apart: Vec<f64> = apart.map(|k| bends[k - 1]).collect();
     let tells = apart.len() as f64 > APART * bends.len() as f64;
@@ -109,7 +111,7 @@ pub(super) fn set_anew(time_s: &[f64], counts: &[f64]) -> Vec<SetAnew> {
     if steps.len() < FEWEST {
         return Vec::new();
     }
-    let usual_s = usual_interval(time_s);
+    let usual_s = median_interval(time_s);
     let is_near = |k: usize| time_s[k + 1] - time_s[k] < MISSING * usual_s;
     let excess = |k: usize| steps[k] - 0.5 * (steps[k - 1] + steps[k + 1]);
     let off = |k: usize| excess(k).abs();
@@ -154,13 +156,6 @@ pub(super) fn set_anew(time_s: &[f64], counts: &[f64]) -> Vec<SetAnew> {
         }
     }
     Vec::new()
-}
-
-/// The median time between readings, s; of two readings at least.
-pub(super) fn usual_interval(time_s: &[f64]) -> f64 {
-    let mut intervals: Vec<f64> = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let middle = intervals.len() / 2;
-    *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

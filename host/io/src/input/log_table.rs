@@ -1,6 +1,6 @@
 //! Tables of a log by name, and recordings whose columns are in several of them.
 
-use super::cell::checked;
+use super::cell::converted;
 use super::cells::{Sample, directed};
 use super::collector::Collector;
 use super::log_file::of_format;
@@ -13,6 +13,7 @@ use super::samples::Further;
 use super::scale::Scale;
 use super::shown::quoted_list;
 use crate::channel::{Channel, Measured, PerMeasured};
+use crate::median::median;
 use servoid_formats::{Kind, Log, Table};
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -299,15 +300,8 @@ fn on_change(values: &[[f64; 2]]) -> bool {
 
 /// The median time from one value to the next, s.
 fn usual_step(values: &[[f64; 2]]) -> f64 {
-    let mut steps: Vec<f64> = values
-        .windows(2)
-        .map(|pair| pair[1][0] - pair[0][0])
-        .collect();
-    if steps.is_empty() {
-        return 0.0;
-    }
-    let middle = steps.len() / 2;
-    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    let steps = values.windows(2).map(|pair| pair[1][0] - pair[0][0]);
+    median(steps.collect()).unwrap_or(0.0)
 }
 
 fn sample(row: &Row, scale: &Scale<'_>, time_s: f64) -> Result<Sample, ReadFault> {
@@ -319,8 +313,7 @@ fn sample(row: &Row, scale: &Scale<'_>, time_s: f64) -> Result<Sample, ReadFault
     let direction = value(Channel::Direction);
     let command = value(Channel::Command).map(|command| directed(command, direction));
     let convert = |value: Option<f64>, to: &dyn Fn(f64) -> Result<f64, ReadFault>| {
-        let read = |value| checked(value).and_then(to).and_then(checked);
-        value.map(read).transpose()
+        value.map(|value| converted(value, to)).transpose()
     };
     let mut sample = Sample {
         time_s,

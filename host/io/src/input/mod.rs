@@ -45,7 +45,6 @@ mod order;
 mod part;
 mod place;
 mod preset;
-mod preview;
 mod profile;
 mod proposal;
 mod quantity;
@@ -85,7 +84,6 @@ pub use open::{read_as_said, read_one, read_recording, read_recordings, read_rec
 pub use part::Part;
 pub use place::{Cell, Place};
 pub use preset::{PRESETS, Preset};
-pub use preview::{Preview, preview};
 pub use profile::Profile;
 pub use proposal::{Need, Proposal, Proposed};
 pub use reached::Reached;

@@ -212,7 +212,7 @@ pub enum ReadFault {
         /// Reading after, counts.
         to: f64,
     },
-    /// A direction that is none of two.
+    /// A third word in a column of directions.
     #[error(
         "the direction is \"{text}\" here, and \"{first}\" or \"{second}\" before; a direction has two words, or numbers (0 or negative: \
          backwards)"

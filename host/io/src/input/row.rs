@@ -119,11 +119,6 @@ impl Row {
             .unwrap_or(line)
     }
 
-    /// What separates the cells.
-    pub(super) fn separator(&self) -> u8 {
-        self.dialect.separator
-    }
-
     /// Number of cells.
     pub(super) fn len(&self) -> usize {
         self.cells

@@ -96,12 +96,7 @@ impl Samples {
             time_s: some(&self.time_s),
             command: some(&self.command),
             counts: some(&self.counts),
-            measured: PerMeasured(
-                self.measured
-                    .0
-                    .each_ref()
-                    .map(|column| column.as_deref().map(some)),
-            ),
+            measured: self.measured.rows(&rows),
             enabled: self.enabled.as_ref().map(|all| all[rows.clone()].to_vec()),
             held_commands: 0,
         }

@@ -18,6 +18,7 @@ use super::reached::{ROWS_TO_TELL, Reached};
 use super::read_error::{ReadError, ReadFault};
 use super::text_rows::TextRows;
 use crate::channel::Channel;
+use crate::median::median;
 #[cfg(feature = "formats")]
 use servoid_formats::{Kind, Log, Table};
 #[cfg(feature = "formats")]
@@ -267,6 +268,12 @@ fn of_text(
 }
 
 impl SurveyTable {
+    /// How many columns look like something that a recording needs.
+    pub fn guessed(&self) -> usize {
+        let columns = self.columns.iter();
+        columns.filter(|column| column.guess.is_some()).count()
+    }
+
     #[cfg(feature = "formats")]
     fn of(table: &Table) -> Self {
         SurveyTable {
@@ -349,13 +356,9 @@ impl Clock {
         self.last = Some(time);
     }
 
-    fn told(mut self) -> (Option<f64>, Option<f64>) {
+    fn told(self) -> (Option<f64>, Option<f64>) {
         let span = self.first.zip(self.last).map(|(first, last)| last - first);
-        if self.steps.is_empty() {
-            return (None, None);
-        }
-        let middle = self.steps.len() / 2;
-        let (_, median, _) = self.steps.select_nth_unstable_by(middle, f64::total_cmp);
-        (span, Some(*median))
+        let interval = median(self.steps);
+        (span.filter(|_| interval.is_some()), interval)
     }
 }

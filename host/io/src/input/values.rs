@@ -3,6 +3,7 @@
 use super::names::parts;
 use super::profile::Profile;
 use crate::channel::Channel;
+use crate::median::median;
 use std::f64::consts::TAU;
 
 /// Times between samples of a motor's log, s.
@@ -58,17 +59,8 @@ fn is_switch(word: &str) -> bool {
 
 /// The unit of a time without one: the largest for which its steps are those of a motor's log; none for seconds.
 pub(super) fn time_unit(profile: &Profile) -> Option<&'static str> {
-    let mut steps: Vec<f64> = profile
-        .first
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .filter(|step| *step > 0.0)
-        .collect();
-    if steps.is_empty() {
-        return None;
-    }
-    let middle = steps.len() / 2;
-    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let steps = profile.first.windows(2).map(|pair| pair[1] - pair[0]);
+    let usual = median(steps.filter(|step| *step > 0.0).collect())?;
     let in_range = |per: f64| (INTERVAL_S[0]..=INTERVAL_S[1]).contains(&(usual / per));
     if in_range(1.0) && !profile.is_whole() {
         return None;
