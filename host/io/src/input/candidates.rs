@@ -30,6 +30,13 @@ struct Named<'t> {
     name: String,
 }
 
+impl Named<'_> {
+    /// Whether it may hold a channel, by its values and the unit that stands with its name.
+    fn may_be(&self, channel: Channel) -> bool {
+        may_be(channel, &self.column.name, &self.column.profile)
+    }
+}
+
 /// The best columns of each table; and of all together, where command and angle stand in different ones.
 pub(super) fn candidates(tables: &[SurveyTable], motor: &MotorFile) -> Vec<Candidates> {
     let mut all: Vec<Candidates> = Vec::new();
@@ -86,22 +93,15 @@ fn of(
     let kind = finder.command_and_angle();
     finder.others();
     let mut doubts = finder.rivals();
-    let angle = finder
-        .found
-        .iter()
-        .find(|one| one.channel == Channel::Angle);
-    let turns = angle
+    let turns = finder
+        .found(Channel::Angle)
         .filter(|_| !joined && motor.log.select.is_empty())
         .and_then(|angle| turns_of(&tables[table], angle.place.1));
     if let Some(turns) = &turns {
         finder.found.retain(|one| one.column != turns.column);
     }
-    let no_command = finder
-        .found
-        .iter()
-        .all(|one| one.channel != Channel::Command);
-    if let Some(setpoint) = named.iter().find(|one| is_speed_setpoint(&one.name))
-        && no_command
+    if !finder.has(Channel::Command)
+        && let Some(setpoint) = named.iter().find(|one| is_speed_setpoint(&one.name))
     {
         doubts.push(format!(
             "`{}` is the setpoint of a speed loop, which is no voltage",
@@ -128,8 +128,20 @@ struct Finder<'t> {
 }
 
 impl Finder<'_> {
+    /// What was found for a channel.
+    fn found(&self, channel: Channel) -> Option<&Candidate> {
+        self.found.iter().find(|one| one.channel == channel)
+    }
+
     fn has(&self, channel: Channel) -> bool {
-        self.found.iter().any(|one| one.channel == channel)
+        self.found(channel).is_some()
+    }
+
+    /// The column that was found for a channel.
+    fn column(&self, channel: Channel) -> Option<&SurveyColumn> {
+        let place = self.found(channel)?.place;
+        let one = self.named.iter().find(|one| one.place == place);
+        one.map(|one| one.column)
     }
 
     fn take(&mut self, at: usize, channel: Channel, how: Match, why: &str) {
@@ -226,7 +238,7 @@ impl Finder<'_> {
             let facts = Channel::Time.facts();
             facts
                 .called(&one.column.name)
-                .filter(|_| may_be(Channel::Time, &one.column.name, &one.column.profile))
+                .filter(|_| one.may_be(Channel::Time))
         });
         if let Some((at, how)) = best {
             self.take(at, Channel::Time, how, "its name, and it rises");
@@ -239,7 +251,7 @@ impl Finder<'_> {
             && self.named.iter().all(|one| !one.column.is_time)
             && self.motor.columns.get(Channel::Time).is_none()
             && !self.named.iter().any(|one| {
-                may_be(Channel::Time, &one.column.name, &one.column.profile)
+                one.may_be(Channel::Time)
                     && Channel::Time.facts().called(&one.column.name).is_some()
             })
     }
@@ -251,7 +263,7 @@ impl Finder<'_> {
             own.filter(|(how, _)| {
                 (*how > Match::Nearly || !is_another(Channel::Angle, &one.column.name))
                     && speed_unit(&one.column.name).is_none()
-                    && may_be(Channel::Angle, &one.column.name, &one.column.profile)
+                    && one.may_be(Channel::Angle)
             })
         };
         let volts = |one: &Named<'_>| {
@@ -259,7 +271,7 @@ impl Finder<'_> {
             own.filter(|(how, _)| {
                 (*how > Match::Nearly || !is_another(Channel::Command, &one.column.name))
                     && speed_unit(&one.column.name).is_none()
-                    && may_be(Channel::Command, &one.column.name, &one.column.profile)
+                    && one.may_be(Channel::Command)
             })
         };
         let mut kind = None;
@@ -268,8 +280,10 @@ impl Finder<'_> {
             && let Some((at, how)) = self.best(&volts).filter(|(_, how)| *how >= Match::Part)
         {
             self.take(at, Channel::Command, how, "its name");
-            if let Some(last) = self.found.last()
-                && matches!(last.unit, Some("A" | "mA" | "N*m"))
+            if self
+                .found
+                .last()
+                .is_some_and(|last| is_of_current(last.unit))
             {
                 kind = Some(DriveKind::Current);
             }
@@ -278,7 +292,7 @@ impl Finder<'_> {
             if let Some((at, how)) = self.best(&angle) {
                 self.take(at, Channel::Angle, how, "its name");
             } else if let Some((at, how)) = self.best(&|one| {
-                let plausible = may_be(Channel::Angle, &one.column.name, &one.column.profile);
+                let plausible = one.may_be(Channel::Angle);
                 speed(&one.column.name).filter(|_| plausible)
             }) {
                 self.take(at, Channel::Angle, how, "its name, as a speed");
@@ -305,37 +319,31 @@ impl Finder<'_> {
 
     /// A target that the angle follows, or a current.
     fn commanded_otherwise(&mut self) -> Option<DriveKind> {
+        if self.motor.drive_said && self.kind == DriveKind::Voltage {
+            return None;
+        }
         let current = self.best(&|one| {
-            let plausible = may_be(Channel::Command, &one.column.name, &one.column.profile);
+            let plausible = one.may_be(Channel::Command);
             let unit = told(
                 Channel::Command,
                 &one.column.name,
                 one.column.unit.as_deref(),
             );
-            let is_current = matches!(unit, Some("A" | "mA" | "N*m"));
             let own = commanded_current(&one.column.name);
-            own.filter(|_| plausible && (is_current || self.kind == DriveKind::Current))
+            own.filter(|_| plausible && (is_of_current(unit) || self.kind == DriveKind::Current))
         });
-        if self.motor.drive_said && self.kind == DriveKind::Voltage {
-            return None;
-        }
         if let Some((at, how)) = current.filter(|_| self.kind != DriveKind::Position) {
             self.take(at, Channel::Command, how, "its name and unit");
             return Some(DriveKind::Current);
         }
-        let angle = self
-            .found
-            .iter()
-            .find(|one| one.channel == Channel::Angle)?;
-        let (place, unit, name) = (angle.place, angle.unit, angle.column.clone());
-        let of_angle = self.named.iter().find(|one| one.place == place)?;
-        let profile = &of_angle.column.profile;
+        let angle = self.found(Channel::Angle)?;
+        let (unit, name) = (angle.unit, angle.column.clone());
+        let profile = &self.column(Channel::Angle)?.profile;
         let axis = behind_the_last_dot(&name);
         let found = self.best(&|one| {
             let (how, at) = target(&one.column.name)?;
             let same_axis = axis.is_none() || axis == behind_the_last_dot(&one.name);
-            let fits = may_be(Channel::Angle, &one.column.name, &one.column.profile)
-                && follows(profile, &one.column.profile);
+            let fits = one.may_be(Channel::Angle) && follows(profile, &one.column.profile);
             fits.then_some((how, 2 * at + usize::from(!same_axis)))
         });
         let (at, how) = found?;
@@ -360,11 +368,11 @@ impl Finder<'_> {
         let moving: Vec<usize> = (0..self.named.len())
             .filter(|at| !self.taken.contains(at))
             .filter(|at| {
-                let column = &self.named[*at].column;
+                let one = &self.named[*at];
                 let known = Channel::ALL.into_iter().any(|channel| {
-                    channel != Channel::Angle && channel.facts().called(&column.name).is_some()
+                    channel != Channel::Angle && channel.facts().called(&one.column.name).is_some()
                 });
-                !known && may_be(Channel::Angle, &column.name, &column.profile)
+                !known && one.may_be(Channel::Angle)
             })
             .collect();
         if let [only] = moving[..] {
@@ -378,22 +386,14 @@ impl Finder<'_> {
     }
 
     fn others(&mut self) {
-        let command = self
-            .found
-            .iter()
-            .find(|one| one.channel == Channel::Command);
-        let column = command.and_then(|one| self.named.iter().find(|n| n.place == one.place));
-        let by_values = || command_unit(&column?.column.name, &column?.column.profile).0;
-        let unit = command.and_then(|one| one.unit).or_else(by_values);
-        let unit = unit.and_then(CommandUnit::by_name);
+        let column = self.column(Channel::Command);
+        let told = self.found(Channel::Command).and_then(|one| one.unit);
+        let by_values = || command_unit(&column?.name, &column?.profile).0;
+        let unit = told.or_else(by_values).and_then(CommandUnit::by_name);
         let is_share = unit.is_some_and(|unit| unit.full_scale().is_some())
             || self.motor.units.voltage.full_scale().is_some();
-        let unsigned = column.is_some_and(|one| {
-            one.column
-                .profile
-                .range()
-                .is_some_and(|[least, _]| least >= 0.0)
-        });
+        let range = column.and_then(|column| column.profile.range());
+        let unsigned = range.is_some_and(|[least, _]| least >= 0.0);
         for channel in Channel::ALL {
             let wanted = match channel {
                 Channel::Measured(Measured::Supply) => is_share,
@@ -405,7 +405,7 @@ impl Finder<'_> {
                 continue;
             }
             let best = self.best(&|one| {
-                let plausible = may_be(channel, &one.column.name, &one.column.profile);
+                let plausible = one.may_be(channel);
                 let joined_without_time = one.name != one.column.name && one.column.is_time;
                 let own = channel.facts().called(&one.column.name);
                 own.filter(|(how, _)| *how >= Match::Part && plausible && !joined_without_time)
@@ -431,7 +431,7 @@ impl Finder<'_> {
                 !self.taken.contains(at)
                     && own.is_some()
                     && facts.called(&named.name) == own
-                    && may_be(one.channel, &named.column.name, &named.column.profile)
+                    && named.may_be(one.channel)
             });
             if let Some(rival) = rival {
                 doubts.push(format!(
@@ -456,6 +456,12 @@ fn has_axis(column: &str, vector: &str) -> bool {
 fn behind_the_last_dot(name: &str) -> Option<String> {
     let parts: Vec<&str> = name.split('.').collect();
     (parts.len() > 2).then(|| parts[parts.len() - 2..].join("."))
+}
+
+/// Whether a unit is one of what a drive with a current loop is told.
+fn is_of_current(unit: Option<&str>) -> bool {
+    let unit = unit.and_then(CommandUnit::by_name);
+    unit.is_some_and(CommandUnit::is_of_current)
 }
 
 /// Whether a name surely means a speed or another channel.

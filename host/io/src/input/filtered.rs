@@ -19,6 +19,8 @@ const SECTIONS: usize = 16;
 const BETTER: f64 = 0.3;
 /// Fewest samples that tell a filter.
 const FEWEST: usize = 200;
+/// Samples of a longer recording by which it is told, from where the motor first moves: two hundred filters are tried on each.
+const MOST: usize = 50_000;
 
 /// A filter that was undone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,6 +77,21 @@ pub(super) enum Way {
 /// Undoes the filter of speeds that were sampled evenly beside their commands, or averages the commands likewise; `None` where they show no
 /// filter.
 pub(super) fn unfiltered(speeds: &mut [f64], command: &mut [f64]) -> Option<(Filter, Way)> {
+    let first = speeds.iter().position(|speed| *speed != 0.0)?;
+    let from = first.min(speeds.len().saturating_sub(MOST));
+    let tell = from..speeds.len().min(from + MOST);
+    let (filter, way) = told(&speeds[tell.clone()], &command[tell])?;
+    match (way, filter) {
+        (Way::CommandToo, Filter::Average(length)) => {
+            command.copy_from_slice(&averaged(command, length));
+        }
+        _ => speeds.copy_from_slice(&filter.undone(speeds)),
+    }
+    Some((filter, way))
+}
+
+/// The filter that speeds show beside their commands.
+fn told(speeds: &[f64], command: &[f64]) -> Option<(Filter, Way)> {
     if speeds.len() < FEWEST {
         return None;
     }
@@ -94,21 +111,12 @@ pub(super) fn unfiltered(speeds: &mut [f64], command: &mut [f64]) -> Option<(Fil
     let tried = tried.chain(lengths.filter_map(command_too));
     let tried = tried.chain(least_lag(&|share| Some(undone(Filter::Lag(share))?.0)));
     let tried = tried.chain(least_lag(&|share| {
-        let filter = Filter::Lag(share);
-        let signs: Vec<f64> = filter.undone(speeds).into_iter().map(sign).collect();
+        let undone = Filter::Lag(share).undone(speeds);
+        let signs: Vec<f64> = undone.into_iter().map(sign).collect();
         error(speeds, &lagged(command, share), &lagged(&signs, share))
     }));
     let (least, filter, way) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    if least > BETTER * raw {
-        return None;
-    }
-    match (way, filter) {
-        (Way::CommandToo, Filter::Average(length)) => {
-            command.copy_from_slice(&averaged(command, length));
-        }
-        _ => speeds.copy_from_slice(&filter.undone(speeds)),
-    }
-    Some((filter, way))
+    (least <= BETTER * raw).then_some((filter, way))
 }
 
 /// The first-order lag that leaves the least error: the best of a grid, and then between its neighbours by golden section.
