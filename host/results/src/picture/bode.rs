@@ -1,6 +1,6 @@
 //! Bode plot of several position loops, with the lines at which margins are read.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, Properties, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use servoid_identify::fit::margins::Loop;
 
@@ -59,13 +59,7 @@ pub fn bode(id: &str, loops: &[(String, Loop)]) -> Picture {
                 .set("mode", "lines")
                 .set("showlegend", false)
                 .set("hoverinfo", "skip")
-                .set(
-                    "line",
-                    Properties::default()
-                        .set("color", colour::QUIET)
-                        .set("width", 1.0)
-                        .set("dash", "dash"),
-                )
+                .set("line", stroke(colour::QUIET, 1.0).set("dash", "dash"))
                 .set("yaxis", pane),
         );
     }

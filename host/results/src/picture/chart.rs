@@ -46,6 +46,18 @@ pub(super) fn bars(x: impl Serialize, y: impl Serialize) -> Properties {
     trace("bar", x, y)
 }
 
+/// How a line is drawn: its colour, and its width, px.
+pub(super) fn stroke(colour: impl Serialize, width: impl Serialize) -> Properties {
+    let own = Properties::default().set("color", colour);
+    own.set("width", width)
+}
+
+/// How points are drawn: their colour, and their size, px.
+pub(super) fn marker(colour: impl Serialize, size: impl Serialize) -> Properties {
+    let own = Properties::default().set("color", colour);
+    own.set("size", size)
+}
+
 fn trace(kind: &str, x: impl Serialize, y: impl Serialize) -> Properties {
     let own = Properties::default().set("type", kind);
     own.set("x", x).set("y", y)

@@ -1,7 +1,7 @@
 //! The residual's correlation with itself and with the command, with honest bands (Ljung, *System Identification*, 1999,
 //! section 16.6).
 
-use super::chart::{Chart, Properties, bars, scatter};
+use super::chart::{Chart, Properties, bars, marker, scatter, stroke};
 use super::{Drawing, Picture, axis, colour, layout, rounded};
 use servoid_identify::diagnose::residual_analysis::Correlations;
 
@@ -30,14 +30,8 @@ pub fn correlations(id: &str, models: &[(&str, &Correlations)]) -> Picture {
                 .set("legendgroup", *name)
                 .set("showlegend", false)
                 .set("mode", "lines+markers")
-                .set(
-                    "line",
-                    Properties::default().set("color", colour).set("width", 1.5),
-                )
-                .set(
-                    "marker",
-                    Properties::default().set("color", colour).set("size", 5),
-                )
+                .set("line", stroke(colour, 1.5))
+                .set("marker", marker(colour, 5))
                 .set("xaxis", "x2")
                 .set("yaxis", "y2"),
         );

@@ -1,6 +1,6 @@
 //! Best cost against model evaluations: median over the seeds and the middle half as a band.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
 use crate::schema::contest::Row;
@@ -34,10 +34,7 @@ pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<
                     .set("showlegend", false)
                     .set("hoverinfo", "skip")
                     .set("mode", "lines")
-                    .set(
-                        "line",
-                        Properties::default().set("width", 0.0).set("color", colour),
-                    )
+                    .set("line", stroke(colour, 0.0))
                     .set("fill", "toself")
                     .set("fillcolor", format!("{colour}33")),
             );
@@ -49,10 +46,7 @@ pub fn cost_curves(id: &str, title: &str, rows: &[Row], seeds: usize) -> Option<
                 .set("name", &row.algorithm)
                 .set("legendgroup", &row.algorithm)
                 .set("mode", "lines")
-                .set(
-                    "line",
-                    Properties::default().set("color", colour).set("width", 2.0),
-                ),
+                .set("line", stroke(colour, 2.0)),
         );
         let cell = |x: Option<f64>| x.map_or("-".to_owned(), short);
         table.row([

@@ -1,6 +1,6 @@
 //! A quantity over many motors: how often which value, the population's curve, and the motors that are odd.
 
-use super::chart::{Chart, Properties, bars, scatter};
+use super::chart::{Chart, Properties, bars, marker, scatter, stroke};
 use super::histogram::histogram;
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
@@ -75,12 +75,7 @@ pub fn distribution(id: &str, shown: &Distribution<'_>) -> Option<Picture> {
             scatter(x, y)
                 .set("name", "population")
                 .set("mode", "lines")
-                .set(
-                    "line",
-                    Properties::default()
-                        .set("color", colour::MEASURED)
-                        .set("width", 2.0),
-                ),
+                .set("line", stroke(colour::MEASURED, 2.0)),
         );
     }
     if !shown.odd.is_empty() {
@@ -103,13 +98,7 @@ pub fn distribution(id: &str, shown: &Distribution<'_>) -> Option<Picture> {
                     .map(|(name, _)| name.clone())
                     .collect::<Vec<_>>(),
             )
-            .set(
-                "marker",
-                Properties::default()
-                    .set("color", colour::BASE)
-                    .set("size", 9)
-                    .set("symbol", "diamond"),
-            ),
+            .set("marker", marker(colour::BASE, 9).set("symbol", "diamond")),
         );
     }
     let title = match shown.unit {

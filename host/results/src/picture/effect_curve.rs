@@ -1,6 +1,6 @@
 //! An effect beside a curve that was found without its form.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, marker, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
 use crate::schema::effect_curve::{CurvePoint, EffectCurve};
@@ -17,9 +17,7 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve, symbol: &str) -
     };
     let mut plot = Chart::default();
     let edge = |y: Vec<f64>| {
-        let line = Properties::default()
-            .set("color", colour::QUIET)
-            .set("width", 0.0);
+        let line = stroke(colour::QUIET, 0.0);
         scatter(x.clone(), y).set("mode", "lines").set("line", line)
     };
     plot.add(edge(y(&|p| p.found_v - p.band_v)).set("showlegend", false));
@@ -32,23 +30,13 @@ pub fn effect_curve(id: &str, effect: &str, curve: &EffectCurve, symbol: &str) -
         scatter(x.clone(), y(&|p| p.found_v))
             .set("name", "measured, without a form")
             .set("mode", "markers")
-            .set(
-                "marker",
-                Properties::default()
-                    .set("color", colour::MEASURED)
-                    .set("size", 7),
-            ),
+            .set("marker", marker(colour::MEASURED, 7)),
     );
     plot.add(
         scatter(x.clone(), y(&|p| p.law_v))
             .set("name", effect)
             .set("mode", "lines")
-            .set(
-                "line",
-                Properties::default()
-                    .set("color", colour::MODEL)
-                    .set("width", 2.0),
-            ),
+            .set("line", stroke(colour::MODEL, 2.0)),
     );
     let variable = match curve.variable.as_str() {
         "current" => "current as the voltage across the resistance",

@@ -1,7 +1,7 @@
 //! Parameters with intervals, several estimates side by side: each as a part of the first one's value, since units and
 //! sizes differ.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, Properties, marker, scatter};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::stated;
 use crate::schema::Estimate;
@@ -46,12 +46,7 @@ pub fn forest(id: &str, sources: &[Estimates<'_>]) -> Option<Picture> {
             scatter(x, y)
                 .set("name", &source.name)
                 .set("mode", "markers")
-                .set(
-                    "marker",
-                    Properties::default()
-                        .set("color", colour::of(k))
-                        .set("size", 9),
-                )
+                .set("marker", marker(colour::of(k), 9))
                 .set(
                     "error_x",
                     Properties::default()

@@ -1,6 +1,6 @@
 //! The command that a model's equation misses, volts at the winding for a voltage, along the measured motion, against everything that could tell why.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, Properties, marker, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
 use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, ResidualAnalysis};
@@ -134,17 +134,8 @@ fn lines(against: Against, map: &Map, model: &str, colour: &'static str) -> Vec<
                 .set("legendgroup", model)
                 .set("showlegend", part == 0)
                 .set("mode", "lines+markers")
-                .set(
-                    "line",
-                    Properties::default().set("color", colour).set("width", 1.5),
-                )
-                .set(
-                    "marker",
-                    Properties::default()
-                        .set("color", colour)
-                        .set("size", 8)
-                        .set("symbol", symbol),
-                )
+                .set("line", stroke(colour, 1.5))
+                .set("marker", marker(colour, 8).set("symbol", symbol))
                 .set(
                     "error_y",
                     Properties::default()

@@ -2,7 +2,7 @@
 //! straight is as its standard error says (the profile t plot of D. M. Bates and D. G. Watts, *Nonlinear Regression Analysis*, 1988,
 //! ch. 6).
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::{interval, short};
 use crate::schema::profile::Profile;
@@ -32,13 +32,7 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
                 .set("name", name)
                 .set("showlegend", k < 2)
                 .set("mode", "lines")
-                .set(
-                    "line",
-                    Properties::default()
-                        .set("color", colour::QUIET)
-                        .set("width", 1.0)
-                        .set("dash", dash),
-                ),
+                .set("line", stroke(colour::QUIET, 1.0).set("dash", dash)),
         );
     }
     let drawn = profiles
@@ -57,12 +51,7 @@ pub fn profiles(id: &str, profiles: &[Profile]) -> Option<Picture> {
             scatter(x, y)
                 .set("name", &profile.name)
                 .set("mode", "lines+markers")
-                .set(
-                    "line",
-                    Properties::default()
-                        .set("color", colour::of(k))
-                        .set("width", 1.8),
-                ),
+                .set("line", stroke(colour::of(k), 1.8)),
         );
     }
     plot.lay_out(

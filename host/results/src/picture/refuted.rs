@@ -1,6 +1,6 @@
 //! Where a model is refuted: the few readings that no model of its structure meets together, along the recording.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, marker, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::schema::certificate::{Certificate, Contradicting};
 
@@ -21,12 +21,7 @@ pub fn refuted(id: &str, certificate: &Certificate, measured: &[(f64, f64)]) -> 
         scatter(times, counts)
             .set("name", "measured")
             .set("mode", "lines")
-            .set(
-                "line",
-                Properties::default()
-                    .set("color", colour::MEASURED)
-                    .set("width", 1.2),
-            ),
+            .set("line", stroke(colour::MEASURED, 1.2)),
     );
     for (above, name, symbol) in [
         (true, "models lie above", "triangle-up"),
@@ -44,13 +39,7 @@ pub fn refuted(id: &str, certificate: &Certificate, measured: &[(f64, f64)]) -> 
                 scatter(times, counts)
                     .set("name", name)
                     .set("mode", "markers")
-                    .set(
-                        "marker",
-                        Properties::default()
-                            .set("color", colour::MODEL)
-                            .set("size", MARK)
-                            .set("symbol", symbol),
-                    ),
+                    .set("marker", marker(colour::MODEL, MARK).set("symbol", symbol)),
             );
         }
     }

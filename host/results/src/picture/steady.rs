@@ -1,6 +1,6 @@
 //! A motor's steady speed against its voltage, and what a straight line misses of it.
 
-use super::chart::{Chart, Properties, scatter};
+use super::chart::{Chart, marker, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 
 /// A line `V = slope·ω + drop·sign ω` through steady speeds.
@@ -32,12 +32,10 @@ pub fn steady_curve(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) -> Pi
         points.iter().map(|p| rounded(p.0)).collect::<Vec<_>>(),
     );
     plot.add(
-        measured.set("name", "measured").set("mode", "markers").set(
-            "marker",
-            Properties::default()
-                .set("color", colour::MEASURED)
-                .set("size", 8),
-        ),
+        measured
+            .set("name", "measured")
+            .set("mode", "markers")
+            .set("marker", marker(colour::MEASURED, 8)),
     );
     let ends = ends(points);
     for (line, colour) in lines.iter().zip([colour::BASE, colour::MODEL]) {
@@ -47,10 +45,12 @@ pub fn steady_curve(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) -> Pi
                 .map(|speed| rounded(line.volts(*speed)))
                 .collect::<Vec<_>>(),
         );
-        plot.add(drawn.set("name", line.name).set("mode", "lines").set(
-            "line",
-            Properties::default().set("color", colour).set("width", 1.5),
-        ));
+        plot.add(
+            drawn
+                .set("name", line.name)
+                .set("mode", "lines")
+                .set("line", stroke(colour, 1.5)),
+        );
     }
     plot.lay_out(
         layout(360)
@@ -99,14 +99,8 @@ pub fn steady_residual(id: &str, points: &[(f64, f64)], lines: &[SteadyLine]) ->
             missed
                 .set("name", line.name)
                 .set("mode", "lines+markers")
-                .set(
-                    "line",
-                    Properties::default().set("color", colour).set("width", 1.5),
-                )
-                .set(
-                    "marker",
-                    Properties::default().set("color", colour).set("size", 7),
-                ),
+                .set("line", stroke(colour, 1.5))
+                .set("marker", marker(colour, 7)),
         );
     }
     for (volts, speed) in &sorted {
