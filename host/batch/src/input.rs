@@ -8,7 +8,9 @@ use arrow_array::types::{
     Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
     UInt32Type, UInt64Type,
 };
-use arrow_array::{ArrayRef, LargeListArray, ListArray, RecordBatch};
+use arrow_array::{
+    ArrayRef, BooleanArray, FixedSizeListArray, LargeListArray, ListArray, RecordBatch,
+};
 use arrow_schema::{DataType, Field, FieldRef};
 use parquet::arrow::arrow_reader::{ParquetRecordBatchReaderBuilder, RowSelection};
 use serde_arrow::schema::{SchemaLike, TracingOptions};
@@ -257,10 +259,10 @@ fn projected(batch: &RecordBatch) -> Result<RecordBatch, String> {
         match schema.index_of(field.name()) {
             Ok(place) => {
                 let own = batch.column(place);
-                let own = if is_of_numbers(field.data_type()) {
-                    as_numbers(own)
-                } else {
-                    own.clone()
+                let own = match of_values(field.data_type()) {
+                    DataType::Float64 => with_values(own, &numbers),
+                    DataType::Boolean => with_values(own, &flags),
+                    _ => own.clone(),
                 };
                 kept.push((field.name().clone(), own));
             }
@@ -279,28 +281,57 @@ fn projected(batch: &RecordBatch) -> Result<RecordBatch, String> {
     RecordBatch::try_from_iter(kept).map_err(|error| error.to_string())
 }
 
-fn is_of_numbers(wanted: &DataType) -> bool {
+/// The type of a value, or of those in a list.
+fn of_values(wanted: &DataType) -> &DataType {
     match wanted {
-        DataType::Float64 => true,
-        DataType::List(each) | DataType::LargeList(each) => is_of_numbers(each.data_type()),
-        _ => false,
+        DataType::List(each) | DataType::LargeList(each) => of_values(each.data_type()),
+        value => value,
     }
 }
 
-/// Whole and single numbers, and lists of them, in double precision.
-fn as_numbers(array: &ArrayRef) -> ArrayRef {
+/// An array with its values, or those in its lists, made of what they are.
+fn with_values(array: &ArrayRef, make: &dyn Fn(&ArrayRef) -> ArrayRef) -> ArrayRef {
+    let field = |each: &FieldRef, values: &ArrayRef| {
+        let own = values.data_type().clone();
+        Arc::new(Field::new(each.name(), own, each.is_nullable()))
+    };
+    match array.data_type() {
+        DataType::List(each) => {
+            let (_, offsets, values, nulls) = array.as_list::<i32>().clone().into_parts();
+            let values = make(&values);
+            Arc::new(ListArray::new(field(each, &values), offsets, values, nulls))
+        }
+        DataType::LargeList(each) => {
+            let (_, offsets, values, nulls) = array.as_list::<i64>().clone().into_parts();
+            let values = make(&values);
+            Arc::new(LargeListArray::new(
+                field(each, &values),
+                offsets,
+                values,
+                nulls,
+            ))
+        }
+        DataType::FixedSizeList(each, _) => {
+            let (_, size, values, nulls) = array.as_fixed_size_list().clone().into_parts();
+            let values = make(&values);
+            Arc::new(FixedSizeListArray::new(
+                field(each, &values),
+                size,
+                values,
+                nulls,
+            ))
+        }
+        _ => make(array),
+    }
+}
+
+/// Whole and single numbers in double precision.
+fn numbers(array: &ArrayRef) -> ArrayRef {
     macro_rules! doubled {
         ($kind:ty) => {
             Arc::new((array.as_primitive::<$kind>()).unary::<_, Float64Type>(|x| x as f64))
         };
     }
-    let of = |each: &FieldRef| {
-        Arc::new(Field::new(
-            each.name(),
-            DataType::Float64,
-            each.is_nullable(),
-        ))
-    };
     match array.data_type() {
         DataType::Int8 => doubled!(Int8Type),
         DataType::Int16 => doubled!(Int16Type),
@@ -311,29 +342,53 @@ fn as_numbers(array: &ArrayRef) -> ArrayRef {
         DataType::UInt32 => doubled!(UInt32Type),
         DataType::UInt64 => doubled!(UInt64Type),
         DataType::Float32 => doubled!(Float32Type),
-        DataType::List(each) if each.data_type().is_primitive() => {
-            let (_, offsets, values, nulls) = array.as_list::<i32>().clone().into_parts();
-            Arc::new(ListArray::new(
-                of(each),
-                offsets,
-                as_numbers(&values),
-                nulls,
-            ))
-        }
-        DataType::LargeList(each) if each.data_type().is_primitive() => {
-            let (_, offsets, values, nulls) = array.as_list::<i64>().clone().into_parts();
-            Arc::new(LargeListArray::new(
-                of(each),
-                offsets,
-                as_numbers(&values),
-                nulls,
-            ))
-        }
         _ => array.clone(),
+    }
+}
+
+/// Flags that are kept as numbers, too.
+fn flags(array: &ArrayRef) -> ArrayRef {
+    match numbers(array).as_primitive_opt::<Float64Type>() {
+        Some(numbers) => Arc::new(BooleanArray::from_unary(numbers, |x| x != 0.0)),
+        None => array.clone(),
     }
 }
 
 /// The schema of values of a type, as its fields say.
 pub(crate) fn fields<T: for<'de> serde::Deserialize<'de>>() -> serde_arrow::Result<Vec<FieldRef>> {
     Vec::<FieldRef>::from_type::<T>(TracingOptions::default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arrow_array::types::Int16Type;
+    use arrow_array::{Float64Array, Int32Array};
+
+    #[test]
+    fn whole_numbers_in_lists_of_any_kind_are_read_as_what_they_are_used_as() {
+        let times =
+            ListArray::from_iter_primitive::<Float64Type, _, _>([Some([Some(0.0), Some(0.5)])]);
+        let volts =
+            LargeListArray::from_iter_primitive::<Int16Type, _, _>([Some([Some(6), Some(-6)])]);
+        let counts = FixedSizeListArray::from_iter_primitive::<Int32Type, _, _>(
+            [Some([Some(0), Some(90)])],
+            2,
+        );
+        let enabled = ListArray::from_iter_primitive::<UInt8Type, _, _>([Some([Some(1), Some(0)])]);
+        let batch = RecordBatch::try_from_iter([
+            ("t_s", Arc::new(times) as ArrayRef),
+            ("voltage_v", Arc::new(volts)),
+            ("angle_counts", Arc::new(counts)),
+            ("enabled", Arc::new(enabled)),
+            ("counts_per_rev", Arc::new(Int32Array::from(vec![2048]))),
+            ("not_asked_for", Arc::new(Float64Array::from(vec![1.0]))),
+        ]);
+        let batch = projected(&batch.expect("a batch")).expect("the columns");
+        let columns: Vec<Columns> = serde_arrow::from_record_batch(&batch).expect("a recording");
+        assert_eq!(columns[0].voltage_v, [6.0, -6.0]);
+        assert_eq!(columns[0].angle_counts, [0.0, 90.0]);
+        assert_eq!(columns[0].enabled, Some(vec![true, false]));
+        assert_eq!(columns[0].counts_per_rev, Some(2048.0));
+    }
 }
