@@ -128,8 +128,8 @@ impl Dialect {
             dialect.pairs = row.len() >= 4
                 && (0..row.len()).all(|k| {
                     let name = if k % 2 == 0 { "x" } else { "y" };
-                    row.cell(k)
-                        .is_ok_and(|cell| cell.eq_ignore_ascii_case(name))
+                    let bare = |cell| axis_and_unit(cell).0.eq_ignore_ascii_case(name);
+                    row.cell(k).is_ok_and(bare)
                 });
             // No column without a name has a unit.
             if next.width > names.width && !dialect.pairs {
@@ -207,14 +207,18 @@ impl Dialect {
 
     /// The row of units, cell by cell, of a file that begins with `head`.
     pub(super) fn units(&self, head: &[u8]) -> Option<Vec<String>> {
-        if !self.units_row || self.pairs {
+        if !self.units_row {
             return None;
         }
         let recoded = recoded(head);
         let lines = data_lines(recoded.as_ref().map_or(head, String::as_bytes));
         let mut row = Row::new(self);
         row.split(lines.get(self.before + 1)?).ok()?;
-        let cells = (0..row.len()).map(|k| row.cell(k).map(str::to_owned));
+        let unit = |cell| match self.pairs {
+            true => axis_and_unit(cell).1,
+            false => cell,
+        };
+        let cells = (0..row.len()).map(|k| row.cell(k).map(|cell| unit(cell).to_owned()));
         cells.collect::<Result<_, _>>().ok()
     }
 
@@ -246,6 +250,12 @@ impl Dialect {
         let ambiguous = self.separator == b',' && thousands == commas;
         commas > 0 && points == 0 && !ambiguous
     }
+}
+
+/// The axis and the unit, which may be empty, of a cell as `X[s]` in a row that says which columns are X and which are Y.
+fn axis_and_unit(cell: &str) -> (&str, &str) {
+    let at = cell.find(['[', '(']).unwrap_or(cell.len());
+    (cell[..at].trim_end(), &cell[at..])
 }
 
 /// Whether a cell is written as a number with commas between its thousands may be: `12,345`, but not `0,005`.

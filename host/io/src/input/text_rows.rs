@@ -175,18 +175,18 @@ impl<'s, R: BufRead> TextRows<'s, R> {
         Ok(())
     }
 
-    /// Names for columns in pairs of X and Y, where a name stands over each pair: it is that of Y.
+    /// Names for columns in pairs of X and Y, where a name stands over each pair: it is that of Y, and X is its time.
     fn name_pairs(&mut self) {
         let base = self.names.clone();
         for (k, name) in self.names.iter_mut().enumerate() {
             let over = base.get(k - k % 2).map_or("", String::as_str);
             *name = match k % 2 {
                 1 => over.to_owned(),
-                _ => format!("X of {over}"),
+                _ => format!("time of {over}"),
             };
         }
         self.notes.push(format!(
-            "{}: line {} says that the columns are pairs of X and Y: each name is that of its Y",
+            "{}: line {} says that the columns are pairs of X and Y: each name is that of its Y, and X is the time",
             self.source,
             self.lines.number()
         ));
