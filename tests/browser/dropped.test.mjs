@@ -71,7 +71,7 @@ test("packed logs and logs of other formats are read as on the command line", as
 });
 
 test("a sketch's log on the command line opens the page with the dialog filled in", async () => {
-  // No motor.toml stands beside it.
+  // A folder without a motor.toml.
   mkdirSync(at.desk.path("bare"));
   writeFileSync(at.desk.path("bare/sketch.txt"), sketch("rec.csv"));
   for (const line of ["bench bare/sketch.txt", "bare/sketch.txt"]) {

@@ -167,18 +167,12 @@ fn described(waiting: &Waiting) -> Result<Value, Error> {
         return Ok(json!({ "id": id, "name": name, "kind": "motor", "text": text }));
     }
     let begin = beginning(path);
-    if begin.contains(FAMILY)
-        && begin
-            .trim_start_matches(['\u{feff}', ' ', '\n', '\r'])
-            .starts_with('{')
-    {
+    let first = begin.trim_start_matches(['\u{feff}', ' ', '\n', '\r']);
+    if begin.contains(FAMILY) && first.starts_with('{') {
         return Ok(json!({ "id": id, "name": name, "kind": "session" }));
     }
     let looked = looked_at(path, name, &Asked::default());
-    let is_json = begin
-        .trim_start_matches(['\u{feff}', ' ', '\n', '\r'])
-        .starts_with(['{', '[']);
-    if is_json && !matches!(&looked, Ok(found) if found.has_columns()) {
+    if first.starts_with(['{', '[']) && !matches!(&looked, Ok(found) if found.has_columns()) {
         // It may be meant for a session.
         let text = fs::read_to_string(path).unwrap_or_default();
         SessionFile::parse(text.trim_start_matches('\u{feff}'), name)?;
@@ -263,7 +257,7 @@ fn read_now(bench: &Bench, sent: Read) -> Result<Value, Error> {
     let mut recordings = bench.state().recordings.clone();
     let mut begun = false;
     for (role, found) in loaded {
-        // The first one makes room; of files that came together the others stand beside it.
+        // The first fitted file begins a new bench; those that came with it are fitted together with it.
         let role = match (role, begun) {
             (Role::Fitted, true) => Role::Beside,
             (role, _) => role,

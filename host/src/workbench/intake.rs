@@ -226,10 +226,8 @@ fn drawn(envelope: &Envelope) -> Vec<Option<f64>> {
 /// The first rows of the table from which most is taken.
 fn first_rows(found: &Survey) -> Value {
     const SHOWN: usize = 6;
-    let best = found.tables.iter().rev().max_by_key(|table| {
-        let named = table.columns.iter().filter(|column| column.guess.is_some());
-        named.count()
-    });
+    let tables = found.tables.iter().rev();
+    let best = tables.max_by_key(|table| table.guessed());
     let Some(table) = best else {
         return json!({ "names": [], "rows": [] });
     };

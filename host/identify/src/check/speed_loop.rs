@@ -24,14 +24,17 @@ pub(super) fn findings(recording: &Recording) -> Vec<Finding> {
         return Vec::new();
     }
     let reached = steady(recording);
+    let mut levels: Vec<f64> = reached.iter().map(|pair| pair.0).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    if levels.len() < FEWEST {
+        return Vec::new();
+    }
     let named = UNITS.iter().find(|(_, unit)| {
         let agree =
             |pair: &&(f64, f64)| (pair.1 - pair.0 * unit).abs() <= AGREE * (pair.0 * unit).abs();
         let agreeing = reached.iter().filter(agree).count();
-        let mut levels: Vec<f64> = reached.iter().map(|pair| pair.0).collect();
-        levels.sort_by(f64::total_cmp);
-        levels.dedup();
-        levels.len() >= FEWEST && agreeing * 10 >= reached.len() * 9
+        agreeing * 10 >= reached.len() * 9
     });
     let finding = named.map(|(unit, _)| {
         Finding::new(

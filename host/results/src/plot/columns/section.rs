@@ -20,12 +20,6 @@ const ALONE: usize = 6;
 /// Characters of a line over the whole width.
 const CHARACTERS: usize = 120;
 
-/// How many columns of a table look like something that a recording needs.
-fn guessed(table: &SurveyTable) -> usize {
-    let columns = table.columns.iter();
-    columns.filter(|column| column.guess.is_some()).count()
-}
-
 /// One table as it is drawn.
 pub(super) struct Section<'s> {
     table: &'s SurveyTable,
@@ -39,7 +33,7 @@ impl<'s> Section<'s> {
     /// The tables in the order in which they are drawn, and what is to be said of what is left out.
     pub(super) fn of(survey: &'s Survey) -> (Vec<Self>, String) {
         let mut tables: Vec<&SurveyTable> = survey.tables.iter().collect();
-        tables.sort_by_key(|table| std::cmp::Reverse(guessed(table)));
+        tables.sort_by_key(|table| std::cmp::Reverse(table.guessed()));
         let mut sections = Vec::new();
         let (mut room, mut columns, mut left_out) = (PANELS, 0, 0);
         for table in tables {
