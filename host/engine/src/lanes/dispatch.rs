@@ -50,18 +50,38 @@ impl<W: Work, T: Token, const M: usize> pulp::WithSimd for On<W, T, M> {
 
 /// Runs `body` with the processor's AVX2 instructions where it has them: the same bits, with fewer moves between
 /// registers. Everything hot must be inlined into it.
-#[cfg(target_arch = "x86_64")]
 pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
+    with_vectors_or(
+        body,
+        #[inline(always)]
+        |body| body(),
+        |body| body(),
+    )
+}
+
+/// As [`with_vectors`], with another `body` for a processor without them: for a large one, which would be compiled twice.
+#[cfg(target_arch = "x86_64")]
+pub fn with_vectors_or<I, A>(
+    input: I,
+    body: impl FnOnce(I) -> A,
+    without: impl FnOnce(I) -> A,
+) -> A {
     match pulp::x86::V3::try_new() {
-        Some(v3) => pulp::Simd::vectorize(v3, Body(body)),
-        None => body(),
+        Some(v3) => pulp::Simd::vectorize(
+            v3,
+            Body(
+                #[inline(always)]
+                || body(input),
+            ),
+        ),
+        None => without(input),
     }
 }
 
-/// Runs `body`; this processor has no such instructions.
+/// Runs `body`; this processor has no such instructions, and what the compiler makes of it for all of its kind is as fast.
 #[cfg(not(target_arch = "x86_64"))]
-pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
-    body()
+pub fn with_vectors_or<I, A>(input: I, body: impl FnOnce(I) -> A, _: impl FnOnce(I) -> A) -> A {
+    body(input)
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -24,4 +24,4 @@ pub use horizon::{Horizon, StartAngle, Window};
 pub use propagator::{Mode, Number, Propagator};
 pub use response::{Commands, ResponseError, response};
 pub use segment::{Segment, segments, whole};
-pub use single::Simulation;
+pub use single::{Simulation, step};

@@ -1,10 +1,10 @@
 //! One candidate run along the data.
 
 use super::candidate::{Candidate, Method};
-use super::propagator::{Mode, Propagator};
+use super::propagator::{Called, Inlined, Mode, Propagator, Steps};
 use super::segment::Segment;
 use crate::data::Data;
-use crate::lanes::with_vectors;
+use crate::lanes::with_vectors_or;
 use shared::error::ModelError;
 use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
@@ -126,9 +126,12 @@ impl<'a> Simulation<'a> {
             data: self.data,
             models: &self.models,
         };
-        with_vectors(
+        let each = |k: usize, sight| sights[k - from] = sight;
+        with_vectors_or(
+            (range, each),
             #[inline(always)]
-            || propagator.run(mode, state, range, |k, sight| sights[k - from] = sight),
+            |(range, each)| propagator.run::<Inlined>(mode, state, range, each),
+            |(range, each)| propagator.run::<Called>(mode, state, range, each),
         )
     }
 
@@ -201,9 +204,15 @@ impl<'a> Simulation<'a> {
                 let speed = state.motion.speed * self.data.units.speed;
                 let model = self.model(k);
                 state.temperature = self.data.temperature(k);
-                model.step(&mut state, self.data.command[k], self.data.is_open(k));
+                let open = self.data.is_open(k);
+                step(model, &mut state, self.data.command[k], open);
                 (volts, speed)
             })
             .collect()
     }
+}
+
+/// One step of a model where no time counts.
+pub fn step(model: &Model<f64>, state: &mut State<f64>, command: f64, open: bool) {
+    <Called as Steps<f64>>::free(model, state, command, open);
 }

@@ -4,6 +4,7 @@ use super::hypothesis::{Hypothesis, Setup};
 use crate::fit::Options;
 use servoid_engine::data::Recordings;
 use servoid_engine::problem::Data;
+use servoid_engine::simulation::step;
 use servoid_io::channel::Series;
 use servoid_io::recording::Drive;
 use shared::encoder::FLOOR_OFFSET_COUNTS;
@@ -69,7 +70,7 @@ pub fn play(
         if each(moment).is_break() {
             break;
         }
-        model.step(&mut state, command.drive, !command.enabled);
+        step(&model, &mut state, command.drive, !command.enabled);
     }
     Ok(())
 }

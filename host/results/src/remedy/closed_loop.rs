@@ -5,6 +5,7 @@ use crate::export::ExportError;
 use crate::export::gains::feed_forward::FeedForward;
 use crate::export::gains::loops::Pi;
 use servoid_engine::problem::Candidate;
+use servoid_engine::simulation::step;
 use shared::effects::{EffectSet, Lowered, Shaft};
 use shared::model::{Model, Plan, State};
 use shared::units::PerUnit;
@@ -118,7 +119,7 @@ impl ClosedLoop<'_> {
             if command == unlimited {
                 sum += error * interval;
             }
-            model.step(&mut state, acts / units.volts, false);
+            step(&model, &mut state, acts / units.volts, false);
             let turned = model.reading(&state);
             aims.push(load);
             speeds.push(match self.crossing {
