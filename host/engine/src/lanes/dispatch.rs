@@ -50,38 +50,18 @@ impl<W: Work, T: Token, const M: usize> pulp::WithSimd for On<W, T, M> {
 
 /// Runs `body` with the processor's AVX2 instructions where it has them: the same bits, with fewer moves between
 /// registers. Everything hot must be inlined into it.
-pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
-    with_vectors_or(
-        body,
-        #[inline(always)]
-        |body| body(),
-        |body| body(),
-    )
-}
-
-/// As [`with_vectors`], with another `body` for a processor without them: for a large one, which would be compiled twice.
 #[cfg(target_arch = "x86_64")]
-pub fn with_vectors_or<I, A>(
-    input: I,
-    body: impl FnOnce(I) -> A,
-    without: impl FnOnce(I) -> A,
-) -> A {
+pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
     match pulp::x86::V3::try_new() {
-        Some(v3) => pulp::Simd::vectorize(
-            v3,
-            Body(
-                #[inline(always)]
-                || body(input),
-            ),
-        ),
-        None => without(input),
+        Some(v3) => pulp::Simd::vectorize(v3, Body(body)),
+        None => body(),
     }
 }
 
-/// Runs `body`; this processor has no such instructions, and what the compiler makes of it for all of its kind is as fast.
+/// Runs `body`; this processor has no such instructions.
 #[cfg(not(target_arch = "x86_64"))]
-pub fn with_vectors_or<I, A>(input: I, body: impl FnOnce(I) -> A, _: impl FnOnce(I) -> A) -> A {
-    body(input)
+pub fn with_vectors<A>(body: impl FnOnce() -> A) -> A {
+    body()
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -18,7 +18,7 @@ mod token;
 mod transpose;
 mod triangles;
 
-pub use dispatch::{Work, with_vectors, with_vectors_or, work};
+pub use dispatch::{Work, with_vectors, work};
 pub use number::{LaneMask, Lanes};
 pub use token::Token;
 pub use transpose::{LANES, Tile, Transpose};

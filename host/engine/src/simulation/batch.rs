@@ -5,7 +5,7 @@
 //! bits are the same.
 
 use super::candidate::{Candidate, Method};
-use super::propagator::{Inlined, Mode, Propagator};
+use super::propagator::{Mode, Propagator};
 use super::segment::Segment;
 use super::single::Simulation;
 use crate::data::Data;
@@ -293,7 +293,7 @@ impl Work for LaneRun<'_, '_> {
                 let readings = &data.counts[range.clone()];
                 for ((state, models), rows) in states.iter_mut().zip(&models).zip(&mut rows) {
                     let propagator = Propagator { data, models };
-                    *state = propagator.run::<Inlined>(
+                    *state = propagator.run(
                         self.run.mode,
                         *state,
                         range.clone(),

@@ -35,66 +35,11 @@ pub struct Propagator<'a, S: Scalar> {
     pub models: &'a [Model<S>],
 }
 
-/// How the steps of a model are compiled: whoever calls [`Model::step`] has the whole model with all effects compiled into it, a quarter
-/// of a megabyte.
-pub trait Steps<S: Scalar> {
-    /// [`Model::step`].
-    fn free(model: &Model<S>, state: &mut State<S>, command: S, open: bool);
-    /// [`Model::step_along`].
-    fn along(
-        model: &Model<S>,
-        state: &mut State<S>,
-        command: S,
-        open: bool,
-        seen: &MeasuredInterval<S>,
-    );
-}
-
-/// Into the loop: for what is run a thousand million times.
-pub struct Inlined;
-
-impl<S: Number> Steps<S> for Inlined {
-    #[inline(always)]
-    fn free(model: &Model<S>, state: &mut State<S>, command: S, open: bool) {
-        model.step(state, command, open);
-    }
-    #[inline(always)]
-    fn along(
-        model: &Model<S>,
-        state: &mut State<S>,
-        command: S,
-        open: bool,
-        seen: &MeasuredInterval<S>,
-    ) {
-        model.step_along(state, command, open, seen);
-    }
-}
-
-/// Once, as a function.
-pub struct Called;
-
-impl Steps<f64> for Called {
-    #[inline(never)]
-    fn free(model: &Model<f64>, state: &mut State<f64>, command: f64, open: bool) {
-        model.step(state, command, open);
-    }
-    #[inline(never)]
-    fn along(
-        model: &Model<f64>,
-        state: &mut State<f64>,
-        command: f64,
-        open: bool,
-        seen: &MeasuredInterval<f64>,
-    ) {
-        model.step_along(state, command, open, seen);
-    }
-}
-
 impl<S: Number> Propagator<'_, S> {
     /// Runs from a state over the samples of `range`; calls `each` with the sample's index and the model's encoder angle
     /// there, counts. Returns the state after the range.
     #[inline(always)]
-    pub fn run<K: Steps<S>>(
+    pub fn run(
         &self,
         mode: Mode<'_>,
         state: State<S>,
@@ -105,10 +50,10 @@ impl<S: Number> Propagator<'_, S> {
             Mode::Free => None,
             Mode::Observer(memory_s) => Some(memory_s),
             Mode::SeriesParallel { seen, turns } => {
-                return self.series_parallel::<K>(state, range, seen, turns, each);
+                return self.series_parallel(state, range, seen, turns, each);
             }
         };
-        self.parallel::<K>(state, range, memory_s, each)
+        self.parallel(state, range, memory_s, each)
     }
 
     #[inline(always)]
@@ -129,7 +74,7 @@ impl<S: Number> Propagator<'_, S> {
     /// Runs as a parallel model, or as an observer where there is a memory.
     // One loop for both: the whole model is compiled into it.
     #[inline(always)]
-    fn parallel<K: Steps<S>>(
+    fn parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,
@@ -151,7 +96,7 @@ impl<S: Number> Propagator<'_, S> {
                 self.pull(&mut state, k, sight, memory_s);
             }
             state.temperature = self.temperature(k);
-            K::free(model, &mut state, self.command(k), self.data.is_open(k));
+            model.step(&mut state, self.command(k), self.data.is_open(k));
             k += 1;
         }
         state
@@ -213,7 +158,7 @@ impl<S: Number> Propagator<'_, S> {
     }
 
     #[inline(always)]
-    fn series_parallel<K: Steps<S>>(
+    fn series_parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,
@@ -230,8 +175,7 @@ impl<S: Number> Propagator<'_, S> {
                 speed_change: S::from_f64(seen[k].speed_change),
             };
             state.temperature = self.temperature(k);
-            let open = self.data.is_open(k);
-            K::along(model, &mut state, self.command(k), open, &seen);
+            model.step_along(&mut state, self.command(k), self.data.is_open(k), &seen);
         }
         state
     }

@@ -1,10 +1,10 @@
 //! One candidate run along the data.
 
 use super::candidate::{Candidate, Method};
-use super::propagator::{Called, Inlined, Mode, Propagator, Steps};
+use super::propagator::{Mode, Propagator};
 use super::segment::Segment;
 use crate::data::Data;
-use crate::lanes::with_vectors_or;
+use crate::lanes::with_vectors;
 use shared::error::ModelError;
 use shared::model::{MAX_DELAY, Model, Plan, State};
 use shared::motor::Machine;
@@ -126,12 +126,9 @@ impl<'a> Simulation<'a> {
             data: self.data,
             models: &self.models,
         };
-        let each = |k: usize, sight| sights[k - from] = sight;
-        with_vectors_or(
-            (range, each),
+        with_vectors(
             #[inline(always)]
-            |(range, each)| propagator.run::<Inlined>(mode, state, range, each),
-            |(range, each)| propagator.run::<Called>(mode, state, range, each),
+            || propagator.run(mode, state, range, |k, sight| sights[k - from] = sight),
         )
     }
 
@@ -212,7 +209,9 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// One step of a model where no time counts.
+/// One step of a model where no time counts: whoever calls [`Model::step`] has the whole model with all effects compiled into it, a quarter
+/// of a megabyte.
+#[inline(never)]
 pub fn step(model: &Model<f64>, state: &mut State<f64>, command: f64, open: bool) {
-    <Called as Steps<f64>>::free(model, state, command, open);
+    model.step(state, command, open);
 }
