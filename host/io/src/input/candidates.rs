@@ -235,10 +235,8 @@ impl Finder<'_> {
             return;
         }
         let best = self.best(&|one| {
-            let facts = Channel::Time.facts();
-            facts
-                .called(&one.column.name)
-                .filter(|_| one.may_be(Channel::Time))
+            let plausible = one.may_be(Channel::Time);
+            plausible.then(|| Channel::Time.facts().called(&one.column.name))?
         });
         if let Some((at, how)) = best {
             self.take(at, Channel::Time, how, "its name, and it rises");
@@ -258,22 +256,15 @@ impl Finder<'_> {
 
     /// The command and the angle, and the kind of drive that they tell.
     fn command_and_angle(&mut self) -> Option<DriveKind> {
-        let angle = |one: &Named<'_>| {
-            let own = Channel::Angle.facts().called(&one.name);
-            own.filter(|(how, _)| {
-                (*how > Match::Nearly || !is_another(Channel::Angle, &one.column.name))
-                    && speed_unit(&one.column.name).is_none()
-                    && one.may_be(Channel::Angle)
-            })
+        let by_name = |one: &Named<'_>, channel: Channel| {
+            if !one.may_be(channel) || speed_unit(&one.column.name).is_some() {
+                return None;
+            }
+            let own = channel.facts().called(&one.name);
+            own.filter(|(how, _)| *how > Match::Nearly || !is_another(channel, &one.column.name))
         };
-        let volts = |one: &Named<'_>| {
-            let own = Channel::Command.facts().called(&one.name);
-            own.filter(|(how, _)| {
-                (*how > Match::Nearly || !is_another(Channel::Command, &one.column.name))
-                    && speed_unit(&one.column.name).is_none()
-                    && one.may_be(Channel::Command)
-            })
-        };
+        let angle = |one: &Named<'_>| by_name(one, Channel::Angle);
+        let volts = |one: &Named<'_>| by_name(one, Channel::Command);
         let mut kind = None;
         if !self.has(Channel::Command)
             && self.kind == DriveKind::Voltage
@@ -369,10 +360,13 @@ impl Finder<'_> {
             .filter(|at| !self.taken.contains(at))
             .filter(|at| {
                 let one = &self.named[*at];
-                let known = Channel::ALL.into_iter().any(|channel| {
-                    channel != Channel::Angle && channel.facts().called(&one.column.name).is_some()
-                });
-                !known && one.may_be(Channel::Angle)
+                let is_known = || {
+                    Channel::ALL.into_iter().any(|channel| {
+                        channel != Channel::Angle
+                            && channel.facts().called(&one.column.name).is_some()
+                    })
+                };
+                one.may_be(Channel::Angle) && !is_known()
             })
             .collect();
         if let [only] = moving[..] {
@@ -407,8 +401,11 @@ impl Finder<'_> {
             let best = self.best(&|one| {
                 let plausible = one.may_be(channel);
                 let joined_without_time = one.name != one.column.name && one.column.is_time;
+                if !plausible || joined_without_time {
+                    return None;
+                }
                 let own = channel.facts().called(&one.column.name);
-                own.filter(|(how, _)| *how >= Match::Part && plausible && !joined_without_time)
+                own.filter(|(how, _)| *how >= Match::Part)
             });
             if let Some((at, how)) = best {
                 self.take(at, channel, how, "its name");
@@ -430,8 +427,8 @@ impl Finder<'_> {
                 let named = &self.named[*at];
                 !self.taken.contains(at)
                     && own.is_some()
-                    && facts.called(&named.name) == own
                     && named.may_be(one.channel)
+                    && facts.called(&named.name) == own
             });
             if let Some(rival) = rival {
                 doubts.push(format!(

@@ -58,58 +58,77 @@ pub(super) fn parts(name: &str) -> Vec<String> {
     parts.iter().map(|part| folded(part)).collect()
 }
 
-/// A long word may stand anywhere in a name, one of two or three letters must be a part of it, and a single letter the first one.
-pub(super) fn is_called(name: &str, word: &str) -> bool {
-    match word.len() {
-        0 => false,
-        1 => parts(name).first().is_some_and(|first| first == word),
-        2 | 3 => parts(name).iter().any(|part| part == word),
-        _ => folded(name).contains(word) || parts(name).join("_").contains(word),
+/// A name as words are looked for in it: folded and cut once, however many they are.
+pub(super) struct Spelling {
+    folded: String,
+    parts: Vec<String>,
+    joined: String,
+}
+
+impl Spelling {
+    pub(super) fn of(name: &str) -> Self {
+        let parts = parts(name);
+        Spelling {
+            folded: folded(name),
+            joined: parts.join("_"),
+            parts,
+        }
     }
-}
 
-/// Whether one of these words is a part of a name, or a long one stands in it.
-pub(super) fn speaks_of(name: &str, words: &[&str]) -> bool {
-    let long = |word: &&&str| word.len() >= LONG;
-    has_part(name, words)
-        || words
-            .iter()
-            .filter(long)
-            .any(|word| folded(name).contains(word))
-}
+    /// Its parts with one mark between them.
+    pub(super) fn joined(&self) -> &str {
+        &self.joined
+    }
 
-/// Whether one of these words is a part of a name.
-pub(super) fn has_part(name: &str, words: &[&str]) -> bool {
-    parts(name)
-        .iter()
-        .any(|part| words.contains(&part.as_str()))
+    /// A long word may stand anywhere in a name, one of two or three letters must be a part of it, and a single letter the first one.
+    fn is_called(&self, word: &str) -> bool {
+        match word.len() {
+            0 => false,
+            1 => self.parts.first().is_some_and(|first| first == word),
+            2 | 3 => self.has_part(&[word]),
+            _ => self.folded.contains(word) || self.joined.contains(word),
+        }
+    }
+
+    /// Whether one of these words is a part of a name, or a long one stands in it.
+    fn speaks_of(&self, words: &[&str]) -> bool {
+        let mut long = words.iter().filter(|word| word.len() >= LONG);
+        self.has_part(words) || long.any(|word| self.folded.contains(word))
+    }
+
+    /// Whether one of these words is a part of a name.
+    pub(super) fn has_part(&self, words: &[&str]) -> bool {
+        self.parts.iter().any(|part| words.contains(&part.as_str()))
+    }
+
+    /// How surely a name means one of these words and none of the others, and the place of the word: of several the likeliest.
+    pub(super) fn called(&self, words: &[&str], others: &[&str]) -> Option<(Match, usize)> {
+        if self.speaks_of(others) {
+            return None;
+        }
+        let whole = self.folded.trim();
+        let place = |is: &dyn Fn(&str) -> bool| words.iter().position(|word| is(word));
+        let found = place(&|word| whole == word).map(|place| (Match::Whole, place));
+        found.or_else(|| place(&|word| self.is_called(word)).map(|place| (Match::Part, place)))
+    }
 }
 
 impl Facts {
     /// How surely a name means this quantity, and the place of the word that says so: of several the likeliest.
     pub(super) fn called(&self, name: &str) -> Option<(Match, usize)> {
-        if speaks_of(name, self.others) {
+        let spelling = Spelling::of(name);
+        if spelling.speaks_of(self.others) {
             return None;
         }
-        let whole = folded(name.trim());
-        let place = |is: &dyn Fn(&str) -> bool| self.words.iter().position(|word| is(word));
-        if let Some(place) = place(&|word| whole == word) {
-            return Some((Match::Whole, place));
-        }
-        if let Some(place) = place(&|word| is_called(name, word)) {
-            return Some((Match::Part, place));
-        }
-        let nearly = match whole.len() {
-            0 | 1 => false,
-            2 => self
-                .words
-                .iter()
-                .any(|word| word.len() == 1 && whole.starts_with(word)),
-            _ => {
-                let long = self.words.iter().copied().filter(|word| word.len() > 2);
-                nearest(&whole, long).is_some()
-            }
-        };
-        nearly.then_some((Match::Nearly, self.words.len()))
+        spelling.called(self.words, &[]).or_else(|| {
+            let whole = spelling.folded.trim();
+            let mut words = self.words.iter().copied();
+            let nearly = match whole.len() {
+                0 | 1 => false,
+                2 => words.any(|word| word.len() == 1 && whole.starts_with(word)),
+                _ => nearest(whole, words.filter(|word| word.len() > 2)).is_some(),
+            };
+            nearly.then_some((Match::Nearly, self.words.len()))
+        })
     }
 }

@@ -1,7 +1,7 @@
 //! What a name says beside the words of its channel: whether it is of a speed, of a target, of a commanded current, and the unit that it
 //! has in brackets.
 
-use super::names::{Match, has_part, is_called, parts, speaks_of};
+use super::names::{Match, Spelling};
 use super::units_told::unit_of;
 use crate::channel::Channel;
 
@@ -109,53 +109,46 @@ const NO_CURRENTS: &[&str] = &[
     "limit", "max", "bus", "supply", "battery", "measured", "meas", "actual", "mos",
 ];
 
-/// How surely a name means one of these words, and which.
-fn called(name: &str, words: &[&str], others: &[&str]) -> Option<(Match, usize)> {
-    if speaks_of(name, others) {
-        return None;
-    }
-    let whole = super::names::folded(name.trim());
-    let place = |is: &dyn Fn(&str) -> bool| words.iter().position(|word| is(word));
-    let found = place(&|word| whole == word).map(|place| (Match::Whole, place));
-    found.or_else(|| place(&|word| is_called(name, word)).map(|place| (Match::Part, place)))
-}
-
 /// How surely a name means the target of a position loop.
 pub(super) fn target(name: &str) -> Option<(Match, usize)> {
-    called(name, TARGETS, NO_TARGETS).filter(|_| speed_unit(name).is_none())
+    Spelling::of(name)
+        .called(TARGETS, NO_TARGETS)
+        .filter(|_| speed_unit(name).is_none())
 }
 
 /// How surely a name means what a current loop is told.
 pub(super) fn commanded_current(name: &str) -> Option<(Match, usize)> {
-    called(name, CURRENTS, NO_CURRENTS)
+    Spelling::of(name).called(CURRENTS, NO_CURRENTS)
 }
 
 /// How surely a name means a measured speed.
 pub(super) fn speed(name: &str) -> Option<(Match, usize)> {
     let wanted = crate::channel::WANTED;
-    called(name, SPEEDS, wanted).or_else(|| {
-        let told = speed_unit(name).filter(|_| !has_part(name, wanted));
+    let spelling = Spelling::of(name);
+    spelling.called(SPEEDS, wanted).or_else(|| {
+        let told = speed_unit(name).filter(|_| !spelling.has_part(wanted));
         told.map(|_| (Match::Part, SPEEDS.len()))
     })
 }
 
 /// Whether a name means a speed that is wanted of a speed loop.
 pub(super) fn is_speed_setpoint(name: &str) -> bool {
-    let of_speed = called(name, SPEEDS, &[]).is_some() || speed_unit(name).is_some();
-    of_speed && has_part(name, crate::channel::WANTED)
+    let spelling = Spelling::of(name);
+    let is_wanted = spelling.has_part(crate::channel::WANTED);
+    is_wanted && (spelling.called(SPEEDS, &[]).is_some() || speed_unit(name).is_some())
 }
 
 /// The unit of a speed that a name ends with, or has in brackets.
 pub(super) fn speed_unit(name: &str) -> Option<&'static str> {
-    let plain = parts(name).join("_");
+    let spelling = Spelling::of(name);
     let mut ends = SPEED_ENDS.iter();
     let by_end = ends.find(|(end, _)| {
-        let rest = plain.strip_suffix(end);
+        let rest = spelling.joined().strip_suffix(end);
         rest.is_some_and(|rest| rest.is_empty() || rest.ends_with('_'))
     });
     let anywhere = || {
         let mut units = SPEED_UNITS.iter();
-        units.find(|(word, _)| has_part(name, &[word]))
+        units.find(|(word, _)| spelling.has_part(&[word]))
     };
     by_end.or_else(anywhere).map(|(_, unit)| *unit).or_else(|| {
         let unit = unit_of(Channel::Angle, bracketed(name)?)?;

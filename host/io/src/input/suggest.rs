@@ -15,7 +15,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     for candidate in candidates {
         let candidate_name = folded(candidate);
         // Two letters that are exchanged make a short word another one.
-        let slip = name.len() > 2 && strsim::osa_distance(&name, &candidate_name) == 1;
+        let is_near = name.len().abs_diff(candidate_name.len()) <= 4;
+        let slip = name.len() > 2 && is_near && strsim::osa_distance(&name, &candidate_name) == 1;
         let least = if slip { LEAST_SIMILARITY } else { 0.0 };
         let score = strsim::jaro_winkler(&name, &candidate_name).max(least);
         if score > best_score || (best.is_none() && score >= best_score) {
