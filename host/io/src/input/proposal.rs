@@ -100,7 +100,9 @@ impl Proposal {
     fn take(&mut self, best: Candidates, tables: &[SurveyTable]) {
         let known = self.motor.clone();
         let said = |channel| known.columns.get(channel).is_some();
-        if let Some(kind) = best.kind.filter(|kind| *kind != known.drive_kind()) {
+        if let Some(kind) =
+            (best.kind).filter(|kind| !known.drive_said && *kind != known.drive_kind())
+        {
             self.drive = true;
             match kind {
                 DriveKind::Current => self.motor.drive = Drive::Current,
