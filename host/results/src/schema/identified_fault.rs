@@ -46,7 +46,7 @@ pub enum ResultFault {
     )]
     Missing(&'static str),
     /// A drive that nobody knows.
-    #[error(": drive is `{0}`, needed is `voltage` or `current`")]
+    #[error(": drive is `{0}`, needed is `voltage`, `current` or `torque`")]
     Drive(String),
     /// A parameter whose name is none.
     #[error(
