@@ -124,9 +124,12 @@ pub(super) fn looked_at(path: &Path, name: &str, asked: &Asked) -> Result<Looked
         .map(|need| need.text.as_str())
         .collect();
     let log = &proposal.motor.log;
+    // The dialog is headed by the file's name.
+    let own = format!("{}: ", path.display());
+    let notes = found.notes.iter().map(|note| note.replace(&own, ""));
     let told = json!({
         "format": found.format,
-        "notes": found.notes,
+        "notes": notes.collect::<Vec<_>>(),
         "tables": found.tables.iter().take(TABLES).map(table).collect::<Vec<_>>(),
         "proposal": {
             "columns": columns,

@@ -128,7 +128,7 @@ function fill(log) {
     : tables.find((table) => table.name === best)?.columns ?? [];
   at("presets").replaceChildren(
     choice("map-drive", "Drive", log.drives.map(({ name, title }) => [name, title]), proposal.drive),
-    choice("map-preset", "Written by", [["", "nobody that is known"], ...log.presets.map(({ name }) => [name, name])], proposal.preset ?? ""),
+    choice("map-preset", "Written by", [["", "an unknown program"], ...log.presets.map(({ name }) => [name, name])], proposal.preset ?? ""),
     ...(tables.length > 1 && !joined ? [choice("map-table", "Tables", [["", "all that have these columns"], ...tables.map(({ name }) => [name, name])], "")] : []),
   );
   const heads = ["Quantity", "Column", "Unit", "First rows", "Guessed from"];
