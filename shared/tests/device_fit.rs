@@ -9,6 +9,7 @@ use shared::rng;
 use shared::scalar::{Angle, Fixed, Readable, Scalar};
 use shared::trace::{DUTY, Trace};
 use shared::units::PerUnit;
+use testing::motion::Steps;
 
 const PERIODS: usize = 2_000;
 
@@ -80,7 +81,7 @@ impl Recorded {
         let mut state = State::at(<f64 as Scalar>::Angle::from_counts(0.37), 0.0);
         let mut before = 0;
         let steps = duties.iter().map(|&duty| {
-            model.step(&mut state, f64::from(duty) * DUTY, false);
+            f64::step(&model, &mut state, f64::from(duty) * DUTY, false);
             let count = Readable::<f64>::floor(model.reading(&state));
             let step = count - before;
             before = count;

@@ -6,8 +6,9 @@ use shared::effects::{EffectSet, Kind};
 use shared::model::{Increments, Model, Motion, Plan, Rigid, RigidPlan, State};
 use shared::motor::Machine;
 use shared::rng::{self, Generator};
-use shared::scalar::{Fixed, Scalar};
+use shared::scalar::Fixed;
 use shared::units::PerUnit;
+use testing::motion::Steps;
 
 /// Seed of the first case; the others count on from here.
 const SEED: u64 = 20_261_122;
@@ -91,14 +92,8 @@ fn drive(rng: &mut Generator) -> Vec<(f64, bool)> {
         .collect()
 }
 
-/// The plain step, compiled once for each format and not at every call: with all effects inlined it is most of this file's build.
-#[inline(never)]
-fn plain_step<S: Scalar>(model: &Model<S>, state: &mut State<S>, command: S, open: bool) {
-    model.step(state, command, open);
-}
-
 /// Runs a model by the plain step, and by the fast form wherever there is one; returns how many steps that took.
-fn constant_force_is_the_step<S: Scalar>(
+fn constant_force_is_the_step<S: Steps>(
     plan: &Plan<f64>,
     drive: &[(f64, bool)],
     case: &str,
@@ -111,7 +106,7 @@ fn constant_force_is_the_step<S: Scalar>(
     let mut fast_steps = 0;
     for (k, &(command, open)) in drive.iter().enumerate() {
         let command = S::from_f64(command);
-        plain_step(&model, &mut plain, command, open);
+        S::step(&model, &mut plain, command, open);
         let fast = model.constant_force(&state).filter(|_| !open);
         let next = fast.and_then(|mut fast| {
             fast.set_command(command);
@@ -123,7 +118,7 @@ fn constant_force_is_the_step<S: Scalar>(
                 fast.store(&mut state, motion);
                 fast_steps += 1;
             }
-            None => plain_step(&model, &mut state, command, open),
+            None => S::step(&model, &mut state, command, open),
         }
         assert_eq!(bits(plain.motion), bits(state.motion), "step {k} of {case}");
     }
@@ -165,7 +160,7 @@ fn constant_force_is_the_step_with_every_effect() {
 }
 
 /// The rigid motor knows Coulomb friction and a load. It has the step's maps, and its own event location.
-fn rigid_is_the_step<S: Scalar<Mask = bool>>(
+fn rigid_is_the_step<S: Steps<Mask = bool>>(
     plan: &RigidPlan<f64>,
     drive: &[(f64, bool)],
     case: &str,
@@ -185,7 +180,7 @@ fn rigid_is_the_step<S: Scalar<Mask = bool>>(
     let (mut state, mut motion) = (State::<S>::default(), Motion::<S>::default());
     for (k, &(command, open)) in drive.iter().enumerate() {
         let command = S::from_f64(command);
-        plain_step(model, &mut state, command, open);
+        S::step(model, &mut state, command, open);
         rigid.step(&mut motion, command, open);
         // The twist and the slip of a load, which it has not, stay at rest.
         let of = |motion: &Motion<S>| bits((motion.current, motion.speed, motion.angle));
@@ -250,7 +245,7 @@ fn increments_are_the_step() {
             let (current, speed, command) = (signed(), signed(), signed());
             let mut state = State::<f64>::at(0.0, speed);
             state.motion.current = current;
-            plain_step(model, &mut state, command, false);
+            f64::step(model, &mut state, command, false);
             let sum = |row: [f64; 2], by_command: f64| {
                 row[0] * current + row[1] * speed + by_command * command
             };

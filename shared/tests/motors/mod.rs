@@ -4,8 +4,9 @@ use shared::effects::{EffectSet, Kind};
 use shared::excite::Command;
 use shared::model::{Model, Plan, State};
 use shared::motor::Physical;
-use shared::scalar::{ErrorValue, Readable, Real, Scalar};
+use shared::scalar::{ErrorValue, Readable, Real};
 use shared::units::PerUnit;
+use testing::motion::Steps;
 
 /// Sample interval, s.
 pub const INTERVAL: f64 = 1e-3;
@@ -92,13 +93,18 @@ impl Bench {
 }
 
 /// Angle in counts after each sample.
-pub fn run<S: Scalar<Angle: Readable<S>>>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
+pub fn run<S: Steps>(plan: &Plan<f64>, drive: &[Command<f64>]) -> Vec<f64> {
     let model = Model::<S>::new(plan).expect("a valid model");
     let mut state = State::<S>::default();
     drive
         .iter()
         .map(|command| {
-            model.step(&mut state, S::from_f64(command.drive), !command.enabled);
+            S::step(
+                &model,
+                &mut state,
+                S::from_f64(command.drive),
+                !command.enabled,
+            );
             model.reading(&state).minus(0).to_f64()
         })
         .collect()

@@ -1,11 +1,31 @@
 //! The model in motion, in each number format.
 //!
-//! A test that steps a model has the compiler make the whole model, which takes it up to some minutes: it is made once, here.
+//! A step is the whole model with every effect in it, over which the compiler takes half a minute a format: it is made once, here, and
+//! every test takes its steps by [`Steps`].
 
 use shared::error::ModelError;
 use shared::model::{Model, Plan, State};
 use shared::scalar::{Fixed, Readable, Scalar};
 use shared::units::Quantity;
+
+/// A number format whose step is compiled here.
+pub trait Steps: Scalar<Angle: Readable<Self>> {
+    /// One sample interval of a model, as [`Model::step`].
+    fn step(model: &Model<Self>, state: &mut State<Self>, command: Self, open: bool);
+}
+
+macro_rules! steps {
+    ($($format:ty),*) => {$(
+        impl Steps for $format {
+            #[inline(never)]
+            fn step(model: &Model<Self>, state: &mut State<Self>, command: Self, open: bool) {
+                model.step(state, command, open);
+            }
+        }
+    )*};
+}
+
+steps!(f64, f32, Fixed);
 
 /// What a model does.
 pub struct Motion {
@@ -30,7 +50,7 @@ pub fn exact(
         speeds: vec![state.motion.speed],
     };
     for &(command, open) in commands {
-        model.step(&mut state, command, open);
+        f64::step(&model, &mut state, command, open);
         motion.readings.push(model.reading(&state));
         motion.speeds.push(state.motion.speed);
     }
@@ -51,7 +71,7 @@ pub fn warmed(
     let after = |k: usize| {
         let (command, celsius) = at(k);
         state.temperature = plan.units.lower(celsius, Quantity::Temperature);
-        model.step(&mut state, command, false);
+        f64::step(&model, &mut state, command, false);
         model.reading(&state)
     };
     Ok((0..samples).map(after).collect())
@@ -73,14 +93,11 @@ pub fn fixed(plan: &Plan<f64>, commands: &[f64]) -> Result<Vec<i32>, ModelError>
     counts::<Fixed>(plan, commands)
 }
 
-fn counts<S: Scalar<Angle: Readable<S>>>(
-    plan: &Plan<f64>,
-    commands: &[f64],
-) -> Result<Vec<i32>, ModelError> {
+fn counts<S: Steps>(plan: &Plan<f64>, commands: &[f64]) -> Result<Vec<i32>, ModelError> {
     let model = Model::<S>::new(plan)?;
     let mut state = State::default();
     let after = |&command: &f64| {
-        model.step(&mut state, S::from_f64(command), false);
+        S::step(&model, &mut state, S::from_f64(command), false);
         model.reading(&state).floor()
     };
     Ok(commands.iter().map(after).collect())

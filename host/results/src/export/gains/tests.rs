@@ -9,6 +9,7 @@ use shared::effects::Kind;
 use shared::model::{Model, Plan, State};
 use shared::rng;
 use shared::units::PerUnit;
+use testing::motion::Steps;
 
 const DRAWS: usize = 30;
 
@@ -71,7 +72,7 @@ fn simulated(subject: &Subject, loops: &[&Section], ohm: f64, period: f64, omega
             wanted = kp * error + *memory;
             *memory += ki * period * error;
         }
-        model.step(&mut state, command, false);
+        f64::step(&model, &mut state, command, false);
         command = wanted;
         if k >= settled {
             ss += sine * sine;
