@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use testing::length::{fuzzed, many_minutes, setting};
+use testing::length::{cases, fuzzed, setting};
 
 const SEED: u64 = 0x5e70_1d0a;
 /// For one file of some kilobytes, on a busy machine.
@@ -178,7 +178,7 @@ impl Law<'_> {
 /// The law for all fixtures of a format; those of a `dataset` are files of one log.
 fn holds(format: &str, dataset: bool) {
     let seed = setting("SERVOID_SEED").unwrap_or(SEED);
-    let count = fuzzed(many_minutes(2_000, 400));
+    let count = fuzzed(cases(2_000, 400));
     let from = fixture(format);
     let found = files(&from);
     let contents: Vec<Vec<u8>> = found.iter().map(|p| std::fs::read(p).unwrap()).collect();

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use servoid_plant::{Machine, PRESETS};
+use testing::length::has_its_turn;
 
 use crate::contract::{is_fit, number, parameter};
 use crate::desk::Desk;
@@ -33,9 +34,12 @@ fn truth(machine: &Machine) -> [(&'static str, f64); 2] {
 
 #[test]
 fn every_machine_is_identified_down_to_the_quantiser() {
-    for name in PRESETS {
+    for (m, name) in PRESETS.iter().enumerate() {
         let machine = Machine::preset(name).expect("a preset");
-        for (fitted, held_out) in RECORDINGS {
+        for (r, (fitted, held_out)) in RECORDINGS.iter().enumerate() {
+            if !has_its_turn(m + r, PRESETS.len()) {
+                continue;
+            }
             let desk = Desk::new();
             desk.done(&format!("simulate --machine {name} {fitted} --out rec.csv"));
             desk.done(&format!(

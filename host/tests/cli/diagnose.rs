@@ -212,7 +212,7 @@ const RAMPS: [f64; 6] = [0.098, 0.099, 0.1, 0.101, 0.103, 0.105];
 /// third would be worse than it was.
 #[test]
 fn on_slow_ramps_friction_and_a_dead_zone_stand_beside_each_other() {
-    let ramps = testing::length::many_minutes(RAMPS.len(), 3);
+    let ramps = testing::length::cases(RAMPS.len(), 3);
     let (mut both, mut explained, mut seen) = (0, 0, Vec::new());
     for effect in ["coulomb", "dead_zone"] {
         for ramp in &RAMPS[..ramps] {

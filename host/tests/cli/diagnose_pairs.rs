@@ -110,9 +110,9 @@ fn a_stuck_encoder_is_said_of_either_recording() {
         }
     });
     for line in [
-        "diagnose rec.csv --validate stuck.csv",
-        "diagnose stuck.csv --validate rec.csv",
-        "diagnose stuck.csv",
+        "diagnose rec.csv --validate stuck.csv --budget 1",
+        "diagnose stuck.csv --validate rec.csv --budget 1",
+        "diagnose stuck.csv --budget 1",
     ] {
         let said = unfolded(&desk.run(line).to_string());
         for word in [

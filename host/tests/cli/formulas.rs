@@ -41,12 +41,13 @@ fn parameter(fit: &Value, name: &str) -> f64 {
 
 #[test]
 fn a_law_that_is_hidden_is_found_again_by_its_text_and_read_from_its_result() {
-    for (law, known) in [
+    let laws = [
         (FALLING, &[("dry.c", 0.8), ("dry.ws", 40.0)][..]),
         (DRAG, &[("drag.c", 1.2), ("drag.p", 0.5)][..]),
         (CRANK, &[("crank.a", 0.2), ("crank.f", 0.7)][..]),
         (AGEING, &[("ageing.c", 1.5), ("ageing.t0", 5.0)][..]),
-    ] {
+    ];
+    for (law, known) in laws.into_iter().take(testing::length::cases(laws.len(), 2)) {
         let desk = Desk::new();
         recorded(&desk, law, 8);
         let law = tight(law);

@@ -5,12 +5,12 @@ use crate::contract::{has, list};
 use crate::desk::Desk;
 use crate::width::fits_a_terminal;
 use serde_json::Value;
-use testing::length::many_minutes;
+use testing::length::cases;
 
 const CASES: &str = "prove --hidden none --cases 2";
 
 /// The lines of a file of cases, without what differs from run to run.
-fn cases(desk: &Desk, name: &str) -> Vec<Value> {
+fn lines(desk: &Desk, name: &str) -> Vec<Value> {
     let text = desk.read(name);
     let lines = text.lines().skip(1);
     let mut cases: Vec<Value> = lines
@@ -44,10 +44,10 @@ fn shards_and_a_cut_file_come_to_the_same_as_the_whole() {
     desk.write("cut.jsonl", &text[..text.len() - 20]);
     let resumed = timeless(desk.json(&format!("{CASES} --resume cut.jsonl")));
     assert_eq!(resumed, whole);
-    assert_eq!(cases(&desk, "cut.jsonl"), cases(&desk, "whole.jsonl"));
+    assert_eq!(lines(&desk, "cut.jsonl"), lines(&desk, "whole.jsonl"));
     let again = desk.done("prove --hidden none --only 1 --out one.jsonl");
     assert!(again.stdout.contains("1 case of seed 1"), "{again}");
-    assert_eq!(cases(&desk, "one.jsonl"), cases(&desk, "whole.jsonl")[1..]);
+    assert_eq!(lines(&desk, "one.jsonl"), lines(&desk, "whole.jsonl")[1..]);
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn the_table_says_what_was_proved() {
     let share = &list(group, "shares")[0];
     has(share, "name: text, count: number, of: number, rate: object");
     has(
-        &cases(&desk, "p.jsonl")[0],
+        &lines(&desk, "p.jsonl")[0],
         "seed: number, case: number, redrawn: number, motor: object, hidden: list, \
          counts_per_rev: number, excitation: text, amplitude: number, base: object, \
          detectable: flag, named: list, verdict: text, last: object, parameters: list, \
@@ -147,8 +147,8 @@ const SPREAD: f64 = 1.6;
 #[test]
 fn stated_intervals_hold_the_truth_as_often_as_they_say() {
     let desk = Desk::new();
-    let effects = many_minutes("coulomb windage delay offset_voltage", "coulomb");
-    for what in [String::new(), format!("--effect {effects}")] {
+    let runs = ["", "--effect coulomb windage delay offset_voltage"];
+    for what in &runs[..cases(runs.len(), 1)] {
         let line = format!("prove --coverage --cases 30 --seed 20261125 --json c.json {what}");
         let outcome = desk.done(&line);
         println!("{outcome}");

@@ -5,7 +5,7 @@ use servoid_identify::diagnose::{Budget, diagnose};
 use servoid_identify::fit::Options;
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
-use testing::length::{cases, long_minutes, many_minutes};
+use testing::length::{cases, is_long};
 
 const SEED: u64 = 20_261_121;
 const CASES: u64 = 8;
@@ -50,7 +50,7 @@ fn cogging_is_named_beside_another_effect() {
     };
     let stop = AtomicBool::new(false);
     let (mut pairs, mut both, mut foreign) = (0, 0, 0);
-    for number in 0..many_minutes(PAIRS, 1) {
+    for number in 0..cases(PAIRS, 1) {
         let case = Case::record(&set_up, number).unwrap();
         if !case
             .drawn
@@ -90,8 +90,8 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
     let set_up = hiding("cogging");
     let stop = AtomicBool::new(false);
     let (mut chaotic, mut followed) = (0, 0);
-    let many = many_minutes(CHAOTIC_CASES, 1);
-    let first = if long_minutes() { 0 } else { FOLLOWED_CASE };
+    let many = cases(CHAOTIC_CASES, 1);
+    let first = if is_long() { 0 } else { FOLLOWED_CASE };
     for number in first..first + many {
         let case = Case::record(&set_up, number).unwrap();
         let (options, budget) = (Options::default(), Budget::usual(&stop));
@@ -108,7 +108,7 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
         }
     }
     println!("{followed} of {chaotic}");
-    assert!(chaotic >= if long_minutes() { 3 } else { 1 }, "{chaotic}");
+    assert!(chaotic >= if is_long() { 3 } else { 1 }, "{chaotic}");
     assert!(most(followed, chaotic), "{followed} of {chaotic}");
 }
 

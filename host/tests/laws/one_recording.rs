@@ -5,7 +5,7 @@ use servoid_identify::{Silent, diagnose};
 use servoid_io::showcase;
 use servoid_plant::Hidden;
 use shared::effects::Kind;
-use testing::length::many_minutes;
+use testing::length::cases;
 
 /// Missing counts are named, and leave more than the encoder's own error.
 const LEAVES_MORE: &str = "missed_counts";
@@ -13,7 +13,7 @@ const LEAVES_MORE: &str = "missed_counts";
 #[test]
 fn an_effect_of_typical_size_is_named_whatever_the_held_out_end_begins_with() {
     let mut missed = Vec::new();
-    for seed in 1..=many_minutes(2, 1) {
+    for seed in 1..=cases(2, 1) {
         for effect in Kind::ALL
             .iter()
             .map(|kind| kind.name())

@@ -1,20 +1,28 @@
 //! How much of a long law is tried.
 //!
-//! Laws over many seeds are tried over all of them where `SERVOID_LONG` is 1, which `scripts/test --require-all` sets, and those that
-//! then take minutes where it is 2, which `--long` sets. Otherwise they are tried over the first few, and that is said.
+//! Laws over many seeds, machines or effects are tried over the first few, or over a part that takes each of them in turn, and that is
+//! said. Where `SERVOID_LONG` is set, which `scripts/test --long` does, they are tried over all.
 
 use crate::left_out::note;
 
 /// How many of `all` cases are tried: all of them, or the first `few`.
 #[must_use]
 pub fn cases<N: std::fmt::Display>(all: N, few: N) -> N {
-    tried(level() >= 1, all, few)
+    if is_long() {
+        return all;
+    }
+    note("SHORT", &format!("{few} of {all} cases"));
+    few
 }
 
-/// The same of laws that take minutes.
+/// Whether the case with this number is tried: each, or one of so many. Where the number is a sum of two places, as that of a machine and
+/// that of an effect, each of either has its turn.
 #[must_use]
-pub fn many_minutes<N: std::fmt::Display>(all: N, few: N) -> N {
-    tried(long_minutes(), all, few)
+pub fn has_its_turn(number: usize, of: usize) -> bool {
+    if !is_long() && number == 0 {
+        note("SHORT", &format!("one of {of} cases"));
+    }
+    is_long() || number.is_multiple_of(of)
 }
 
 /// How many inputs a law tries that may be tried with any number of them: `SERVOID_CASES`, or as many as is `usual`.
@@ -29,20 +37,8 @@ pub fn setting<N: std::str::FromStr>(name: &str) -> Option<N> {
     std::env::var(name).ok()?.parse().ok()
 }
 
-/// Whether laws that take minutes are tried at full length.
+/// Whether long laws are tried at full length.
 #[must_use]
-pub fn long_minutes() -> bool {
-    level() >= 2
-}
-
-fn level() -> u8 {
-    setting("SERVOID_LONG").unwrap_or(0)
-}
-
-fn tried<N: std::fmt::Display>(whole: bool, all: N, few: N) -> N {
-    if whole {
-        return all;
-    }
-    note("SHORT", &format!("{few} of {all} cases"));
-    few
+pub fn is_long() -> bool {
+    std::env::var_os("SERVOID_LONG").is_some_and(|value| !value.is_empty() && value != "0")
 }

@@ -12,7 +12,7 @@ use servoid_plant::{Bench, DriveSample, Hidden, Machine, PRESETS};
 use shared::effects::Kind;
 use shared::excite::{COMMISSIONING, commands};
 use std::sync::atomic::AtomicBool;
-use testing::length::{cases, many_minutes};
+use testing::length::cases;
 
 const INTERVAL_S: f64 = 1e-3;
 
@@ -126,7 +126,7 @@ fn what_is_lost_is_found_and_nothing_else() {
 #[test]
 fn other_physics_loses_nothing() {
     let mut wrong = Vec::new();
-    let presets = PRESETS.iter().take(many_minutes(PRESETS.len(), 1));
+    let presets = PRESETS.iter().take(cases(PRESETS.len(), 1));
     for (index, name) in presets.enumerate() {
         let machine = Machine::preset(name).unwrap();
         let seed = 77 + index as u64;
