@@ -1,7 +1,8 @@
 //! Rows as real loggers write them: each log below is the same motion with one fault of the kind that loggers have, and gives the same samples
 //! with a remark, or is refused with its line.
 
-use servoid_io::input::{MotorFile, Reading, read_recordings};
+use servoid_io::channel::Channel;
+use servoid_io::input::{MotorFile, Reading, read_recordings, survey};
 use servoid_io::recording::Recording;
 use std::fs;
 
@@ -243,5 +244,88 @@ fn a_german_export_is_read_with_its_preamble_and_units() {
             "{says}: {:?}",
             reading.notes
         );
+    }
+}
+
+/// Headers as people write them; of each the columns of time, command and angle, and the units that `[units]` calls otherwise than usual.
+const HEADERS: &[(&str, [&str; 3], [&str; 3])] = &[
+    (
+        "time,u,theta_rad",
+        ["time", "u", "theta_rad"],
+        ["", "", "rad"],
+    ),
+    (
+        "Timestamp [ms],Duty,Position (deg)",
+        ["Timestamp [ms]", "Duty", "Position (deg)"],
+        ["ms", "duty", "deg"],
+    ),
+    (
+        "t,target_theta,target_alpha,theta,alpha,control_output,feedforward,plant_input,saturation",
+        ["t", "plant_input", "theta"],
+        ["", "", ""],
+    ),
+    (
+        "t_ms,bus_voltage,motor_voltage,pos_ref,pos,iq_current",
+        ["t_ms", "motor_voltage", "pos"],
+        ["ms", "", ""],
+    ),
+    (
+        "millis,pwm,ticks,enable",
+        ["millis", "pwm", "ticks"],
+        ["ms", "duty", ""],
+    ),
+    (
+        "tme_s,voltge_v,angle_count",
+        ["tme_s", "voltge_v", "angle_count"],
+        ["", "", ""],
+    ),
+    (
+        "Zeit [s],Spannung [mV],Winkel [Grad],Strom",
+        ["Zeit [s]", "Spannung [mV]", "Winkel [Grad]"],
+        ["", "mV", "deg"],
+    ),
+    (
+        "temps,tension,position (tr),courant",
+        ["temps", "tension", "position (tr)"],
+        ["", "", "rev"],
+    ),
+    (
+        "tiempo (ms),voltaje,ángulo (grados)",
+        ["tiempo (ms)", "voltaje", "ángulo (grados)"],
+        ["ms", "", "deg"],
+    ),
+    ("时间,电压,角度", ["时间", "电压", "角度"], ["", "", ""]),
+];
+
+#[test]
+fn columns_are_told_by_the_names_that_people_use() {
+    let per = |unit: &str| match unit {
+        "ms" | "mV" => 1e3,
+        "duty" => 1.0 / 12.0,
+        "deg" => 360.0 / COUNTS,
+        "rad" => std::f64::consts::TAU / COUNTS,
+        "rev" => 1.0 / COUNTS,
+        _ => 1.0,
+    };
+    for (header, columns, units) in HEADERS {
+        let text = log(header, |_, t, volts, counts| {
+            let cells = header.split(',').map(|name| {
+                let place = columns.iter().position(|column| *column == name);
+                let value = place.map_or(0.0, |k| [t, volts, counts][k] * per(units[k]));
+                format!("{value:.5}")
+            });
+            cells.collect::<Vec<_>>().join(",")
+        });
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("log.csv");
+        fs::write(&path, text).expect("written");
+        let found = survey(&path, &motor(), None, &|_| ()).expect("a survey");
+        let proposed = [Channel::Time, Channel::Command, Channel::Angle].map(|channel| {
+            let mut all = found.proposal.columns.iter();
+            let one = all.find(|one| one.channel == channel);
+            one.map(|one| (one.column.as_str(), one.unit.unwrap_or_default()))
+        });
+        let wanted = [0, 1, 2].map(|k| Some((columns[k], units[k])));
+        assert_eq!(proposed, wanted, "{header}");
     }
 }

@@ -173,14 +173,14 @@ const BAD_FILES: &[(&str, &str, &str, &[&str])] = &[
         "rec.csv:1: no columns `t_s`, `voltage_v`, `angle_counts`; the header has `t`, `u`, `theta`",
         &[
             "Say in motor.toml",
-            "[columns]\n    time = \"t\"\n    voltage = \"u\"\n    angle = \"theta\"",
+            "[columns]\n    time = \"t\"\n    voltage = \"...\"\n    angle = \"...\"",
         ],
     ),
     (
         "# comment\nt_s,voltage_V,angle_rad\n0,1,0\n",
         "counts_per_rev = 4",
         "rec.csv:2: no column `angle_counts`; the header has `t_s`, `voltage_V`, `angle_rad`",
-        &["angle = \"angle_rad\"", "[units]\n    angle = \"rad\""],
+        &["angle = \"angle_rad\""],
     ),
     (
         "t_s,voltage_v,qn\n0,1,0\n",

@@ -1,7 +1,6 @@
 //! Which column of the file is what: the contract's names, or those of `[columns]`.
 
 use super::finder::{Finder, Wanted};
-use super::guess::{Sought, guess};
 use super::log_part::Selection;
 use super::missing::MissingColumn;
 use super::motor_drive::DriveKind;
@@ -11,6 +10,7 @@ use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
 use super::samples::Further;
 use super::shown::shown;
+use super::suggest::nearest;
 use crate::channel::{Channel, Measured};
 
 /// The columns of one file.
@@ -68,27 +68,24 @@ impl Layout {
             found[k].is_none() && (needed(&wanted[k]) || is_named)
         };
         let absent: Vec<usize> = (0..wanted.len()).filter(|k| is_missing(*k)).collect();
-        let taken: Vec<String> = found
-            .iter()
-            .flatten()
-            .map(|column| column.cell.name.clone())
+        let taken: Vec<&str> = (found.iter().flatten())
+            .map(|column| column.cell.name.as_str())
             .collect();
-        let sought = absent.iter().map(|k| Sought {
-            channel: wanted[*k].channel,
-            called: wanted[*k].mapped,
+        let free = header.iter().map(String::as_str);
+        let free: Vec<&str> = free.filter(|name| !taken.contains(name)).collect();
+        let missing = absent.iter().map(|&k| {
+            let Wanted {
+                channel, mapped, ..
+            } = wanted[k];
+            let sought = mapped.unwrap_or(wanted[k].names[0]);
+            MissingColumn {
+                key: motor.drive_kind().key(channel),
+                wanted: sought.into(),
+                mapped: mapped.is_some(),
+                near: nearest(sought, free.iter().copied()).map(str::to_owned),
+            }
         });
-        let sought: Vec<Sought<'_>> = sought.collect();
-        let near = guess(&header, &sought, motor.drive_kind(), &taken);
-        let missing: Vec<MissingColumn> = absent
-            .iter()
-            .zip(near)
-            .map(|(k, near)| MissingColumn {
-                key: motor.drive_kind().key(wanted[*k].channel),
-                wanted: wanted[*k].mapped.unwrap_or(wanted[*k].names[0]).into(),
-                mapped: wanted[*k].mapped.is_some(),
-                near,
-            })
-            .collect();
+        let missing: Vec<MissingColumn> = missing.collect();
         let mut select = Vec::new();
         for selection in &motor.log.select {
             let column = finder.named(&selection.column)?;

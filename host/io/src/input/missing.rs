@@ -1,6 +1,5 @@
 //! Columns that a recording must have and has not, and how to map them.
 
-use super::guess::Guess;
 use super::proposal::Proposal;
 use super::shown::quoted_list;
 
@@ -13,8 +12,8 @@ pub struct MissingColumn {
     pub wanted: String,
     /// Whether the user's `[columns]` asked for that name.
     pub mapped: bool,
-    /// What the header may have in its place.
-    pub near: Option<Guess>,
+    /// The name in the header that is spelt nearly like it.
+    pub near: Option<String>,
 }
 
 /// What the values of the columns tell of a log that nobody has described.
@@ -75,43 +74,16 @@ pub(super) fn missing_text(
             doubts.join(", and ")
         );
     }
-    text += &format!(". Say in {motor} which is which:\n    [columns]");
-    for column in missing {
-        text += &match &column.near {
-            Some(near) => format!("\n    {} = {:?}", column.key, near.column),
-            None => format!("\n    {} = \"...\"", column.key),
-        };
-    }
-    let units: Vec<String> = missing
-        .iter()
-        .filter_map(|column| {
-            Some(format!(
-                "\n    {} = {:?}",
-                column.key,
-                column.near.as_ref()?.unit?
-            ))
-        })
-        .collect();
-    if !units.is_empty() {
-        text += "\n    [units]";
-        text += &units.concat();
-    }
-    text += "\nor give";
-    for column in missing {
-        text += &match &column.near {
-            Some(Guess { column: near, unit }) => {
-                let unit = unit.map(|unit| format!(" --unit {}={unit}", column.key));
-                let named = format!("{}={near}", column.key);
-                format!(
-                    " --column {}{}",
-                    for_shell(&named),
-                    unit.unwrap_or_default()
-                )
-            }
-            None => format!(" --column {}=...", column.key),
-        };
-    }
-    text
+    let each = missing.iter().map(|column| {
+        let near = column.near.as_deref().unwrap_or("...");
+        let option = for_shell(&format!("{}={near}", column.key));
+        (
+            format!("\n    {} = {near:?}", column.key),
+            format!(" --column {option}"),
+        )
+    });
+    let (lines, options): (String, String) = each.unzip();
+    text + &format!(". Say in {motor} which is which:\n    [columns]{lines}\nor give{options}")
 }
 
 /// A word of a command line, quoted where a shell would take it apart.

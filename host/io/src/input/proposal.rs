@@ -412,7 +412,7 @@ pub(super) fn turns_of(table: &SurveyTable, angle: usize) -> Option<Turns> {
 /// The unit that a name or the file tells of a column.
 pub(super) fn told(channel: Channel, name: &str, unit: Option<&str>) -> Option<&'static str> {
     let by_file = unit.and_then(|unit| units_told::unit_of(channel, unit));
-    by_file.or_else(|| super::guess::told_unit(channel, name))
+    by_file.or_else(|| quantity::told_unit(channel, name))
 }
 
 /// Whether a column may hold a channel: by its values, and by the unit that stands with its name.

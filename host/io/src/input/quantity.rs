@@ -1,7 +1,7 @@
 //! What a name says beside the words of its channel: whether it is of a speed, of a target, of a commanded current, and the unit that it
 //! has in brackets.
 
-use super::names::{Match, Spelling};
+use super::names::{Match, Spelling, parts};
 use super::units_told::unit_of;
 use crate::channel::Channel;
 
@@ -175,6 +175,34 @@ pub(super) fn unit_in(channel: Channel, name: &str) -> Option<&'static str> {
         let (before, _) = name.rsplit_once(['[', '('])?;
         unit_of(channel, before.split_whitespace().last()?)
     })
+}
+
+/// The unit that a name tells, where that is not the usual one.
+pub(super) fn told_unit(channel: Channel, name: &str) -> Option<&'static str> {
+    let usual = match channel {
+        Channel::Time => "s",
+        Channel::Command => "V",
+        Channel::Angle => "counts",
+        Channel::Measured(channel) => channel.facts().units[0].name,
+        Channel::Enabled | Channel::Direction => return None,
+    };
+    unit_in(channel, name)
+        .or_else(|| by_last_part(channel, name))
+        .filter(|unit| *unit != usual)
+}
+
+fn by_last_part(channel: Channel, name: &str) -> Option<&'static str> {
+    let parts = parts(name);
+    let last = parts.last()?;
+    let own = unit_of(channel, last).filter(|_| parts.len() > 1 || last.len() > 1);
+    match channel {
+        // `pwm` and `duty` are names of commands and tell their unit as well.
+        Channel::Command if own.is_none() => {
+            let is = |word: &str| parts.iter().any(|part| part == word);
+            (is("duty") || is("pwm")).then_some("duty")
+        }
+        _ => own,
+    }
 }
 
 /// Whether what a name has in brackets is a unit of another channel, so that it cannot be this one.

@@ -2,10 +2,8 @@
 //! a time, and keeps of them what a drawing shows.
 
 use super::envelope::Envelope;
-use super::guess::{Sought, guess};
 #[cfg(feature = "formats")]
 use super::log_file::{of_format, rows_of};
-use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 #[cfg(feature = "formats")]
 use super::open::log_of;
@@ -225,14 +223,15 @@ fn of_text(
         column.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
     let header: Vec<String> = rows.names().to_vec();
-    let sought = [Sought {
-        channel: Channel::Time,
-        called: motor.columns.get(Channel::Time),
-    }];
-    let time = guess(&header, &sought, DriveKind::Voltage, &[])
-        .pop()
-        .flatten();
-    let time = time.and_then(|time| header.iter().position(|name| *name == time.column));
+    let time = match motor.columns.get(Channel::Time) {
+        Some(said) => header.iter().position(|name| name == said),
+        None => {
+            let called = |name: &String| Channel::Time.facts().called(name);
+            let places = (0..header.len()).filter_map(|k| Some((k, called(&header[k])?)));
+            let best = places.min_by_key(|(_, (how, place))| (std::cmp::Reverse(*how), *place));
+            best.map(|(k, _)| k)
+        }
+    };
     let mut clock = Clock::default();
     while table.rows < most_rows
         && let Some(row) = rows.advance()?
