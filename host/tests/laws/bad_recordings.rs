@@ -173,7 +173,7 @@ const BAD_FILES: &[(&str, &str, &str, &[&str])] = &[
         "rec.csv:1: no columns `t_s`, `voltage_v`, `angle_counts`; the header has `t`, `u`, `theta`",
         &[
             "Say in motor.toml",
-            "[columns]\n    time = \"t\"\n    voltage = \"...\"\n    angle = \"...\"",
+            "[columns]\n    time = \"t\"\n    voltage = \"u\"\n    angle = \"theta\"",
         ],
     ),
     (

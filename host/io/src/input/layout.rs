@@ -6,6 +6,7 @@ use super::missing::MissingColumn;
 use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 use super::place::{Cell, Place};
+use super::quantity::most_like;
 use super::read_error::{ReadError, ReadFault};
 use super::row::Row;
 use super::samples::Further;
@@ -71,21 +72,25 @@ impl Layout {
         let taken: Vec<&str> = (found.iter().flatten())
             .map(|column| column.cell.name.as_str())
             .collect();
-        let free = header.iter().map(String::as_str);
-        let free: Vec<&str> = free.filter(|name| !taken.contains(name)).collect();
-        let missing = absent.iter().map(|&k| {
+        let mut free: Vec<&str> = header.iter().map(String::as_str).collect();
+        free.retain(|name| !name.is_empty() && !taken.contains(name));
+        let kind = motor.drive_kind();
+        let mut missing = Vec::with_capacity(absent.len());
+        for k in absent {
             let Wanted {
                 channel, mapped, ..
             } = wanted[k];
             let sought = mapped.unwrap_or(wanted[k].names[0]);
-            MissingColumn {
-                key: motor.drive_kind().key(channel),
+            let spelt = nearest(sought, free.iter().copied());
+            let near = spelt.or_else(|| most_like(&free, channel, kind));
+            free.retain(|name| Some(*name) != near);
+            missing.push(MissingColumn {
+                key: kind.key(channel),
                 wanted: sought.into(),
                 mapped: mapped.is_some(),
-                near: nearest(sought, free.iter().copied()).map(str::to_owned),
-            }
-        });
-        let missing: Vec<MissingColumn> = missing.collect();
+                near: near.map(str::to_owned),
+            });
+        }
         let mut select = Vec::new();
         for selection in &motor.log.select {
             let column = finder.named(&selection.column)?;

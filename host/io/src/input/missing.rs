@@ -12,7 +12,7 @@ pub struct MissingColumn {
     pub wanted: String,
     /// Whether the user's `[columns]` asked for that name.
     pub mapped: bool,
-    /// The name in the header that is spelt nearly like it.
+    /// The name in the header that is spelt nearly like it, or else means the same.
     pub near: Option<String>,
 }
 

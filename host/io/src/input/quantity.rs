@@ -1,6 +1,7 @@
 //! What a name says beside the words of its channel: whether it is of a speed, of a target, of a commanded current, and the unit that it
 //! has in brackets.
 
+use super::motor_drive::DriveKind;
 use super::names::{Match, Spelling, parts};
 use super::units_told::unit_of;
 use crate::channel::Channel;
@@ -119,6 +120,22 @@ pub(super) fn target(name: &str) -> Option<(Match, usize)> {
 /// How surely a name means what a current loop is told.
 pub(super) fn commanded_current(name: &str) -> Option<(Match, usize)> {
     Spelling::of(name).called(CURRENTS, NO_CURRENTS)
+}
+
+/// Which of these names means a channel of such a drive most surely, by its spelling alone.
+pub(super) fn most_like<'n>(
+    names: &[&'n str],
+    channel: Channel,
+    kind: DriveKind,
+) -> Option<&'n str> {
+    let called = |name: &str| match (channel, kind) {
+        (Channel::Command, DriveKind::Position) => target(name),
+        (Channel::Command, DriveKind::Current) => commanded_current(name),
+        _ => channel.facts().called(name),
+    };
+    let own = names.iter().filter_map(|name| Some((called(name)?, *name)));
+    let best = own.min_by_key(|((how, place), _)| (std::cmp::Reverse(*how), *place));
+    best.map(|(_, name)| name)
 }
 
 /// How surely a name means a measured speed.

@@ -4,6 +4,7 @@
 use super::envelope::Envelope;
 #[cfg(feature = "formats")]
 use super::log_file::{of_format, rows_of};
+use super::motor_drive::DriveKind;
 use super::motor_file::MotorFile;
 #[cfg(feature = "formats")]
 use super::open::log_of;
@@ -12,6 +13,7 @@ use super::part::Part;
 use super::place::Place;
 use super::profile::Profile;
 use super::proposal::Proposal;
+use super::quantity::most_like;
 use super::reached::{ROWS_TO_TELL, Reached};
 use super::read_error::{ReadError, ReadFault};
 use super::text_rows::TextRows;
@@ -223,15 +225,10 @@ fn of_text(
         column.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
     let header: Vec<String> = rows.names().to_vec();
-    let time = match motor.columns.get(Channel::Time) {
-        Some(said) => header.iter().position(|name| name == said),
-        None => {
-            let called = |name: &String| Channel::Time.facts().called(name);
-            let places = (0..header.len()).filter_map(|k| Some((k, called(&header[k])?)));
-            let best = places.min_by_key(|(_, (how, place))| (std::cmp::Reverse(*how), *place));
-            best.map(|(k, _)| k)
-        }
-    };
+    let names: Vec<&str> = header.iter().map(String::as_str).collect();
+    let said = motor.columns.get(Channel::Time);
+    let time = said.or_else(|| most_like(&names, Channel::Time, DriveKind::Voltage));
+    let time = names.iter().position(|name| Some(*name) == time);
     let mut clock = Clock::default();
     while table.rows < most_rows
         && let Some(row) = rows.advance()?
