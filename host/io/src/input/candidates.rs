@@ -35,6 +35,12 @@ impl Named<'_> {
     fn may_be(&self, channel: Channel) -> bool {
         may_be(channel, &self.column.name, &self.column.profile)
     }
+
+    /// How surely its name means a channel that it may hold: the values are looked at first, which costs less.
+    fn called(&self, channel: Channel) -> Option<(Match, usize)> {
+        let called = || channel.facts().called(&self.column.name);
+        self.may_be(channel).then(called).flatten()
+    }
 }
 
 /// The best columns of each table; and of all together, where command and angle stand in different ones.
@@ -234,10 +240,7 @@ impl Finder<'_> {
             }
             return;
         }
-        let best = self.best(&|one| {
-            let plausible = one.may_be(Channel::Time);
-            plausible.then(|| Channel::Time.facts().called(&one.column.name))?
-        });
+        let best = self.best(&|one| one.called(Channel::Time));
         if let Some((at, how)) = best {
             self.take(at, Channel::Time, how, "its name, and it rises");
         }
@@ -248,10 +251,10 @@ impl Finder<'_> {
         self.named.iter().all(|one| one.column.is_number)
             && self.named.iter().all(|one| !one.column.is_time)
             && self.motor.columns.get(Channel::Time).is_none()
-            && !self.named.iter().any(|one| {
-                one.may_be(Channel::Time)
-                    && Channel::Time.facts().called(&one.column.name).is_some()
-            })
+            && !self
+                .named
+                .iter()
+                .any(|one| one.called(Channel::Time).is_some())
     }
 
     /// The command and the angle, and the kind of drive that they tell.
@@ -399,12 +402,8 @@ impl Finder<'_> {
                 continue;
             }
             let best = self.best(&|one| {
-                let plausible = one.may_be(channel);
                 let joined_without_time = one.name != one.column.name && one.column.is_time;
-                if !plausible || joined_without_time {
-                    return None;
-                }
-                let own = channel.facts().called(&one.column.name);
+                let own = one.called(channel).filter(|_| !joined_without_time);
                 own.filter(|(how, _)| *how >= Match::Part)
             });
             if let Some((at, how)) = best {

@@ -224,8 +224,7 @@ fn of_text(
     {
         column.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
-    let header: Vec<String> = rows.names().to_vec();
-    let names: Vec<&str> = header.iter().map(String::as_str).collect();
+    let names: Vec<&str> = rows.names().iter().map(String::as_str).collect();
     let said = motor.columns.get(Channel::Time);
     let time = said.or_else(|| most_like(&names, Channel::Time, DriveKind::Voltage));
     let time = names.iter().position(|name| Some(*name) == time);
