@@ -40,5 +40,5 @@ pub fn setting<N: std::str::FromStr>(name: &str) -> Option<N> {
 /// Whether long laws are tried at full length.
 #[must_use]
 pub fn is_long() -> bool {
-    std::env::var_os("SERVOID_LONG").is_some_and(|value| !value.is_empty() && value != "0")
+    setting::<u8>("SERVOID_LONG").is_some_and(|long| long > 0)
 }
