@@ -207,7 +207,6 @@ fn any_finite() -> impl Strategy<Value = f64> {
     ]
 }
 
-// Each part is boxed: the compiler takes a minute over the nested types of all.
 fn motor_file() -> impl Strategy<Value = MotorFile> {
     let positive = || prop::option::of(prop::num::f64::POSITIVE | prop::num::f64::SUBNORMAL);
     let name = || prop::option::of("[ -~äöü]{0,6}[a-z]");
@@ -238,7 +237,6 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
             columns
         },
     );
-    let columns = columns.boxed();
     let known =
         (fact(), fact(), fact(), fact(), fact(), fact()).prop_map(|(r, l, kt, kb, j, f)| Known {
             resistance_ohm: r,
@@ -249,14 +247,12 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
             viscous_n_m_s: f,
             kt_equals_kb: kt.is_none() || kb.is_none(),
         });
-    let known = known.boxed();
     let numbers = (
         prop::option::of("\\PC*"),
         positive(),
         positive(),
         positive(),
     );
-    let numbers = numbers.boxed();
     let units = (
         0..TimeUnit::ALL.len(),
         0..CommandUnit::ALL.len(),
@@ -265,16 +261,13 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
         0..6usize,
         any::<[bool; 3]>(),
     );
-    let units = units.boxed();
     let log = (
         prop::option::of("[a-z/]{1,8}"),
         positive(),
         prop::collection::vec(("[a-z]{1,5}", "[a-z0-9.]{1,5}"), 0..3),
         prop::option::of((1e-3f64..1e3, 1e-3f64..1e3)),
     );
-    let log = log.boxed();
     let position = prop::option::of((positive(), positive(), positive(), positive(), positive()));
-    let position = position.boxed();
     (numbers, columns, units, position, known, log).prop_map(
         |(
             (name, counts, supply, metres),
