@@ -3,6 +3,7 @@
 use super::propagator::Mode;
 use crate::data::Data;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// How long the model runs before it is set back to the measurement.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,20 @@ pub enum Horizon {
     Windows(Vec<Window>),
     /// An observer pulls it towards the measurement; it forgets an error within so many seconds.
     Observer(f64),
+    /// An observer corrects it at some samples, by gains that were computed before; in between it runs on its own. So the error
+    /// at such a sample, before it is corrected, is an innovation.
+    Corrected(Arc<[Correction]>),
+}
+
+/// What an observer changes at one sample for each count by which the model's encoder angle lies above the measured one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correction {
+    /// The sample.
+    pub sample: usize,
+    /// Taken from the angle, counts a count.
+    pub angle: f64,
+    /// Taken from the speed, per-unit speed a count.
+    pub speed: f64,
 }
 
 /// One window of a [`Horizon`].
@@ -28,9 +43,10 @@ pub struct Window {
 
 impl Horizon {
     /// How a model is propagated along it.
-    pub(crate) fn mode(&self) -> Mode<'static> {
+    pub(crate) fn mode(&self) -> Mode<'_> {
         match self {
             Horizon::Observer(memory_s) => Mode::Observer(*memory_s),
+            Horizon::Corrected(corrections) => Mode::Corrected(corrections),
             Horizon::Whole | Horizon::Windows(_) => Mode::Free,
         }
     }

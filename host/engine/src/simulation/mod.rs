@@ -20,7 +20,7 @@ mod single;
 
 pub use batch::Batch;
 pub use candidate::{Candidate, Method};
-pub use horizon::{Horizon, StartAngle, Window};
+pub use horizon::{Correction, Horizon, StartAngle, Window};
 pub use propagator::{Mode, Number, Propagator};
 pub use response::{Commands, ResponseError, response};
 pub use segment::{Segment, segments, whole};

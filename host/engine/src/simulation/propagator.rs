@@ -1,5 +1,6 @@
 //! The loop over the samples: models run along the data, for one candidate's number or for several in lanes.
 
+use super::horizon::Correction;
 use crate::data::Data;
 use shared::model::{MeasuredInterval, Model, State};
 use shared::scalar::{Mask, Scalar};
@@ -18,6 +19,8 @@ pub enum Mode<'a> {
     /// Observer: output injection pulls it towards the readings with both poles of the error at one over so many
     /// seconds, so that a single event, such as a slipped detent, is forgotten.
     Observer(f64),
+    /// Observer with gains of its own at each of these samples, in rising order; in between only the commands drive it.
+    Corrected(&'a [Correction]),
     /// Series-parallel model: its effects see the measured motion (equation error).
     SeriesParallel {
         /// The measured motion, one entry an interval.
@@ -46,14 +49,18 @@ impl<S: Number> Propagator<'_, S> {
         range: Range<usize>,
         each: impl FnMut(usize, S),
     ) -> State<S> {
-        let memory_s = match mode {
-            Mode::Free => None,
-            Mode::Observer(memory_s) => Some(memory_s),
+        let (memory_s, corrections) = match mode {
+            Mode::Free => (None, &[][..]),
+            Mode::Observer(memory_s) => (Some(memory_s), &[][..]),
+            Mode::Corrected(corrections) => {
+                let passed = corrections.partition_point(|c| c.sample < range.start);
+                (None, &corrections[passed..])
+            }
             Mode::SeriesParallel { seen, turns } => {
                 return self.series_parallel(state, range, seen, turns, each);
             }
         };
-        self.parallel(state, range, memory_s, each)
+        self.parallel(state, range, memory_s, corrections, each)
     }
 
     #[inline(always)]
@@ -71,20 +78,26 @@ impl<S: Number> Propagator<'_, S> {
         S::from_f64(self.data.temperature(k))
     }
 
-    /// Runs as a parallel model, or as an observer where there is a memory.
-    // One loop for both: the whole model is compiled into it.
+    /// Runs as a parallel model, as an observer where there is a memory, or as one that is corrected at some samples.
+    // One loop for all: the whole model is compiled into it.
     #[inline(always)]
     fn parallel(
         &self,
         mut state: State<S>,
         range: Range<usize>,
         memory_s: Option<f64>,
+        mut corrections: &[Correction],
         mut each: impl FnMut(usize, S),
     ) -> State<S> {
         let mut k = range.start;
         while k < range.end {
-            if memory_s.is_none() {
-                k = self.glide(&mut state, k..range.end, &mut each);
+            let (next, rest) = match corrections.split_first() {
+                Some((next, rest)) => (Some(next), rest),
+                None => (None, corrections),
+            };
+            let until = next.map_or(range.end, |next| next.sample.min(range.end));
+            if memory_s.is_none() && k < until {
+                k = self.glide(&mut state, k..until, &mut each);
                 if k == range.end {
                     break;
                 }
@@ -94,6 +107,10 @@ impl<S: Number> Propagator<'_, S> {
             each(k, sight);
             if let Some(memory_s) = memory_s {
                 self.pull(&mut state, k, sight, memory_s);
+            }
+            if let Some(correction) = next.filter(|next| next.sample == k) {
+                self.correct(&mut state, k, sight, correction);
+                corrections = rest;
             }
             state.temperature = self.temperature(k);
             model.step(&mut state, self.command(k), self.data.is_open(k));
@@ -144,8 +161,7 @@ impl<S: Number> Propagator<'_, S> {
         let data = self.data;
         let units = &data.units;
         let per_count = units.interval / (memory_s * units.counts_per_unit());
-        let off =
-            sight - S::from_f64(data.counts[k]) - S::from_f64(data.centre(k) - data.counts[k]);
+        let off = self.off(k, sight);
         // Both poles of the error at one over the memory.
         let share = (data.lengths[data.length_of[k] as usize] * units.interval / memory_s).min(0.5);
         let motion = &mut state.motion;
@@ -155,6 +171,22 @@ impl<S: Number> Propagator<'_, S> {
         let zero = S::zero();
         let moves = motion.speed.less(zero).or(zero.less(motion.speed));
         motion.speed = S::select(moves, pulled, motion.speed);
+    }
+
+    /// Output injection at sample `k` with the gains of a correction.
+    #[inline(always)]
+    fn correct(&self, state: &mut State<S>, k: usize, sight: S, correction: &Correction) {
+        let off = self.off(k, sight);
+        let motion = &mut state.motion;
+        motion.angle = motion.angle - S::from_f64(correction.angle) * off;
+        motion.speed = motion.speed - S::from_f64(correction.speed) * off;
+    }
+
+    /// The model's encoder angle at sample `k`, `sight`, less the measured one, counts.
+    #[inline(always)]
+    fn off(&self, k: usize, sight: S) -> S {
+        let data = self.data;
+        sight - S::from_f64(data.counts[k]) - S::from_f64(data.centre(k) - data.counts[k])
     }
 
     #[inline(always)]

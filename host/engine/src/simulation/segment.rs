@@ -55,7 +55,7 @@ pub fn segments(
         Horizon::Whole => std::iter::once(whole(data, candidate, start_angle))
             .chain(further(data, start_angle))
             .collect(),
-        Horizon::Observer(_) => std::iter::once(Segment {
+        Horizon::Observer(_) | Horizon::Corrected(_) => std::iter::once(Segment {
             angle: data.centre(0),
             ..whole(data, candidate, start_angle)
         })

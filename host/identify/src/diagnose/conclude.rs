@@ -5,7 +5,7 @@ use super::explain::advice::advise;
 use super::hypotheses::{probability_of, probable_sets};
 use super::models::Errors;
 use super::naming::Named;
-use super::outcome::{Diagnosis, Verdict};
+use super::outcome::{Diagnosis, Floor, FloorKind, Verdict};
 
 /// The diagnosis with its verdict and advice.
 pub fn conclude(named: Named<'_>) -> Diagnosis {
@@ -27,11 +27,22 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
         not_named: named.not_named,
         predicts: named.predicts,
         baseline: named.baseline,
+        floor: named.floor,
         advice: Vec::new(),
         ran_out: budget.ran_out(),
         steps_taken: budget.spent(),
     };
     diagnosis.verdict = verdict(&diagnosis, both_ways);
+    if diagnosis.last.explains() && !strays(&diagnosis) {
+        let errors = diagnosis.last.ran();
+        diagnosis.floor = Some(Floor {
+            kind: FloorKind::Encoder,
+            counts: errors.floor,
+            window_s: diagnosis.span.window_s,
+            explained_share: 1.0,
+            foretold: None,
+        });
+    }
     if !both_ways {
         diagnosis.advice.push(
             "the motor never reverses, in neither recording: friction, an offset and a load look alike, and may pass for \
@@ -59,7 +70,8 @@ fn strays(diagnosis: &Diagnosis) -> bool {
 
 /// What the recording says of the last model.
 fn verdict(diagnosis: &Diagnosis, both_ways: bool) -> Verdict {
-    let explains = diagnosis.last.explains() && !strays(diagnosis);
+    let repeats = diagnosis.floor.is_some_and(|floor| floor.kind == FloorKind::Repeatability);
+    let explains = repeats || diagnosis.last.explains() && !strays(diagnosis);
     let verdict = match (explains, diagnosis.steps.is_empty()) {
         (true, true) => Verdict::Complete,
         (true, false) => Verdict::MissingEffects,

@@ -7,6 +7,7 @@ use super::context::{Context, constant_drive};
 use super::lost_counts;
 use super::models::FittedModel;
 use super::negligible::without_negligible;
+use super::outcome::Floor;
 use super::selection::{Level, Selected, backward_elimination, nested_models, substitution};
 use shared::effects::Kind;
 
@@ -30,6 +31,10 @@ pub struct Confirmed<'a> {
     pub baseline: Option<Baseline>,
     /// Whether the chosen effects are named together although others would do as well in the place of one.
     pub as_one: bool,
+    /// Sets of effects with their scores, nats; none where the sets were judged by their errors.
+    pub scores: Vec<(Vec<Kind>, f64)>,
+    /// What stands below the chosen model's error, where more than the encoder is known of it.
+    pub floor: Option<Floor>,
 }
 
 /// Takes the last level that was believed, and tries its best model without each effect and with others in its place.
@@ -61,6 +66,8 @@ pub fn confirm(selected: Selected<'_>) -> Confirmed<'_> {
         predicts: None,
         baseline: None,
         as_one: false,
+        scores: Vec::new(),
+        floor: None,
     }
 }
 

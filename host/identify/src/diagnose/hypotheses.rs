@@ -31,6 +31,9 @@ const INDEPENDENT: f64 = 0.1;
 
 /// The sets of effects that were tried: the chosen one, then the others by their probability.
 pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
+    if !named.scores.is_empty() {
+        return by_score(named);
+    }
     let chosen = &named.last;
     let per_parameter = if chosen.ran().fitted_at_floor() {
         // What remains is the reading's own error: the price is that of the Bayesian information criterion (Schwarz, "Estimating
@@ -62,6 +65,29 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     });
     std::iter::once(ProbableSet {
         effects: chosen.effects.clone(),
+        probability: share * own_weight,
+    })
+    .chain(others.filter(|set| set.probability >= LEAST))
+    .collect()
+}
+
+/// The same where the sets have scores, which are logarithms of probabilities.
+fn by_score(named: &Named<'_>) -> Vec<ProbableSet> {
+    let own = sorted(&named.last.effects);
+    let best = named.scores.iter().map(|(_, nats)| *nats).fold(f64::MIN, f64::max);
+    let weights = named.scores.iter().map(|(effects, nats)| (sorted(effects), libm::exp(nats - best)));
+    // The chosen one may be simpler than the best and as probable.
+    let own_weight = 1.0;
+    let mut others: Vec<(Vec<Kind>, f64)> = weights.filter(|(effects, _)| *effects != own).collect();
+    others.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let sum = own_weight + others.iter().map(|(_, weight)| weight).sum::<f64>();
+    let share = in_catalogue(&named.last, &named.base) / sum;
+    let others = others.into_iter().map(|(effects, weight)| ProbableSet {
+        effects,
+        probability: share * weight,
+    });
+    std::iter::once(ProbableSet {
+        effects: named.last.effects.clone(),
         probability: share * own_weight,
     })
     .chain(others.filter(|set| set.probability >= LEAST))

@@ -54,12 +54,14 @@ mod negligible;
 mod outcome;
 mod recordings;
 pub mod residual_analysis;
+mod score;
 mod screening;
 mod selection;
 mod settle;
 mod spectrum;
 pub mod steady;
 mod suggest;
+mod walk;
 
 pub use baseline::{Baseline, Prediction};
 pub use built_up::{built_up, is_lost};
@@ -68,22 +70,69 @@ pub use criterion::Criterion;
 pub use explain::{Findings, advice, evidence, findings, pair};
 pub use hypotheses::ProbableSet;
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};
-pub use outcome::{Diagnosis, Step, Verdict};
+pub use outcome::{Diagnosis, Floor, FloorKind, Step, Verdict};
 pub use recordings::{HeldOut, Remark, holdout, usable};
 pub use settle::settle;
 pub use spectrum::{Line, Spectrum, lines as order_lines};
 pub use suggest::{Suggestion, Suggestions, suggest};
+pub use walk::walk_report;
 
 use crate::error::Error;
 use crate::fit::Options;
 use baseline::hold_to_baseline;
 use conclude::conclude;
-use confirmation::confirm;
+use confirmation::{Confirmed, confirm};
 use context::Context;
-use linear::fit_linear_motor;
+use linear::{Linear, fit_linear_motor};
 use naming::name_effects;
 use selection::select_effects;
+use walk::{Answer, answer, walk};
 use servoid_engine::problem::Data;
+
+/// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
+fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
+    let Linear { context, base, .. } = linear;
+    let answer = {
+        let mut pool = walk(&context, &base, done);
+        answer(&context, &base, &mut pool, done)
+    };
+    by_score(context, base, answer)
+}
+
+/// Where whole runs may come down to the encoder's error they are judged by it; a walk is the second try where that fails.
+fn selected<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
+    let confirmed = confirm(select_effects(linear, done));
+    let best = confirmed.chosen.as_ref().unwrap_or(&confirmed.base);
+    if best.explains() || confirmed.context.budget.exhausted() {
+        return hold_to_baseline(confirmed);
+    }
+    let answer = {
+        let (context, base) = (&confirmed.context, &confirmed.base);
+        let mut pool = walk(context, base, done);
+        answer(context, base, &mut pool, done)
+    };
+    if answer.explained {
+        by_score(confirmed.context, confirmed.base, answer)
+    } else {
+        hold_to_baseline(confirmed)
+    }
+}
+
+fn by_score(context: Context<'_>, base: FittedModel, answer: Answer) -> Confirmed<'_> {
+    Confirmed {
+        context,
+        base,
+        levels: answer.levels,
+        chosen: answer.chosen,
+        known: answer.known,
+        not_named: None,
+        predicts: None,
+        baseline: None,
+        as_one: !answer.explained,
+        scores: answer.scores,
+        floor: answer.floor,
+    }
+}
 
 /// Diagnoses `data`, judging by `held_out`, which is never fitted. `done` is called after each piece of work.
 ///
@@ -98,9 +147,10 @@ pub fn diagnose(
 ) -> Result<Diagnosis, Error> {
     let prepared = Context::new(data, held_out, options, budget);
     let linear = fit_linear_motor(prepared, options)?;
-    let selected = select_effects(linear, done);
-    let confirmed = confirm(selected);
-    let held = hold_to_baseline(confirmed);
-    let named = name_effects(held);
-    Ok(conclude(named))
+    let confirmed = if linear.context.span.window_s.is_some() {
+        walked(linear, done)
+    } else {
+        selected(linear, done)
+    };
+    Ok(conclude(name_effects(confirmed)))
 }

@@ -6,7 +6,7 @@ use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
 use super::context::{Context, together_move_both_ways};
 use super::models::{FittedModel, same};
-use super::outcome::Step;
+use super::outcome::{Floor, Step};
 use super::selection::{Level, backward_elimination, judge};
 use super::spectrum::spectrum;
 use shared::effects::{Kind, Starts};
@@ -29,6 +29,10 @@ pub struct Named<'a> {
     pub predicts: Option<Prediction>,
     /// The baseline.
     pub baseline: Option<Baseline>,
+    /// Sets of effects with their scores, nats; none where the sets were judged by their errors.
+    pub scores: Vec<(Vec<Kind>, f64)>,
+    /// What stands below the chosen model's error, where more than the encoder is known of it.
+    pub floor: Option<Floor>,
 }
 
 /// Writes down the steps to the model that was confirmed, up to the first effect that may not be named.
@@ -43,6 +47,8 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         predicts,
         baseline,
         as_one,
+        scores,
+        floor,
     } = confirmed;
     let (steps, last) = match &chosen {
         Some(chosen) => steps_to(&context, &base, &levels, chosen, &known, as_one),
@@ -57,6 +63,8 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         not_named,
         predicts,
         baseline,
+        scores,
+        floor,
     }
 }
 

@@ -61,7 +61,8 @@ fn negligible_in(context: &Context<'_>, model: &FittedModel) -> Option<Kind> {
     small_in(context.data, model).or_else(|| unsure_in(context, model))
 }
 
-fn small_in(data: &Data, model: &FittedModel) -> Option<Kind> {
+/// An effect of a model that is too small to matter.
+pub(super) fn small_in(data: &Data, model: &FittedModel) -> Option<Kind> {
     let small = |kind: &Kind| is_small(*kind, &model.values_of(*kind), data);
     model.effects.iter().copied().find(small)
 }

@@ -6,7 +6,7 @@ mod span;
 
 pub use budget::{Budget, USUAL_STEPS};
 pub use motion::Motion;
-pub use span::{Span, floor_counts, moves_both_ways, together_move_both_ways};
+pub use span::{Span, floor_counts, moves_both_ways, noise_counts, together_move_both_ways};
 
 use crate::fit::Options;
 use servoid_engine::problem::{Data, Horizon, rms_counts};
@@ -154,7 +154,7 @@ fn thinned(data: &Data, horizon: Horizon) -> Horizon {
 fn samples(horizon: &Horizon, data: &Data) -> usize {
     match horizon {
         Horizon::Windows(windows) => windows.iter().map(|window| window.range.len()).sum(),
-        Horizon::Whole | Horizon::Observer(_) => data.len(),
+        Horizon::Whole | Horizon::Observer(_) | Horizon::Corrected(_) => data.len(),
     }
 }
 

@@ -116,12 +116,15 @@ fn usual(data: &Data) -> Option<f64> {
     Some(Span::usual_window_s(data))
 }
 
-/// Standard deviation of the readings, counts.
+/// Standard deviation of the readings about the mean of their recording, counts: how far apart recordings lie is no motion.
 fn spread(data: &Data) -> f64 {
-    let n = data.len().max(1) as f64;
-    let mean = data.counts.iter().sum::<f64>() / n;
-    let squares: f64 = data.counts.iter().map(|c| (c - mean).powi(2)).sum();
-    (squares / n).sqrt().max(f64::MIN_POSITIVE)
+    let squares = data.recordings.ranges().map(|range| {
+        let counts = &data.counts[range];
+        let mean = counts.iter().sum::<f64>() / counts.len().max(1) as f64;
+        counts.iter().map(|c| (c - mean).powi(2)).sum::<f64>()
+    });
+    let mean = squares.sum::<f64>() / data.len().max(1) as f64;
+    mean.sqrt().max(f64::MIN_POSITIVE)
 }
 
 /// RMS error in counts that the reading's own noise makes of a right model in windows: that of the reading,
@@ -177,7 +180,7 @@ fn own_part(half: usize) -> f64 {
 }
 
 /// Noise of a reading, counts RMS: that of rounding, or what local parabolas leave.
-fn noise_counts(data: &Data) -> f64 {
+pub fn noise_counts(data: &Data) -> f64 {
     if data.quantised {
         return FLOOR_RMS_COUNTS;
     }

@@ -111,18 +111,24 @@ impl FittedModel {
 
     /// Whether its newest effect is as large as is searched for: then it does another one's work.
     pub fn at_wall(&self) -> bool {
-        let Some(newest) = self.effects.last() else {
-            return false;
-        };
+        self.effects.last().is_some_and(|newest| self.is_at_wall(*newest))
+    }
+
+    /// Whether any of its effects is as large as is searched for.
+    pub fn any_at_wall(&self) -> bool {
+        self.effects.iter().any(|kind| self.is_at_wall(*kind))
+    }
+
+    fn is_at_wall(&self, kind: Kind) -> bool {
         let values = self.structure.values_of(
             &self.candidate.machine,
             &self.parameters,
             self.candidate.start_speed,
         );
         let amplitude = |name: &str| {
-            let parameters = newest.parameters();
+            let parameters = kind.parameters();
             name.split_once('.').is_some_and(|(effect, name)| {
-                effect == newest.name() && parameters.iter().any(|p| p.amplitude && p.name == name)
+                effect == kind.name() && parameters.iter().any(|p| p.amplitude && p.name == name)
             })
         };
         let unknowns = self.structure.unknowns.iter().zip(&values);

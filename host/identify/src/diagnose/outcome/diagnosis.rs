@@ -1,5 +1,6 @@
 //! All that a diagnosis found.
 
+use super::floor::Floor;
 use super::step::Step;
 use super::verdict::Verdict;
 use crate::diagnose::baseline::{Baseline, Prediction};
@@ -31,6 +32,8 @@ pub struct Diagnosis {
     pub predicts: Option<Prediction>,
     /// The best linear motor with Coulomb friction, offset and delay, against which it was held.
     pub baseline: Option<Baseline>,
+    /// What stands below the last model's error; `None` where that is not the encoder and nothing more is known.
+    pub floor: Option<Floor>,
     /// What to do next, in words.
     pub advice: Vec<String>,
     /// Whether the steps that it may take did not suffice: then not all effects were tried.

@@ -1,9 +1,11 @@
 //! What a diagnosis ends with, as plain data.
 
 mod diagnosis;
+mod floor;
 mod step;
 mod verdict;
 
 pub use diagnosis::Diagnosis;
+pub use floor::{Floor, FloorKind};
 pub use step::Step;
 pub use verdict::Verdict;

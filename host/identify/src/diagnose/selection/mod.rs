@@ -3,7 +3,7 @@
 pub mod backward_elimination;
 mod cross_start;
 mod extension;
-mod forms;
+pub mod forms;
 mod forward_selection;
 pub mod judge;
 pub mod nested_models;

@@ -1,0 +1,266 @@
+//! What the walk ends with: the model that is chosen, the ladder that leads to it, and what else is as probable.
+
+use super::node::Node;
+use super::pool::Pool;
+use super::settings::{CLASS_NATS, FINALISTS};
+use crate::diagnose::candidate::observer::observe_all;
+use crate::diagnose::candidate::polish::polish;
+use crate::diagnose::context::Context;
+use crate::diagnose::lost_counts;
+use crate::diagnose::models::{FittedModel, same};
+use crate::diagnose::negligible::small_in;
+use crate::diagnose::outcome::{Floor, FloorKind};
+use crate::diagnose::score::settings::FORETOLD;
+use crate::diagnose::screening::restart;
+use crate::diagnose::selection::{Level, forms};
+use shared::effects::Kind;
+
+/// What the walk ends with.
+pub struct Answer {
+    /// The model; its effects in the order in which the error falls. `None` where the linear motor is enough.
+    pub chosen: Option<FittedModel>,
+    /// The ladder: models with one effect, with two, and so on up to the chosen one.
+    pub levels: Vec<Level>,
+    /// Other models that were fitted, best first.
+    pub known: Vec<FittedModel>,
+    /// Sets of effects with their scores, nats.
+    pub scores: Vec<(Vec<Kind>, f64)>,
+    /// Whether free runs of the chosen model leave the encoder's own error only.
+    pub explained: bool,
+    /// What stands below the model's error, where it was run in windows.
+    pub floor: Option<Floor>,
+}
+
+/// The answer of a pool that was walked through.
+pub fn answer(
+    context: &Context<'_>,
+    base: &FittedModel,
+    pool: &mut Pool<'_>,
+    done: &(dyn Fn() + Sync),
+) -> Answer {
+    prune(pool, done);
+    let finalists = finalists(context, pool);
+    let explained = explained(context, &finalists);
+    let best = explained.clone().or_else(|| {
+        let worth = |node: &&Node| finalists.iter().any(|m| same(&m.effects, &node.effects));
+        let chosen = simplest_of_class(pool.nodes.iter().filter(worth))?;
+        pool.model(chosen).ok()
+    });
+    let Some(best) = best.filter(|model| !model.effects.is_empty()) else {
+        return Answer {
+            chosen: None,
+            levels: Vec::new(),
+            known: finalists,
+            scores: scores(pool),
+            explained: explained.is_some(),
+            floor: None,
+        };
+    };
+    let order = order_of_fall(pool, &best, done);
+    let chosen = in_order(context, &best, &order);
+    let floor = (context.span.window_s)
+        .and_then(|window_s| floor(pool, base, &chosen, window_s));
+    Answer {
+        levels: levels(context, pool, &chosen),
+        chosen: Some(chosen),
+        known: finalists,
+        scores: scores(pool),
+        explained: explained.is_some(),
+        floor,
+    }
+}
+
+/// What stands below a model's error in windows.
+fn floor(pool: &Pool<'_>, base: &FittedModel, model: &FittedModel, window_s: f64) -> Option<Floor> {
+    let (before, after) = (base.windowed?.fitted, model.windowed?.fitted);
+    let counts = pool.repeatability_counts(&model.candidate, window_s);
+    let foretold = pool.foretold(&model.candidate);
+    let explainable = (before.powi(2) - counts.powi(2)).max(f64::MIN_POSITIVE);
+    let explained = (before.powi(2) - after.powi(2)) / explainable;
+    Some(Floor {
+        kind: match foretold {
+            Some(foretold) if foretold.share <= FORETOLD => FloorKind::Repeatability,
+            _ => FloorKind::Unknown,
+        },
+        counts,
+        window_s: Some(window_s),
+        explained_share: explained.clamp(0.0, 1.0),
+        foretold: foretold.map(|foretold| (foretold.share, foretold.from)),
+    })
+}
+
+fn scores(pool: &Pool<'_>) -> Vec<(Vec<Kind>, f64)> {
+    let nodes = pool.nodes.iter();
+    nodes
+        .map(|node| (node.effects.clone(), node.score))
+        .collect()
+}
+
+/// Fits the best set again without each of its effects, as long as a smaller set becomes the best: when the smaller ones were fitted, more
+/// noise was thought of.
+fn prune(pool: &mut Pool<'_>, done: &(dyn Fn() + Sync)) {
+    loop {
+        let best = pool.best().clone();
+        pool.fit_without_each(&best);
+        done();
+        if same(&best.effects, &pool.best().effects) {
+            return;
+        }
+    }
+}
+
+/// The best sets without any effect that is too small to matter or as large as is searched for, with their free runs.
+fn finalists(context: &Context<'_>, pool: &Pool<'_>) -> Vec<FittedModel> {
+    let models = pool.nodes.iter().filter_map(|node| pool.model(node).ok());
+    models
+        .filter(|model| small_in(context.data, model).is_none() && !model.any_at_wall())
+        .take(FINALISTS)
+        .collect()
+}
+
+/// The simplest model whose free runs leave the encoder's own error only. Where none does, the best is followed along its chaotic
+/// run, tried with counts that the encoder lost, and in other forms.
+fn explained(context: &Context<'_>, finalists: &[FittedModel]) -> Option<FittedModel> {
+    let simplest = |models: &[FittedModel]| {
+        let at_floor = models.iter().filter(|model| model.is_proven());
+        let simplicity = |model: &&FittedModel| (model.freedom(), model.effects.len());
+        at_floor.min_by_key(simplicity).cloned()
+    };
+    if let Some(found) = simplest(finalists) {
+        return Some(found);
+    }
+    if context.span.window_s.is_some() {
+        return None;
+    }
+    let best = finalists.first()?;
+    let mut tried = Vec::new();
+    let mut followed = [best.clone()];
+    if best.candidate.needs_angle() {
+        observe_all(context, &mut followed);
+    }
+    tried.extend(polish(context, &followed[0]).ok());
+    if let Some(found) = simplest(&tried) {
+        return Some(found);
+    }
+    for model in finalists.iter().take(2) {
+        tried.extend(lost_counts::found(context, model));
+    }
+    if let Some(found) = simplest(&tried) {
+        return Some(found);
+    }
+    tried.extend(forms::with_other_forms(context, best));
+    simplest(&tried)
+}
+
+/// Of the sets that are as probable as the best the one with fewest effects, and of those the one with fewest parameters.
+fn simplest_of_class<'n>(nodes: impl Iterator<Item = &'n Node> + Clone) -> Option<&'n Node> {
+    let best = nodes.clone().map(|node| node.score).fold(f64::MIN, f64::max);
+    nodes
+        .filter(|node| best - node.score < CLASS_NATS)
+        .min_by_key(|node| (node.effects.len(), node.freedom()))
+}
+
+/// The effects of a model, those first that lower the error most: from the whole set the one is taken that is missed least, and so on.
+fn order_of_fall(pool: &mut Pool<'_>, model: &FittedModel, done: &(dyn Fn() + Sync)) -> Vec<Kind> {
+    let mut order = Vec::new();
+    let mut left: Vec<Kind> = model.effects.clone();
+    while left.len() > 1 {
+        let Some(node) = pool.node(&left).cloned() else {
+            break;
+        };
+        // What was fitted when more noise was thought of is fitted again: each step shows what is left without the others.
+        pool.fit_without_each(&node);
+        done();
+        let error_without = |gone: Kind| {
+            let rest: Vec<Kind> = left.iter().filter(|kind| **kind != gone).copied().collect();
+            let model = pool.node(&rest).map(|node| pool.model(node));
+            let model = model.and_then(Result::ok);
+            model.map_or(f64::INFINITY, |model| model.ran().score())
+        };
+        let errors = left.iter().map(|&gone| (error_without(gone), gone));
+        let least = errors.min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, least)) = least else { break };
+        order.push(least);
+        left.retain(|kind| *kind != least);
+    }
+    order.extend(left.into_iter().rev());
+    order.reverse();
+    order
+}
+
+/// The same model with its effects in another order.
+fn in_order(context: &Context<'_>, model: &FittedModel, order: &[Kind]) -> FittedModel {
+    if model.losses.is_some() || model.followed_fraction > 0.0 {
+        return model.clone();
+    }
+    let mut ordered = model.clone();
+    ordered.structure.effects.clear();
+    ordered.parameters.clear();
+    for kind in order {
+        let mut rest = &model.parameters[..];
+        for own in &model.structure.effects {
+            let (values, further) = rest.split_at(own.parameters().len());
+            rest = further;
+            if own == kind {
+                ordered.structure.effects.push(*own);
+                ordered.parameters.extend_from_slice(values);
+            }
+        }
+    }
+    let start = restart(context, &ordered);
+    let values = start.structure.values_of(
+        &model.candidate.machine,
+        &ordered.parameters,
+        model.candidate.start_speed,
+    );
+    ordered.effects = order.to_vec();
+    ordered.structure = start.structure;
+    ordered.x = ordered.structure.coordinates(&values);
+    ordered.candidate = ordered.structure.candidate(&values);
+    ordered.candidate.start_offset = model.candidate.start_offset;
+    ordered
+}
+
+/// For each step of the ladder the models that could stand there.
+fn levels(context: &Context<'_>, pool: &Pool<'_>, chosen: &FittedModel) -> Vec<Level> {
+    let mut levels = Vec::new();
+    for depth in 1..=chosen.effects.len() {
+        let before = &chosen.effects[..depth - 1];
+        let own = &chosen.effects[..depth];
+        let stands_here = |node: &&Node| {
+            node.effects.len() == depth && before.iter().all(|kind| node.effects.contains(kind))
+        };
+        let mut models: Vec<FittedModel> = (pool.nodes.iter().filter(stands_here))
+            .take(CANDIDATES)
+            .filter_map(|node| pool.model(node).ok())
+            .map(|model| newest_last(context, model, before))
+            .collect();
+        let place = models.iter().position(|model| same(&model.effects, own));
+        let best = match place {
+            _ if depth == chosen.effects.len() => chosen.clone(),
+            Some(place) => models.remove(place),
+            None => match pool.node(own).and_then(|node| pool.model(node).ok()) {
+                Some(model) => model,
+                None => continue,
+            },
+        };
+        models.retain(|model| !same(&model.effects, own));
+        let best = in_order(context, &best, own);
+        models.insert(0, best.clone());
+        levels.push(Level {
+            models,
+            best,
+            believed: true,
+        });
+    }
+    levels
+}
+
+/// Most models that are shown beside a step.
+const CANDIDATES: usize = 12;
+
+fn newest_last(context: &Context<'_>, model: FittedModel, before: &[Kind]) -> FittedModel {
+    let newest = model.effects.iter().filter(|kind| !before.contains(kind));
+    let order: Vec<Kind> = before.iter().chain(newest).copied().collect();
+    in_order(context, &model, &order)
+}

@@ -1,0 +1,93 @@
+//! From a set of effects to its neighbours: one effect more, one less, or one in the place of a look-alike.
+
+use super::node::Node;
+use super::pool::Pool;
+use crate::diagnose::context::Context;
+use crate::diagnose::models::same;
+use shared::effects::{Kind, MAX_EFFECTS};
+
+/// Of these a model has one: along a motion they are nearly the same.
+const CONSTANTS: [Kind; 2] = [Kind::OffsetVoltage, Kind::LoadTorque];
+
+/// A neighbour to be fitted from where `parent` stands.
+pub struct Start {
+    /// The effects that stay.
+    pub kept: Vec<Kind>,
+    /// The effect that comes, if one does.
+    pub added: Option<Kind>,
+}
+
+impl Start {
+    /// The set that it leads to.
+    pub fn effects(&self) -> Vec<Kind> {
+        self.kept.iter().copied().chain(self.added).collect()
+    }
+}
+
+/// The neighbours of `node` that are not in the pool yet.
+pub fn neighbours(
+    context: &Context<'_>,
+    node: &Node,
+    pool: &Pool<'_>,
+    most_effects: usize,
+) -> Vec<Start> {
+    let mut starts = Vec::new();
+    let candidates = context.candidates.iter().copied();
+    for kind in candidates.filter(|kind| may_be(*kind)) {
+        if node.effects.contains(&kind) {
+            continue;
+        }
+        let with = |gone: &dyn Fn(Kind) -> bool| Start {
+            kept: (node.effects.iter().copied())
+                .filter(|own| !gone(*own))
+                .collect(),
+            added: Some(kind),
+        };
+        // One that holds another as a special case takes its place, alone or with the constant that the special case lacks.
+        let contained = |own: Kind| {
+            let both_constant = CONSTANTS.contains(&own) && CONSTANTS.contains(&kind);
+            both_constant || kind.containing(own).is_some()
+        };
+        if !node.effects.iter().any(|own| own.refines(kind)) {
+            starts.push(with(&contained));
+        }
+        if node.effects.iter().any(|own| contained(*own)) {
+            starts.push(with(&|own| contained(own) || CONSTANTS.contains(&own)));
+        }
+        for &place in node.effects.iter().filter(|own| own.looks_like(kind)) {
+            starts.push(with(&|own| own == place));
+        }
+    }
+    starts.extend(removals(node));
+    unknown(starts, pool, most_effects)
+}
+
+fn removals(node: &Node) -> impl Iterator<Item = Start> {
+    node.effects.iter().map(|place| {
+        let kept = node.effects.iter().filter(|own| *own != place).copied();
+        Start {
+            kept: kept.collect(),
+            added: None,
+        }
+    })
+}
+
+/// Each set once, if it is small enough and not in the pool.
+fn unknown(mut starts: Vec<Start>, pool: &Pool<'_>, most_effects: usize) -> Vec<Start> {
+    let mut seen: Vec<Vec<Kind>> = Vec::new();
+    starts.retain(|start| {
+        let effects = start.effects();
+        let fits = effects.len() <= most_effects.min(MAX_EFFECTS);
+        let known = pool.knows(&effects) || seen.iter().any(|other| same(other, &effects));
+        if fits && !known {
+            seen.push(effects);
+        }
+        fits && !known
+    });
+    starts
+}
+
+/// Lost counts are found, not fitted; bristles cost much.
+fn may_be(kind: Kind) -> bool {
+    !kind.facts().by_chance && !kind.facts().costly
+}

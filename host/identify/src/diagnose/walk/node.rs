@@ -1,0 +1,46 @@
+//! A set of effects with the best fit that is known of it.
+
+use crate::diagnose::models::distinct;
+use servoid_engine::problem::{Candidate, Structure};
+use shared::effects::Kind;
+
+/// A set of effects with its best fit.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// The effects, each once.
+    pub effects: Vec<Kind>,
+    /// The unknowns.
+    pub structure: Structure,
+    /// Where they stand in the unit cube.
+    pub x: Vec<f64>,
+    /// Logarithm of the likelihood of each recording, the fitted ones first, nats.
+    pub nats: Vec<f64>,
+    /// The score, nats.
+    pub score: f64,
+    /// Whether its fit has converged under the noise by which it is scored.
+    pub converged: bool,
+}
+
+impl Node {
+    /// One that is not scored yet.
+    pub fn new(structure: Structure, x: Vec<f64>) -> Self {
+        Node {
+            effects: distinct(&structure.effects),
+            structure,
+            x,
+            nats: Vec::new(),
+            score: f64::NEG_INFINITY,
+            converged: false,
+        }
+    }
+
+    /// The model.
+    pub fn candidate(&self) -> Candidate {
+        self.structure.candidate_at(&self.x)
+    }
+
+    /// Numbers that were fitted.
+    pub fn freedom(&self) -> usize {
+        self.structure.dim() - self.structure.held()
+    }
+}
