@@ -389,6 +389,7 @@ fn probabilities_are_counted_against_the_truth() {
             let set = |effects: Vec<String>, probability| Hypothesis {
                 effects,
                 probability,
+                nats: None,
             };
             outcome.hypotheses = vec![set(vec![said], 0.8), set(Vec::new(), 0.1)];
             outcome

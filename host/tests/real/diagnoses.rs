@@ -124,7 +124,16 @@ fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() 
     let diagnosis = diagnosed(&fitted, &held_out);
     assert!(diagnosis.span.window_s.is_some());
     let named: Vec<Kind> = diagnosis.steps.iter().map(|step| step.added).collect();
-    assert!(named == [Kind::Unbalance, Kind::LoadFriction], "{named:?}");
+    // A loss at high current besides takes the held-out error from 96 to 27 counts.
+    assert!(
+        named.starts_with(&[Kind::Unbalance, Kind::LoadFriction]) && named.len() <= 3,
+        "{named:?}"
+    );
+    within(
+        "held out, counts",
+        diagnosis.last.validate_rms_counts,
+        5.0..50.0,
+    );
     let shares = |refit: &FittedModel| (windowed(&fitted, refit, 0.5), equation(&fitted, refit));
     let (window, drive) = shares(&diagnosis.base);
     within("linear, free runs", window, 65.0..100.0);
@@ -139,6 +148,28 @@ fn bam_xl330_lifts_a_weight_through_a_gear_whose_friction_grows_with_the_load() 
     println!("{machine:?}");
     within("inertia, V*s^2/rad", machine.inertia, 0.03..0.1);
     within("damping, V*s/rad", machine.kb + machine.damping, 0.3..0.5);
+}
+
+/// One arm, two trajectories, two gains of its position loop: what is learnt of one holds for the others.
+#[test]
+fn bam_xl330_is_one_joint_whatever_its_trajectory_and_its_gain() {
+    let joined = |gain: u32| {
+        let both = ["sin_time_square", "up_and_down"];
+        let recordings = both.map(|name| vendored(&format!("bam_xl330/{name}_kp{gain}")));
+        Data::joined(recordings.to_vec()).expect("recordings of one motor")
+    };
+    let diagnosis = diagnosed(&joined(400), &joined(800));
+    let named: Vec<Kind> = diagnosis.steps.iter().map(|step| step.added).collect();
+    assert!(
+        named.starts_with(&[Kind::Unbalance, Kind::LoadFriction]),
+        "{named:?}"
+    );
+    within("fitted, counts", diagnosis.last.rms_counts, 5.0..45.0);
+    within(
+        "held out, counts",
+        diagnosis.last.validate_rms_counts,
+        5.0..45.0,
+    );
 }
 
 /// The motor never reverses here: an offset, a load and dry friction say the same, and none may be named.

@@ -70,7 +70,9 @@ fn strays(diagnosis: &Diagnosis) -> bool {
 
 /// What the recording says of the last model.
 fn verdict(diagnosis: &Diagnosis, both_ways: bool) -> Verdict {
-    let repeats = diagnosis.floor.is_some_and(|floor| floor.kind == FloorKind::Repeatability);
+    let repeats = diagnosis
+        .floor
+        .is_some_and(|floor| floor.kind == FloorKind::Repeatability);
     let explains = repeats || diagnosis.last.explains() && !strays(diagnosis);
     let verdict = match (explains, diagnosis.steps.is_empty()) {
         (true, true) => Verdict::Complete,

@@ -3,6 +3,7 @@
 
 use super::models::FittedModel;
 use super::naming::Named;
+use super::outcome::{Floor, FloorKind};
 use shared::effects::Kind;
 
 /// A set of effects that may be what the linear motor lacks.
@@ -12,6 +13,9 @@ pub struct ProbableSet {
     pub effects: Vec<Kind>,
     /// Probability that these are what is missing. What all sets leave to one is "none of these".
     pub probability: f64,
+    /// Logarithm of its likelihood less the price of its parameters, nats; only differences mean anything. `None` where the sets were
+    /// judged by their errors.
+    pub nats: Option<f64>,
 }
 
 /// A model is less probable by a factor e where its score, the logarithm of both errors' product, is worse by this.
@@ -62,10 +66,12 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     let others = others.into_iter().map(|(effects, weight)| ProbableSet {
         effects,
         probability: share * weight,
+        nats: None,
     });
     std::iter::once(ProbableSet {
         effects: chosen.effects.clone(),
         probability: share * own_weight,
+        nats: None,
     })
     .chain(others.filter(|set| set.probability >= LEAST))
     .collect()
@@ -74,24 +80,43 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
 /// The same where the sets have scores, which are logarithms of probabilities.
 fn by_score(named: &Named<'_>) -> Vec<ProbableSet> {
     let own = sorted(&named.last.effects);
-    let best = named.scores.iter().map(|(_, nats)| *nats).fold(f64::MIN, f64::max);
-    let weights = named.scores.iter().map(|(effects, nats)| (sorted(effects), libm::exp(nats - best)));
-    // The chosen one may be simpler than the best and as probable.
-    let own_weight = 1.0;
-    let mut others: Vec<(Vec<Kind>, f64)> = weights.filter(|(effects, _)| *effects != own).collect();
-    others.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let sum = own_weight + others.iter().map(|(_, weight)| weight).sum::<f64>();
-    let share = in_catalogue(&named.last, &named.base) / sum;
-    let others = others.into_iter().map(|(effects, weight)| ProbableSet {
-        effects,
-        probability: share * weight,
-    });
-    std::iter::once(ProbableSet {
-        effects: named.last.effects.clone(),
-        probability: share * own_weight,
-    })
-    .chain(others.filter(|set| set.probability >= LEAST))
-    .collect()
+    let scores = || named.scores.iter();
+    let best = scores().map(|(_, nats)| *nats).fold(f64::MIN, f64::max);
+    // The chosen set may be simpler than the best and as probable.
+    let weight = |effects: &[Kind], nats: f64| {
+        if effects == own {
+            1.0
+        } else {
+            libm::exp(nats - best)
+        }
+    };
+    let mut sets: Vec<ProbableSet> = scores()
+        .map(|(effects, nats)| ProbableSet {
+            probability: weight(&sorted(effects), *nats),
+            effects: effects.clone(),
+            nats: Some(*nats),
+        })
+        .collect();
+    if !sets.iter().any(|set| sorted(&set.effects) == own) {
+        sets.push(ProbableSet {
+            effects: named.last.effects.clone(),
+            probability: 1.0,
+            nats: None,
+        });
+    }
+    let sum: f64 = sets.iter().map(|set| set.probability).sum();
+    let repeats = |floor: Floor| floor.kind == FloorKind::Repeatability;
+    let share = match named.floor {
+        Some(floor) if repeats(floor) => ABOVE_FLOOR / sum,
+        _ => in_catalogue(&named.last, &named.base) / sum,
+    };
+    for set in &mut sets {
+        set.probability *= share;
+    }
+    let is_own = |set: &ProbableSet| sorted(&set.effects) == own;
+    sets.retain(|set| is_own(set) || set.probability >= LEAST);
+    sets.sort_by(|a, b| (is_own(b).cmp(&is_own(a))).then(b.probability.total_cmp(&a.probability)));
+    sets
 }
 
 /// Probability that an effect is among what is missing: of all sets with it.

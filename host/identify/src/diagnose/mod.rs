@@ -11,12 +11,16 @@
 //! |---|---|---|---|
 //! | prepare | both recordings, options, budget | `Context` | `context` |
 //! | fit the linear motor | `Context` | `Linear`: the span of the runs, the motor, where the search starts | `linear` |
-//! | select effects | `Linear` | `Selected`: models with one effect, with two, and so on | `selection` |
+//! | walk | `Linear` | `Answer`: the set of effects with the best score, where models run in windows | `walk`, `score` |
+//! | select effects | `Linear` | `Selected`: models with one effect, with two, and so on, where whole runs may come down to the encoder's error | `selection` |
 //! | confirm them | `Selected` | `Confirmed`: the model whose effects all hold, and its rivals | `confirmation` |
 //! | hold to the baseline | `Confirmed` | `Confirmed`: predicts no worse than the linear motor with Coulomb friction, offset and delay | `baseline` |
 //! | name them | `Confirmed` | `Named`: the steps that may be named | `naming` |
 //! | weigh them | `Named` | [`ProbableSet`]s: sets of effects with their probabilities | `hypotheses` |
 //! | conclude | `Named` | [`Diagnosis`]: verdict and advice | `conclude`, `outcome` |
+//!
+//! Where the error of a right model is not the encoder's, the walk stands in the place of selection, confirmation and baseline; where
+//! whole runs are judged and those do not explain the recording, it is the second try.
 //!
 //! Below the stages, each knows only those above it in this list:
 //!
@@ -75,7 +79,6 @@ pub use recordings::{HeldOut, Remark, holdout, usable};
 pub use settle::settle;
 pub use spectrum::{Line, Spectrum, lines as order_lines};
 pub use suggest::{Suggestion, Suggestions, suggest};
-pub use walk::walk_report;
 
 use crate::error::Error;
 use crate::fit::Options;
@@ -86,8 +89,8 @@ use context::Context;
 use linear::{Linear, fit_linear_motor};
 use naming::name_effects;
 use selection::select_effects;
-use walk::{Answer, answer, walk};
 use servoid_engine::problem::Data;
+use walk::{Answer, answer, walk};
 
 /// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
 fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {

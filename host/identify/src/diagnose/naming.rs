@@ -7,7 +7,8 @@ use super::confirmation::Confirmed;
 use super::context::{Context, together_move_both_ways};
 use super::models::{FittedModel, same};
 use super::outcome::{Floor, Step};
-use super::selection::{Level, backward_elimination, judge};
+use super::selection::judge::{self, Rivals};
+use super::selection::{Level, backward_elimination};
 use super::spectrum::spectrum;
 use shared::effects::{Kind, Starts};
 
@@ -51,7 +52,13 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         floor,
     } = confirmed;
     let (steps, last) = match &chosen {
-        Some(chosen) => steps_to(&context, &base, &levels, chosen, &known, as_one),
+        Some(chosen) => {
+            let rivals = |place: Kind| match &scores[..] {
+                [] => judge::rivals(chosen, place, &known),
+                scores => judge::rivals_by_score(&chosen.effects, place, scores),
+            };
+            steps_to(&context, &base, &levels, chosen, &known, as_one, &rivals)
+        }
         None => (Vec::new(), base.clone()),
     };
     Named {
@@ -76,6 +83,7 @@ fn steps_to(
     chosen: &FittedModel,
     known: &[FittedModel],
     as_one: bool,
+    rivals: &dyn Fn(Kind) -> Rivals,
 ) -> (Vec<Step>, FittedModel) {
     // A motor that never reverses cannot tell any of them apart: they are named as one.
     let as_one = as_one
@@ -83,7 +91,7 @@ fn steps_to(
             && !together_move_both_ways(context.data, context.held_out);
     let (mut steps, mut before) = (Vec::new(), base.clone());
     for (depth, &added) in chosen.effects.iter().enumerate() {
-        let rivals = judge::rivals(chosen, added, known);
+        let rivals = rivals(added);
         if !as_one && !rivals.allows(added) {
             break;
         }

@@ -106,6 +106,13 @@ pub struct Diagnosis {
     /// one is "none of these".
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hypotheses: Vec<Hypothesis>,
+    /// What stands below the last model's error; absent where nothing is known of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<Floor>,
+    /// Part of what is explainable of the linear motor's error that the last model explains, as squares over the span in which models
+    /// were judged, 0 to 1; absent with `floor`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explained_share: Option<f64>,
     /// Part of the fitted motion's variance that the last model explains in one run over the whole recording, per cent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explained_percent: Option<f64>,
@@ -179,6 +186,40 @@ impl From<&diagnose::Baseline> for Baseline {
     }
 }
 
+/// What a right model would still miss the fitted recordings by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Floor {
+    /// `encoder`, `repeatability` (nothing is left that the command and the motion foretell), or `unknown`.
+    pub kind: String,
+    /// RMS error, counts; of an `unknown` floor what the motor's repeatability would be if nothing were missing.
+    pub counts: Option<f64>,
+    /// Length of the windows over which it holds, s; null where whole runs were judged.
+    pub window_s: Option<f64>,
+    /// What tells it: `innovations`; absent where it is the encoder's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<String>,
+    /// Part of an observer's innovations that its own prediction foretells; absent where there are too few readings in motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foretold_share: Option<f64>,
+    /// From what most of it is foretold, as `speed` or `angle`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foretold_from: Option<String>,
+}
+
+impl From<&diagnose::Floor> for Floor {
+    fn from(floor: &diagnose::Floor) -> Self {
+        let by_encoder = floor.kind == diagnose::FloorKind::Encoder;
+        Floor {
+            kind: floor.kind.name().to_owned(),
+            counts: finite(floor.counts),
+            window_s: floor.window_s.and_then(finite),
+            from: (!by_encoder).then(|| "innovations".to_owned()),
+            foretold_share: floor.foretold.and_then(|(share, _)| finite(share)),
+            foretold_from: (floor.foretold).and_then(|(_, from)| from.map(str::to_owned)),
+        }
+    }
+}
+
 /// A set of effects that may be what is missing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Hypothesis {
@@ -186,6 +227,10 @@ pub struct Hypothesis {
     pub effects: Vec<String>,
     /// Its probability.
     pub probability: f64,
+    /// Logarithm of its likelihood less the price of its parameters, nats; only differences mean anything. Absent where the sets were
+    /// judged by their errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nats: Option<f64>,
 }
 
 impl From<&diagnose::ProbableSet> for Hypothesis {
@@ -197,6 +242,7 @@ impl From<&diagnose::ProbableSet> for Hypothesis {
                 .map(|kind| kind.name().to_owned())
                 .collect(),
             probability: set.probability,
+            nats: set.nats.and_then(finite),
         }
     }
 }

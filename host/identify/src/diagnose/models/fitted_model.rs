@@ -111,7 +111,9 @@ impl FittedModel {
 
     /// Whether its newest effect is as large as is searched for: then it does another one's work.
     pub fn at_wall(&self) -> bool {
-        self.effects.last().is_some_and(|newest| self.is_at_wall(*newest))
+        self.effects
+            .last()
+            .is_some_and(|newest| self.is_at_wall(*newest))
     }
 
     /// Whether any of its effects is as large as is searched for.

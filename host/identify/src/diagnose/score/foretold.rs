@@ -26,7 +26,11 @@ pub fn foretold(readings: &Readings<'_>, filter: &Filter, errors: &[f64]) -> Opt
     if rows.target.len() < FEWEST_READINGS {
         return None;
     }
-    let all: Vec<&Vec<f64>> = rows.groups.iter().flat_map(|(_, columns)| columns).collect();
+    let all: Vec<&Vec<f64>> = rows
+        .groups
+        .iter()
+        .flat_map(|(_, columns)| columns)
+        .collect();
     let share = crossed(&all, &rows)?;
     let alone = rows.groups.iter().filter_map(|(name, columns)| {
         let columns: Vec<&Vec<f64>> = columns.iter().collect();

@@ -16,7 +16,12 @@ pub fn huber(square: f64) -> f64 {
 }
 
 /// Logarithm of the likelihood of some of the readings, nats; `errors` has one entry a reading, counts.
-pub fn likelihood(readings: &Readings<'_>, filter: &Filter, errors: &[f64], of: Range<usize>) -> f64 {
+pub fn likelihood(
+    readings: &Readings<'_>,
+    filter: &Filter,
+    errors: &[f64],
+    of: Range<usize>,
+) -> f64 {
     of.map(|k| {
         let variance = filter.variances[k];
         let loss = huber(errors[k] * errors[k] / variance);

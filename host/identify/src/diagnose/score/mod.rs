@@ -25,6 +25,8 @@ mod noise;
 mod readings;
 mod repeatability;
 pub mod settings;
+#[cfg(test)]
+mod tests;
 
 pub use foretold::{Foretold, foretold};
 pub use gains::{Filter, Plant};

@@ -141,12 +141,18 @@ impl OfRecording<'_> {
         let all = vec![self.scale.noise(x); self.readings.recordings.len()];
         let filter = Filter::new(self.readings, self.plant, &all);
         let mode = Mode::Corrected(&filter.corrections);
-        let errors = self.simulation.errors(mode, std::slice::from_ref(&self.segment));
+        let errors = self
+            .simulation
+            .errors(mode, std::slice::from_ref(&self.segment));
         let centre = self.readings.data.half_cell();
         let samples = self.readings.samples.iter();
         let errors: Vec<f64> = samples.map(|&k| errors[k] - centre).collect();
         let cost = -likelihood(self.readings, &filter, &errors, self.own());
-        if cost.is_finite() { cost } else { f64::INFINITY }
+        if cost.is_finite() {
+            cost
+        } else {
+            f64::INFINITY
+        }
     }
 }
 

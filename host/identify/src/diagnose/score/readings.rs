@@ -51,7 +51,9 @@ impl<'a> Readings<'a> {
                 }
             }
             let own = first..readings.samples.len();
-            readings.weights.extend(weights(&readings.at_rest[own.clone()]));
+            readings
+                .weights
+                .extend(weights(&readings.at_rest[own.clone()]));
             readings.recordings.push(own);
         }
         readings

@@ -12,6 +12,9 @@ pub const LEAST_SAMPLES: f64 = 5.0;
 /// Longest time between two corrections, s. Between the two it is the motor's time constant: at shorter ones friction that
 /// holds is preferred to what predicts.
 pub const LONGEST_S: f64 = 0.2;
+/// Time between two corrections where no back-EMF damps the motor, so that it has no time constant of that kind, s: short enough for torques
+/// that repeat some ten times a revolution of a slow motor.
+pub const UNDAMPED_S: f64 = 0.05;
 /// Standard deviation of the prior on the logarithms of gain and time constant about what regression says. It is weak: it
 /// keeps away the motor that ignores its voltage.
 pub const PRIOR_SD: f64 = 1.0;

@@ -1,6 +1,7 @@
 //! Which model may be believed, and beside which others.
 
-use crate::diagnose::models::FittedModel;
+use crate::diagnose::models::{FittedModel, same};
+use crate::diagnose::walk::CLASS_NATS;
 use crate::fit::forms::MUST_REMOVE;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
@@ -103,6 +104,23 @@ pub fn rivals(chosen: &FittedModel, place: Kind, others: &[FittedModel]) -> Riva
         }
     }
     rivals
+}
+
+/// The same of sets with `scores`, nats: those that are as probable as the chosen one.
+pub fn rivals_by_score(chosen: &[Kind], place: Kind, scores: &[(Vec<Kind>, f64)]) -> Rivals {
+    let own = scores.iter().find(|(set, _)| same(set, chosen));
+    let least = own.map_or(f64::INFINITY, |(_, nats)| nats - CLASS_NATS);
+    let probable = scores.iter().filter(|(_, nats)| *nats > least);
+    let mut equivalent: Vec<Kind> = Vec::new();
+    for (set, _) in probable.filter(|(set, _)| set.len() == chosen.len()) {
+        let mut others = set.iter().filter(|kind| !chosen.contains(kind));
+        if let (Some(&instead), None) = (others.next(), others.next())
+            && !set.contains(&place)
+        {
+            equivalent.push(instead);
+        }
+    }
+    Rivals { equivalent }
 }
 
 impl Rivals {

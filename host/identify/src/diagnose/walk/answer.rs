@@ -56,10 +56,12 @@ pub fn answer(
             floor: None,
         };
     };
+    if let Some(node) = pool.node(&best.effects).cloned() {
+        pool.fit_substitutes(&node, done);
+    }
     let order = order_of_fall(pool, &best, done);
     let chosen = in_order(context, &best, &order);
-    let floor = (context.span.window_s)
-        .and_then(|window_s| floor(pool, base, &chosen, window_s));
+    let floor = (context.span.window_s).and_then(|window_s| floor(pool, base, &chosen, window_s));
     Answer {
         levels: levels(context, pool, &chosen),
         chosen: Some(chosen),
@@ -154,7 +156,10 @@ fn explained(context: &Context<'_>, finalists: &[FittedModel]) -> Option<FittedM
 
 /// Of the sets that are as probable as the best the one with fewest effects, and of those the one with fewest parameters.
 fn simplest_of_class<'n>(nodes: impl Iterator<Item = &'n Node> + Clone) -> Option<&'n Node> {
-    let best = nodes.clone().map(|node| node.score).fold(f64::MIN, f64::max);
+    let best = nodes
+        .clone()
+        .map(|node| node.score)
+        .fold(f64::MIN, f64::max);
     nodes
         .filter(|node| best - node.score < CLASS_NATS)
         .min_by_key(|node| (node.effects.len(), node.freedom()))

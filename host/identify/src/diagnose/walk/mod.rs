@@ -16,6 +16,7 @@ mod settings;
 
 pub use answer::{Answer, answer};
 pub use pool::Pool;
+pub use settings::CLASS_NATS;
 
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
@@ -58,29 +59,3 @@ pub fn walk<'a>(
     }
     pool
 }
-
-/// For trials: walks along recordings and prints what it finds.
-pub fn walk_report(data: &servoid_engine::problem::Data, held_out: &servoid_engine::problem::Data, options: &crate::fit::Options, window: Option<f64>) {
-    let stop = std::sync::atomic::AtomicBool::new(false);
-    let budget = crate::diagnose::Budget::of(20_000_000_000, &stop);
-    let t = std::time::Instant::now();
-    let options = crate::fit::Options { window_s: window, ..options.clone() };
-    let prepared = Context::new(data, held_out, &options, &budget);
-    let linear = crate::diagnose::linear::fit_linear_motor(prepared, &options).unwrap();
-    println!("linear {:.1} s, {:?}, {:?}", t.elapsed().as_secs_f64(), linear.base.ran(), linear.context.span.reason);
-    let mut pool = walk(&linear.context, &linear.base, &|| {});
-    println!("walk {:.1} s, {} nodes, correlation {:.2}, noise {:?}", t.elapsed().as_secs_f64(), pool.nodes.len(), pool.correlation(), pool.noise().collect::<Vec<_>>());
-    for node in pool.nodes.iter().take(8) {
-        let names: Vec<&str> = node.effects.iter().map(|k| k.name()).collect();
-        println!("  {:9.1} {:9.1} {} {:?}", node.score - pool.best().score, node.score, names.join("+"), node.nats.iter().map(|n| n.round()).collect::<Vec<_>>());
-    }
-    let a = answer(&linear.context, &linear.base, &mut pool, &|| {});
-    println!("answer {:.1} s {:?} floor {:?}", t.elapsed().as_secs_f64(), a.chosen.map(|m| (m.effects.iter().map(|k| k.name()).collect::<Vec<_>>(), m.windowed)), a.floor);
-    for node in pool.nodes.iter().take(3) {
-        let m = pool.model(node).unwrap();
-        println!("    {:?} free {:.2} {:.2} windows {:?}", m.effects.iter().map(|k| k.name()).collect::<Vec<_>>(), m.rms_counts, m.validate_rms_counts, m.windowed.map(|w| (w.fitted, w.held_out)));
-        for (u, v) in node.structure.unknowns.iter().zip(node.structure.values(&node.x)) { print!(" {}={:.4}", u.name, v); }
-        println!();
-    }
-}
-

@@ -2,7 +2,7 @@
 
 use super::node::Node;
 use super::pool::Pool;
-use crate::diagnose::context::Context;
+use crate::diagnose::context::{Context, together_move_both_ways};
 use crate::diagnose::models::same;
 use shared::effects::{Kind, MAX_EFFECTS};
 
@@ -60,6 +60,26 @@ pub fn neighbours(
     }
     starts.extend(removals(node));
     unknown(starts, pool, most_effects)
+}
+
+/// Sets in which a look-alike stands in the place of an effect.
+pub fn substitutes(context: &Context<'_>, node: &Node) -> Vec<Start> {
+    let candidates = context.candidates.iter().copied();
+    let new = candidates.filter(|kind| may_be(*kind) && !node.effects.contains(kind));
+    let pairs = new.flat_map(|kind| node.effects.iter().map(move |&place| (place, kind)));
+    // Where the motor never reverses a constant does what friction does.
+    let one_way = !together_move_both_ways(context.data, context.held_out);
+    let alike =
+        |place: Kind, kind: Kind| place.looks_like(kind) || one_way && CONSTANTS.contains(&kind);
+    pairs
+        .filter(|(place, kind)| alike(*place, *kind))
+        .map(|(place, kind)| Start {
+            kept: (node.effects.iter().copied())
+                .filter(|own| *own != place)
+                .collect(),
+            added: Some(kind),
+        })
+        .collect()
 }
 
 fn removals(node: &Node) -> impl Iterator<Item = Start> {

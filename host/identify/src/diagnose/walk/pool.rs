@@ -1,6 +1,6 @@
 //! Every set that was fitted, all scored with the same noise.
 
-use super::moves::Start;
+use super::moves::{self, Start};
 use super::node::Node;
 use super::settings::{FAR_NATS, FAR_PART, LEADERS, PROMISING, ROUNDS, SETTLED_NATS};
 use crate::diagnose::candidate::descent::{Descent, Settings};
@@ -8,6 +8,7 @@ use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, same};
+use crate::diagnose::score::settings::UNDAMPED_S;
 use crate::diagnose::score::{
     Filter, Foretold, Innovations, Noise, Plant, Prior, Readings, correlation_length, estimate,
     foretold, likelihoods, repeatability_counts,
@@ -15,10 +16,10 @@ use crate::diagnose::score::{
 use crate::diagnose::screening::{restart, screen};
 use crate::error::Error;
 use rayon::prelude::*;
-use servoid_engine::solve::Objective;
 use servoid_engine::problem::{
     Candidate, Horizon, START_OFFSET, START_SPEED, StartAngle, Structure, errors,
 };
+use servoid_engine::solve::Objective;
 use shared::cost::Cost;
 use shared::effects::Kind;
 
@@ -63,8 +64,13 @@ impl<'a> Pool<'a> {
     /// A pool that holds the linear motor alone.
     pub fn begun(context: &'a Context<'a>, base: &FittedModel) -> Self {
         let plant = Plant::of(&base.candidate.machine);
+        let interval_s = if context.data.drive.is_voltage() {
+            plant.time_constant_s
+        } else {
+            UNDAMPED_S
+        };
         let side = |data| {
-            let readings = Readings::every(data, plant.time_constant_s);
+            let readings = Readings::every(data, interval_s);
             let noise = vec![
                 Noise {
                     torque: 0.0,
@@ -97,11 +103,6 @@ impl<'a> Pool<'a> {
         pool
     }
 
-    /// Readings for each independent one.
-    pub fn correlation(&self) -> f64 {
-        self.correlation
-    }
-
     /// The best node.
     pub fn best(&self) -> &Node {
         &self.nodes[0]
@@ -115,11 +116,6 @@ impl<'a> Pool<'a> {
     /// Whether a set was fitted.
     pub fn knows(&self, effects: &[Kind]) -> bool {
         self.node(effects).is_some()
-    }
-
-    /// Noise of the fitted recordings, then of the held-out ones.
-    pub fn noise(&self) -> impl Iterator<Item = &Noise> {
-        self.fitted.noise.iter().chain(&self.held_out.noise)
     }
 
     /// What is foretold of the innovations of a node on the fitted recordings.
@@ -195,6 +191,26 @@ impl<'a> Pool<'a> {
         self.put(fitted);
     }
 
+    /// Fits a node with each look-alike in the place of an effect, until those converge that come near.
+    pub fn fit_substitutes(&mut self, node: &Node, done: &(dyn Fn() + Sync)) {
+        let all = moves::substitutes(self.context, node);
+        let unknown = |start: &Start| !self.knows(&start.effects());
+        let (new, known): (Vec<Start>, Vec<Start>) = all.into_iter().partition(unknown);
+        self.fit_from_node(node, new, done);
+        let sets = known.iter().map(Start::effects);
+        let old: Vec<Node> = sets.filter_map(|set| self.node(&set).cloned()).collect();
+        let again: Vec<Node> = old
+            .par_iter()
+            .filter(|other| !other.converged && node.score - other.score < FAR_NATS)
+            .filter_map(|other| {
+                let start = std::slice::from_ref(&other.x);
+                self.fit(&other.structure, start, CONVERGED)
+            })
+            .collect();
+        self.put(again);
+        self.converge_leaders();
+    }
+
     /// Fits a node without each of its effects, from where it stands, until it converges.
     pub fn fit_without_each(&mut self, node: &Node) {
         let Ok(model) = self.model(node) else { return };
@@ -214,7 +230,10 @@ impl<'a> Pool<'a> {
 
     /// A neighbour of a node where its fit starts.
     fn begin(&self, parent: &Node, model: &FittedModel, start: &Start) -> Option<Node> {
-        let gone = parent.effects.iter().filter(|kind| !start.kept.contains(kind));
+        let gone = parent
+            .effects
+            .iter()
+            .filter(|kind| !start.kept.contains(kind));
         let rest = gone.fold(model.clone(), |model, &kind| model.without(kind));
         let rest = FittedModel {
             rms_counts: model.rms_counts,
@@ -275,7 +294,10 @@ impl<'a> Pool<'a> {
     fn put(&mut self, nodes: Vec<Node>) {
         for mut node in nodes {
             self.rate(&mut node);
-            let known = self.nodes.iter().position(|other| same(&other.effects, &node.effects));
+            let known = self
+                .nodes
+                .iter()
+                .position(|other| same(&other.effects, &node.effects));
             match known {
                 Some(place) if self.nodes[place].score <= node.score => self.nodes[place] = node,
                 Some(place) => self.nodes[place].converged |= node.converged,
@@ -292,7 +314,10 @@ impl<'a> Pool<'a> {
     fn rate(&self, node: &mut Node) {
         let values = node.structure.values(&node.x);
         let candidate = node.structure.candidate(&values);
-        let sides = [(&self.fitted, candidate), (&self.held_out, self.elsewhere(&candidate))];
+        let sides = [
+            (&self.fitted, candidate),
+            (&self.held_out, self.elsewhere(&candidate)),
+        ];
         node.nats = sides
             .iter()
             .flat_map(|(side, candidate)| match self.errors_at(side, candidate) {
@@ -303,7 +328,11 @@ impl<'a> Pool<'a> {
         let distances = self.prior.distances(&node.structure, &values);
         let prior: f64 = distances.iter().map(|d| 0.5 * d * d).sum();
         let starts = [START_SPEED, START_OFFSET];
-        let of_start = node.structure.unknowns.iter().filter(|u| starts.contains(&u.name.as_str()));
+        let of_start = node
+            .structure
+            .unknowns
+            .iter()
+            .filter(|u| starts.contains(&u.name.as_str()));
         let parameters = (node.freedom() - of_start.count()) as f64;
         let readings = self.fitted.readings.weight() + self.held_out.readings.weight();
         let independent = (readings / self.correlation).max(2.0);
@@ -368,15 +397,26 @@ impl<'a> Pool<'a> {
 
     /// Whether the free runs of the best node leave the encoder's own error only.
     pub fn is_explained(&self) -> bool {
-        self.model(self.best()).is_ok_and(|model| model.free().at_floor())
+        self.model(self.best())
+            .is_ok_and(|model| model.free().at_floor())
     }
 
     fn estimate_noise_under(&mut self, candidate: &Candidate) {
         let elsewhere = self.elsewhere(candidate);
         let (plant, context) = (self.plant, self.context);
-        for (side, candidate) in [(&mut self.fitted, candidate), (&mut self.held_out, &elsewhere)] {
+        for (side, candidate) in [
+            (&mut self.fitted, candidate),
+            (&mut self.held_out, &elsewhere),
+        ] {
             let stop = context.budget.stop();
-            side.noise = estimate(&side.readings, plant, candidate, context.method, &side.noise, stop);
+            side.noise = estimate(
+                &side.readings,
+                plant,
+                candidate,
+                context.method,
+                &side.noise,
+                stop,
+            );
             side.filter = Filter::new(&side.readings, plant, &side.noise);
         }
     }
@@ -418,6 +458,12 @@ impl<'a> Pool<'a> {
             evaluations: 0,
         };
         let method = self.context.method;
-        score_candidate(self.context, node.structure.clone(), &found, f64::INFINITY, method)
+        score_candidate(
+            self.context,
+            node.structure.clone(),
+            &found,
+            f64::INFINITY,
+            method,
+        )
     }
 }

@@ -4,7 +4,9 @@ use super::bars::counts;
 use super::evidence::changed;
 use super::{DiagnosisReport, names};
 use servoid_identify::diagnose::evidence::largest;
-use servoid_identify::diagnose::{HeldOut, ProbableSet, Verdict, moves_both_ways};
+use servoid_identify::diagnose::{
+    Floor, FloorKind, HeldOut, ProbableSet, Verdict, moves_both_ways,
+};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 
@@ -73,6 +75,9 @@ impl DiagnosisReport<'_> {
         let base = counts(diagnosis.base.rms_counts);
         let (fitted, held_out) = self.last_errors();
         match self.verdict() {
+            Verdict::Complete | Verdict::MissingEffects if self.repeats_itself().is_some() => {
+                self.repeatability_text()
+            }
             Verdict::Complete => {
                 format!(
                     "The linear motor explains this recording down to the encoder: {} counts RMS are left where it was \
@@ -145,7 +150,7 @@ impl DiagnosisReport<'_> {
                     fitted.max(held_out) / FLOOR_RMS_COUNTS,
                     largest(&self.findings.last)
                         .map_or(String::new(), |text| format!(" Of what is left, {text}."))
-                )
+                ) + &self.unknown_floor_text()
             }
             Verdict::Inconclusive if self.interrupted => format!(
                 "The work was stopped before all effects were tried: the linear motor misses this recording by {base} \
@@ -161,6 +166,65 @@ impl DiagnosisReport<'_> {
                 "The linear motor misses this recording by {base} counts RMS, so that something is missing, but this \
                  recording cannot tell what. See the advice for what to record."
             ),
+        }
+    }
+
+    /// The floor, where it is the motor's own repeatability.
+    fn repeats_itself(&self) -> Option<Floor> {
+        let floor = self.diagnosis.floor?;
+        (floor.kind == FloorKind::Repeatability).then_some(floor)
+    }
+
+    /// That the last model explains the recordings down to what the motor repeats.
+    fn repeatability_text(&self) -> String {
+        let Some((floor, windows)) = self.repeats_itself().zip(self.diagnosis.last.windowed) else {
+            return String::new();
+        };
+        let seconds = floor.window_s.unwrap_or_default();
+        let before = self
+            .diagnosis
+            .base
+            .windowed
+            .map_or(f64::NAN, |before| before.fitted);
+        let with = match &self.titles()[..] {
+            "" => "The linear motor".to_owned(),
+            titles => format!("The linear motor with {titles}"),
+        };
+        format!(
+            "{with} explains this recording down to what the motor repeats. In windows of {seconds:.3} s {}, and to {} {}; two \
+             runs of this command would part by some {} counts there, by torque that neither the command nor the motion \
+             foretells. Over the whole recording {} counts RMS are left, since such torque adds up.{}",
+            changed("the error", before, windows.fitted),
+            counts(windows.held_out),
+            self.where_held_out(),
+            counts(floor.counts),
+            counts(self.last_errors().0),
+            self.look_alikes_text()
+        )
+    }
+
+    /// What is known of a floor that is not found.
+    fn unknown_floor_text(&self) -> String {
+        let Some(floor) = self
+            .diagnosis
+            .floor
+            .filter(|floor| floor.kind == FloorKind::Unknown)
+        else {
+            return String::new();
+        };
+        match floor.foretold {
+            Some((share, Some(from))) => format!(
+                " Something is missing that depends on the {from}: {:.0} % of what an observer does not expect is foretold by its \
+                 own prediction, most of it by the {from}.",
+                100.0 * share
+            ),
+            Some((share, None)) => format!(
+                " Something is missing: {:.0} % of what an observer does not expect is foretold by its own prediction.",
+                100.0 * share
+            ),
+            None => " Whether the rest is the motor's own repeatability these readings in motion are too few to tell: record the \
+                     same command three times."
+                .to_owned(),
         }
     }
 

@@ -1,0 +1,176 @@
+//! Laws of the score over synthetic motors that torque noise drives.
+
+use super::foretold::foretold;
+use super::gains::{Filter, Plant};
+use super::noise::{Noise, estimate};
+use super::readings::Readings;
+use super::repeatability::repeatability_counts;
+use super::settings::FORETOLD;
+use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle, errors, rms_counts};
+use servoid_engine::simulation::Method;
+use servoid_io::channel::Series;
+use servoid_io::recording::{Drive, Recording};
+use shared::cost::Cost;
+use shared::effects::EffectSet;
+use shared::motor::Machine;
+use shared::rng;
+use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
+
+const COUNTS_PER_REV: f64 = 8192.0;
+const SAMPLE_S: f64 = 1e-3;
+/// Steps of the simulation to a sample.
+const FINER: usize = 10;
+/// Samples at rest before the first command, and between two: no window of half a second begins at an edge, where a speed is hard to tell.
+const REST: usize = 170;
+const SEEDS: std::ops::RangeInclusive<u64> = 1..=30;
+
+fn machine() -> Machine<f64> {
+    Machine {
+        kb: 0.045,
+        damping: 0.0,
+        inertia: 0.045 * 0.012,
+        electrical: 0.0,
+    }
+}
+
+fn candidate() -> Candidate {
+    Candidate {
+        machine: machine(),
+        effects: EffectSet::default(),
+        start_speed: 0.0,
+        start_offset: 0.0,
+    }
+}
+
+/// A standard normal number (G. E. P. Box and M. E. Muller, 1958).
+fn normal(generator: &mut rng::Generator) -> f64 {
+    let (a, b): (f64, f64) = (rng::uniform(generator), rng::uniform(generator));
+    (-2.0 * (1.0 - a).ln()).sqrt() * (TAU * b).cos()
+}
+
+/// The motor under steps of both signs, with torque noise of an intensity in counts²/s³ and a torque that repeats with the angle, V.
+fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
+    let mut generator = rng::seeded(seed);
+    let Machine { kb, inertia, .. } = machine();
+    let step = SAMPLE_S / FINER as f64;
+    let tau = inertia / kb;
+    // Of the linear motor over a step, exactly.
+    let decay = (-step / tau).exp();
+    let travel = tau * (1.0 - decay);
+    let kick = noise.sqrt() * TAU / COUNTS_PER_REV * step.sqrt();
+    let samples = (seconds / SAMPLE_S) as usize;
+    let (mut angle, mut speed, mut volts) = (0.0f64, 0.0f64, 0.0f64);
+    let (mut time_s, mut command, mut counts) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..samples {
+        if k >= REST && k % REST == 0 {
+            volts = 12.0 * (2.0 * rng::uniform::<f64>(&mut generator) - 1.0);
+        }
+        time_s.push(k as f64 * SAMPLE_S);
+        command.push(volts);
+        counts.push((angle / TAU * COUNTS_PER_REV).floor());
+        for _ in 0..FINER {
+            let steady = (volts - ripple_v * (3.0 * angle).sin()) / kb;
+            angle += steady * step + (speed - steady) * travel;
+            speed = steady + (speed - steady) * decay;
+            if k >= REST {
+                speed += kick * normal(&mut generator);
+            }
+        }
+    }
+    let recording = Recording {
+        source: format!("seed {seed}"),
+        time_s,
+        command,
+        counts,
+        measured: Series::NONE,
+        enabled: None,
+        counts_per_rev: COUNTS_PER_REV,
+        quantised: true,
+        supply_v: None,
+        drive: Drive::Voltage,
+        position: None,
+    };
+    Data::new(&recording).expect("a recording")
+}
+
+fn plant() -> Plant {
+    Plant::of(&machine())
+}
+
+fn estimated(readings: &Readings<'_>) -> Noise {
+    let stop = AtomicBool::new(false);
+    let method = Method::default();
+    estimate(readings, plant(), &candidate(), method, &[], &stop)[0]
+}
+
+fn free_errors(data: &Data, horizon: &Horizon) -> Vec<f64> {
+    let (start, cost) = (StartAngle::Free, Cost::Squared);
+    errors(data, &candidate(), Method::default(), horizon, start, cost).expect("a run")
+}
+
+/// Without torque noise all that an observer learns is where the run began: its gains are those of a running mean.
+#[test]
+fn without_torque_noise_innovations_are_the_errors_of_a_free_run() {
+    let data = recording(1.0, 0.0, 0.0, 1);
+    let readings = Readings::every(&data, 0.012);
+    let noise = Noise {
+        torque: 0.0,
+        reading: readings.floor,
+    };
+    let filter = Filter::new(&readings, plant(), &[noise]);
+    for (k, correction) in filter.corrections.iter().enumerate() {
+        let mean = 1.0 / (k as f64 + 2.0);
+        assert!(
+            (correction.angle - mean).abs() < 1e-12,
+            "{k}: {correction:?}"
+        );
+        assert_eq!(correction.speed, 0.0);
+    }
+}
+
+/// Over thirty seeds, at three intensities of which the least is near the encoder's own error.
+#[test]
+fn the_noise_of_one_recording_tells_how_far_a_right_model_strays() {
+    for noise in [1e6, 1e8, 1e10] {
+        let (mut found, mut strayed) = (0.0, 0.0);
+        for seed in SEEDS {
+            let data = recording(6.0, noise, 0.0, seed);
+            let readings = Readings::every(&data, 0.012);
+            let estimated = estimated(&readings);
+            let ratio = estimated.torque / noise;
+            assert!((0.4..2.5).contains(&ratio), "seed {seed}, {noise}: {ratio}");
+            found += ratio.ln();
+            let left = rms_counts(&data, &free_errors(&data, &Horizon::windows(&data, 0.5)));
+            strayed += (left / repeatability_counts(&estimated, plant(), 0.5)).ln();
+        }
+        let seeds = SEEDS.count() as f64;
+        let (found, strayed) = ((found / seeds).exp(), (strayed / seeds).exp());
+        println!(
+            "{noise}: intensity {found:.3} of the true one, strays {strayed:.3} of what is foretold"
+        );
+        assert!((0.8..1.25).contains(&found), "{noise}: {found}");
+        assert!((0.75..1.3).contains(&strayed), "{noise}: {strayed}");
+    }
+}
+
+#[test]
+fn a_ripple_is_foretold_and_noise_is_not() {
+    let mut wrong = 0;
+    for seed in SEEDS {
+        let share = |ripple_v: f64| {
+            let data = recording(16.0, 1e9, ripple_v, seed);
+            let readings = Readings::every(&data, 0.012);
+            let filter = Filter::new(&readings, plant(), &[estimated(&readings)]);
+            let all = free_errors(&data, &Horizon::Corrected(filter.corrections.clone()));
+            let at = readings.samples.iter().map(|&k| all[k] - data.half_cell());
+            let errors: Vec<f64> = at.collect();
+            foretold(&readings, &filter, &errors).expect("a thousand readings")
+        };
+        let (white, ripple) = (share(0.0), share(0.5));
+        assert!(ripple.share > FORETOLD, "seed {seed}: {ripple:?}");
+        assert_eq!(ripple.from, Some("angle"), "seed {seed}");
+        wrong += usize::from(white.share > FORETOLD);
+    }
+    assert!(wrong <= 1, "{wrong} of {} are no noise", SEEDS.count());
+}
