@@ -33,6 +33,13 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
         steps_taken: budget.spent(),
     };
     diagnosis.verdict = verdict(&diagnosis, both_ways);
+    if let (Some(floor), Some(before), Some(after)) = (
+        &mut diagnosis.floor,
+        diagnosis.base.windowed,
+        diagnosis.last.windowed,
+    ) {
+        floor.explained_share = explained_share(before.fitted, after.fitted, floor.counts);
+    }
     if diagnosis.last.explains() && !strays(&diagnosis) {
         let errors = diagnosis.last.ran();
         diagnosis.floor = Some(Floor {
@@ -52,6 +59,12 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
     }
     advise(&mut diagnosis);
     diagnosis
+}
+
+/// Part of what can be explained of an error, as squares, that was taken away.
+fn explained_share(before: f64, after: f64, floor: f64) -> f64 {
+    let explainable = (before.powi(2) - floor.powi(2)).max(f64::MIN_POSITIVE);
+    ((before.powi(2) - after.powi(2)) / explainable).clamp(0.0, 1.0)
 }
 
 /// A whole run further from the readings than so many times the floor of its windows says that the floor was none: a sensor that

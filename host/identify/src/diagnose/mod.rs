@@ -19,7 +19,7 @@
 //! | weigh them | `Named` | [`ProbableSet`]s: sets of effects with their probabilities | `hypotheses` |
 //! | conclude | `Named` | [`Diagnosis`]: verdict and advice | `conclude`, `outcome` |
 //!
-//! Where the error of a right model is not the encoder's, the walk stands in the place of selection, confirmation and baseline; where
+//! Where the error of a right model is not the encoder's, the walk stands in the place of selection and confirmation; where
 //! whole runs are judged and those do not explain the recording, it is the second try.
 //!
 //! Below the stages, each knows only those above it in this list:
@@ -90,6 +90,7 @@ use linear::{Linear, fit_linear_motor};
 use naming::name_effects;
 use selection::select_effects;
 use servoid_engine::problem::Data;
+use shared::effects::Kind;
 use walk::{Answer, answer, walk};
 
 /// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
@@ -97,9 +98,20 @@ fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
     let Linear { context, base, .. } = linear;
     let answer = {
         let mut pool = walk(&context, &base, done);
-        answer(&context, &base, &mut pool, done)
+        answer(&context, &mut pool, done)
     };
-    by_score(context, base, answer)
+    let found = by_score(context, base, answer);
+    let effects = |confirmed: &Confirmed<'_>| -> Vec<Kind> {
+        let chosen = confirmed.chosen.as_ref();
+        chosen.map_or(Vec::new(), |model| model.effects.clone())
+    };
+    let before = effects(&found);
+    let held = hold_to_baseline(found);
+    Confirmed {
+        // What was said of one set of effects does not hold for another.
+        floor: held.floor.filter(|_| same(&before, &effects(&held))),
+        ..held
+    }
 }
 
 /// Where whole runs may come down to the encoder's error they are judged by it; a walk is the second try where that fails.
@@ -112,7 +124,7 @@ fn selected<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
     let answer = {
         let (context, base) = (&confirmed.context, &confirmed.base);
         let mut pool = walk(context, base, done);
-        answer(context, base, &mut pool, done)
+        answer(context, &mut pool, done)
     };
     if answer.explained {
         by_score(confirmed.context, confirmed.base, answer)

@@ -76,7 +76,7 @@ fn rows(readings: &Readings<'_>, filter: &Filter, errors: &[f64]) -> Rows {
     let duration = readings.data.duration_s().max(f64::MIN_POSITIVE);
     let column = |of: &dyn Fn(&Seen) -> f64| -> Vec<f64> { seen.iter().map(of).collect() };
     let speed = |s: &Seen| s.speed / fastest;
-    let direction = |s: &Seen| (speed(s) / SLOW).tanh();
+    let direction = |s: &Seen| libm::tanh(speed(s) / SLOW);
     let acceleration = |s: &Seen| (s.acceleration / hardest).clamp(-1.0, 1.0);
     let command = |s: &Seen| s.command / highest;
     let falling = |s: &Seen, part: f64| libm::exp(-(speed(s) / part).powi(2));
@@ -102,7 +102,10 @@ fn rows(readings: &Readings<'_>, filter: &Filter, errors: &[f64]) -> Rows {
     let angles = (1..=ORDERS)
         .flat_map(|order| {
             let turned = move |s: &Seen| f64::from(order) * s.angle;
-            [column(&|s| turned(s).sin()), column(&|s| turned(s).cos())]
+            [
+                column(&|s| libm::sin(turned(s))),
+                column(&|s| libm::cos(turned(s))),
+            ]
         })
         .collect();
     let groups = vec![
@@ -118,15 +121,15 @@ fn rows(readings: &Readings<'_>, filter: &Filter, errors: &[f64]) -> Rows {
         ),
         (
             "command",
-            vec![column(&command), column(&|s| (command(s) / SLOW).tanh())],
+            vec![column(&command), column(&|s| libm::tanh(command(s) / SLOW))],
         ),
         ("reversal", reversal),
         ("angle", angles),
         (
             "load",
             vec![
-                column(&|s| direction(s) * s.angle.sin().abs()),
-                column(&|s| direction(s) * s.angle.cos().abs()),
+                column(&|s| direction(s) * libm::sin(s.angle).abs()),
+                column(&|s| direction(s) * libm::cos(s.angle).abs()),
             ],
         ),
         (

@@ -71,8 +71,8 @@ fn correlation_time(values: &[f64]) -> Option<f64> {
         let pairs = values[lag..].iter().zip(values);
         let product: f64 = pairs.map(|(a, b)| (a - mean) * (b - mean)).sum();
         let correlation = product / (n - lag as f64) / variance;
-        // Also where it is no number.
-        if !(correlation > 0.0) {
+        // Also of readings that do not vary at all.
+        if correlation.is_nan() || correlation <= 0.0 {
             break;
         }
         time += 2.0 * correlation;

@@ -46,7 +46,7 @@ fn candidate() -> Candidate {
 /// A standard normal number (G. E. P. Box and M. E. Muller, 1958).
 fn normal(generator: &mut rng::Generator) -> f64 {
     let (a, b): (f64, f64) = (rng::uniform(generator), rng::uniform(generator));
-    (-2.0 * (1.0 - a).ln()).sqrt() * (TAU * b).cos()
+    (-2.0 * libm::log(1.0 - a)).sqrt() * libm::cos(TAU * b)
 }
 
 /// The motor under steps of both signs, with torque noise of an intensity in counts²/s³ and a torque that repeats with the angle, V.
@@ -56,7 +56,7 @@ fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
     let step = SAMPLE_S / FINER as f64;
     let tau = inertia / kb;
     // Of the linear motor over a step, exactly.
-    let decay = (-step / tau).exp();
+    let decay = libm::exp(-step / tau);
     let travel = tau * (1.0 - decay);
     let kick = noise.sqrt() * TAU / COUNTS_PER_REV * step.sqrt();
     let samples = (seconds / SAMPLE_S) as usize;
@@ -70,7 +70,7 @@ fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
         command.push(volts);
         counts.push((angle / TAU * COUNTS_PER_REV).floor());
         for _ in 0..FINER {
-            let steady = (volts - ripple_v * (3.0 * angle).sin()) / kb;
+            let steady = (volts - ripple_v * libm::sin(3.0 * angle)) / kb;
             angle += steady * step + (speed - steady) * travel;
             speed = steady + (speed - steady) * decay;
             if k >= REST {
@@ -140,12 +140,12 @@ fn the_noise_of_one_recording_tells_how_far_a_right_model_strays() {
             let estimated = estimated(&readings);
             let ratio = estimated.torque / noise;
             assert!((0.4..2.5).contains(&ratio), "seed {seed}, {noise}: {ratio}");
-            found += ratio.ln();
+            found += libm::log(ratio);
             let left = rms_counts(&data, &free_errors(&data, &Horizon::windows(&data, 0.5)));
-            strayed += (left / repeatability_counts(&estimated, plant(), 0.5)).ln();
+            strayed += libm::log(left / repeatability_counts(&estimated, plant(), 0.5));
         }
         let seeds = SEEDS.count() as f64;
-        let (found, strayed) = ((found / seeds).exp(), (strayed / seeds).exp());
+        let (found, strayed) = (libm::exp(found / seeds), libm::exp(strayed / seeds));
         println!(
             "{noise}: intensity {found:.3} of the true one, strays {strayed:.3} of what is foretold"
         );

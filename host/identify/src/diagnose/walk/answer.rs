@@ -32,12 +32,7 @@ pub struct Answer {
 }
 
 /// The answer of a pool that was walked through.
-pub fn answer(
-    context: &Context<'_>,
-    base: &FittedModel,
-    pool: &mut Pool<'_>,
-    done: &(dyn Fn() + Sync),
-) -> Answer {
+pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Sync)) -> Answer {
     prune(pool, done);
     let finalists = finalists(context, pool);
     let explained = explained(context, &finalists);
@@ -61,7 +56,7 @@ pub fn answer(
     }
     let order = order_of_fall(pool, &best, done);
     let chosen = in_order(context, &best, &order);
-    let floor = (context.span.window_s).and_then(|window_s| floor(pool, base, &chosen, window_s));
+    let floor = (context.span.window_s).map(|window_s| floor(pool, &chosen, window_s));
     Answer {
         levels: levels(context, pool, &chosen),
         chosen: Some(chosen),
@@ -73,22 +68,20 @@ pub fn answer(
 }
 
 /// What stands below a model's error in windows.
-fn floor(pool: &Pool<'_>, base: &FittedModel, model: &FittedModel, window_s: f64) -> Option<Floor> {
-    let (before, after) = (base.windowed?.fitted, model.windowed?.fitted);
+fn floor(pool: &Pool<'_>, model: &FittedModel, window_s: f64) -> Floor {
     let counts = pool.repeatability_counts(&model.candidate, window_s);
     let foretold = pool.foretold(&model.candidate);
-    let explainable = (before.powi(2) - counts.powi(2)).max(f64::MIN_POSITIVE);
-    let explained = (before.powi(2) - after.powi(2)) / explainable;
-    Some(Floor {
+    Floor {
         kind: match foretold {
             Some(foretold) if foretold.share <= FORETOLD => FloorKind::Repeatability,
             _ => FloorKind::Unknown,
         },
         counts,
         window_s: Some(window_s),
-        explained_share: explained.clamp(0.0, 1.0),
+        // Once the last model is settled.
+        explained_share: 0.0,
         foretold: foretold.map(|foretold| (foretold.share, foretold.from)),
-    })
+    }
 }
 
 fn scores(pool: &Pool<'_>) -> Vec<(Vec<Kind>, f64)> {

@@ -8,7 +8,7 @@ use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, same};
-use crate::diagnose::score::settings::UNDAMPED_S;
+use crate::diagnose::score::settings::{NOISE_RUNS, UNDAMPED_S};
 use crate::diagnose::score::{
     Filter, Foretold, Innovations, Noise, Plant, Prior, Readings, correlation_length, estimate,
     foretold, likelihoods, repeatability_counts,
@@ -99,7 +99,8 @@ impl<'a> Pool<'a> {
         };
         pool.estimate_noise_under(&base.candidate);
         let linear = pool.fit(&base.structure, std::slice::from_ref(&base.x), CONVERGED);
-        pool.put(linear.into_iter().collect());
+        let standing = || Node::new(base.structure.clone(), base.x.clone());
+        pool.put(vec![linear.unwrap_or_else(standing)]);
         pool
     }
 
@@ -336,9 +337,15 @@ impl<'a> Pool<'a> {
         let parameters = (node.freedom() - of_start.count()) as f64;
         let readings = self.fitted.readings.weight() + self.held_out.readings.weight();
         let independent = (readings / self.correlation).max(2.0);
-        node.score = node.nats.iter().sum::<f64>() / self.correlation
+        let score = node.nats.iter().sum::<f64>() / self.correlation
             - prior
             - 0.5 * parameters * libm::log(independent);
+        // A run that ends in no number is worse than any other.
+        node.score = if score.is_nan() {
+            f64::NEG_INFINITY
+        } else {
+            score
+        };
     }
 
     /// The model with the start of the held-out recording.
@@ -417,6 +424,8 @@ impl<'a> Pool<'a> {
                 &side.noise,
                 stop,
             );
+            let runs = NOISE_RUNS * side.readings.data.len();
+            context.budget.book(runs as u64);
             side.filter = Filter::new(&side.readings, plant, &side.noise);
         }
     }
