@@ -85,6 +85,10 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     let further = with_baseline_terms(context, &chosen);
     rated.extend(rate_all(std::slice::from_ref(&chosen)));
     rated.extend(rate_all(&further));
+    // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides.
+    if !confirmed.scores.is_empty() {
+        rated.retain(|rated| same(&rated.model.effects, &chosen.effects));
+    }
     budget.book(own.spent());
     confirmed.known.extend(further);
     confirmed.known.extend(baseline);
