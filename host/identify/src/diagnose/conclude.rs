@@ -33,20 +33,12 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
         steps_taken: budget.spent(),
     };
     diagnosis.verdict = verdict(&diagnosis, both_ways);
-    if let (Some(floor), Some(before), Some(after)) = (
-        &mut diagnosis.floor,
-        diagnosis.base.windowed,
-        diagnosis.last.windowed,
-    ) {
-        floor.explained_share = explained_share(before.fitted, after.fitted, floor.counts);
-    }
-    if diagnosis.last.explains() && !strays(&diagnosis) {
+    if is_at_encoder(&diagnosis) {
         let errors = diagnosis.last.ran();
         diagnosis.floor = Some(Floor {
             kind: FloorKind::Encoder,
             counts: errors.floor,
             window_s: diagnosis.span.window_s,
-            explained_share: 1.0,
             foretold: None,
         });
     }
@@ -59,12 +51,6 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
     }
     advise(&mut diagnosis);
     diagnosis
-}
-
-/// Part of what can be explained of an error, as squares, that was taken away.
-fn explained_share(before: f64, after: f64, floor: f64) -> f64 {
-    let explainable = (before.powi(2) - floor.powi(2)).max(f64::MIN_POSITIVE);
-    ((before.powi(2) - after.powi(2)) / explainable).clamp(0.0, 1.0)
 }
 
 /// A whole run further from the readings than so many times the floor of its windows says that the floor was none: a sensor that
@@ -81,12 +67,17 @@ fn strays(diagnosis: &Diagnosis) -> bool {
         .is_some_and(|windowed| whole.fitted.max(whole.held_out) > floor(windowed))
 }
 
+/// Whether the last model leaves the reading's own error only.
+fn is_at_encoder(diagnosis: &Diagnosis) -> bool {
+    diagnosis.last.explains() && !strays(diagnosis)
+}
+
 /// What the recording says of the last model.
 fn verdict(diagnosis: &Diagnosis, both_ways: bool) -> Verdict {
     let repeats = diagnosis
         .floor
         .is_some_and(|floor| floor.kind == FloorKind::Repeatability);
-    let explains = repeats || diagnosis.last.explains() && !strays(diagnosis);
+    let explains = repeats || is_at_encoder(diagnosis);
     let verdict = match (explains, diagnosis.steps.is_empty()) {
         (true, true) => Verdict::Complete,
         (true, false) => Verdict::MissingEffects,

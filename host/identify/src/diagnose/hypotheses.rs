@@ -3,7 +3,7 @@
 
 use super::models::FittedModel;
 use super::naming::Named;
-use super::outcome::{Floor, FloorKind};
+use super::outcome::FloorKind;
 use shared::effects::Kind;
 
 /// A set of effects that may be what the linear motor lacks.
@@ -105,9 +105,8 @@ fn by_score(named: &Named<'_>) -> Vec<ProbableSet> {
         });
     }
     let sum: f64 = sets.iter().map(|set| set.probability).sum();
-    let repeats = |floor: Floor| floor.kind == FloorKind::Repeatability;
-    let share = match named.floor {
-        Some(floor) if repeats(floor) => ABOVE_FLOOR / sum,
+    let share = match named.floor.map(|floor| floor.kind) {
+        Some(FloorKind::Repeatability) => ABOVE_FLOOR / sum,
         _ => in_catalogue(&named.last, &named.base) / sum,
     };
     for set in &mut sets {

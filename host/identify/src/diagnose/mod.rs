@@ -76,6 +76,7 @@ pub use hypotheses::ProbableSet;
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};
 pub use outcome::{Diagnosis, Floor, FloorKind, Step, Verdict};
 pub use recordings::{HeldOut, Remark, holdout, usable};
+pub use score::Foretold;
 pub use settle::settle;
 pub use spectrum::{Line, Spectrum, lines as order_lines};
 pub use suggest::{Suggestion, Suggestions, suggest};
@@ -91,15 +92,12 @@ use naming::name_effects;
 use selection::select_effects;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
-use walk::{Answer, answer, walk};
+use walk::{Answer, walk};
 
 /// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
 fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
     let Linear { context, base, .. } = linear;
-    let answer = {
-        let mut pool = walk(&context, &base, done);
-        answer(&context, &mut pool, done)
-    };
+    let answer = walk(&context, &base, done);
     let found = by_score(context, base, answer);
     let effects = |confirmed: &Confirmed<'_>| -> Vec<Kind> {
         let chosen = confirmed.chosen.as_ref();
@@ -121,11 +119,7 @@ fn selected<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
     if best.explains() || confirmed.context.budget.exhausted() {
         return hold_to_baseline(confirmed);
     }
-    let answer = {
-        let (context, base) = (&confirmed.context, &confirmed.base);
-        let mut pool = walk(context, base, done);
-        answer(context, &mut pool, done)
-    };
+    let answer = walk(&confirmed.context, &confirmed.base, done);
     if answer.explained {
         by_score(confirmed.context, confirmed.base, answer)
     } else {

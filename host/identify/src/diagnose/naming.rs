@@ -10,6 +10,7 @@ use super::outcome::{Floor, Step};
 use super::selection::judge::{self, Rivals};
 use super::selection::{Level, backward_elimination};
 use super::spectrum::spectrum;
+use super::walk::CLASS_NATS;
 use shared::effects::{Kind, Starts};
 
 /// The effects that are named, and the models that they lead to.
@@ -55,7 +56,7 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         Some(chosen) => {
             let rivals = |place: Kind| match &scores[..] {
                 [] => judge::rivals(chosen, place, &known),
-                scores => judge::rivals_by_score(&chosen.effects, place, scores),
+                scores => judge::rivals_by_score(&chosen.effects, place, scores, CLASS_NATS),
             };
             steps_to(&context, &base, &levels, chosen, &known, as_one, &rivals)
         }

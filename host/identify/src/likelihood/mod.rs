@@ -31,6 +31,7 @@
 //! | `decay` | what an interval of a length does to the speed, and the noise that it adds |
 //! | `step` | one step with the stop located in it, and its Jacobian |
 //! | `kalman` | the filter: innovations and their variances |
+//! | `huber` | the loss of an innovation that is far out |
 //! | `objective` | minus the logarithm of the likelihood |
 //! | `slopes` | its gradient and Fisher information |
 //! | `scoring` | its minimum, by scoring with Levenberg's damping |
@@ -43,6 +44,7 @@
 
 mod decay;
 mod errors;
+mod huber;
 mod input;
 mod kalman;
 mod maximum;
@@ -60,6 +62,7 @@ mod terms;
 mod tests;
 mod whiteness;
 
+pub use huber::{HUBER, huber};
 pub use maximum::{Maximum, Settings, fit, fit_from};
 pub use observed::Observed;
 pub use parameters::{Coordinate, Parameters};

@@ -1,12 +1,11 @@
 //! Minus the logarithm of the likelihood of the innovations, with Huber's loss beyond four standard deviations.
 
+use super::huber::huber;
 use super::kalman::{Innovations, innovations};
 use super::observed::Observed;
 use super::parameters::{Coordinate, Parameters};
 use std::sync::Arc;
 
-/// Standard deviations from which an innovation counts by its size, no longer by its square.
-pub(super) const HUBER: f64 = 4.0;
 /// Standard deviation of the prior on the offset, part of the largest command. It is weak: it keeps Coulomb friction and offset
 /// from running away along their sum where the motor turns one way.
 const OFFSET_PRIOR: f64 = 0.03;
@@ -109,11 +108,7 @@ fn minus_log_likelihood(innovations: &Innovations) -> f64 {
     let each = innovations.errors.iter().zip(&innovations.variances);
     each.map(|(error, variance)| {
         let square = error * error / variance;
-        let loss = if square < HUBER * HUBER {
-            square
-        } else {
-            2.0 * HUBER * square.sqrt() - HUBER * HUBER
-        };
+        let loss = huber(square);
         0.5 * (loss + libm::log(std::f64::consts::TAU * variance))
     })
     .sum()

@@ -1,6 +1,7 @@
 //! Gradient and Fisher information of the likelihood, by differences of the innovations.
 
-use super::objective::{Evaluated, HUBER, Objective};
+use super::huber::HUBER;
+use super::objective::{Evaluated, Objective};
 use super::parameters::{Coordinate, Scale};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;

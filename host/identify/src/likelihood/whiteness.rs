@@ -1,6 +1,7 @@
 //! Whether the innovations are white: what is left after a right model predicts nothing.
 
-use super::objective::{Evaluated, HUBER};
+use super::huber::HUBER;
+use super::objective::Evaluated;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Lags that count.

@@ -214,8 +214,8 @@ impl From<&diagnose::Floor> for Floor {
             counts: finite(floor.counts),
             window_s: floor.window_s.and_then(finite),
             from: (!by_encoder).then(|| "innovations".to_owned()),
-            foretold_share: floor.foretold.and_then(|(share, _)| finite(share)),
-            foretold_from: (floor.foretold).and_then(|(_, from)| from.map(str::to_owned)),
+            foretold_share: floor.foretold.and_then(|foretold| finite(foretold.share)),
+            foretold_from: (floor.foretold).and_then(|foretold| foretold.from.map(str::to_owned)),
         }
     }
 }

@@ -82,13 +82,15 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         effects: limit.model.effects.clone(),
         prediction: limit.prediction,
     };
-    let further = with_baseline_terms(context, &chosen);
+    // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides.
+    let further = if confirmed.scores.is_empty() {
+        with_baseline_terms(context, &chosen)
+    } else {
+        rated.retain(|rated| same(&rated.model.effects, &chosen.effects));
+        Vec::new()
+    };
     rated.extend(rate_all(std::slice::from_ref(&chosen)));
     rated.extend(rate_all(&further));
-    // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides.
-    if !confirmed.scores.is_empty() {
-        rated.retain(|rated| same(&rated.model.effects, &chosen.effects));
-    }
     budget.book(own.spent());
     confirmed.known.extend(further);
     confirmed.known.extend(baseline);

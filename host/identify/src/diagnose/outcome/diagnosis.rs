@@ -1,6 +1,6 @@
 //! All that a diagnosis found.
 
-use super::floor::Floor;
+use super::floor::{Floor, FloorKind};
 use super::step::Step;
 use super::verdict::Verdict;
 use crate::diagnose::baseline::{Baseline, Prediction};
@@ -43,6 +43,18 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
+    /// Part of the linear motor's error beyond the floor, as squares over the span in which models were judged, that the last model takes
+    /// away; `None` where no floor is known.
+    pub fn explained_share(&self) -> Option<f64> {
+        let floor = self.floor?;
+        if floor.kind == FloorKind::Encoder {
+            return Some(1.0);
+        }
+        let (before, after) = (self.base.windowed?.fitted, self.last.windowed?.fitted);
+        let explainable = (before.powi(2) - floor.counts.powi(2)).max(f64::MIN_POSITIVE);
+        Some(((before.powi(2) - after.powi(2)) / explainable).clamp(0.0, 1.0))
+    }
+
     /// Whether the last model explains the fitted recording down to the encoder, and what was held out not.
     pub fn fits_only_its_own(&self) -> bool {
         let errors = self.last.judged();

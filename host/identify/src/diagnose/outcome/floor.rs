@@ -1,5 +1,7 @@
 //! What stands below a model's error.
 
+use crate::diagnose::score::Foretold;
+
 /// What a right model would still miss the fitted recordings by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Floor {
@@ -9,10 +11,8 @@ pub struct Floor {
     pub counts: f64,
     /// Length of the windows over which it holds, s; whole runs where `None`.
     pub window_s: Option<f64>,
-    /// Part of the linear motor's error beyond the floor, as squares over the same span, that the last model takes away.
-    pub explained_share: f64,
-    /// Part of what the observer did not expect that its own prediction foretells, and from what; nothing where too little moves.
-    pub foretold: Option<(f64, Option<&'static str>)>,
+    /// What the observer's own prediction foretells of what it did not expect; nothing where too little moves.
+    pub foretold: Option<Foretold>,
 }
 
 /// What a floor is.

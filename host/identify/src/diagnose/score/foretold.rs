@@ -6,7 +6,8 @@
 
 use super::gains::Filter;
 use super::readings::Readings;
-use super::settings::{BLOCKS, FEWEST_READINGS, FOLDS, HUBER, ORDERS, RIDGE};
+use super::settings::{BLOCKS, FEWEST_READINGS, FOLDS, ORDERS, RIDGE};
+use crate::likelihood::HUBER;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 

@@ -1,9 +1,9 @@
 //! The innovations of a model as a least-squares problem.
 
 use super::gains::Filter;
-use super::likelihood::huber;
 use super::readings::Readings;
 use super::settings::PRIOR_SD;
+use crate::likelihood::huber;
 use servoid_engine::problem::{FitProblem, Horizon, StartAngle, Structure};
 use servoid_engine::simulation::Method;
 use servoid_engine::solve::Objective;

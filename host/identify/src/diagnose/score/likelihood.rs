@@ -2,18 +2,10 @@
 
 use super::gains::Filter;
 use super::readings::Readings;
-use super::settings::{HUBER, MOST_LAGS};
+use super::settings::MOST_LAGS;
+use crate::likelihood::{HUBER, huber};
 use std::f64::consts::TAU;
 use std::ops::Range;
-
-/// The squared standardised innovation, or less where it is far out.
-pub fn huber(square: f64) -> f64 {
-    if square < HUBER * HUBER {
-        square
-    } else {
-        2.0 * HUBER * square.sqrt() - HUBER * HUBER
-    }
-}
 
 /// Logarithm of the likelihood of some of the readings, nats; `errors` has one entry a reading, counts.
 pub fn likelihood(

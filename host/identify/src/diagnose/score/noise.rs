@@ -144,9 +144,7 @@ impl OfRecording<'_> {
         let errors = self
             .simulation
             .errors(mode, std::slice::from_ref(&self.segment));
-        let centre = self.readings.data.half_cell();
-        let samples = self.readings.samples.iter();
-        let errors: Vec<f64> = samples.map(|&k| errors[k] - centre).collect();
+        let errors = self.readings.errors(&errors);
         let cost = -likelihood(self.readings, &filter, &errors, self.own());
         if cost.is_finite() {
             cost

@@ -59,6 +59,12 @@ impl<'a> Readings<'a> {
         readings
     }
 
+    /// Model minus measured angle at the readings, counts, from model minus reading at every sample.
+    pub fn errors(&self, all: &[f64]) -> Vec<f64> {
+        let centre = self.data.half_cell();
+        self.samples.iter().map(|&k| all[k] - centre).collect()
+    }
+
     /// How many readings they weigh together.
     pub fn weight(&self) -> f64 {
         self.weights.iter().sum()

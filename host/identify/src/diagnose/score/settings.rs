@@ -1,8 +1,6 @@
 //! The numbers of the score. Measured with the prototype behind the method (63 sets of effects on 33 cases of an independent plant,
 //! and real recordings with repeats).
 
-/// Standard deviations from which an innovation counts by its size, no longer by its square.
-pub const HUBER: f64 = 4.0;
 /// A reading is one at rest if the angle stays within a count for so long before and after it, s.
 pub const REST_S: f64 = 0.05;
 /// Readings that a whole rest weighs at most: a motor at rest says the same thing a thousand times.
@@ -14,7 +12,7 @@ pub const LEAST_SAMPLES: f64 = 5.0;
 pub const LONGEST_S: f64 = 0.2;
 /// Time between two corrections where no back-EMF damps the motor, so that it has no time constant of that kind, s: short enough for torques
 /// that repeat some ten times a revolution of a slow motor.
-pub const UNDAMPED_S: f64 = 0.05;
+pub const UNDAMPED_INTERVAL_S: f64 = 0.05;
 /// Standard deviation of the prior on the logarithms of gain and time constant about what regression says. It is weak: it
 /// keeps away the motor that ignores its voltage.
 pub const PRIOR_SD: f64 = 1.0;

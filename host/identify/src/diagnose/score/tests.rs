@@ -43,12 +43,6 @@ fn candidate() -> Candidate {
     }
 }
 
-/// A standard normal number (G. E. P. Box and M. E. Muller, 1958).
-fn normal(generator: &mut rng::Generator) -> f64 {
-    let (a, b): (f64, f64) = (rng::uniform(generator), rng::uniform(generator));
-    (-2.0 * libm::log(1.0 - a)).sqrt() * libm::cos(TAU * b)
-}
-
 /// The motor under steps of both signs, with torque noise of an intensity in counts²/s³ and a torque that repeats with the angle, V.
 fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
     let mut generator = rng::seeded(seed);
@@ -74,7 +68,7 @@ fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
             angle += steady * step + (speed - steady) * travel;
             speed = steady + (speed - steady) * decay;
             if k >= REST {
-                speed += kick * normal(&mut generator);
+                speed += kick * rng::normal::<f64>(&mut generator);
             }
         }
     }
@@ -163,8 +157,7 @@ fn a_ripple_is_foretold_and_noise_is_not() {
             let readings = Readings::every(&data, 0.012);
             let filter = Filter::new(&readings, plant(), &[estimated(&readings)]);
             let all = free_errors(&data, &Horizon::Corrected(filter.corrections.clone()));
-            let at = readings.samples.iter().map(|&k| all[k] - data.half_cell());
-            let errors: Vec<f64> = at.collect();
+            let errors = readings.errors(&all);
             foretold(&readings, &filter, &errors).expect("a thousand readings")
         };
         let (white, ripple) = (share(0.0), share(0.5));

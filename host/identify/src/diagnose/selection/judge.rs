@@ -1,7 +1,6 @@
 //! Which model may be believed, and beside which others.
 
 use crate::diagnose::models::{FittedModel, same};
-use crate::diagnose::walk::CLASS_NATS;
 use crate::fit::forms::MUST_REMOVE;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
@@ -59,7 +58,9 @@ fn is_law(kind: Kind) -> bool {
 fn differ_by_look_alike(a: &FittedModel, b: &FittedModel) -> bool {
     let mut own = a.effects.iter().filter(|kind| !b.effects.contains(kind));
     match (own.next(), own.next()) {
-        (Some(&place), None) => instead(a, place, b).is_some_and(|kind| look_alike(place, kind)),
+        (Some(&place), None) => {
+            instead(&a.effects, place, &b.effects).is_some_and(|kind| look_alike(place, kind))
+        }
         _ => false,
     }
 }
@@ -95,7 +96,7 @@ pub fn rivals(chosen: &FittedModel, place: Kind, others: &[FittedModel]) -> Riva
         equivalent: Vec::new(),
     };
     for other in others {
-        let Some(instead) = instead(chosen, place, other) else {
+        let Some(instead) = instead(&chosen.effects, place, &other.effects) else {
             continue;
         };
         let behind = other.judged().score() - chosen.judged().score();
@@ -106,21 +107,21 @@ pub fn rivals(chosen: &FittedModel, place: Kind, others: &[FittedModel]) -> Riva
     rivals
 }
 
-/// The same of sets with `scores`, nats: those that are as probable as the chosen one.
-pub fn rivals_by_score(chosen: &[Kind], place: Kind, scores: &[(Vec<Kind>, f64)]) -> Rivals {
+/// The same of sets with `scores`, nats: those within `nats` of the chosen one are as probable.
+pub fn rivals_by_score(
+    chosen: &[Kind],
+    place: Kind,
+    scores: &[(Vec<Kind>, f64)],
+    nats: f64,
+) -> Rivals {
     let own = scores.iter().find(|(set, _)| same(set, chosen));
-    let least = own.map_or(f64::INFINITY, |(_, nats)| nats - CLASS_NATS);
-    let probable = scores.iter().filter(|(_, nats)| *nats > least);
-    let mut equivalent: Vec<Kind> = Vec::new();
-    for (set, _) in probable.filter(|(set, _)| set.len() == chosen.len()) {
-        let mut others = set.iter().filter(|kind| !chosen.contains(kind));
-        if let (Some(&instead), None) = (others.next(), others.next())
-            && !set.contains(&place)
-        {
-            equivalent.push(instead);
-        }
+    let least = own.map_or(f64::INFINITY, |(_, score)| score - nats);
+    let probable = scores.iter().filter(|(_, score)| *score > least);
+    Rivals {
+        equivalent: probable
+            .filter_map(|(set, _)| instead(chosen, place, set))
+            .collect(),
     }
-    Rivals { equivalent }
 }
 
 impl Rivals {
@@ -140,14 +141,11 @@ impl Rivals {
 }
 
 /// The effect that `other` has in the place of `place`, if that is all in which they differ.
-fn instead(chosen: &FittedModel, place: Kind, other: &FittedModel) -> Option<Kind> {
-    if other.effects.len() != chosen.effects.len() || other.effects.contains(&place) {
+fn instead(chosen: &[Kind], place: Kind, other: &[Kind]) -> Option<Kind> {
+    if other.len() != chosen.len() || other.contains(&place) {
         return None;
     }
-    let mut different = other
-        .effects
-        .iter()
-        .filter(|kind| !chosen.effects.contains(kind));
+    let mut different = other.iter().filter(|kind| !chosen.contains(kind));
     let instead = *different.next()?;
     different.next().is_none().then_some(instead)
 }

@@ -78,9 +78,7 @@ fn floor(pool: &Pool<'_>, model: &FittedModel, window_s: f64) -> Floor {
         },
         counts,
         window_s: Some(window_s),
-        // Once the last model is settled.
-        explained_share: 0.0,
-        foretold: foretold.map(|foretold| (foretold.share, foretold.from)),
+        foretold,
     }
 }
 

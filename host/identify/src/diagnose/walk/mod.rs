@@ -14,9 +14,11 @@ mod node;
 mod pool;
 mod settings;
 
-pub use answer::{Answer, answer};
-pub use pool::Pool;
+pub use answer::Answer;
 pub use settings::CLASS_NATS;
+
+use answer::answer;
+use pool::Pool;
 
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
@@ -30,12 +32,13 @@ const SEEDS: [&[Kind]; 2] = [
     &[Kind::Coulomb, Kind::Unbalance, Kind::LoadFriction],
 ];
 
-/// Walks from the linear motor `base`; the nodes, best first. `done` is called after each piece of work.
-pub fn walk<'a>(
-    context: &'a Context<'a>,
-    base: &FittedModel,
-    done: &(dyn Fn() + Sync),
-) -> Pool<'a> {
+/// Walks from the linear motor `base`, and answers. `done` is called after each piece of work.
+pub fn walk(context: &Context<'_>, base: &FittedModel, done: &(dyn Fn() + Sync)) -> Answer {
+    answer(context, &mut walked(context, base, done), done)
+}
+
+/// The nodes, best first.
+fn walked<'a>(context: &'a Context<'a>, base: &FittedModel, done: &(dyn Fn() + Sync)) -> Pool<'a> {
     let mut pool = Pool::begun(context, base);
     for seed in SEEDS {
         if seed.iter().all(|kind| context.candidates.contains(kind)) {
@@ -48,12 +51,12 @@ pub fn walk<'a>(
         if context.budget.exhausted() || pool.is_explained() {
             break;
         }
-        let before = pool.best().effects.clone();
-        let starts = moves::neighbours(context, pool.best(), &pool, MOST_EFFECTS);
-        pool.fit_from_best(starts, done);
+        let from = pool.best().clone();
+        let starts = moves::neighbours(context, &from, &pool, MOST_EFFECTS);
+        pool.fit_from_node(&from, starts, done);
         pool.anneal();
         context.budget.checkpoint();
-        if pool.best().effects == before {
+        if pool.best().effects == from.effects {
             break;
         }
     }

@@ -18,6 +18,15 @@ pub struct Start {
 }
 
 impl Start {
+    /// `node` without the effects that are `gone`, and with `added`.
+    fn from(node: &Node, gone: impl Fn(Kind) -> bool, added: Option<Kind>) -> Self {
+        let kept = node.effects.iter().copied().filter(|own| !gone(*own));
+        Start {
+            kept: kept.collect(),
+            added,
+        }
+    }
+
     /// The set that it leads to.
     pub fn effects(&self) -> Vec<Kind> {
         self.kept.iter().copied().chain(self.added).collect()
@@ -37,12 +46,7 @@ pub fn neighbours(
         if node.effects.contains(&kind) {
             continue;
         }
-        let with = |gone: &dyn Fn(Kind) -> bool| Start {
-            kept: (node.effects.iter().copied())
-                .filter(|own| !gone(*own))
-                .collect(),
-            added: Some(kind),
-        };
+        let with = |gone: &dyn Fn(Kind) -> bool| Start::from(node, gone, Some(kind));
         // One that holds another as a special case takes its place, alone or with the constant that the special case lacks.
         let contained = |own: Kind| {
             let both_constant = CONSTANTS.contains(&own) && CONSTANTS.contains(&kind);
@@ -73,23 +77,13 @@ pub fn substitutes(context: &Context<'_>, node: &Node) -> Vec<Start> {
         |place: Kind, kind: Kind| place.looks_like(kind) || one_way && CONSTANTS.contains(&kind);
     pairs
         .filter(|(place, kind)| alike(*place, *kind))
-        .map(|(place, kind)| Start {
-            kept: (node.effects.iter().copied())
-                .filter(|own| *own != place)
-                .collect(),
-            added: Some(kind),
-        })
+        .map(|(place, kind)| Start::from(node, |own| own == place, Some(kind)))
         .collect()
 }
 
 fn removals(node: &Node) -> impl Iterator<Item = Start> {
-    node.effects.iter().map(|place| {
-        let kept = node.effects.iter().filter(|own| *own != place).copied();
-        Start {
-            kept: kept.collect(),
-            added: None,
-        }
-    })
+    let places = node.effects.iter().copied();
+    places.map(|place| Start::from(node, |own| own == place, None))
 }
 
 /// Each set once, if it is small enough and not in the pool.

@@ -13,8 +13,6 @@ pub struct Node {
     pub structure: Structure,
     /// Where they stand in the unit cube.
     pub x: Vec<f64>,
-    /// Logarithm of the likelihood of each recording, the fitted ones first, nats.
-    pub nats: Vec<f64>,
     /// The score, nats.
     pub score: f64,
     /// Whether its fit has converged under the noise by which it is scored.
@@ -28,7 +26,6 @@ impl Node {
             effects: distinct(&structure.effects),
             structure,
             x,
-            nats: Vec::new(),
             score: f64::NEG_INFINITY,
             converged: false,
         }

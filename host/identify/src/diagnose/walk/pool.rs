@@ -8,7 +8,7 @@ use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, same};
-use crate::diagnose::score::settings::{NOISE_RUNS, UNDAMPED_S};
+use crate::diagnose::score::settings::{NOISE_RUNS, UNDAMPED_INTERVAL_S};
 use crate::diagnose::score::{
     Filter, Foretold, Innovations, Noise, Plant, Prior, Readings, correlation_length, estimate,
     foretold, likelihoods, repeatability_counts,
@@ -67,7 +67,7 @@ impl<'a> Pool<'a> {
         let interval_s = if context.data.drive.is_voltage() {
             plant.time_constant_s
         } else {
-            UNDAMPED_S
+            UNDAMPED_INTERVAL_S
         };
         let side = |data| {
             let readings = Readings::every(data, interval_s);
@@ -154,12 +154,6 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Fits neighbours of the best node.
-    pub fn fit_from_best(&mut self, starts: Vec<Start>, done: &(dyn Fn() + Sync)) {
-        let parent = self.best().clone();
-        self.fit_from_node(&parent, starts, done);
-    }
-
     /// Fits neighbours of a node.
     pub fn fit_from_node(&mut self, parent: &Node, starts: Vec<Start>, done: &(dyn Fn() + Sync)) {
         if starts.is_empty() {
@@ -183,10 +177,7 @@ impl<'a> Pool<'a> {
         let fitted: Vec<Node> = begun
             .par_iter()
             .take(PROMISING)
-            .filter_map(|node| {
-                let start = std::slice::from_ref(&node.x);
-                self.fit(&node.structure, start, ROUGH)
-            })
+            .filter_map(|node| self.go_on(node, ROUGH))
             .collect();
         self.put(begun);
         self.put(fitted);
@@ -203,10 +194,7 @@ impl<'a> Pool<'a> {
         let again: Vec<Node> = old
             .par_iter()
             .filter(|other| !other.converged && node.score - other.score < FAR_NATS)
-            .filter_map(|other| {
-                let start = std::slice::from_ref(&other.x);
-                self.fit(&other.structure, start, CONVERGED)
-            })
+            .filter_map(|other| self.go_on(other, CONVERGED))
             .collect();
         self.put(again);
         self.converge_leaders();
@@ -273,6 +261,11 @@ impl<'a> Pool<'a> {
         Innovations::new(readings, filter, self.prior, structure.clone(), method)
     }
 
+    /// A node fitted on from where it stands; not scored.
+    fn go_on(&self, node: &Node, settings: Settings) -> Option<Node> {
+        self.fit(&node.structure, std::slice::from_ref(&node.x), settings)
+    }
+
     /// The fit from the best of several starts; not scored.
     fn fit(&self, structure: &Structure, starts: &[Vec<f64>], settings: Settings) -> Option<Node> {
         let problem = self.innovations(structure);
@@ -319,13 +312,13 @@ impl<'a> Pool<'a> {
             (&self.fitted, candidate),
             (&self.held_out, self.elsewhere(&candidate)),
         ];
-        node.nats = sides
+        let nats: f64 = sides
             .iter()
             .flat_map(|(side, candidate)| match self.errors_at(side, candidate) {
                 Some(errors) => likelihoods(&side.readings, &side.filter, &errors),
                 None => vec![f64::NEG_INFINITY],
             })
-            .collect();
+            .sum();
         let distances = self.prior.distances(&node.structure, &values);
         let prior: f64 = distances.iter().map(|d| 0.5 * d * d).sum();
         let starts = [START_SPEED, START_OFFSET];
@@ -337,9 +330,7 @@ impl<'a> Pool<'a> {
         let parameters = (node.freedom() - of_start.count()) as f64;
         let readings = self.fitted.readings.weight() + self.held_out.readings.weight();
         let independent = (readings / self.correlation).max(2.0);
-        let score = node.nats.iter().sum::<f64>() / self.correlation
-            - prior
-            - 0.5 * parameters * libm::log(independent);
+        let score = nats / self.correlation - prior - 0.5 * parameters * libm::log(independent);
         // A run that ends in no number is worse than any other.
         node.score = if score.is_nan() {
             f64::NEG_INFINITY
@@ -363,9 +354,7 @@ impl<'a> Pool<'a> {
         let horizon = Horizon::Corrected(side.filter.corrections.clone());
         let (start, cost) = (StartAngle::Free, Cost::Squared);
         let all = errors(data, candidate, self.context.method, &horizon, start, cost).ok()?;
-        let centre = data.half_cell();
-        let at = side.readings.samples.iter().map(|&k| all[k] - centre);
-        Some(at.collect())
+        Some(side.readings.errors(&all))
     }
 
     /// Estimates the noise under the best node, and scores all again.
@@ -440,10 +429,7 @@ impl<'a> Pool<'a> {
             let again: Vec<Node> = leaders
                 .par_iter()
                 .filter(near)
-                .filter_map(|node| {
-                    let start = std::slice::from_ref(&node.x);
-                    self.fit(&node.structure, start, CONVERGED)
-                })
+                .filter_map(|node| self.go_on(node, CONVERGED))
                 .map(|node| Node {
                     converged: true,
                     ..node

@@ -45,9 +45,7 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             likelihood: report.last.likelihood.as_ref().map(Into::into),
             hypotheses: diagnosis.hypotheses.iter().map(Into::into).collect(),
             floor: diagnosis.floor.as_ref().map(Into::into),
-            explained_share: diagnosis
-                .floor
-                .and_then(|floor| finite(floor.explained_share)),
+            explained_share: diagnosis.explained_share().and_then(finite),
             explained_percent: finite(report.explained_percent()),
             prediction: diagnosis.predicts.map(Into::into),
             models: (models.iter())

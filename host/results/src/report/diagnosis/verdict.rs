@@ -212,7 +212,7 @@ impl DiagnosisReport<'_> {
         else {
             return String::new();
         };
-        match floor.foretold {
+        match floor.foretold.map(|foretold| (foretold.share, foretold.from)) {
             Some((share, Some(from))) => format!(
                 " Something is missing that depends on the {from}: {:.0} % of what an observer does not expect is foretold by its \
                  own prediction, most of it by the {from}.",
