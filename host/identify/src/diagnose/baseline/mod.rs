@@ -82,15 +82,16 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         effects: limit.model.effects.clone(),
         prediction: limit.prediction,
     };
-    // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides.
-    let further = if confirmed.scores.is_empty() {
-        with_baseline_terms(context, &chosen)
-    } else {
-        rated.retain(|rated| same(&rated.model.effects, &chosen.effects));
-        Vec::new()
-    };
+    let further = with_baseline_terms(context, &chosen);
     rated.extend(rate_all(std::slice::from_ref(&chosen)));
     rated.extend(rate_all(&further));
+    // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides, and
+    // which of the baseline's terms stand beside it.
+    if !confirmed.scores.is_empty() {
+        let kept =
+            |rated: &Rated| (chosen.effects.iter()).all(|kind| rated.model.effects.contains(kind));
+        rated.retain(kept);
+    }
     budget.book(own.spent());
     confirmed.known.extend(further);
     confirmed.known.extend(baseline);
