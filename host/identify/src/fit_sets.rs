@@ -4,6 +4,7 @@ use crate::check;
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use crate::identify::identify_data;
+use crate::late_driver::without_late_drivers;
 use crate::progress::Progress;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
@@ -25,7 +26,7 @@ impl FitSets {
     /// # Errors
     /// A recording without a response, or that the [check](crate::check) refuses; recordings that cannot be taken together.
     pub fn of_several(
-        fitted: Vec<Recording>,
+        mut fitted: Vec<Recording>,
         mut held_out: Vec<Recording>,
         force: bool,
     ) -> Result<Self, Error> {
@@ -43,6 +44,13 @@ impl FitSets {
             remarks.push(
                 "--validate is the recording itself: nothing is held out; give another recording of the same motor"
                     .to_owned(),
+            );
+        }
+        for recordings in [&mut fitted, &mut held_out] {
+            let late = without_late_drivers(recordings);
+            remarks.extend(
+                late.iter()
+                    .map(|(source, late)| format!("{source}: {}", late.text())),
             );
         }
         let scored = !held_out.is_empty();

@@ -6,6 +6,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `check` | what a recording can be trusted for, before anything is fitted to it |
+//! | `late_driver` | drivers that wake after the log has begun
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
 //! | `likelihood` | a second fit with process noise, for real motion: inertia, delay, standard errors, BIC |
 //! | `diagnose` | which physical effects a recording shows that the model lacks |
@@ -23,6 +24,7 @@ pub mod error;
 pub mod fit;
 mod fit_sets;
 mod identify;
+mod late_driver;
 pub mod likelihood;
 pub mod paper;
 pub mod plan;
@@ -34,4 +36,5 @@ pub use diagnosed::{Diagnosed, diagnose, diagnose_data, diagnose_datasets};
 pub use error::Error;
 pub use fit_sets::FitSets;
 pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data};
+pub use late_driver::LateDriver;
 pub use progress::{Progress, Silent};

@@ -4,6 +4,7 @@ use super::motor;
 use crate::cli::CheckArgs;
 use crate::error::Error;
 use crate::session::Session;
+use servoid_identify::LateDriver;
 use servoid_identify::check::{Severity, examine};
 use servoid_results::report::check;
 use servoid_results::schema::check::{Check, Checked};
@@ -20,7 +21,8 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
             .remarks
             .extend(reading.notes);
         for recording in &reading.recordings {
-            let findings = examine(recording);
+            let mut findings = examine(recording);
+            findings.extend(LateDriver::of(recording).map(|late| late.finding()));
             if findings.iter().any(|f| f.severity == Severity::Refusal) {
                 refused.push(recording.source.clone());
             }

@@ -36,7 +36,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    pub(super) fn new(
+    pub(crate) fn new(
         code: &'static str,
         severity: Severity,
         seen: impl Into<String>,

@@ -25,7 +25,7 @@ mod speed_loop;
 mod standstill;
 
 pub use finding::{Finding, Severity};
-pub(crate) use response::{DriveResponse, Driven, drive_response};
+pub(crate) use response::{DriveResponse, Driven, begun_s, drive_response, edges_after_rest};
 
 use crate::error::Error;
 use servoid_io::recording::Recording;

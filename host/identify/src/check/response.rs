@@ -238,24 +238,9 @@ fn sign(x: f64) -> f64 {
 /// none or it is not late.
 fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
     let (time, counts) = (&recording.time_s, &recording.counts);
-    // Behind a position loop there is always some voltage: its edges are those of the target.
-    let targets = recording.position.as_ref().map(|p| &p.target_counts);
-    let command = targets.unwrap_or(&recording.command);
-    let largest = command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let mut still_since = 0;
-    let mut late: Vec<f64> = Vec::new();
-    for k in 1..counts.len() {
-        if (counts[k] - counts[still_since]).abs() >= BEGUN {
-            still_since = k;
-        }
-        let edge = (command[k] - command[k - 1]).abs() >= EDGE * largest;
-        let unbiased = targets.is_some() || command[k - 1] == 0.0;
-        let rested = time[k] - time[still_since] >= REST_S && unbiased;
-        if !(edge && rested) {
-            continue;
-        }
-        late.extend(begun_s(&time[k..], &counts[k..]));
-    }
+    let mut late: Vec<f64> = edges_after_rest(recording)
+        .filter_map(|edge| begun_s(&time[edge..], &counts[edge..]))
+        .collect();
     late.sort_by(f64::total_cmp);
     let median = *late.get(late.len() / 2)?;
     let (seconds, samples) = LATE;
@@ -263,10 +248,28 @@ fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
     is_late.then_some((median, late.len()))
 }
 
+/// Samples at which the command steps after rest.
+pub(crate) fn edges_after_rest(recording: &Recording) -> impl Iterator<Item = usize> + '_ {
+    let (time, counts) = (&recording.time_s, &recording.counts);
+    // Behind a position loop there is always some voltage: its edges are those of the target.
+    let targets = recording.position.as_ref().map(|p| &p.target_counts);
+    let command = targets.unwrap_or(&recording.command);
+    let largest = command.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let mut still_since = 0;
+    (1..counts.len()).filter(move |&k| {
+        if (counts[k] - counts[still_since]).abs() >= BEGUN {
+            still_since = k;
+        }
+        let edge = (command[k] - command[k - 1]).abs() >= EDGE * largest;
+        let unbiased = targets.is_some() || command[k - 1] == 0.0;
+        edge && time[k] - time[still_since] >= REST_S && unbiased
+    })
+}
+
 /// When a motion began whose first counts these are, s after the first sample. A motor that is driven from rest moves as the square of the time
 /// since it was driven, so that the root of the count is a line: where it comes from is when the drive began. The first count alone comes
 /// later, the coarser the encoder and the heavier the motor. `None` where it does not move.
-fn begun_s(time: &[f64], counts: &[f64]) -> Option<f64> {
+pub(crate) fn begun_s(time: &[f64], counts: &[f64]) -> Option<f64> {
     let mut reached: Vec<(f64, f64)> = Vec::new();
     for k in 1..counts.len() {
         let (since, moved) = (time[k] - time[0], (counts[k] - counts[0]).abs());

@@ -10,10 +10,10 @@ mod prediction;
 
 use super::candidate::several_horizons::fit_over_horizons;
 use super::confirmation::Confirmed;
-use super::context::{Budget, Context};
+use super::context::{Budget, Context, together_move_both_ways};
 use super::models::{FittedModel, same};
 use crate::fit::contradictions;
-use models::{baseline_models, with_baseline_terms};
+use models::{TERMS, baseline_models, with_baseline_terms};
 pub use prediction::Prediction;
 use prediction::Windows;
 use servoid_engine::problem::{Data, Horizon};
@@ -24,6 +24,10 @@ const AS_GOOD: f64 = 0.01;
 /// The same for a model that only an observer keeps to the readings: where a free run slips over a detent is chance, and so
 /// are its errors, which then prefer any friction.
 const CHAOTIC: f64 = 0.5;
+
+/// Where the motor never reverses, the part of the score's gain over the linear motor that lies beyond the baseline's terms in a set that
+/// is sure: a real torque of cogging gained 0.29, a once-per-revolution torque that differs from run to run 0.01.
+const ONE_WAY_GAIN: f64 = 0.1;
 
 /// Part of a diagnosis' budget that the comparison may take besides.
 const PART: f64 = 0.25;
@@ -87,7 +91,7 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     rated.extend(rate_all(&further));
     // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides, and
     // which of the baseline's terms stand beside it.
-    if !confirmed.scores.is_empty() {
+    if names_are_sure(&confirmed) {
         let kept =
             |rated: &Rated| (chosen.effects.iter()).all(|kind| rated.model.effects.contains(kind));
         rated.retain(kept);
@@ -109,6 +113,22 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         }
     }
     confirmed
+}
+
+/// Whether a score chose the effects beyond doubt. Where the motor never reverses friction, a constant and a torque that repeats with the
+/// angle look alike: there what they gain beyond the baseline's terms must count beside what those gain.
+fn names_are_sure(confirmed: &Confirmed<'_>) -> bool {
+    let scores = &confirmed.scores;
+    let Some((_, linear)) = scores.iter().find(|(effects, _)| effects.is_empty()) else {
+        return false;
+    };
+    let is_baseline = |effects: &[Kind]| effects.iter().all(|kind| TERMS.contains(kind));
+    let most = |some: &mut dyn Iterator<Item = f64>| some.fold(f64::MIN, f64::max);
+    let best = most(&mut scores.iter().map(|(_, nats)| *nats));
+    let baseline = scores.iter().filter(|(effects, _)| is_baseline(effects));
+    let limit = most(&mut baseline.map(|(_, nats)| *nats));
+    let Context { data, held_out, .. } = confirmed.context;
+    together_move_both_ways(data, held_out) || best - limit > ONE_WAY_GAIN * (best - linear)
 }
 
 /// Whether nothing is left to explain on the recording that was fitted: what then fails on the held-out recording is

@@ -14,7 +14,15 @@ use shared::effects::Kind;
 const FRICTION: f64 = 0.05;
 const DELAYS_S: [f64; 3] = [0.0, 0.004, 0.04];
 
-/// What the baseline adds to the linear motor. A motor that never reverses
+/// All that the baseline may add to the linear motor.
+pub const TERMS: [Kind; 4] = [
+    Kind::Coulomb,
+    Kind::Delay,
+    Kind::OffsetVoltage,
+    Kind::LoadTorque,
+];
+
+/// What it adds. A motor that never reverses
 /// in either recording shows only the sum of Coulomb friction and offset, along which a fit would run away: it gets no offset.
 fn terms(context: &Context<'_>) -> Vec<Kind> {
     let constant = constant_drive(context.data.drive);
