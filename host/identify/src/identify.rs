@@ -2,7 +2,7 @@
 
 use crate::certificate::{self, certify};
 use crate::check;
-use crate::diagnose::{Budget, built_up, is_lost};
+use crate::diagnose::{Budget, Span, built_up, is_lost};
 use crate::error::Error;
 use crate::fit::integration::Refined;
 use crate::fit::interval::{self, most_likely};
@@ -14,6 +14,7 @@ use crate::fit::systematic::add_systematic;
 use crate::fit::{self, Fit, Options};
 use crate::likelihood;
 use crate::progress::Progress;
+use crate::repeats::{LackOfFit, Repeats};
 use servoid_engine::problem::{Candidate, Data, FitProblem};
 use servoid_engine::solve::{self, Found, Solver};
 use servoid_io::recording::Recording;
@@ -114,8 +115,23 @@ pub fn identify_data(
         own.recordings.write_into(&mut fit);
         fit
     };
+    fit.lack_of_fit = lack_of_fit(&fit, data, validation, options);
     fit.notes.extend(notes.into_iter().flatten());
     Ok(fit)
+}
+
+/// What repeats of a command say of a fit that does not reach the encoder's floor.
+fn lack_of_fit(
+    fit: &Fit,
+    data: &Data,
+    validation: Option<&Data>,
+    options: &Options,
+) -> Option<LackOfFit> {
+    let sets: Vec<&Data> = std::iter::once(data).chain(validation).collect();
+    let window_s = options
+        .window_s
+        .unwrap_or_else(|| Span::usual_window_s(data));
+    Repeats::among(&sets)?.lack_of_fit(&fit.candidate, options.method, window_s)
 }
 
 /// The profile of each parameter, by the search that has found the best model.

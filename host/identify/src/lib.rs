@@ -6,11 +6,12 @@
 //! | module | holds |
 //! |---|---|
 //! | `check` | what a recording can be trusted for, before anything is fitted to it |
-//! | `late_driver` | drivers that wake after the log has begun
+//! | `late_driver` | drivers that wake after the log has begun |
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
 //! | `likelihood` | a second fit with process noise, for real motion: inertia, delay, standard errors, BIC |
 //! | `diagnose` | which physical effects a recording shows that the model lacks |
 //! | `plan` | the excitation that separates models which explain a recording alike |
+//! | `repeats` | recordings of one command: what a motor does not repeat, and what a model lacks |
 //! | `paper` | the paper's table and contest |
 //! | `truth` | what the virtual bench hides, in the model's terms |
 #![forbid(unsafe_code)]
@@ -26,9 +27,12 @@ mod fit_sets;
 mod identify;
 mod late_driver;
 pub mod likelihood;
+#[cfg(test)]
+mod noisy_motor;
 pub mod paper;
 pub mod plan;
 mod progress;
+pub mod repeats;
 pub mod truth;
 
 pub use datasets::Datasets;

@@ -4,14 +4,19 @@ use super::motor;
 use crate::cli::CheckArgs;
 use crate::error::Error;
 use crate::session::Session;
+use servoid_engine::problem::Data;
 use servoid_identify::LateDriver;
 use servoid_identify::check::{Severity, examine};
+use servoid_identify::diagnose::Span;
+use servoid_identify::repeats::Repeats;
+use servoid_io::recording::Recording;
 use servoid_results::report::check;
-use servoid_results::schema::check::{Check, Checked};
+use servoid_results::schema::check::{Check, Checked, Parting};
 use servoid_results::schema::read::Read;
 
 pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
     let mut recordings = Vec::new();
+    let mut usable = Vec::new();
     let mut refused = Vec::new();
     let mut read: Option<Read> = None;
     for path in &args.recordings {
@@ -28,8 +33,10 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
             }
             recordings.push(Checked::new(recording, &findings));
         }
+        usable.extend(reading.recordings);
     }
     let json = Check {
+        repeats: partings(usable),
         read,
         ..Check::new(recordings)
     };
@@ -41,4 +48,20 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
         "{} cannot be fitted as it stands: see the refusals, or override them with --force",
         refused.join(", ")
     )))
+}
+
+/// How far recordings of one command part.
+fn partings(recordings: Vec<Recording>) -> Vec<Parting> {
+    let woken = |recording: Recording| match LateDriver::of(&recording) {
+        Some(late) => late.cut(&recording),
+        None => recording,
+    };
+    let lowered = recordings.into_iter().map(woken).map(Data::taken);
+    let data: Vec<Data> = lowered.filter_map(Result::ok).collect();
+    let sets: Vec<&Data> = data.iter().collect();
+    let (Some(repeats), Some(first)) = (Repeats::among(&sets), data.first()) else {
+        return Vec::new();
+    };
+    let partings = repeats.partings(Span::usual_window_s(first));
+    partings.into_iter().map(Into::into).collect()
 }

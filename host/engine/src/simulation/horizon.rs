@@ -53,7 +53,7 @@ impl Horizon {
 
     /// Windows of `seconds`, s, each started at the [measured state](Data::measured_state) of its first sample.
     pub fn windows(data: &Data, seconds: f64) -> Self {
-        let mut windows = Vec::new();
+        let mut ranges = Vec::new();
         let mut from = 0;
         while from + 1 < data.len() {
             let last = data.recordings.holding(from).end;
@@ -62,16 +62,23 @@ impl Horizon {
             let to = to.max(from + 2);
             // A last sample alone would be in no window.
             let to = if to + 1 < last { to } else { last };
-            let (angle, counts_s) = data.measured_state(from);
-            let speed = counts_s / data.units.counts_per_rev * core::f64::consts::TAU;
-            windows.push(Window {
-                range: from..to,
-                angle,
-                speed,
-            });
+            ranges.push(from..to);
             from = to;
         }
-        Horizon::Windows(windows)
+        Horizon::windows_over(data, ranges)
+    }
+
+    /// The same over given samples.
+    pub fn windows_over(data: &Data, ranges: impl IntoIterator<Item = Range<usize>>) -> Self {
+        let started = |range: Range<usize>| {
+            let (angle, counts_s) = data.measured_state(range.start);
+            Window {
+                range,
+                angle,
+                speed: counts_s / data.units.counts_per_rev * core::f64::consts::TAU,
+            }
+        };
+        Horizon::Windows(ranges.into_iter().map(started).collect())
     }
 }
 

@@ -1,16 +1,21 @@
 //! Stage 6: the verdict on the named model, and what to do next.
 
-use super::context::together_move_both_ways;
+use super::context::{Span, together_move_both_ways};
 use super::explain::advice::advise;
 use super::hypotheses::{probability_of, probable_sets};
-use super::models::Errors;
+use super::models::{Errors, FittedModel};
 use super::naming::Named;
-use super::outcome::{Diagnosis, Floor, FloorKind, Verdict};
+use super::outcome::{Diagnosis, Floor, FloorKind, Repeated, Verdict};
+use crate::repeats::Repeats;
 
 /// The diagnosis with its verdict and advice.
 pub fn conclude(named: Named<'_>) -> Diagnosis {
     let both_ways = together_move_both_ways(named.context.data, named.context.held_out);
     let budget = named.context.budget;
+    let named = Named {
+        floor: by_repeats(&named).or(named.floor),
+        ..named
+    };
     let hypotheses = probable_sets(&named);
     let mut steps = named.steps;
     for step in &mut steps {
@@ -40,6 +45,7 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
             counts: errors.floor,
             window_s: diagnosis.span.window_s,
             foretold: None,
+            repeats: None,
         });
     }
     if !both_ways {
@@ -51,6 +57,22 @@ pub fn conclude(named: Named<'_>) -> Diagnosis {
     }
     advise(&mut diagnosis);
     diagnosis
+}
+
+/// The floor that repeats of a command show, where the recordings hold any. It is told in windows: over whole runs parameters drift.
+fn by_repeats(named: &Named<'_>) -> Option<Floor> {
+    let context = &named.context;
+    let repeats = Repeats::among(&[context.data, context.held_out])?;
+    let window_s = (context.span.window_s).unwrap_or_else(|| Span::usual_window_s(context.data));
+    let of = |model: &FittedModel| repeats.lack_of_fit(&model.candidate, context.method, window_s);
+    let (base, last) = (of(&named.base)?, of(&named.last)?);
+    Some(Floor {
+        kind: FloorKind::Repeatability,
+        counts: last.noise_counts,
+        window_s: Some(window_s),
+        foretold: named.floor.and_then(|floor| floor.foretold),
+        repeats: Some(Repeated { base, last }),
+    })
 }
 
 /// A whole run further from the readings than so many times the floor of its windows says that the floor was none: a sensor that
@@ -74,10 +96,8 @@ fn is_at_encoder(diagnosis: &Diagnosis) -> bool {
 
 /// What the recording says of the last model.
 fn verdict(diagnosis: &Diagnosis, both_ways: bool) -> Verdict {
-    let repeats = diagnosis
-        .floor
-        .is_some_and(|floor| floor.kind == FloorKind::Repeatability);
-    let explains = repeats || is_at_encoder(diagnosis);
+    let at_floor = diagnosis.floor.is_some_and(|floor| floor.is_reached());
+    let explains = at_floor || is_at_encoder(diagnosis);
     let verdict = match (explains, diagnosis.steps.is_empty()) {
         (true, true) => Verdict::Complete,
         (true, false) => Verdict::MissingEffects,

@@ -3,7 +3,6 @@
 
 use super::models::FittedModel;
 use super::naming::Named;
-use super::outcome::FloorKind;
 use shared::effects::Kind;
 
 /// A set of effects that may be what the linear motor lacks.
@@ -105,9 +104,10 @@ fn by_score(named: &Named<'_>) -> Vec<ProbableSet> {
         });
     }
     let sum: f64 = sets.iter().map(|set| set.probability).sum();
-    let share = match named.floor.map(|floor| floor.kind) {
-        Some(FloorKind::Repeatability) => ABOVE_FLOOR / sum,
-        _ => in_catalogue(&named.last, &named.base) / sum,
+    let share = if named.floor.is_some_and(|floor| floor.is_reached()) {
+        ABOVE_FLOOR / sum
+    } else {
+        in_catalogue(&named.last, &named.base) / sum
     };
     for set in &mut sets {
         set.probability *= share;

@@ -74,7 +74,7 @@ pub use criterion::Criterion;
 pub use explain::{Findings, advice, evidence, findings, pair};
 pub use hypotheses::ProbableSet;
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};
-pub use outcome::{Diagnosis, Floor, FloorKind, Step, Verdict};
+pub use outcome::{Diagnosis, Floor, FloorKind, Repeated, Step, Verdict};
 pub use recordings::{HeldOut, Remark, holdout, usable};
 pub use score::Foretold;
 pub use settle::settle;

@@ -17,6 +17,7 @@ use super::validate::validate;
 use crate::certificate::Certificate;
 use crate::error::Error;
 use crate::likelihood::Likelihood;
+use crate::repeats::LackOfFit;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::rms_counts;
 use servoid_engine::problem::{Base, Candidate, Data, FitProblem, Unknown};
@@ -92,6 +93,8 @@ pub struct Fit {
     pub recordings: Vec<RecordingError>,
     /// The fit with process noise, where the free run is not at the encoder's floor; only of the front door.
     pub likelihood: Option<Likelihood>,
+    /// What repeats of a command say of the model, where one was recorded twice; only of the front door.
+    pub lack_of_fit: Option<LackOfFit>,
     /// What is certain of the readings and this model, where it was asked for; only of the front door.
     pub certificate: Option<Certificate>,
     /// Noise before the counter, where the likelihood of the cells was maximised.
@@ -244,6 +247,7 @@ impl Fit {
             recordings: Vec::new(),
             likelihood: None,
             certificate: None,
+            lack_of_fit: None,
             reading_noise: *reading_noise,
             profiles: Vec::new(),
             joint: Joint::of(problem, values, spread),

@@ -1,13 +1,28 @@
 //! The findings on recordings as text.
 
+use super::diagnosis::bars::counts;
 use super::fold::folded;
 use super::position_loop::described;
-use crate::schema::check::{Check, Checked};
+use crate::schema::check::{Check, Checked, Parting};
 
 /// All recordings, a block each.
 pub fn text(check: &Check) -> String {
     let blocks: Vec<String> = check.recordings.iter().map(block).collect();
-    blocks.join("\n")
+    let partings: Vec<String> = check.repeats.iter().map(parting).collect();
+    [blocks, partings].concat().join("\n")
+}
+
+fn parting(parting: &Parting) -> String {
+    let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let line = format!(
+        "{} repeat one command: a run parts from their mean by {} counts RMS in windows of {} s and by {} over the whole run; no model of this \
+         motor can come nearer than that",
+        parting.recordings.join(", "),
+        counts(number(parting.in_windows_counts)),
+        number(parting.window_s),
+        counts(number(parting.over_run_counts)),
+    );
+    folded(&line, "  ") + "\n"
 }
 
 fn block(checked: &Checked) -> String {

@@ -13,6 +13,7 @@ pub mod paper;
 pub mod plan;
 mod position_loop;
 mod profile;
+mod repeats;
 pub mod style;
 mod systematic;
 pub mod text;

@@ -139,6 +139,13 @@ fn write_fit(out: &mut String, fit: &Fit, data: &Data) -> std::fmt::Result {
         )?;
     }
     writeln!(out, "cost ({})    {:.6}", fit.cost_kind, fit.cost)?;
+    if let Some(found) = fit.lack_of_fit {
+        write!(
+            out,
+            "{}",
+            wrapped(&super::repeats::sentences(&found.into()))
+        )?;
+    }
     if let Some(noise) = &fit.reading_noise {
         writeln!(out, "noise before the counter    {}", reading_noise(noise))?;
     }

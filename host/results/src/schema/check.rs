@@ -5,6 +5,7 @@ use super::{PositionLoop, VERSION, finite};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::check;
+use servoid_identify::repeats;
 use servoid_io::recording::Recording;
 
 /// What a check calls itself.
@@ -18,12 +19,39 @@ pub struct Check {
     pub schema: String,
     /// The recordings, in the order in which they were given.
     pub recordings: Vec<Checked>,
+    /// Recordings that repeat a command of each other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub repeats: Vec<Parting>,
     /// How the log was read.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub read: Option<Read>,
     /// Version of the program.
     #[serde(default)]
     pub version: String,
+}
+
+/// Recordings of one command, and how far the motor parts from itself.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Parting {
+    /// The recordings.
+    pub recordings: Vec<String>,
+    /// Length of the windows, s.
+    pub window_s: Option<f64>,
+    /// RMS deviation of a run from the mean of all in windows, each from where it begins, counts.
+    pub in_windows_counts: Option<f64>,
+    /// The same of whole runs, counts.
+    pub over_run_counts: Option<f64>,
+}
+
+impl From<repeats::Parting> for Parting {
+    fn from(parting: repeats::Parting) -> Self {
+        Parting {
+            window_s: finite(parting.window_s),
+            in_windows_counts: finite(parting.in_windows),
+            over_run_counts: finite(parting.over_run),
+            recordings: parting.sources,
+        }
+    }
 }
 
 /// One recording and its findings.
@@ -72,6 +100,7 @@ impl Check {
         Check {
             schema: SCHEMA.to_owned(),
             recordings,
+            repeats: Vec::new(),
             read: None,
             version: VERSION.to_owned(),
         }

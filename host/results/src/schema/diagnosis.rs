@@ -1,6 +1,7 @@
 //! `servoid.diagnosis/1` of two recordings.
 
 use super::estimate::{Estimate, Identifiable, Margins};
+use super::lack_of_fit::LackOfFit;
 use super::likelihood::{Bounded, Likelihood};
 use super::model::in_terms_of;
 use super::read::Read;
@@ -113,6 +114,9 @@ pub struct Diagnosis {
     /// were judged, 0 to 1; absent with `floor`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explained_share: Option<f64>,
+    /// What repeats of a command say of the last model; absent where no command was recorded twice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lack_of_fit: Option<LackOfFit>,
     /// Part of the fitted motion's variance that the last model explains in one run over the whole recording, per cent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explained_percent: Option<f64>,
@@ -189,13 +193,14 @@ impl From<&diagnose::Baseline> for Baseline {
 /// What a right model would still miss the fitted recordings by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Floor {
-    /// `encoder`, `repeatability` (nothing is left that the command and the motion foretell), or `unknown`.
+    /// `encoder`, `repeatability` (what repeats of a command differ by; without repeats, where nothing is left that the command and the
+    /// motion foretell), or `unknown`.
     pub kind: String,
     /// RMS error, counts; of an `unknown` floor what the motor's repeatability would be if nothing were missing.
     pub counts: Option<f64>,
     /// Length of the windows over which it holds, s; null where whole runs were judged.
     pub window_s: Option<f64>,
-    /// What tells it: `innovations`; absent where it is the encoder's.
+    /// What tells it: `repeats` of a command or an observer's `innovations`; absent where it is the encoder's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<String>,
     /// Part of an observer's innovations that its own prediction foretells; absent where there are too few readings in motion.
@@ -208,12 +213,11 @@ pub struct Floor {
 
 impl From<&diagnose::Floor> for Floor {
     fn from(floor: &diagnose::Floor) -> Self {
-        let by_encoder = floor.kind == diagnose::FloorKind::Encoder;
         Floor {
             kind: floor.kind.name().to_owned(),
             counts: finite(floor.counts),
             window_s: floor.window_s.and_then(finite),
-            from: (!by_encoder).then(|| "innovations".to_owned()),
+            from: floor.told_by().map(str::to_owned),
             foretold_share: floor.foretold.and_then(|foretold| finite(foretold.share)),
             foretold_from: (floor.foretold).and_then(|foretold| foretold.from.map(str::to_owned)),
         }

@@ -3,6 +3,7 @@
 use super::certificate::Certificate;
 use super::diagnosis::Diagnosis;
 use super::estimate::{Estimate, Identifiable, Margins};
+use super::lack_of_fit::LackOfFit;
 use super::likelihood::Likelihood;
 use super::profile::Profile;
 use super::read::Read;
@@ -93,6 +94,9 @@ pub struct Fit {
     /// The fit with process noise; absent where the free run is at the encoder's floor or the equations do not apply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub likelihood: Option<Likelihood>,
+    /// What repeats of a command say of the model; absent where no command was recorded twice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lack_of_fit: Option<LackOfFit>,
     /// What is certain of the readings and this model (`fit --certificate`); absent where nobody asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
@@ -252,6 +256,7 @@ impl Fit {
             read: None,
             interrupted: fit.interrupted,
             likelihood: fit.likelihood.as_ref().map(Likelihood::from),
+            lack_of_fit: fit.lack_of_fit.map(Into::into),
             certificate: fit.certificate.as_ref().map(Certificate::from),
             profiles: fit.profiles.iter().map(Profile::from).collect(),
             sigma_counts: fit.reading_noise.map(|noise| noise.counts),

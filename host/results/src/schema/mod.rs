@@ -9,6 +9,7 @@
 //! | `fit` | `servoid.fit/1`, of `fit` and of `demo` |
 //! | `diagnosis`, `residual` | `servoid.diagnosis/1` of two recordings, and where its models fail |
 //! | `likelihood` | the fit with process noise, in a `servoid.fit/1` |
+//! | `lack_of_fit` | what repeats of a command say of a model |
 //! | `steady` | `servoid.diagnosis/1` of a curve of steady speeds |
 //! | `contest` | `servoid.compare/1`, of `compare` and of `paper` |
 //! | `plan` | `servoid.plan/1` |
@@ -40,6 +41,7 @@ pub mod hypotheses;
 mod hypotheses_fault;
 mod identified;
 mod identified_fault;
+pub mod lack_of_fit;
 pub mod likelihood;
 mod model;
 mod model_fault;

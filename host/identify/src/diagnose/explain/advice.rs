@@ -1,6 +1,6 @@
 //! What to do next: which experiment splits what looks alike, and what no recording of voltage and angle tells.
 
-use crate::diagnose::outcome::{Diagnosis, Verdict};
+use crate::diagnose::outcome::{Diagnosis, Floor, FloorKind, Verdict};
 use crate::diagnose::recordings::HeldOut;
 use servoid_engine::problem::Data;
 use servoid_io::channel::Measured;
@@ -32,6 +32,14 @@ pub(crate) fn advise(diagnosis: &mut Diagnosis) {
             ),
             None => "no effect of the catalogue reduces the error on what was held out".to_owned(),
         });
+    }
+    let is_unknown = |floor: &Floor| floor.kind == FloorKind::Unknown;
+    if diagnosis.floor.as_ref().is_some_and(is_unknown) {
+        advice.push(
+            "record the same command three times and give all of them: what the runs differ by no model can explain, and what they have in \
+             common it can"
+                .to_owned(),
+        );
     }
     diagnosis.advice.append(&mut advice);
 }

@@ -44,11 +44,14 @@ pub struct Diagnosis {
 
 impl Diagnosis {
     /// Part of the linear motor's error beyond the floor, as squares over the span in which models were judged, that the last model takes
-    /// away; `None` where no floor is known.
+    /// away; of what repeats have in common, where there are any. `None` where no floor is known.
     pub fn explained_share(&self) -> Option<f64> {
         let floor = self.floor?;
         if floor.kind == FloorKind::Encoder {
             return Some(1.0);
+        }
+        if let Some(repeats) = floor.repeats {
+            return Some(repeats.last.explained_share(&repeats.base));
         }
         let (before, after) = (self.base.windowed?.fitted, self.last.windowed?.fitted);
         let explainable = (before.powi(2) - floor.counts.powi(2)).max(f64::MIN_POSITIVE);

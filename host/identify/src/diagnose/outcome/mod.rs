@@ -6,6 +6,6 @@ mod step;
 mod verdict;
 
 pub use diagnosis::Diagnosis;
-pub use floor::{Floor, FloorKind};
+pub use floor::{Floor, FloorKind, Repeated};
 pub use step::Step;
 pub use verdict::Verdict;

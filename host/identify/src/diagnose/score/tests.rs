@@ -6,86 +6,24 @@ use super::noise::{Noise, estimate};
 use super::readings::Readings;
 use super::repeatability::repeatability_counts;
 use super::settings::FORETOLD;
-use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle, errors, rms_counts};
+use crate::noisy_motor::{self, candidate, machine};
+use servoid_engine::problem::{Data, Horizon, StartAngle, errors, rms_counts};
 use servoid_engine::simulation::Method;
-use servoid_io::channel::Series;
-use servoid_io::recording::{Drive, Recording};
 use shared::cost::Cost;
-use shared::effects::EffectSet;
-use shared::motor::Machine;
-use shared::rng;
-use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-const COUNTS_PER_REV: f64 = 8192.0;
-const SAMPLE_S: f64 = 1e-3;
-/// Steps of the simulation to a sample.
-const FINER: usize = 10;
-/// Samples at rest before the first command, and between two: no window of half a second begins at an edge, where a speed is hard to tell.
-const REST: usize = 170;
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=30;
 
-fn machine() -> Machine<f64> {
-    Machine {
-        kb: 0.045,
-        damping: 0.0,
-        inertia: 0.045 * 0.012,
-        electrical: 0.0,
-    }
-}
-
-fn candidate() -> Candidate {
-    Candidate {
-        machine: machine(),
-        effects: EffectSet::default(),
-        start_speed: 0.0,
-        start_offset: 0.0,
-    }
-}
-
-/// The motor under steps of both signs, with torque noise of an intensity in counts²/s³ and a torque that repeats with the angle, V.
+/// The motor with torque noise of an intensity in counts²/s³ and a ripple, V; another seed is another command.
 fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
-    let mut generator = rng::seeded(seed);
-    let Machine { kb, inertia, .. } = machine();
-    let step = SAMPLE_S / FINER as f64;
-    let tau = inertia / kb;
-    // Of the linear motor over a step, exactly.
-    let decay = libm::exp(-step / tau);
-    let travel = tau * (1.0 - decay);
-    let kick = noise.sqrt() * TAU / COUNTS_PER_REV * step.sqrt();
-    let samples = (seconds / SAMPLE_S) as usize;
-    let (mut angle, mut speed, mut volts) = (0.0f64, 0.0f64, 0.0f64);
-    let (mut time_s, mut command, mut counts) = (Vec::new(), Vec::new(), Vec::new());
-    for k in 0..samples {
-        if k >= REST && k % REST == 0 {
-            volts = 12.0 * (2.0 * rng::uniform::<f64>(&mut generator) - 1.0);
-        }
-        time_s.push(k as f64 * SAMPLE_S);
-        command.push(volts);
-        counts.push((angle / TAU * COUNTS_PER_REV).floor());
-        for _ in 0..FINER {
-            let steady = (volts - ripple_v * libm::sin(3.0 * angle)) / kb;
-            angle += steady * step + (speed - steady) * travel;
-            speed = steady + (speed - steady) * decay;
-            if k >= REST {
-                speed += kick * rng::normal::<f64>(&mut generator);
-            }
-        }
+    noisy_motor::Run {
+        seconds,
+        noise,
+        ripple_v,
+        command_seed: seed,
+        noise_seed: seed,
     }
-    let recording = Recording {
-        source: format!("seed {seed}"),
-        time_s,
-        command,
-        counts,
-        measured: Series::NONE,
-        enabled: None,
-        counts_per_rev: COUNTS_PER_REV,
-        quantised: true,
-        supply_v: None,
-        drive: Drive::Voltage,
-        position: None,
-    };
-    Data::new(&recording).expect("a recording")
+    .recorded()
 }
 
 fn plant() -> Plant {

@@ -79,6 +79,7 @@ fn floor(pool: &Pool<'_>, model: &FittedModel, window_s: f64) -> Floor {
         counts,
         window_s: Some(window_s),
         foretold,
+        repeats: None,
     }
 }
 

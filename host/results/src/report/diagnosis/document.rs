@@ -46,6 +46,9 @@ impl From<&DiagnosisReport<'_>> for Diagnosis {
             hypotheses: diagnosis.hypotheses.iter().map(Into::into).collect(),
             floor: diagnosis.floor.as_ref().map(Into::into),
             explained_share: diagnosis.explained_share().and_then(finite),
+            lack_of_fit: (diagnosis.floor)
+                .and_then(|floor| floor.repeats)
+                .map(|repeats| repeats.last.into()),
             explained_percent: finite(report.explained_percent()),
             prediction: diagnosis.predicts.map(Into::into),
             models: (models.iter())

@@ -3,6 +3,7 @@
 use super::bars::counts;
 use super::evidence::changed;
 use super::{DiagnosisReport, names};
+use crate::report::repeats;
 use servoid_identify::diagnose::evidence::largest;
 use servoid_identify::diagnose::{
     Floor, FloorKind, HeldOut, ProbableSet, Verdict, moves_both_ways,
@@ -150,7 +151,7 @@ impl DiagnosisReport<'_> {
                     fitted.max(held_out) / FLOOR_RMS_COUNTS,
                     largest(&self.findings.last)
                         .map_or(String::new(), |text| format!(" Of what is left, {text}."))
-                ) + &self.unknown_floor_text()
+                ) + &self.unreached_floor_text()
             }
             Verdict::Inconclusive if self.interrupted => format!(
                 "The work was stopped before all effects were tried: the linear motor misses this recording by {base} \
@@ -162,17 +163,19 @@ impl DiagnosisReport<'_> {
                  RMS, the best model so far by {}. Run it again with a larger --budget for a verdict.",
                 counts(fitted)
             ),
-            Verdict::Inconclusive => format!(
-                "The linear motor misses this recording by {base} counts RMS, so that something is missing, but this \
+            Verdict::Inconclusive => {
+                format!(
+                    "The linear motor misses this recording by {base} counts RMS, so that something is missing, but this \
                  recording cannot tell what. See the advice for what to record."
-            ),
+                ) + &self.unreached_floor_text()
+            }
         }
     }
 
     /// The floor, where it is the motor's own repeatability.
     fn repeats_itself(&self) -> Option<Floor> {
         let floor = self.diagnosis.floor?;
-        (floor.kind == FloorKind::Repeatability).then_some(floor)
+        (floor.kind == FloorKind::Repeatability && floor.is_reached()).then_some(floor)
     }
 
     /// That the last model explains the recordings down to what the motor repeats.
@@ -190,21 +193,29 @@ impl DiagnosisReport<'_> {
             "" => "The linear motor".to_owned(),
             titles => format!("The linear motor with {titles}"),
         };
+        let rest = match floor.repeats {
+            Some(repeats) => repeats::sentences(&repeats.last.into()),
+            None => format!(
+                "Two runs of this command would part by some {} counts there, by torque that neither the command nor the motion foretells.",
+                counts(floor.counts)
+            ),
+        };
         format!(
-            "{with} explains this recording down to what the motor repeats. In windows of {seconds:.3} s {}, and to {} {}; two \
-             runs of this command would part by some {} counts there, by torque that neither the command nor the motion \
-             foretells. Over the whole recording {} counts RMS are left, since such torque adds up.{}",
+            "{with} explains this recording down to what the motor repeats. In windows of {seconds:.3} s {}, and to {} {}. {rest} Over the \
+             whole recording {} counts RMS are left, since such torque adds up.{}",
             changed("the error", before, windows.fitted),
             counts(windows.held_out),
             self.where_held_out(),
-            counts(floor.counts),
             counts(self.last_errors().0),
             self.look_alikes_text()
         )
     }
 
-    /// What is known of a floor that is not found.
-    fn unknown_floor_text(&self) -> String {
+    /// What is known of a floor that is not reached.
+    fn unreached_floor_text(&self) -> String {
+        if let Some(repeats) = self.diagnosis.floor.and_then(|floor| floor.repeats) {
+            return format!(" {}", repeats::sentences(&repeats.last.into()));
+        }
         let Some(floor) = self
             .diagnosis
             .floor

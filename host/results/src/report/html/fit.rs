@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::page::{Block, Page, Section};
 use crate::picture::{self, Drawing, LadderBar, Picture, Table};
 use crate::report::diagnosis::bars::counts;
+use crate::report::repeats;
 use crate::schema::certificate::Certificate;
 use crate::schema::{self, Fit};
 use servoid_engine::problem::Data;
@@ -169,8 +170,11 @@ fn lead(fit: &Fit) -> String {
     } else {
         ""
     };
+    let repeats = (fit.lack_of_fit.as_ref()).map_or(String::new(), |found| {
+        format!(" {}", repeats::sentences(found))
+    });
     format!(
-        "The {} misses this recording by {} counts RMS on its own from start to end{held_out}; {floor}.{verdict}{stopped}",
+        "The {} misses this recording by {} counts RMS on its own from start to end{held_out}; {floor}.{verdict}{repeats}{stopped}",
         fit.name(),
         counts(fit.rms_counts)
     )
