@@ -2,6 +2,7 @@
 
 mod joined;
 mod recordings;
+mod thinned;
 
 pub use joined::JoinError;
 pub use recordings::Recordings;

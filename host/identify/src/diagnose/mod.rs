@@ -65,6 +65,7 @@ mod settle;
 mod spectrum;
 pub mod steady;
 mod suggest;
+mod thinned;
 mod walk;
 
 pub use baseline::{Baseline, Prediction};
@@ -92,9 +93,20 @@ use naming::name_effects;
 use selection::select_effects;
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
+use thinned::{Thinned, on_all_readings};
 use walk::{Answer, walk};
 
 /// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
+fn in_windows<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
+    let thinned = Thinned::of(&linear);
+    let Some(fewer) = thinned.as_ref().and_then(|thinned| thinned.linear(&linear)) else {
+        return walked(linear, done);
+    };
+    let found = walked(fewer, done);
+    on_all_readings(linear, found)
+}
+
+/// The walk, held to the baseline.
 fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
     let Linear { context, base, .. } = linear;
     let answer = walk(&context, &base, done);
@@ -157,7 +169,7 @@ pub fn diagnose(
     let prepared = Context::new(data, held_out, options, budget);
     let linear = fit_linear_motor(prepared, options)?;
     let confirmed = if linear.context.span.window_s.is_some() {
-        walked(linear, done)
+        in_windows(linear, done)
     } else {
         selected(linear, done)
     };

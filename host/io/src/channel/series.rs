@@ -35,6 +35,11 @@ impl Series {
         Series(self.0.rows(&rows))
     }
 
+    /// The samples at the given places.
+    pub fn at(&self, places: &[usize]) -> Self {
+        Series(self.0.at(places))
+    }
+
     /// Puts the samples of another recording behind. A column that only one of the two has is left out.
     pub fn append(&mut self, next: Series) {
         for (own, next) in self.0.0.iter_mut().zip(next.0.0) {

@@ -42,6 +42,15 @@ impl<T> IndexMut<Measured> for PerMeasured<T> {
 }
 
 impl PerMeasured<Option<Vec<f64>>> {
+    /// The samples of each column at the given places.
+    pub(crate) fn at(&self, places: &[usize]) -> Self {
+        let some = |column: &Option<Vec<f64>>| {
+            let picked = |all: &Vec<f64>| places.iter().map(|&k| all[k]).collect();
+            column.as_ref().map(picked)
+        };
+        PerMeasured(self.0.each_ref().map(some))
+    }
+
     /// Some of the samples of each column.
     pub(crate) fn rows(&self, rows: &Range<usize>) -> Self {
         let some =

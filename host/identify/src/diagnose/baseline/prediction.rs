@@ -23,6 +23,11 @@ pub struct Prediction {
 }
 
 impl Prediction {
+    /// Of a model in the windows of a diagnosis; `None` where it cannot run.
+    pub fn of(context: &Context<'_>, model: &FittedModel) -> Option<Self> {
+        Windows::of(context).prediction(context, model)
+    }
+
     /// Sum of the errors' logarithms.
     pub fn score(&self) -> f64 {
         [
