@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn no_effect_passes_for_a_driver_that_woke_late() {
-        for (kind, seed) in Kind::ALL.into_iter().zip(SEEDS) {
+        for (kind, seed) in Kind::ALL.iter().zip(SEEDS) {
             let Some(recording) = with(kind.name(), seed) else {
                 continue;
             };

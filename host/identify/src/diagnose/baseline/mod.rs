@@ -94,7 +94,15 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     if names_are_sure(&confirmed) {
         let kept =
             |rated: &Rated| (chosen.effects.iter()).all(|kind| rated.model.effects.contains(kind));
-        rated.retain(kept);
+        // A set that predicts worse than the baseline wherever it is held against it is no better one, whatever its score.
+        let holds = |rated: &Rated| {
+            let own = rated.prediction;
+            own.windowed <= limit.prediction.windowed
+                || own.held_out_windowed <= limit.prediction.held_out_windowed
+        };
+        if rated.iter().any(|rated| kept(rated) && holds(rated)) {
+            rated.retain(kept);
+        }
     }
     budget.book(own.spent());
     confirmed.known.extend(further);
