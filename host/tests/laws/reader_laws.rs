@@ -162,7 +162,8 @@ fn recording() -> impl Strategy<Value = Recording> {
     let sample = (
         1e-6f64..1.0,
         any_finite(),
-        any::<i32>(),
+        // A counter that jumps is repaired or refused, and another law's.
+        -1000..1000,
         any_finite(),
         any::<bool>(),
     );
@@ -183,7 +184,12 @@ fn recording() -> impl Strategy<Value = Recording> {
                 source: "rec.csv".into(),
                 time_s,
                 command: samples.iter().map(|sample| sample.1).collect(),
-                counts: samples.iter().map(|sample| f64::from(sample.2)).collect(),
+                counts: (samples.iter())
+                    .scan(0, |count, sample| {
+                        *count += sample.2;
+                        Some(f64::from(*count))
+                    })
+                    .collect(),
                 measured: Series::NONE.with(
                     Measured::Current,
                     with_current.then(|| samples.iter().map(|sample| sample.3).collect()),

@@ -118,7 +118,8 @@ pub(super) fn set_anew(time_s: &[f64], counts: &[f64]) -> Vec<SetAnew> {
     let inner: Vec<usize> = (1..steps.len() - 1)
         .filter(|k| (k - 1..=k + 1).all(is_near))
         .collect();
-    if inner.is_empty() {
+    // Beside fewer nothing is unusual.
+    if inner.len() < FEWEST {
         return Vec::new();
     }
     let usual = usually(&inner.iter().map(|k| off(*k)).collect::<Vec<_>>());
