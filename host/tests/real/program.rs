@@ -47,6 +47,57 @@ fn no_servo_that_holds_a_weight_is_refused_or_told_that_its_sign_is_reversed() {
     }
 }
 
+/// The two runs of each pair are of one command, so that the floor is measured. Of a chirp and a sine the model explains what the motor
+/// repeats; a ramp and a step turn one way only, and cannot tell.
+fn knows_what_the_motor_repeats(fitted: &str, found: &Value) {
+    let ratio = found["lack_of_fit"]["ratio"].as_f64().expect("repeats");
+    assert_eq!(found["floor"]["kind"], "repeatability", "{fitted}");
+    assert_eq!(found["floor"]["from"], "repeats", "{fitted}");
+    println!("{fitted}: {ratio:.3} of what the motor repeats");
+    if ["chirp_1", "sine_1"].contains(&fitted) {
+        assert_eq!(found["verdict"], "missing_effects", "{fitted}");
+        assert!((0.98..1.1).contains(&ratio), "{fitted}: {ratio}");
+    } else {
+        assert!((0.98..1.25).contains(&ratio), "{fitted}: {ratio}");
+    }
+}
+
+/// The driver of this kit wakes after its log begins: 3 V are logged from the first sample on, and the first count comes 45, 135, 127 and
+/// 119 ms later; at the other edges it comes after 4 ms.
+#[test]
+fn a_driver_that_wakes_late_is_told_and_repeats_are_found() {
+    let file = |name: &str| recordings::elsewhere(&format!("fra233_g04/{name}.csv"));
+    let stairs = ["stair_1", "stair_2", "stair_3", "stair_4"].map(file);
+    let [Some(first), Some(second), Some(third), Some(fourth)] = stairs else {
+        return;
+    };
+    let checked = Command::new(env!("CARGO_BIN_EXE_servoid"))
+        .args(["check", "--quiet", "--json", "-"])
+        .args([&first, &second, &third, &fourth])
+        .arg("--motor")
+        .arg(recordings::map("fra233_g04.toml"))
+        .output();
+    let found = said(&checked.expect("servoid starts"));
+    let repeats = &found["repeats"][0];
+    assert_eq!(repeats["recordings"].as_array().map(Vec::len), Some(4));
+    let parting = repeats["in_windows_counts"].as_f64().expect("a number");
+    assert!((70.0..150.0).contains(&parting), "{parting}");
+    for (checked, first_count_ms) in (found["recordings"].as_array().expect("recordings").iter())
+        .zip([45.0, 135.0, 126.5, 118.5])
+    {
+        let findings = checked["findings"].as_array().expect("findings");
+        let late = findings
+            .iter()
+            .find(|finding| finding["code"] == "late_driver");
+        let seen = late.expect("a late driver")["seen"]
+            .as_str()
+            .expect("words");
+        let wakes_ms = seen.split(' ').find_map(|word| word.parse::<f64>().ok());
+        let before = first_count_ms - wakes_ms.expect("a time");
+        assert!((0.0..8.0).contains(&before), "{seen}");
+    }
+}
+
 /// Held-out errors of the afternoon model, counts RMS, in windows of half a second and over the whole run: what
 /// `host/benches/afternoon/afternoon.py` prints.
 const AFTERNOON: [(&str, &str, f64, f64); 4] = [
@@ -77,6 +128,7 @@ fn a_diagnosis_predicts_no_worse_than_an_afternoons_least_squares() {
         println!(
             "{fitted} > {held_out}: {ours:.1} against {windowed}, {ours_whole:.1} against {whole}"
         );
+        knows_what_the_motor_repeats(fitted, &found);
         assert!(
             (0.5 * windowed..1.12 * windowed).contains(&ours),
             "{fitted}: {ours}"

@@ -11,6 +11,7 @@
 //! |---|---|---|---|
 //! | prepare | both recordings, options, budget | `Context` | `context` |
 //! | fit the linear motor | `Context` | `Linear`: the span of the runs, the motor, where the search starts | `linear` |
+//! | thin | `Linear` | `Linear` along fewer readings, where models run in windows and a log holds many more than a motor of its time constant asks for | `thinned` |
 //! | walk | `Linear` | `Answer`: the set of effects with the best score, where models run in windows | `walk`, `score` |
 //! | select effects | `Linear` | `Selected`: models with one effect, with two, and so on, where whole runs may come down to the encoder's error | `selection` |
 //! | confirm them | `Selected` | `Confirmed`: the model whose effects all hold, and its rivals | `confirmation` |
