@@ -69,8 +69,10 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
 
 /// What stands below a model's error in windows.
 fn floor(pool: &Pool<'_>, model: &FittedModel, window_s: f64) -> Floor {
-    let counts = pool.repeatability_counts(&model.candidate, window_s);
-    let foretold = pool.foretold(&model.candidate);
+    let counts = pool
+        .evidence
+        .repeatability_counts(&model.candidate, window_s);
+    let foretold = pool.evidence.foretold(&model.candidate);
     Floor {
         kind: match foretold {
             Some(foretold) if foretold.share <= FORETOLD => FloorKind::Repeatability,

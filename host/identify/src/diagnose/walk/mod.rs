@@ -5,10 +5,12 @@
 //! | `settings` | every number that decides |
 //! | `node` | a set of effects with its best fit |
 //! | `moves` | from a set to its neighbours |
+//! | `evidence` | by what they are judged: all recordings with their observers and noise |
 //! | `pool` | all nodes, fitted and scored alike |
 //! | `answer` | the model that is chosen, and what leads to it |
 
 mod answer;
+mod evidence;
 mod moves;
 mod node;
 mod pool;

@@ -1,5 +1,6 @@
 //! Every set that was fitted, all scored with the same noise.
 
+use super::evidence::Evidence;
 use super::moves::{self, Start};
 use super::node::Node;
 use super::settings::{FAR_NATS, FAR_PART, LEADERS, PROMISING, ROUNDS, SETTLED_NATS};
@@ -8,19 +9,11 @@ use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, same};
-use crate::diagnose::score::settings::{NOISE_RUNS, UNDAMPED_INTERVAL_S};
-use crate::diagnose::score::{
-    Filter, Foretold, Innovations, Noise, Plant, Prior, Readings, correlation_length, estimate,
-    foretold, likelihoods, repeatability_counts,
-};
 use crate::diagnose::screening::{restart, screen};
 use crate::error::Error;
 use rayon::prelude::*;
-use servoid_engine::problem::{
-    Candidate, Horizon, START_OFFSET, START_SPEED, StartAngle, Structure, errors,
-};
+use servoid_engine::problem::Structure;
 use servoid_engine::solve::Objective;
-use shared::cost::Cost;
 use shared::effects::Kind;
 
 /// Of a fit of innovations that is to converge.
@@ -39,23 +32,12 @@ const ROUGH: Settings = Settings {
     ..CONVERGED
 };
 
-/// The recordings on one side with their observer.
-struct Side<'a> {
-    readings: Readings<'a>,
-    noise: Vec<Noise>,
-    filter: Filter,
-}
-
 /// Every set that was fitted.
 pub struct Pool<'a> {
     context: &'a Context<'a>,
     base: FittedModel,
-    plant: Plant,
-    prior: Prior,
-    fitted: Side<'a>,
-    held_out: Side<'a>,
-    /// Readings for each independent one.
-    correlation: f64,
+    /// By what the sets are judged.
+    pub evidence: Evidence<'a>,
     /// Best first.
     pub nodes: Vec<Node>,
 }
@@ -63,41 +45,13 @@ pub struct Pool<'a> {
 impl<'a> Pool<'a> {
     /// A pool that holds the linear motor alone.
     pub fn begun(context: &'a Context<'a>, base: &FittedModel) -> Self {
-        let plant = Plant::of(&base.candidate.machine);
-        let interval_s = if context.data.drive.is_voltage() {
-            plant.time_constant_s
-        } else {
-            UNDAMPED_INTERVAL_S
-        };
-        let side = |data| {
-            let readings = Readings::every(data, interval_s);
-            let noise = vec![
-                Noise {
-                    torque: 0.0,
-                    reading: readings.floor,
-                };
-                readings.recordings.len()
-            ];
-            let filter = Filter::new(&readings, plant, &noise);
-            Side {
-                readings,
-                noise,
-                filter,
-            }
-        };
         let mut pool = Pool {
             context,
             base: base.clone(),
-            plant,
-            prior: Prior {
-                about: base.candidate.machine,
-            },
-            fitted: side(context.data),
-            held_out: side(context.held_out),
-            correlation: 1.0,
+            evidence: Evidence::new(context, base),
             nodes: Vec::new(),
         };
-        pool.estimate_noise_under(&base.candidate);
+        pool.evidence.estimate_noise(&base.candidate);
         let linear = pool.fit(&base.structure, std::slice::from_ref(&base.x), CONVERGED);
         let standing = || Node::new(base.structure.clone(), base.x.clone());
         pool.put(vec![linear.unwrap_or_else(standing)]);
@@ -117,25 +71,6 @@ impl<'a> Pool<'a> {
     /// Whether a set was fitted.
     pub fn knows(&self, effects: &[Kind]) -> bool {
         self.node(effects).is_some()
-    }
-
-    /// What is foretold of the innovations of a node on the fitted recordings.
-    pub fn foretold(&self, candidate: &Candidate) -> Option<Foretold> {
-        let Side {
-            readings, filter, ..
-        } = &self.fitted;
-        let errors = self.errors_at(&self.fitted, candidate)?;
-        foretold(readings, filter, &errors)
-    }
-
-    /// RMS by which a right model's free run would miss the fitted recordings in windows, counts.
-    pub fn repeatability_counts(&self, candidate: &Candidate, window_s: f64) -> f64 {
-        let plant = Plant::of(&candidate.machine);
-        let noise = &self.fitted.noise;
-        let squares = noise
-            .iter()
-            .map(|noise| repeatability_counts(noise, plant, window_s).powi(2));
-        (squares.sum::<f64>() / noise.len().max(1) as f64).sqrt()
     }
 
     /// Fits a set from the linear motor, one effect after the other.
@@ -167,7 +102,7 @@ impl<'a> Pool<'a> {
             .filter(|_| !self.context.budget.exhausted())
             .filter_map(|start| {
                 let mut node = self.begin(parent, &model, start)?;
-                self.rate(&mut node);
+                self.evidence.rate(&mut node);
                 done();
                 Some(node)
             })
@@ -237,7 +172,7 @@ impl<'a> Pool<'a> {
         let screened = screen(self.context, &rest, kind, first.as_slice())?;
         // Where the effect was screened, or where the parent stands with the effect as it was screened.
         let beside = self.beside(&rest, &screened.structure, &screened.values());
-        let problem = self.innovations(&screened.structure);
+        let problem = self.evidence.innovations(&screened.structure);
         let starts = [screened.x, beside];
         let costs = starts.into_iter().map(|x| (problem.cost(&x), x));
         let (_, x) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -253,14 +188,6 @@ impl<'a> Pool<'a> {
         structure.coordinates(&values)
     }
 
-    fn innovations(&self, structure: &Structure) -> Innovations<'_> {
-        let method = self.context.method;
-        let Side {
-            readings, filter, ..
-        } = &self.fitted;
-        Innovations::new(readings, filter, self.prior, structure.clone(), method)
-    }
-
     /// A node fitted on from where it stands; not scored.
     fn go_on(&self, node: &Node, settings: Settings) -> Option<Node> {
         self.fit(&node.structure, std::slice::from_ref(&node.x), settings)
@@ -268,7 +195,7 @@ impl<'a> Pool<'a> {
 
     /// The fit from the best of several starts; not scored.
     fn fit(&self, structure: &Structure, starts: &[Vec<f64>], settings: Settings) -> Option<Node> {
-        let problem = self.innovations(structure);
+        let problem = self.evidence.innovations(structure);
         let method = self.context.method;
         let cost = |start: &&Vec<f64>| match starts {
             [_] => 0.0,
@@ -287,7 +214,7 @@ impl<'a> Pool<'a> {
     /// Adds nodes, or puts them in the place of worse ones of the same set, and sorts.
     fn put(&mut self, nodes: Vec<Node>) {
         for mut node in nodes {
-            self.rate(&mut node);
+            self.evidence.rate(&mut node);
             let known = self
                 .nodes
                 .iter()
@@ -305,72 +232,15 @@ impl<'a> Pool<'a> {
         self.nodes.sort_by(|a, b| b.score.total_cmp(&a.score));
     }
 
-    fn rate(&self, node: &mut Node) {
-        let values = node.structure.values(&node.x);
-        let candidate = node.structure.candidate(&values);
-        let sides = [
-            (&self.fitted, candidate),
-            (&self.held_out, self.elsewhere(&candidate)),
-        ];
-        let nats: f64 = sides
-            .iter()
-            .flat_map(|(side, candidate)| match self.errors_at(side, candidate) {
-                Some(errors) => likelihoods(&side.readings, &side.filter, &errors),
-                None => vec![f64::NEG_INFINITY],
-            })
-            .sum();
-        let distances = self.prior.distances(&node.structure, &values);
-        let prior: f64 = distances.iter().map(|d| 0.5 * d * d).sum();
-        let starts = [START_SPEED, START_OFFSET];
-        let of_start = node
-            .structure
-            .unknowns
-            .iter()
-            .filter(|u| starts.contains(&u.name.as_str()));
-        let parameters = (node.freedom() - of_start.count()) as f64;
-        let readings = self.fitted.readings.weight() + self.held_out.readings.weight();
-        let independent = (readings / self.correlation).max(2.0);
-        let score = nats / self.correlation - prior - 0.5 * parameters * libm::log(independent);
-        // A run that ends in no number is worse than any other.
-        node.score = if score.is_nan() {
-            f64::NEG_INFINITY
-        } else {
-            score
-        };
-    }
-
-    /// The model with the start of the held-out recording.
-    fn elsewhere(&self, candidate: &Candidate) -> Candidate {
-        Candidate {
-            start_speed: self.held_out.readings.data.start_speed(0),
-            start_offset: 0.0,
-            ..*candidate
-        }
-    }
-
-    /// Innovations of a model at the readings of one side, counts.
-    fn errors_at(&self, side: &Side<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
-        let data = side.readings.data;
-        let horizon = Horizon::Corrected(side.filter.corrections.clone());
-        let (start, cost) = (StartAngle::Free, Cost::Squared);
-        let all = errors(data, candidate, self.context.method, &horizon, start, cost).ok()?;
-        Some(side.readings.errors(&all))
-    }
-
     /// Estimates the noise under the best node, and scores all again.
     pub fn estimate_noise(&mut self) {
         let candidate = self.best().candidate();
-        self.estimate_noise_under(&candidate);
-        if let Some(errors) = self.errors_at(&self.fitted, &candidate) {
-            let Side {
-                readings, filter, ..
-            } = &self.fitted;
-            self.correlation = correlation_length(readings, filter, &errors);
-        }
+        self.evidence.estimate_noise(&candidate);
+        self.evidence.estimate_correlation(&candidate);
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.par_iter_mut().for_each(|node| {
             node.converged = false;
-            self.rate(node);
+            self.evidence.rate(node);
         });
         self.nodes = nodes;
         self.sort();
@@ -395,28 +265,6 @@ impl<'a> Pool<'a> {
     pub fn is_explained(&self) -> bool {
         self.model(self.best())
             .is_ok_and(|model| model.free().at_floor())
-    }
-
-    fn estimate_noise_under(&mut self, candidate: &Candidate) {
-        let elsewhere = self.elsewhere(candidate);
-        let (plant, context) = (self.plant, self.context);
-        for (side, candidate) in [
-            (&mut self.fitted, candidate),
-            (&mut self.held_out, &elsewhere),
-        ] {
-            let stop = context.budget.stop();
-            side.noise = estimate(
-                &side.readings,
-                plant,
-                candidate,
-                context.method,
-                &side.noise,
-                stop,
-            );
-            let runs = NOISE_RUNS * side.readings.data.len();
-            context.budget.book(runs as u64);
-            side.filter = Filter::new(&side.readings, plant, &side.noise);
-        }
     }
 
     /// Lets the best nodes converge, until the best are those that did.

@@ -1,0 +1,17 @@
+//! A search on fewer readings. An observer corrects a motor about once a time constant; what a log holds many times in between costs time and
+//! tells nothing where the motor's own noise is far above the encoder's. What was found is then judged on all readings.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `settings` | every number that decides |
+//! | `recordings` | the recordings with fewer readings |
+//! | `on_all` | what was found, judged on all readings |
+//! | `along` | a model along other recordings |
+
+mod along;
+mod on_all;
+mod recordings;
+mod settings;
+
+pub use on_all::on_all_readings;
+pub use recordings::Thinned;
