@@ -100,7 +100,9 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
             own.windowed <= limit.prediction.windowed
                 || own.held_out_windowed <= limit.prediction.held_out_windowed
         };
-        if rated.iter().any(|rated| kept(rated) && holds(rated)) {
+        let mut of_its_own = rated.iter().filter(|rated| kept(rated)).peekable();
+        let is_worse = of_its_own.peek().is_some() && !of_its_own.any(holds);
+        if !is_worse {
             rated.retain(kept);
         }
     }
