@@ -82,6 +82,7 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     let Some(limit) = rated.iter().min_by(by_held_out) else {
         return confirmed;
     };
+    let limit_ran = limit.model.ran();
     let limit = Baseline {
         effects: limit.model.effects.clone(),
         prediction: limit.prediction,
@@ -94,11 +95,10 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     if names_are_sure(&confirmed) {
         let kept =
             |rated: &Rated| (chosen.effects.iter()).all(|kind| rated.model.effects.contains(kind));
-        // A set that predicts worse than the baseline wherever it is held against it is no better one, whatever its score.
+        // A set whose runs are worse than the baseline's on both recordings is no better one, whatever its score.
         let holds = |rated: &Rated| {
-            let own = rated.prediction;
-            own.windowed <= limit.prediction.windowed
-                || own.held_out_windowed <= limit.prediction.held_out_windowed
+            let own = rated.model.ran();
+            own.fitted <= limit_ran.fitted || own.held_out <= limit_ran.held_out
         };
         let mut of_its_own = rated.iter().filter(|rated| kept(rated)).peekable();
         let is_worse = of_its_own.peek().is_some() && !of_its_own.any(holds);
