@@ -3,9 +3,10 @@
 use crate::diagnose::{HeldOut, Remark, holdout, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
-use crate::late_driver::without_late_drivers;
+use crate::late_driver::cut_late_drivers;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
+use std::slice;
 use std::sync::Arc;
 
 /// What a diagnosis fits and what it judges by.
@@ -79,8 +80,9 @@ impl Datasets {
                 remarks.extend(usable::check(other, options.force)?);
             }
         }
-        remarks.extend(cut_late_drivers(&mut fitted));
-        remarks.extend(cut_late_drivers(&mut held_out));
+        for recordings in [&mut fitted, &mut held_out] {
+            remarks.extend(cut_late_drivers(recordings).into_iter().map(Remark::aside));
+        }
         let (fitted, held_out) = (Data::joined(fitted)?, Data::joined(held_out)?);
         for data in [&fitted, &held_out] {
             if fit::is_reversed(data, options) {
@@ -102,11 +104,10 @@ impl Datasets {
         })
     }
 
-    fn of_one(recording: Recording, options: &Options) -> Result<Self, Error> {
+    fn of_one(mut recording: Recording, options: &Options) -> Result<Self, Error> {
         let mut remarks = usable::check(&recording, options.force)?;
-        let mut one = [recording];
-        remarks.extend(cut_late_drivers(&mut one));
-        let [recording] = one;
+        let cut = cut_late_drivers(slice::from_mut(&mut recording));
+        remarks.extend(cut.into_iter().map(Remark::aside));
         let (first, rest, kind) = holdout::cut(&recording).ok_or_else(|| {
             Error::Failed(format!(
                 "{}: {:.3} s are too short to hold a part of them out; give another recording of the same motor with \
@@ -126,9 +127,4 @@ impl Datasets {
             whole: Some(whole),
         })
     }
-}
-
-fn cut_late_drivers(recordings: &mut [Recording]) -> impl Iterator<Item = Remark> {
-    let late = without_late_drivers(recordings).into_iter();
-    late.map(|(source, late)| Remark::aside(format!("{source}: {}", late.text())))
 }

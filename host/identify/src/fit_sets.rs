@@ -4,7 +4,7 @@ use crate::check;
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use crate::identify::identify_data;
-use crate::late_driver::without_late_drivers;
+use crate::late_driver::cut_late_drivers;
 use crate::progress::Progress;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
@@ -47,11 +47,7 @@ impl FitSets {
             );
         }
         for recordings in [&mut fitted, &mut held_out] {
-            let late = without_late_drivers(recordings);
-            remarks.extend(
-                late.iter()
-                    .map(|(source, late)| format!("{source}: {}", late.text())),
-            );
+            remarks.extend(cut_late_drivers(recordings));
         }
         let scored = !held_out.is_empty();
         Ok(FitSets {

@@ -120,7 +120,7 @@ pub fn identify_data(
     Ok(fit)
 }
 
-/// What repeats of a command say of a fit that does not reach the encoder's floor.
+/// What repeats of a command say of a fit.
 fn lack_of_fit(
     fit: &Fit,
     data: &Data,

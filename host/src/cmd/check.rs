@@ -25,15 +25,19 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
         read.get_or_insert_with(|| Read::of(&reading.motor, Vec::new()))
             .remarks
             .extend(reading.notes);
-        for recording in &reading.recordings {
-            let mut findings = examine(recording);
-            findings.extend(LateDriver::of(recording).map(|late| late.finding()));
+        for recording in reading.recordings {
+            let late = LateDriver::of(&recording);
+            let mut findings = examine(&recording);
+            findings.extend(late.map(|late| late.finding()));
             if findings.iter().any(|f| f.severity == Severity::Refusal) {
                 refused.push(recording.source.clone());
             }
-            recordings.push(Checked::new(recording, &findings));
+            recordings.push(Checked::new(&recording, &findings));
+            usable.push(match late {
+                Some(late) => late.cut(&recording),
+                None => recording,
+            });
         }
-        usable.extend(reading.recordings);
     }
     let json = Check {
         repeats: partings(usable),
@@ -52,11 +56,7 @@ pub(super) fn run(session: &Session, args: &CheckArgs) -> Result<(), Error> {
 
 /// How far recordings of one command part.
 fn partings(recordings: Vec<Recording>) -> Vec<Parting> {
-    let woken = |recording: Recording| match LateDriver::of(&recording) {
-        Some(late) => late.cut(&recording),
-        None => recording,
-    };
-    let lowered = recordings.into_iter().map(woken).map(Data::taken);
+    let lowered = recordings.into_iter().map(Data::taken);
     let data: Vec<Data> = lowered.filter_map(Result::ok).collect();
     let sets: Vec<&Data> = data.iter().collect();
     let (Some(repeats), Some(first)) = (Repeats::among(&sets), data.first()) else {

@@ -57,6 +57,22 @@ impl Recordings {
         }
     }
 
+    /// Those of every `every`th sample of each.
+    #[must_use]
+    pub(super) fn thinned(&self, every: usize) -> Self {
+        let mut begins = Vec::with_capacity(self.count());
+        let mut end = 0;
+        for range in self.ranges() {
+            begins.push(end);
+            end += range.len().div_ceil(every);
+        }
+        Recordings {
+            begins,
+            end,
+            ..self.clone()
+        }
+    }
+
     /// Number of recordings.
     pub fn count(&self) -> usize {
         self.begins.len()

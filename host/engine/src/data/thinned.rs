@@ -1,8 +1,9 @@
 //! Every so manyeth sample of a recording.
 
-use super::{Data, Recordings, interval_lengths};
+use super::{Data, interval_lengths};
 use shared::error::ModelError;
 use shared::units::PerUnit;
+use std::ops::Range;
 
 impl Data {
     /// Every `every`th sample of each recording. A command is the mean of those that it stands for, which is what a motor feels of commands
@@ -11,25 +12,14 @@ impl Data {
     /// # Errors
     /// Bases that are not positive.
     pub fn thinned(&self, every: usize) -> Result<Data, ModelError> {
-        let groups = |range: std::ops::Range<usize>| {
+        let groups = |range: Range<usize>| {
             let end = range.end;
             range.step_by(every).map(move |k| k..(k + every).min(end))
         };
         let groups: Vec<_> = self.recordings.ranges().flat_map(groups).collect();
         let kept: Vec<usize> = groups.iter().map(|group| group.start).collect();
         let some = |values: &[f64]| -> Vec<f64> { kept.iter().map(|&k| values[k]).collect() };
-        let mut recordings: Option<Recordings> = None;
-        let named = self.recordings.ranges().zip(self.recordings.sources());
-        for ((range, source), control) in named.zip(self.recordings.loops()) {
-            let samples = range.len().div_ceil(every);
-            match &mut recordings {
-                None => {
-                    recordings = Some(Recordings::one(source, samples).driven_by(*control));
-                }
-                Some(recordings) => recordings.push(source, samples, *control),
-            }
-        }
-        let recordings = recordings.unwrap_or_else(|| self.recordings.clone());
+        let recordings = self.recordings.thinned(every);
         let units = PerUnit::new(
             self.units.volts,
             self.units.speed,
@@ -39,7 +29,7 @@ impl Data {
         let (time_s, counts) = (some(&self.time_s), some(&self.counts));
         let fastest = recordings.steps(&counts).map(f64::abs).fold(0.0, f64::max);
         let (lengths, length_of) = interval_lengths(&time_s, &recordings, units.interval, fastest);
-        let mean = |group: &std::ops::Range<usize>| {
+        let mean = |group: &Range<usize>| {
             self.command[group.clone()].iter().sum::<f64>() / group.len() as f64
         };
         Ok(Data {

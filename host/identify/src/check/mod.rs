@@ -25,7 +25,9 @@ mod speed_loop;
 mod standstill;
 
 pub use finding::{Finding, Severity};
-pub(crate) use response::{DriveResponse, Driven, begun_s, drive_response, edges_after_rest};
+#[cfg(test)]
+pub(crate) use response::edges_after_rest;
+pub(crate) use response::{BEGUN, DriveResponse, Driven, begun_s, drive_response, usual_answer};
 
 use crate::error::Error;
 use servoid_io::recording::Recording;

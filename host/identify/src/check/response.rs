@@ -24,7 +24,7 @@ const EDGE: f64 = 0.3;
 /// Longest time in which a motor must answer, s.
 const ANSWER_S: f64 = 0.3;
 /// Counts of motion that are no jitter.
-const BEGUN: f64 = 2.0;
+pub(crate) const BEGUN: f64 = 2.0;
 /// Counts of which the beginning of a motion is told.
 const ROOTS: usize = 8;
 /// A motor that answers later than this, and than so many samples, is late.
@@ -237,15 +237,21 @@ fn sign(x: f64) -> f64 {
 /// The median time from an edge of the command, after rest, to the first motion, s, and of how many edges; `None` where there is
 /// none or it is not late.
 fn first_motion(recording: &Recording) -> Option<(f64, usize)> {
-    let (time, counts) = (&recording.time_s, &recording.counts);
-    let mut late: Vec<f64> = edges_after_rest(recording)
-        .filter_map(|edge| begun_s(&time[edge..], &counts[edge..]))
-        .collect();
-    late.sort_by(f64::total_cmp);
-    let median = *late.get(late.len() / 2)?;
+    let (median, edges) = usual_answer(recording)?;
     let (seconds, samples) = LATE;
     let is_late = median > seconds && median > samples * recording.median_interval_s();
-    is_late.then_some((median, late.len()))
+    is_late.then_some((median, edges))
+}
+
+/// The same, late or not.
+pub(crate) fn usual_answer(recording: &Recording) -> Option<(f64, usize)> {
+    let (time, counts) = (&recording.time_s, &recording.counts);
+    let mut answers: Vec<f64> = edges_after_rest(recording)
+        .filter_map(|edge| begun_s(&time[edge..], &counts[edge..]))
+        .collect();
+    answers.sort_by(f64::total_cmp);
+    let median = *answers.get(answers.len() / 2)?;
+    Some((median, answers.len()))
 }
 
 /// Samples at which the command steps after rest.

@@ -1,9 +1,9 @@
 //! When a driver woke, and the recording without the moments before.
 
-use super::settings::{AS_LIVELY, BEGUN, CURED, FEWEST, OUTLIER, RESTED, WINDOW_S};
-use crate::check::{Finding, Severity, begun_s, edges_after_rest};
+use super::settings::{AS_LIVELY, CURED, FEWEST, OUTLIER, RESTED, WINDOW_S};
+use crate::check::{BEGUN, Finding, Severity, begun_s, usual_answer};
 use crate::fit::{self, Options, SPEED_HALF_WIDTH};
-use servoid_engine::problem::{Data, FitProblem, Horizon, rms_counts};
+use servoid_engine::problem::{Data, FitProblem, Horizon, errors, rms_counts};
 use servoid_io::recording::Recording;
 use shared::effects::Kind;
 use std::ops::Range;
@@ -81,27 +81,23 @@ impl LateDriver {
     }
 }
 
-/// The recordings with the first moments of a late driver cut off, and the findings.
-pub fn without_late_drivers(recordings: &mut [Recording]) -> Vec<(String, Finding)> {
-    let mut findings = Vec::new();
+/// Cuts the first moments of late drivers off; returns a remark on each.
+pub fn cut_late_drivers(recordings: &mut [Recording]) -> Vec<String> {
+    let mut remarks = Vec::new();
     for recording in recordings {
         if let Some(late) = LateDriver::of(recording) {
-            findings.push((recording.source.clone(), late.finding()));
+            remarks.push(format!("{}: {}", recording.source, late.finding().text()));
             *recording = late.cut(recording);
         }
     }
-    findings
+    remarks
 }
 
 /// First sample from which on the driver drives: as long before the motion begins as at the other starts.
 fn wakes(recording: &Recording, moved: usize) -> usize {
     let time = &recording.time_s;
     let begun = begun_s(time, &recording.counts).unwrap_or(time[moved] - time[0]);
-    let mut answers: Vec<f64> = edges_after_rest(recording)
-        .filter_map(|edge| begun_s(&time[edge..], &recording.counts[edge..]))
-        .collect();
-    answers.sort_by(f64::total_cmp);
-    let usual = answers.get(answers.len() / 2).copied().unwrap_or(0.0);
+    let usual = usual_answer(recording).map_or(0.0, |(median, _)| median);
     time.partition_point(|t| t - time[0] < begun - usual)
 }
 
@@ -113,15 +109,8 @@ fn first_and_others(problem: &FitProblem<'_>, data: &Data) -> Option<(f64, f64)>
     let Horizon::Windows(windows) = &horizon else {
         return None;
     };
-    let errors = FitProblem {
-        data,
-        structure: problem.structure.clone(),
-        horizon: horizon.clone(),
-        start: None,
-        ..*problem
-    }
-    .errors(&candidate)
-    .ok()?;
+    let (method, start) = (problem.method, problem.start_angle);
+    let errors = errors(data, &candidate, method, &horizon, start, problem.cost).ok()?;
     let error = |window: &Range<usize>| rms_counts(data, &errors[window.clone()]);
     let change = |window: &Range<usize>| {
         let speeds = window

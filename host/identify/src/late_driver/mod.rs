@@ -15,4 +15,4 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use found::{LateDriver, without_late_drivers};
+pub use found::{LateDriver, cut_late_drivers};

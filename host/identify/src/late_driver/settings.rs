@@ -3,8 +3,6 @@
 
 /// Length of the windows in which the first moments are held against the rest, s.
 pub const WINDOW_S: f64 = 0.5;
-/// Counts of motion that are no jitter.
-pub const BEGUN: f64 = 2.0;
 /// Fewest samples of rest before the first motion.
 pub const RESTED: usize = 5;
 /// The error of the first window is so many times that of any other in which the speed changes as much. It was at most 1.07 in 115

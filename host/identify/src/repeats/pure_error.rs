@@ -60,7 +60,7 @@ impl Repeats<'_> {
         window_s: f64,
     ) -> Option<LackOfFit> {
         let mut windows = Vec::new();
-        let (mut samples, mut freedom) = (0.0, 0.0);
+        let (mut readings, mut freedom) = (0.0, 0.0);
         for group in &self.groups {
             let length = group.window(window_s);
             let runs: Vec<Vec<f64>> = group
@@ -69,8 +69,8 @@ impl Repeats<'_> {
                 .map(|member| member.errors(group, candidate, method, length))
                 .collect::<Option<_>>()?;
             let covered = group.common - group.common % length;
-            samples += covered as f64;
-            freedom += (runs.len() as f64 - 1.0) * covered as f64;
+            readings += (runs.len() * covered) as f64;
+            freedom += ((runs.len() - 1) * covered) as f64;
             windows.extend((0..covered).step_by(length).map(|from| {
                 let own = |run: &Vec<f64>| run[from..from + length].to_vec();
                 Gram::of(&runs.iter().map(own).collect::<Vec<_>>())
@@ -83,7 +83,7 @@ impl Repeats<'_> {
         let runs: f64 = self.runs() as f64 / self.groups.len() as f64;
         let in_common: f64 = windows.iter().map(|w| w.in_common(|_| 1.0)).sum();
         let noise = (all - in_common) / freedom;
-        let model = all / (samples + freedom);
+        let model = all / readings;
         let mut draws = rng::seeded(SEED);
         let mut flipped = || -> f64 {
             let window = |gram: &Gram| {
@@ -105,9 +105,7 @@ impl Repeats<'_> {
             model_counts: model.sqrt(),
             noise_counts: noise.sqrt(),
             // The mean of the runs keeps a part of what differs between them.
-            systematic_counts: (in_common / (samples + freedom) - noise / runs)
-                .max(0.0)
-                .sqrt(),
+            systematic_counts: (in_common / readings - noise / runs).max(0.0).sqrt(),
             p_value: (as_much + 1) as f64 / (FLIPS + 1) as f64,
             over_run_counts: self.over_run(),
         };

@@ -91,7 +91,7 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     rated.extend(rate_all(std::slice::from_ref(&chosen)));
     rated.extend(rate_all(&further));
     // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides, and
-    // which of the baseline's terms stand beside it.
+    // which of the baseline's terms are fitted with it.
     if names_are_sure(&confirmed) {
         let kept =
             |rated: &Rated| (chosen.effects.iter()).all(|kind| rated.model.effects.contains(kind));

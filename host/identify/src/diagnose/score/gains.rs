@@ -3,8 +3,10 @@
 
 use super::noise::Noise;
 use super::readings::Readings;
+use super::settings::UNDAMPED_INTERVAL_S;
 use servoid_engine::problem::Data;
 use servoid_engine::simulation::Correction;
+use servoid_io::recording::Drive;
 use shared::motor::Machine;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -26,6 +28,15 @@ impl Plant {
             } else {
                 UNDAMPED_S
             },
+        }
+    }
+
+    /// Time between two corrections, s, before it is confined to what is useful: the time constant where a back-EMF damps the motor.
+    pub fn interval_s(self, drive: Drive) -> f64 {
+        if drive.is_voltage() {
+            self.time_constant_s
+        } else {
+            UNDAMPED_INTERVAL_S
         }
     }
 }

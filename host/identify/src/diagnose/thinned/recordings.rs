@@ -5,7 +5,6 @@ use super::settings::{FEWEST_READINGS, IN_TIME_CONSTANT, IN_WINDOW, MOST_TURNS};
 use crate::diagnose::context::Context;
 use crate::diagnose::linear::Linear;
 use crate::diagnose::score::Plant;
-use crate::diagnose::score::settings::UNDAMPED_INTERVAL_S;
 use servoid_engine::problem::Data;
 
 /// The recordings with fewer readings.
@@ -45,13 +44,9 @@ impl Thinned {
 fn every(linear: &Linear<'_>) -> Option<usize> {
     let Context { data, span, .. } = &linear.context;
     let units = &data.units;
-    let time_constant_s = if data.drive.is_voltage() {
-        Plant::of(&linear.base.candidate.machine).time_constant_s
-    } else {
-        UNDAMPED_INTERVAL_S
-    };
+    let corrected_s = Plant::of(&linear.base.candidate.machine).interval_s(data.drive);
     let turns_per_s = units.speed / std::f64::consts::TAU;
-    let longest_s = (time_constant_s / IN_TIME_CONSTANT)
+    let longest_s = (corrected_s / IN_TIME_CONSTANT)
         .min(span.window_s? / IN_WINDOW)
         .min(MOST_TURNS / turns_per_s);
     let most = data.len().min(linear.context.held_out.len()) / FEWEST_READINGS;

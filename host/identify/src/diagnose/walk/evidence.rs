@@ -3,7 +3,7 @@
 use super::node::Node;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
-use crate::diagnose::score::settings::{NOISE_RUNS, UNDAMPED_INTERVAL_S};
+use crate::diagnose::score::settings::NOISE_RUNS;
 use crate::diagnose::score::{
     Filter, Foretold, Innovations, Noise, Plant, Prior, Readings, correlation_length, estimate,
     foretold, likelihoods, repeatability_counts,
@@ -35,11 +35,7 @@ impl<'a> Evidence<'a> {
     /// Of the recordings of `context`, with the noise that the encoder makes; `base` is the linear motor.
     pub fn new(context: &'a Context<'a>, base: &FittedModel) -> Self {
         let plant = Plant::of(&base.candidate.machine);
-        let interval_s = if context.data.drive.is_voltage() {
-            plant.time_constant_s
-        } else {
-            UNDAMPED_INTERVAL_S
-        };
+        let interval_s = plant.interval_s(context.data.drive);
         let side = |data| {
             let readings = Readings::every(data, interval_s);
             let noise = vec![
