@@ -2,7 +2,7 @@
 
 use crate::device::DeviceError;
 use crate::prove::StoreError;
-use servoid_identify::diagnose::steady::SteadyError;
+use servoid_identify::steady::SteadyError;
 use servoid_io::input::{CurveError, MotorFileError, ReadError};
 use servoid_io::output::{CommandsError, WriteError};
 use servoid_plant::BenchError;

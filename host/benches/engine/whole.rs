@@ -3,7 +3,7 @@
 use super::clock;
 use host::prove::{Case, Excite, HowMany, Laws, SetUp};
 use servoid_engine::solve;
-use servoid_identify::diagnose::{Budget, diagnose};
+use servoid_identify::diagnose::{Budget, search_catalogue};
 use servoid_identify::fit::{self, Fit, Options};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
@@ -62,7 +62,7 @@ pub fn rows() {
                     let stop = AtomicBool::new(false);
                     let options = Options::default();
                     let work = || {
-                        diagnose(
+                        search_catalogue(
                             &case.fitted,
                             &case.held_out,
                             &options,

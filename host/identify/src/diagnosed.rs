@@ -1,9 +1,10 @@
 //! The front door of a diagnosis: every face comes through here.
 
 use crate::datasets::Datasets;
-use crate::diagnose::discovery::{self, Proposed};
-use crate::diagnose::{self, Budget, Diagnosis, Findings, HeldOut, Remark, pair};
+use crate::diagnose::{self, Budget, Diagnosis, HeldOut, Remark, pair};
+use crate::discovery::{self, Proposed};
 use crate::error::Error;
+use crate::findings::{Findings, findings};
 use crate::fit::recordings::recording_errors;
 use crate::fit::{Fit, Options, RecordingError};
 use crate::likelihood;
@@ -101,13 +102,14 @@ pub fn diagnose_data(
 ) -> Result<Diagnosed, Error> {
     let stop = progress.stop();
     let tried = || progress.tried();
-    let (diagnosis, proposed) = discovery::diagnose(fitted, held_out, options, budget, &tried)?;
+    let (diagnosis, proposed) =
+        discovery::search_with_laws(fitted, held_out, options, budget, &tried)?;
     let interrupted = stop.load(Ordering::Relaxed);
     let mut last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
     if !interrupted {
         last.likelihood = likelihood::section(fitted, &last, &diagnosis.last.effects, stop);
     }
-    let findings = diagnose::findings(&diagnosis, fitted, held_out)?;
+    let findings = findings(&diagnosis, fitted, held_out)?;
     let remarks = if interrupted || diagnosis.ran_out {
         Vec::new()
     } else {

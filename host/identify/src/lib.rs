@@ -10,6 +10,10 @@
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
 //! | `likelihood` | a second fit with process noise, for real motion: inertia, delay, standard errors, BIC |
 //! | `diagnose` | which physical effects a recording shows that the model lacks |
+//! | `discovery` | a law for what the catalogue of effects leaves |
+//! | `residual_analysis` | where a model fails: volts against speed, voltage, angle, time |
+//! | `findings` | where the models of a diagnosis fail |
+//! | `steady` | which effects a curve of steady speeds shows |
 //! | `plan` | the excitation that separates models which explain a recording alike |
 //! | `repeats` | recordings of one command: what a motor does not repeat, and what a model lacks |
 //! | `paper` | the paper's table and contest |
@@ -21,7 +25,9 @@ pub mod check;
 mod datasets;
 pub mod diagnose;
 mod diagnosed;
+pub mod discovery;
 pub mod error;
+mod findings;
 pub mod fit;
 mod fit_sets;
 mod identify;
@@ -33,11 +39,14 @@ pub mod paper;
 pub mod plan;
 mod progress;
 pub mod repeats;
+pub mod residual_analysis;
+pub mod steady;
 pub mod truth;
 
 pub use datasets::Datasets;
 pub use diagnosed::{Diagnosed, diagnose, diagnose_data, diagnose_datasets};
 pub use error::Error;
+pub use findings::Findings;
 pub use fit_sets::FitSets;
 pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data};
 pub use late_driver::LateDriver;

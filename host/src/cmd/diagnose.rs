@@ -6,8 +6,8 @@ use crate::cli::DiagnoseArgs;
 use crate::error::Error;
 use crate::session::Session;
 use servoid_identify::diagnose::Budget;
-use servoid_identify::diagnose::steady;
 use servoid_identify::fit::Options;
+use servoid_identify::steady;
 use servoid_identify::{Datasets, diagnose_datasets};
 use servoid_io::input::SteadyCurve;
 use servoid_results::report::diagnosis::{DiagnosisReport, SteadyReport};
@@ -66,7 +66,7 @@ fn steady(session: &Session, args: &DiagnoseArgs, path: &Path) -> Result<(), Err
         )));
     }
     let curve = SteadyCurve::read(path)?;
-    let diagnosis = steady::diagnose(&curve)?;
+    let diagnosis = steady::fit_curve(&curve)?;
     let outcome = SteadyReport {
         curve: &curve,
         diagnosis: &diagnosis,

@@ -5,7 +5,7 @@ use super::draws::{Draws, rounded};
 use serde::{Deserialize, Serialize};
 use servoid_formula::{law_of, text_of};
 use servoid_identify::diagnose::FittedModel;
-use servoid_identify::diagnose::discovery::{Given, Proposed, departure};
+use servoid_identify::discovery::{Given, Proposed, departure};
 use servoid_identify::truth;
 use servoid_plant::{Machine, Outside, OutsideLaw, Variable};
 use servoid_results::schema::ProposedLaw;

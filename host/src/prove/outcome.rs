@@ -8,7 +8,8 @@ use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
-use servoid_identify::diagnose::{Budget, Diagnosis, FittedModel, discovery};
+use servoid_identify::diagnose::{Budget, Diagnosis, FittedModel};
+use servoid_identify::discovery;
 use servoid_identify::fit::{self, Options};
 use servoid_identify::truth::{self, ParameterError};
 use servoid_results::schema::diagnosis::Hypothesis;
@@ -110,7 +111,7 @@ impl Outcome {
         let diagnosed = catch_unwind(AssertUnwindSafe(|| {
             pool.install(|| {
                 let budget = Budget::usual(stop);
-                discovery::diagnose(&case.fitted, &case.held_out, &options, &budget, &count)
+                discovery::search_with_laws(&case.fitted, &case.held_out, &options, &budget, &count)
             })
         }));
         let outcome = Outcome {

@@ -12,7 +12,7 @@ mod tests {
     use serde_json::{Value, json};
     use servoid_engine::problem::Data;
     use servoid_engine::simulation::Method;
-    use servoid_identify::diagnose::residual_analysis::signature;
+    use servoid_identify::residual_analysis::signature;
     use servoid_identify::truth;
     use servoid_io::showcase;
     use servoid_plant::Hidden;

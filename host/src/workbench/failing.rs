@@ -6,8 +6,8 @@ use super::state::Bench;
 use crate::error::Error;
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::residual_analysis::{Cumulative, cumulative, own_volts};
 use servoid_identify::diagnose::{Criterion, order_lines};
+use servoid_identify::residual_analysis::{Cumulative, cumulative, own_volts};
 
 /// Orders that are shown.
 const ORDERS: usize = 30;

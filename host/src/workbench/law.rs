@@ -5,7 +5,7 @@ use crate::error::Error;
 use serde_json::{Value, json};
 use servoid_engine::problem::Data;
 use servoid_formula::{Definition, Fault, Point, Used};
-use servoid_identify::diagnose::discovery::{Carrier, Curve};
+use servoid_identify::discovery::{Carrier, Curve};
 use servoid_io::channel::Measured;
 use shared::effects::formula::{Output, Variable};
 use std::f64::consts::TAU;

@@ -4,8 +4,8 @@ use super::model::Model;
 use super::state::{Proposed, State};
 use serde_json::{Value, json};
 use servoid_identify::diagnose::Suggestion;
-use servoid_identify::diagnose::residual_analysis::{Axis, Signature};
 use servoid_identify::plan::Hypothesis;
+use servoid_identify::residual_analysis::{Axis, Signature};
 use std::cmp::Ordering;
 
 /// Effects explain about equally if the logarithms of what they divide the held-out error by are within this part of the best one's.

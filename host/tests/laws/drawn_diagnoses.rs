@@ -1,7 +1,7 @@
 //! Diagnoses of drawn motors whose hidden effect once led the search astray.
 
 use host::prove::{Case, Excite, HowMany, Laws, SetUp};
-use servoid_identify::diagnose::{Budget, diagnose};
+use servoid_identify::diagnose::{Budget, search_catalogue};
 use servoid_identify::fit::Options;
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
@@ -61,7 +61,8 @@ fn cogging_is_named_beside_another_effect() {
             continue;
         }
         let (options, budget) = (Options::default(), Budget::usual(&stop));
-        let found = diagnose(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
+        let found =
+            search_catalogue(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
         let named: Vec<&str> = found.steps.iter().map(|step| step.added.name()).collect();
         println!(
             "seed {SEED}, pair {number}, {:?}: {named:?}",
@@ -95,7 +96,8 @@ fn a_chaotic_run_is_followed_to_its_end_on_both_recordings() {
     for number in first..first + many {
         let case = Case::record(&set_up, number).unwrap();
         let (options, budget) = (Options::default(), Budget::usual(&stop));
-        let found = diagnose(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
+        let found =
+            search_catalogue(&case.fitted, &case.held_out, &options, &budget, &|| ()).unwrap();
         let named: Vec<Kind> = found.steps.iter().map(|step| step.added).collect();
         if named != [Kind::Cogging] || found.last.observed.is_none() {
             continue;
@@ -120,7 +122,7 @@ fn a_strong_constant_load_is_named_and_nothing_else() {
     let stop = AtomicBool::new(false);
     for number in 0..cases(CASES, 3) {
         let case = Case::record(&set_up, number).unwrap();
-        let diagnosis = diagnose(
+        let diagnosis = search_catalogue(
             &case.fitted,
             &case.held_out,
             &Options::default(),

@@ -3,8 +3,8 @@
 
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
-use servoid_identify::diagnose::residual_analysis::{cumulative, signature};
 use servoid_identify::fit::scores::whole;
+use servoid_identify::residual_analysis::{cumulative, signature};
 use servoid_identify::truth;
 use servoid_io::showcase;
 use servoid_plant::Hidden;

@@ -3,7 +3,7 @@
 use host::prove::{Case, Excite, HowMany, Laws, SetUp};
 use servoid_engine::compare::{self, Contest};
 use servoid_engine::solve;
-use servoid_identify::diagnose::{Budget, diagnose};
+use servoid_identify::diagnose::{Budget, search_catalogue};
 use servoid_identify::fit::{self, Fit, Options};
 use std::fmt::Debug;
 use std::sync::atomic::AtomicBool;
@@ -90,7 +90,7 @@ fn diagnoses_do_not_depend_on_the_number_of_threads() {
         same(hidden, || {
             let stop = AtomicBool::new(false);
             let options = Options::default();
-            diagnose(
+            search_catalogue(
                 &case.fitted,
                 &case.held_out,
                 &options,

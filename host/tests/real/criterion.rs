@@ -2,7 +2,7 @@
 
 use crate::source::{data, vendored};
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{Budget, Criterion, diagnose};
+use servoid_identify::diagnose::{Budget, Criterion, search_catalogue};
 use servoid_identify::fit::Options;
 use servoid_identify::{Silent, identify_data};
 use servoid_io::showcase;
@@ -31,7 +31,7 @@ fn models_are_fitted_and_judged_over_the_span_of_a_diagnosis() {
     let options = Options::default();
     for (fitted, held_out, in_windows) in pairs() {
         let own = Criterion::of(&fitted, &held_out, &options, &Budget::usual(&stop));
-        let found = diagnose(&fitted, &held_out, &options, &Budget::usual(&stop), &|| ());
+        let found = search_catalogue(&fitted, &held_out, &options, &Budget::usual(&stop), &|| ());
         let found = found.expect("a diagnosis");
         assert_eq!(own.span, found.span, "{}", fitted.source);
         assert_eq!(own.span.window_s.is_some(), in_windows, "{:?}", own.span);

@@ -3,7 +3,7 @@
 use crate::limits::within;
 use crate::source::{data, elsewhere, vendored};
 use servoid_engine::problem::Data;
-use servoid_identify::diagnose::{Budget, Diagnosis, FittedModel, Verdict, diagnose};
+use servoid_identify::diagnose::{Budget, Diagnosis, FittedModel, Verdict, search_catalogue};
 use servoid_identify::fit::{Options, scores};
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
@@ -12,7 +12,7 @@ use testing::recordings::Vendored;
 /// Diagnoses with the horizon that is chosen when nobody asks for one, and prints what came out.
 fn diagnosed(fitted: &Data, held_out: &Data) -> Diagnosis {
     let stop = AtomicBool::new(false);
-    let diagnosis = diagnose(
+    let diagnosis = search_catalogue(
         fitted,
         held_out,
         &Options::default(),

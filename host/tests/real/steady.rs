@@ -2,7 +2,7 @@
 
 use crate::limits::within;
 use servoid_identify::diagnose::Verdict;
-use servoid_identify::diagnose::steady;
+use servoid_identify::steady;
 use servoid_io::input::SteadyCurve;
 use shared::effects::Kind;
 use testing::recordings::Vendored;
@@ -15,7 +15,7 @@ fn bam_mx_static_has_a_constant_drop_that_nothing_can_be_named_for() {
     {
         let path = recordings.unpack(&format!("bam_mx_static/{file}_noload_speed.csv"));
         let curve = SteadyCurve::read(&path).unwrap_or_else(|error| panic!("{error}"));
-        let diagnosis = steady::diagnose(&curve).unwrap_or_else(|error| panic!("{error}"));
+        let diagnosis = steady::fit_curve(&curve).unwrap_or_else(|error| panic!("{error}"));
         println!("{file}: {diagnosis:?}");
         let near = |value: f64| 0.8 * value..1.2 * value;
         within("drop", diagnosis.with_drop.drop_v, near(drop_v));
@@ -35,7 +35,7 @@ fn un_dcmotor_has_a_driver_that_bends_its_curve() {
     let path = recordings.unpack("un_dcmotor/static_gain.csv");
     let curve = SteadyCurve::read(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(curve.points.len(), 100);
-    let diagnosis = steady::diagnose(&curve).unwrap_or_else(|error| panic!("{error}"));
+    let diagnosis = steady::fit_curve(&curve).unwrap_or_else(|error| panic!("{error}"));
     println!("{diagnosis:?}");
     within("linear", 100.0 * diagnosis.linear.relative, 34.0..42.0);
     within("rest", 100.0 * diagnosis.with_drop.relative, 30.0..38.0);

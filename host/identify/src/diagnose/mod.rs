@@ -5,7 +5,7 @@
 //! An effect is named only where the held-out error agrees; otherwise the verdict says that
 //! something is missing and that nothing in the catalogue explains it.
 //!
-//! [`diagnose`] is a pipeline. Each stage takes what the one before hands over:
+//! [`search_catalogue`] is a pipeline. Each stage takes what the one before hands over:
 //!
 //! | stage | takes | hands over | where |
 //! |---|---|---|---|
@@ -35,11 +35,9 @@
 //! | `screening` | one effect more, fitted roughly along the measured motion |
 //! | `negligible` | which effects are too small to be named |
 //! | `lost_counts` | jumps of the reading by whole counts |
-//! | `residual_analysis` | where a model fails: volts against speed, voltage, angle, time |
 //!
 //! Beside the pipeline stand [`Criterion`] (over which span models are judged), [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
-//! [`settle()`] (the last model with intervals), [`steady`] (a curve of steady speeds), and `explain`: what is said of a
-//! diagnosis ([`evidence`], [`advice`], [`findings()`], [`pair`]).
+//! [`settle()`] (the last model with intervals), and `explain`: what is said of a diagnosis ([`evidence`], [`advice`], [`pair`]).
 
 mod baseline;
 mod built_up;
@@ -48,7 +46,6 @@ mod conclude;
 mod confirmation;
 mod context;
 mod criterion;
-pub mod discovery;
 mod explain;
 mod hypotheses;
 mod linear;
@@ -58,13 +55,11 @@ mod naming;
 mod negligible;
 mod outcome;
 mod recordings;
-pub mod residual_analysis;
 mod score;
 mod screening;
 mod selection;
 mod settle;
 mod spectrum;
-pub mod steady;
 mod suggest;
 mod thinned;
 mod walk;
@@ -73,7 +68,7 @@ pub use baseline::{Baseline, Prediction};
 pub use built_up::{built_up, is_lost};
 pub use context::{Budget, Span, USUAL_STEPS, moves_both_ways, together_move_both_ways};
 pub use criterion::Criterion;
-pub use explain::{Findings, advice, evidence, findings, pair};
+pub use explain::{advice, evidence, pair};
 pub use hypotheses::ProbableSet;
 pub use models::{Errors, FittedModel, Loss, Losses, NOISE_COUNTS, ObserverErrors, same};
 pub use outcome::{Diagnosis, Floor, FloorKind, Repeated, Step, Verdict};
@@ -160,7 +155,7 @@ fn by_score(context: Context<'_>, base: FittedModel, answer: Answer) -> Confirme
 ///
 /// # Errors
 /// [`Error::Failed`] where not even the linear motor can be fitted.
-pub fn diagnose(
+pub fn search_catalogue(
     data: &Data,
     held_out: &Data,
     options: &Options,

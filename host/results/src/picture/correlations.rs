@@ -3,7 +3,7 @@
 
 use super::chart::{Chart, Properties, bars, marker, scatter, stroke};
 use super::{Drawing, Picture, axis, colour, layout, rounded};
-use servoid_identify::diagnose::residual_analysis::Correlations;
+use servoid_identify::residual_analysis::Correlations;
 
 /// Half the width of the drawn band, standard deviations: nineteen of twenty independent values lie within.
 const WIDE: f64 = 1.96;

@@ -3,7 +3,7 @@
 use super::chart::{Chart, Properties, marker, scatter, stroke};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
 use crate::number_text::short;
-use servoid_identify::diagnose::residual_analysis::{Against, Bin, Map, ResidualAnalysis};
+use servoid_identify::residual_analysis::{Against, Bin, Map, ResidualAnalysis};
 
 /// Half the width of a drawn interval, standard errors.
 const WIDE: f64 = 2.0;

@@ -3,7 +3,7 @@
 
 use super::chart::{Chart, Properties, bars};
 use super::{Drawing, Picture, Table, axis, colour, layout, rounded};
-use servoid_identify::diagnose::residual_analysis::{Line, Spectrum};
+use servoid_identify::residual_analysis::{Line, Spectrum};
 
 /// Orders that are drawn: as many as are the strongest of each direction.
 const STRONGEST: usize = 12;

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use servoid_identify::diagnose;
 use servoid_identify::diagnose::FittedModel;
-use servoid_identify::diagnose::discovery::Proposed;
+use servoid_identify::discovery::Proposed;
 use servoid_identify::fit;
 use servoid_io::recording::Drive;
 

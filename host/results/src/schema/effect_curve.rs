@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use servoid_identify::diagnose::discovery::{Curve, CurvePoint as Point};
+use servoid_identify::discovery::{Curve, CurvePoint as Point};
 
 /// Drive that an effect asks for along the variable that carries it, beside what the fitted recording asks for without its form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

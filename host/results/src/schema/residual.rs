@@ -3,11 +3,9 @@
 use super::finite;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use servoid_identify::diagnose::Findings;
-use servoid_identify::diagnose::residual_analysis as found;
-use servoid_identify::diagnose::residual_analysis::whiteness::{
-    AUTOCORRELATION_LIMIT, INPUT_LIMIT,
-};
+use servoid_identify::Findings;
+use servoid_identify::residual_analysis as found;
+use servoid_identify::residual_analysis::whiteness::{AUTOCORRELATION_LIMIT, INPUT_LIMIT};
 
 /// Lines of the spectrum that are written for each direction.
 const LINES: usize = 5;

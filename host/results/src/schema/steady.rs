@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use servoid_identify::diagnose::steady::SteadyFit;
+use servoid_identify::steady::SteadyFit;
 
 /// The diagnosis of a curve of steady speeds.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]

@@ -4,8 +4,8 @@
 
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis};
 use crate::error::Error;
+use crate::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis};
 use servoid_engine::problem::Data;
 use shared::effects::{Evidence, Kind};
 

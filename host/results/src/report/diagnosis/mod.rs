@@ -13,11 +13,10 @@ pub(super) use text::nothing_else;
 
 use servoid_engine::problem::Data;
 use servoid_identify::Diagnosed;
+use servoid_identify::Findings;
 use servoid_identify::diagnose::advice::cannot_tell;
-use servoid_identify::diagnose::discovery::Proposed;
-use servoid_identify::diagnose::{
-    Diagnosis, Findings, FittedModel, HeldOut, Remark, Step, Verdict,
-};
+use servoid_identify::diagnose::{Diagnosis, FittedModel, HeldOut, Remark, Step, Verdict};
+use servoid_identify::discovery::Proposed;
 use servoid_identify::fit::{Fit, RecordingError};
 use servoid_identify::plan::Hypothesis;
 use servoid_io::recording::Drive;

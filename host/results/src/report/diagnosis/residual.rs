@@ -2,10 +2,8 @@
 
 use crate::report::fold::folded;
 use servoid_identify::diagnose::evidence::plain;
-use servoid_identify::diagnose::residual_analysis::whiteness::{
-    AUTOCORRELATION_LIMIT, INPUT_LIMIT,
-};
-use servoid_identify::diagnose::residual_analysis::{Against, Map, ResidualAnalysis, Whiteness};
+use servoid_identify::residual_analysis::whiteness::{AUTOCORRELATION_LIMIT, INPUT_LIMIT};
+use servoid_identify::residual_analysis::{Against, Map, ResidualAnalysis, Whiteness};
 
 /// Half the width of a bar, characters.
 const HALF: usize = 12;

@@ -7,7 +7,7 @@ use crate::schema::diagnosis::SCHEMA;
 use crate::schema::steady::{Curve, NotSimulated};
 use crate::schema::{Steady, VERSION, finite};
 use servoid_identify::diagnose::Verdict;
-use servoid_identify::diagnose::steady::{SteadyDiagnosis, SteadyFit};
+use servoid_identify::steady::{SteadyDiagnosis, SteadyFit};
 use servoid_io::input::SteadyCurve;
 use std::fmt::Write;
 

@@ -10,9 +10,9 @@ use crate::report::position_loop;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
-use servoid_identify::diagnose::discovery::Proposed;
 use servoid_identify::diagnose::evidence;
 use servoid_identify::diagnose::{HeldOut, Step, Verdict};
+use servoid_identify::discovery::Proposed;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
 

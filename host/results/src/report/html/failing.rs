@@ -7,7 +7,7 @@ use crate::page::{Block, Section};
 use crate::picture;
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
-use servoid_identify::diagnose::residual_analysis::{
+use servoid_identify::residual_analysis::{
     Correlations, ResidualAnalysis, analyse_residual, correlations,
 };
 use shared::effects::Kind;

@@ -7,8 +7,8 @@
 //! enough are not seen.
 
 use servoid_engine::problem::{Candidate, Data};
-use servoid_identify::diagnose::residual_analysis::{Line, Spectrum};
 use servoid_identify::fit::scores::{EquationResidual, equation_residuals};
+use servoid_identify::residual_analysis::{Line, Spectrum};
 use std::f64::consts::TAU;
 
 /// Highest order that is looked for.

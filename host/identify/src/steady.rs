@@ -1,7 +1,7 @@
 //! A motor's steady speed against its voltage: no recording in time, and still enough to see a constant drop.
 //! Whether friction, the brushes or the power stage take it, such a curve cannot say.
 
-use super::outcome::Verdict;
+use crate::diagnose::Verdict;
 use servoid_io::input::SteadyCurve;
 use shared::effects::Kind;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
@@ -71,7 +71,7 @@ pub struct SteadyDiagnosis {
 ///
 /// # Errors
 /// [`SteadyError::Few`], [`SteadyError::NoMotor`].
-pub fn diagnose(curve: &SteadyCurve) -> Result<SteadyDiagnosis, SteadyError> {
+pub fn fit_curve(curve: &SteadyCurve) -> Result<SteadyDiagnosis, SteadyError> {
     let turning: Vec<(f64, f64)> = curve
         .points
         .iter()
@@ -165,7 +165,7 @@ mod tests {
                     source: "test".to_owned(),
                     points: points.collect(),
                 };
-                let diagnosis = diagnose(&curve).unwrap();
+                let diagnosis = fit_curve(&curve).unwrap();
                 assert!((diagnosis.with_drop.drop_v - drop_v).abs() < 2e-3);
                 if drop_v == 0.0 {
                     assert_eq!(diagnosis.verdict, Verdict::Complete);
@@ -184,7 +184,7 @@ mod tests {
             source: "test".to_owned(),
             points: (-9..10).map(saturated).collect(),
         };
-        let diagnosis = diagnose(&curve).unwrap();
+        let diagnosis = fit_curve(&curve).unwrap();
         assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{diagnosis:?}");
         assert!(diagnosis.indistinguishable.is_empty());
     }
@@ -196,7 +196,7 @@ mod tests {
             points: vec![(1.0, 0.0); 9],
         };
         assert!(matches!(
-            diagnose(&still),
+            fit_curve(&still),
             Err(SteadyError::Few { points: 0, .. })
         ));
         let backward = SteadyCurve {
@@ -204,7 +204,7 @@ mod tests {
             points: (1..9).map(|k| (f64::from(k), -f64::from(k))).collect(),
         };
         assert!(matches!(
-            diagnose(&backward),
+            fit_curve(&backward),
             Err(SteadyError::NoMotor { .. })
         ));
     }

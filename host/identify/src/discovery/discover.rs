@@ -44,8 +44,8 @@ pub struct Proposed {
 /// Returns the diagnosis and the laws, `None` where they were not looked for.
 ///
 /// # Errors
-/// As [`diagnose::diagnose`].
-pub fn diagnose(
+/// As [`diagnose::search_catalogue`].
+pub fn search_with_laws(
     data: &Data,
     held_out: &Data,
     options: &Options,
@@ -55,7 +55,7 @@ pub fn diagnose(
     for data in [data, held_out] {
         data.check_told(options.candidates.iter().chain(&options.effects).copied())?;
     }
-    let diagnosis = diagnose::diagnose(data, held_out, options, budget, done)?;
+    let diagnosis = diagnose::search_catalogue(data, held_out, options, budget, done)?;
     if !options.discover || !leaves_something(&diagnosis) {
         return Ok((diagnosis, None));
     }
@@ -96,7 +96,7 @@ fn discover(
     let mut with = options.clone();
     with.candidates.extend(&kinds);
     with.catalogue = contenders(&before);
-    let after = diagnose::diagnose(data, held_out, &with, budget, done)?;
+    let after = diagnose::search_catalogue(data, held_out, &with, budget, done)?;
     for (kind, law) in kinds.iter().zip(&mut proposed) {
         law.named = after.steps.iter().any(|step| step.added == *kind);
     }

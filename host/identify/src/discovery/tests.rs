@@ -217,8 +217,8 @@ fn where_nothing_is_missing_no_law_is_looked_for() {
     for seed in 0..cases(30, 2) {
         let [one, other] = [seed, seed + 1000].map(|seed| known(None, &machine, seed));
         let budget = Budget::usual(&stop);
-        let (found, laws) =
-            diagnose(&one.data, &other.data, &options, &budget, &|| ()).expect("a diagnosis");
+        let (found, laws) = search_with_laws(&one.data, &other.data, &options, &budget, &|| ())
+            .expect("a diagnosis");
         assert!(found.steps.is_empty() && laws.is_none(), "{seed}: {laws:?}");
     }
 }

@@ -1,14 +1,10 @@
 //! Where the models of a diagnosis fail, and whether the last one leaves anything but the encoder's steps.
 
-use super::evidence;
-use crate::diagnose::discovery::Curve;
-use crate::diagnose::models::FittedModel;
-use crate::diagnose::outcome::Diagnosis;
-use crate::diagnose::residual_analysis::{
-    ResidualAnalysis, Whiteness, analyse_residual, whiteness,
-};
+use crate::diagnose::{Diagnosis, FittedModel, evidence};
+use crate::discovery::Curve;
 use crate::error::Error;
 use crate::fit::scores;
+use crate::residual_analysis::{ResidualAnalysis, Whiteness, analyse_residual, whiteness};
 use servoid_engine::problem::Data;
 use shared::effects::Kind;
 

@@ -45,7 +45,7 @@ mod term;
 
 pub use curve::{Carrier, Curve, CurvePoint};
 pub use departure::departure;
-pub use discover::{Proposed, diagnose};
+pub use discover::{Proposed, search_with_laws};
 pub use given::Given;
 pub use law::Law;
 pub use propose::propose;

@@ -139,11 +139,7 @@ fn perfect_volts(
 }
 
 /// The recording as a model makes it: its angles in place of the readings.
-pub(in crate::diagnose) fn simulated(
-    data: &Data,
-    candidate: &Candidate,
-    method: Method,
-) -> Result<Data, Error> {
+pub(crate) fn simulated(data: &Data, candidate: &Candidate, method: Method) -> Result<Data, Error> {
     let mut own = data.clone();
     let simulation = Simulation::new(data, candidate, method)?;
     for segment in segments(data, candidate, &Horizon::Whole, StartAngle::Free) {

@@ -3,10 +3,10 @@
 use super::blocks::Blocks;
 use super::motion::Motion;
 use super::term::{Place, Term};
-use crate::diagnose::residual_analysis::simulated;
 use crate::fit::filter::filtered;
 use crate::fit::regression::typical;
 use crate::fit::scores::{EquationResidual, equation_residuals, motor_coefficients};
+use crate::residual_analysis::simulated;
 use servoid_engine::problem::{Candidate, Data};
 use servoid_engine::simulation::Method;
 use shared::effects::Kind;
