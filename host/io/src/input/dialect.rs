@@ -67,7 +67,7 @@ impl Dialect {
             line.is_some_and(|line| row.split(line).is_ok() && row.len() > begins)
         };
         let later = |dialect: &Dialect| wider(dialect) || Dialect::is_preamble(&lines, dialect);
-        let mut found = Dialect::with_names(&lines, 0, usual.separator)
+        let mut found = Dialect::with_names(&lines, 0, &mut Row::new(&usual))
             .filter(|_| !is_padded(&usual, first))
             .or_else(|| Dialect::keyed(&lines))
             .or_else(|| Dialect::later(&lines).filter(later))
@@ -91,6 +91,11 @@ impl Dialect {
         let separator = most
             .filter(|(_, times)| *times > 0)
             .map_or(b',', |(byte, _)| byte);
+        Dialect::plain(separator)
+    }
+
+    /// Names in the first row, and nothing unusual.
+    fn plain(separator: u8) -> Self {
         Dialect {
             separator,
             decimal_comma: false,
@@ -102,23 +107,18 @@ impl Dialect {
         }
     }
 
-    /// The table whose names, or first numbers, stand in line `at`; `None` where what follows does not look like it.
-    fn with_names(lines: &[&[u8]], at: usize, separator: u8) -> Option<Self> {
+    /// The table whose names, or first numbers, stand in line `at`, split by `row`; `None` where what follows does not look like it.
+    fn with_names(lines: &[&[u8]], at: usize, row: &mut Row) -> Option<Self> {
         let rows = lines.get(at..)?;
-        let quoted_rows = is_quoted(rows.first()?, separator);
         let mut dialect = Dialect {
-            separator,
-            decimal_comma: false,
-            quoted_rows,
-            names: Names::Row,
+            quoted_rows: is_quoted(rows.first()?, row.separator()),
             before: at,
-            units_row: false,
-            pairs: false,
+            ..Dialect::plain(row.separator())
         };
-        let mut row = Row::new(&dialect);
+        row.set_quoted_rows(dialect.quoted_rows);
         let split = |row: &mut Row, line: &[u8]| row.split(line).ok().map(|()| Shape::of(row));
-        let names = split(&mut row, rows.first()?)?;
-        let next = split(&mut row, rows.get(1)?)?;
+        let names = split(row, rows.first()?)?;
+        let next = split(row, rows.get(1)?)?;
         if names.width < 2 || next.cells < names.width || next.width > names.cells {
             return None;
         }
@@ -143,7 +143,7 @@ impl Dialect {
         let alike = rows.get(first..)?.iter().take(ALIKE);
         let mut any = false;
         for line in alike {
-            let shape = split(&mut row, line)?;
+            let shape = split(row, line)?;
             let as_wide = shape.width <= names.cells && shape.cells >= names.width;
             if !as_wide || !shape.is_numbers() {
                 return None;
@@ -168,10 +168,11 @@ impl Dialect {
     /// A table that begins later than in the first line, or whose cells blanks separate.
     fn later(lines: &[&[u8]]) -> Option<Self> {
         let most = lines.len().min(MOST_BEFORE + 1);
+        let mut rows =
+            [b';', b'\t', b',', b' '].map(|separator| Row::new(&Dialect::plain(separator)));
         (0..most).find_map(|at| {
-            [b';', b'\t', b',', b' ']
-                .into_iter()
-                .find_map(|separator| Dialect::with_names(lines, at, separator))
+            rows.iter_mut()
+                .find_map(|row| Dialect::with_names(lines, at, row))
         })
     }
 
@@ -184,13 +185,9 @@ impl Dialect {
             let alike: Vec<_> = alike.map(|line| keyed::keys(line)).collect();
             let same = |other: &Option<Vec<String>>| other.as_ref() == Some(&keys);
             (!alike.is_empty() && alike.iter().all(same)).then(|| Dialect {
-                separator: b' ',
-                decimal_comma: false,
-                quoted_rows: false,
                 names: Names::Keys(keys.clone()),
                 before: at,
-                units_row: false,
-                pairs: false,
+                ..Dialect::plain(b' ')
             })
         })
     }
@@ -198,11 +195,9 @@ impl Dialect {
     /// Whether line 0 is of a preamble that is filled up with separators to the width of the table, which begins at that of `dialect`: no row
     /// of names has mostly empty cells.
     fn is_preamble(lines: &[&[u8]], dialect: &Dialect) -> bool {
-        dialect.before > 0
-            && lines
-                .iter()
-                .take(dialect.before)
-                .all(|line| is_filled_up(dialect, line))
+        let mut row = Row::new(dialect);
+        let mut filled_up = |line: &&[u8]| is_filled_up(&mut row, line);
+        dialect.before > 0 && lines.iter().take(dialect.before).all(&mut filled_up)
     }
 
     /// The row of units, cell by cell, of a file that begins with `head`.
@@ -281,9 +276,8 @@ fn is_padded(dialect: &Dialect, line: &[u8]) -> bool {
 }
 
 /// Whether a row has one or two cells, as a preamble does, and empty ones behind them.
-fn is_filled_up(dialect: &Dialect, line: &[u8]) -> bool {
-    let mut row = Row::new(dialect);
-    let shape = row.split(line).map(|()| Shape::of(&row));
+fn is_filled_up(row: &mut Row, line: &[u8]) -> bool {
+    let shape = row.split(line).map(|()| Shape::of(row));
     shape.is_ok_and(|shape| shape.cells >= 3 && shape.width <= 2)
 }
 

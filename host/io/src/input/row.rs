@@ -30,6 +30,17 @@ impl Row {
         }
     }
 
+    /// The byte that separates the cells.
+    pub(super) fn separator(&self) -> u8 {
+        self.dialect.separator
+    }
+
+    /// Says whether every row stands in quotes as a whole. The parser stays: to make one takes as long as to split a hundred rows, and a clone of
+    /// one (csv-core 0.1.13) has lost its classes of bytes.
+    pub(super) fn set_quoted_rows(&mut self, quoted_rows: bool) {
+        self.dialect.quoted_rows = quoted_rows;
+    }
+
     /// Splits a line without its end.
     pub(super) fn split(&mut self, line: &[u8]) -> Result<(), ReadFault> {
         // No line has more text than bytes, nor more cells than bytes and one.
