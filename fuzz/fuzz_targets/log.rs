@@ -2,31 +2,13 @@
 //! the format is told by the content.
 #![no_main]
 
+mod place;
+
 use libfuzzer_sys::fuzz_target;
 use servoid_io::input::{MotorFile, read_recordings, survey};
-use std::cell::RefCell;
-use std::fs::File;
-use std::io::{Seek, SeekFrom, Write};
-use std::path::PathBuf;
-
-thread_local! {
-    /// A file in memory, where the system has a place for such.
-    static PLACE: RefCell<(PathBuf, File)> = RefCell::new(place());
-}
-
-fn place() -> (PathBuf, File) {
-    let memory = PathBuf::from("/dev/shm");
-    let folder = if memory.is_dir() { memory } else { std::env::temp_dir() };
-    let path = folder.join(format!("servoid-fuzz-{}", std::process::id()));
-    let file = File::create(&path).expect("a file");
-    (path, file)
-}
 
 fuzz_target!(|data: &[u8]| {
-    PLACE.with_borrow_mut(|(path, file)| {
-        file.set_len(0).expect("emptied");
-        file.seek(SeekFrom::Start(0)).expect("begun");
-        file.write_all(data).expect("written");
+    place::with_file(data, |path| {
         let motor = MotorFile {
             counts_per_rev: Some(2048.0),
             supply_v: Some(24.0),
