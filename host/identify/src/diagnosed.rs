@@ -106,7 +106,8 @@ pub fn diagnose_data(
         discovery::search_with_laws(fitted, held_out, options, budget, &tried)?;
     let interrupted = stop.load(Ordering::Relaxed);
     let mut last = diagnose::settle(&diagnosis, fitted, held_out, options, stop)?;
-    if !interrupted {
+    // Where a score gave the standard errors, a likelihood of its own would be a second table of the same numbers.
+    if !interrupted && diagnosis.last.standard_errors.is_empty() {
         last.likelihood = likelihood::section(fitted, &last, &diagnosis.last.effects, stop);
     }
     let findings = findings(&diagnosis, fitted, held_out)?;

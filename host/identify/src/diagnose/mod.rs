@@ -34,6 +34,7 @@
 //! | `spectrum` | the orders of the angle at which a torque repeats |
 //! | `screening` | one effect more, fitted roughly along the measured motion |
 //! | `negligible` | which effects are too small to be named |
+//! | `ordered` | the order in which effects are told |
 //! | `lost_counts` | jumps of the reading by whole counts |
 //!
 //! Beside the pipeline stand [`Criterion`] (over which span models are judged), [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
@@ -53,6 +54,7 @@ mod lost_counts;
 mod models;
 mod naming;
 mod negligible;
+mod ordered;
 mod outcome;
 mod recordings;
 mod score;
@@ -88,9 +90,8 @@ use linear::{Linear, fit_linear_motor};
 use naming::name_effects;
 use selection::select_effects;
 use servoid_engine::problem::Data;
-use shared::effects::Kind;
 use thinned::{Thinned, on_all_readings};
-use walk::{Answer, walk};
+use walk::{Answer, told, walk};
 
 /// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
 fn in_windows<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
@@ -102,22 +103,18 @@ fn in_windows<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a>
     on_all_readings(linear, found)
 }
 
-/// The walk, held to the baseline.
+/// The walk, held to the baseline, and what the score tells of the model that it ends with.
 fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
     let Linear { context, base, .. } = linear;
     let answer = walk(&context, &base, done);
-    let found = by_score(context, base, answer);
-    let effects = |confirmed: &Confirmed<'_>| -> Vec<Kind> {
-        let chosen = confirmed.chosen.as_ref();
-        chosen.map_or(Vec::new(), |model| model.effects.clone())
-    };
-    let before = effects(&found);
-    let held = hold_to_baseline(found);
-    Confirmed {
-        // What was said of one set of effects does not hold for another.
-        floor: held.floor.filter(|_| same(&before, &effects(&held))),
-        ..held
+    let linear = base.clone();
+    let mut held = hold_to_baseline(by_score(context, base, answer));
+    let last = held.chosen.as_mut().unwrap_or(&mut held.base);
+    if let Some((standard_errors, floor)) = told(&held.context, &linear, last) {
+        last.standard_errors = standard_errors;
+        held.floor = Some(floor);
     }
+    held
 }
 
 /// Where whole runs may come down to the encoder's error they are judged by it; a walk is the second try where that fails.
@@ -147,7 +144,7 @@ fn by_score(context: Context<'_>, base: FittedModel, answer: Answer) -> Confirme
         baseline: None,
         as_one: !answer.explained,
         scores: answer.scores,
-        floor: answer.floor,
+        floor: None,
     }
 }
 

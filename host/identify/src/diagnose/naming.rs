@@ -6,6 +6,7 @@ use super::candidate::score::refine_held_out_start;
 use super::confirmation::Confirmed;
 use super::context::{Context, together_move_both_ways};
 use super::models::{FittedModel, same};
+use super::ordered::{in_order, order_of_fall};
 use super::outcome::{Floor, Step};
 use super::selection::judge::{self, Rivals};
 use super::selection::{Level, backward_elimination};
@@ -52,6 +53,15 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         scores,
         floor,
     } = confirmed;
+    let chosen = chosen.map(|chosen| {
+        let all = levels.iter().flat_map(|level| &level.models).chain(&known);
+        let order = order_of_fall(&chosen.effects, all);
+        if order == chosen.effects || !scores.is_empty() {
+            chosen
+        } else {
+            in_order(&context, &chosen, &order)
+        }
+    });
     let (steps, last) = match &chosen {
         Some(chosen) => {
             let rivals = |place: Kind| match &scores[..] {

@@ -69,7 +69,29 @@ pub fn settle(
     if last.losses.is_some() {
         with_losses(&mut fit, last);
     }
+    if stays && !last.standard_errors.is_empty() {
+        with_standard_errors(&mut fit, last);
+    }
     Ok(fit)
+}
+
+/// The standard errors that a score gave, in the units in which the fit states its parameters.
+fn with_standard_errors(fit: &mut Fit, last: &FittedModel) {
+    fit.converged = true;
+    let values = last.structure.values(&last.x);
+    let unknowns = last.structure.unknowns.iter().zip(values);
+    for (unknown, value) in unknowns {
+        let stated = fit.parameters.iter_mut().find(|p| p.name == unknown.name);
+        let std = last.standard_errors.get(&unknown.name);
+        if let Some(parameter) = stated {
+            let scale = if value == 0.0 {
+                1.0
+            } else {
+                parameter.value / value
+            };
+            parameter.set_std(std.map(|std| (std * scale).abs()));
+        }
+    }
 }
 
 /// Errors with the lost counts put back, and the parameters of the loss, whose errors are not known.

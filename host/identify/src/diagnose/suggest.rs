@@ -6,9 +6,12 @@ use super::candidate::search::fit_problem;
 use super::context::{Budget, Context};
 use super::criterion::Criterion;
 use super::explain::evidence;
+use super::linear::Linear;
 use super::models::{Errors, FittedModel};
-use super::outcome::Verdict;
+use super::outcome::{Floor, Verdict};
 use super::selection::{extensions, judge};
+use super::thinned::{Thinned, along};
+use super::walk::{Neighbour, Ring, ring};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
 use crate::residual_analysis::{Signature, analyse_residual, signature};
@@ -42,6 +45,8 @@ pub struct Suggestions {
     pub verdict: Verdict,
     /// Best first; empty where the model leaves nothing but the encoder's error.
     pub list: Vec<Suggestion>,
+    /// What stands below the model's error, where models run in windows; there [`Suggestion::believed`] is read off the score of a diagnosis.
+    pub floor: Option<Floor>,
 }
 
 /// Looks for effects beside those of `candidate`, judged by `held_out`, which is never fitted, over the span of `criterion`.
@@ -68,13 +73,20 @@ pub fn suggest(
         return Ok(Suggestions {
             verdict,
             list: Vec::new(),
+            floor: None,
         });
     }
+    let (neighbours, floor) = match context.span.window_s {
+        Some(_) => by_score(&context, &parent, done),
+        None => (by_held_out_error(&context, &parent, done), None),
+    };
     let mut list = Vec::new();
-    for model in extensions(&context, &[&parent], done) {
-        let Some(&effect) = model.effects.last() else {
-            continue;
-        };
+    for neighbour in neighbours {
+        let Neighbour {
+            added: effect,
+            model,
+            believed,
+        } = neighbour;
         let bare = model.candidate.without(effect);
         let missing = analyse_residual(data, &bare, &model.candidate, model.method)?;
         let values = model.values_of(effect);
@@ -83,7 +95,7 @@ pub fn suggest(
             evidence: evidence::sentence(effect, &values, &missing),
             signature: signature(data, &model.candidate, effect, model.method),
             p_value: judge::p_value(data, &parent, &model),
-            believed: judge::removes(&parent, &model),
+            believed,
             errors: criterion.errors_of(data, held_out, &model)?,
             model,
         });
@@ -91,7 +103,49 @@ pub fn suggest(
     Ok(Suggestions {
         verdict: Verdict::Unexplained,
         list,
+        floor,
     })
+}
+
+/// Where whole runs are judged: whether enough of the held-out error goes.
+fn by_held_out_error(
+    context: &Context<'_>,
+    parent: &FittedModel,
+    done: &(dyn Fn() + Sync),
+) -> Vec<Neighbour> {
+    let models = extensions(context, &[parent], done).into_iter();
+    let neighbours = models.filter_map(|model| {
+        Some(Neighbour {
+            added: *model.effects.last()?,
+            believed: judge::removes(parent, &model),
+            model,
+        })
+    });
+    neighbours.collect()
+}
+
+/// Where models run in windows: by the score, along as many readings as a diagnosis needs.
+fn by_score(
+    context: &Context<'_>,
+    parent: &FittedModel,
+    done: &(dyn Fn() + Sync),
+) -> (Vec<Neighbour>, Option<Floor>) {
+    let whole = Linear {
+        context: context.with_recordings(context.data, context.held_out),
+        base: parent.clone(),
+        anchor: parent.clone(),
+    };
+    let thinned = Thinned::of(&whole);
+    let Some(fewer) = thinned.as_ref().and_then(|thinned| thinned.linear(&whole)) else {
+        let Ring { neighbours, floor } = ring(context, parent, done);
+        return (neighbours, floor);
+    };
+    let Ring { neighbours, floor } = ring(&fewer.context, &fewer.base, done);
+    let on_all = neighbours.into_iter().filter_map(|neighbour| {
+        let model = along(context, &neighbour.model)?;
+        Some(Neighbour { model, ..neighbour })
+    });
+    (on_all.collect(), floor)
 }
 
 /// A model as it stands, in the terms of a diagnosis.

@@ -47,6 +47,12 @@ impl Parameter {
         Self::new(name, value, unit, None)
     }
 
+    /// Sets the standard error; `None` where the data do not determine it.
+    pub(crate) fn set_std(&mut self, std: Option<f64>) {
+        self.std = std;
+        self.identifiable = std.is_some_and(|std| std < 0.5 * self.value.abs());
+    }
+
     /// Largest change by an error of the recording, without its sign; zero where none is known.
     pub fn largest_systematic(&self) -> f64 {
         let changes = self.systematic.iter().map(|one| one.change.abs());
@@ -54,17 +60,19 @@ impl Parameter {
     }
 
     fn new(name: String, value: f64, unit: &'static str, std: Option<f64>) -> Self {
-        Parameter {
-            identifiable: std.is_some_and(|std| std < 0.5 * value.abs()),
+        let mut parameter = Parameter {
+            identifiable: false,
             name,
             value,
             unit,
-            std,
+            std: None,
             spread: None,
             at_bound: false,
             usual: None,
             systematic: Vec::new(),
-        }
+        };
+        parameter.set_std(std);
+        parameter
     }
 }
 

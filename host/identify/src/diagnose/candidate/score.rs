@@ -9,6 +9,7 @@ use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle, Structure};
 use servoid_engine::problem::{errors, rms_counts};
 use servoid_engine::simulation::Method;
 use shared::cost::Cost;
+use std::collections::BTreeMap;
 
 /// Scores a model where a search ended.
 ///
@@ -52,6 +53,7 @@ pub fn score_candidate(
         predicted_rms_counts: predicted,
         evaluations: found.evaluations,
         method,
+        standard_errors: BTreeMap::new(),
     })
 }
 

@@ -8,6 +8,7 @@ use servoid_engine::simulation::Method;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 /// A chaotic run that was followed over such a part of the recording proves the model.
 const PROOF: f64 = 0.5;
@@ -51,6 +52,8 @@ pub struct FittedModel {
     pub evaluations: usize,
     /// How it was run.
     pub method: Method,
+    /// Standard errors of its unknowns from the curvature of a score, by name, each in the unknown's unit; empty where no score decided.
+    pub standard_errors: BTreeMap<String, f64>,
 }
 
 impl FittedModel {

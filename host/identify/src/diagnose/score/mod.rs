@@ -15,6 +15,7 @@
 //! | `innovations` | the innovations of a model as a least-squares problem |
 //! | `likelihood` | the likelihood of innovations |
 //! | `foretold` | what is left in them that is no noise |
+//! | `spread` | standard errors of parameters from its curvature |
 //! | `repeatability` | how far the motor would be from its own repeat |
 
 mod foretold;
@@ -25,6 +26,7 @@ mod noise;
 mod readings;
 mod repeatability;
 pub mod settings;
+mod spread;
 #[cfg(test)]
 mod tests;
 
@@ -35,3 +37,4 @@ pub use likelihood::{correlation_length, likelihoods};
 pub use noise::{Noise, estimate};
 pub use readings::Readings;
 pub use repeatability::repeatability_counts;
+pub use spread::standard_errors;

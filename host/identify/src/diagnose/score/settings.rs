@@ -33,3 +33,9 @@ pub const ORDERS: u32 = 8;
 /// Part of the innovations' variance that may be foretold of a model that lacks nothing: the right sets of the prototype had 3 to 8 %,
 /// those that lacked an effect 10 to 66 %.
 pub const FORETOLD: f64 = 0.05;
+/// Step of the differences from which a score's curvature is taken, parts of a search range.
+pub const STEP: f64 = 1e-4;
+/// Precision of a parameter of which nothing is known but its search range: one over the variance of a uniform distribution, range = 1.
+pub const RANGE_PRECISION: f64 = 12.0;
+/// A standard error of so much of the search range, where nothing at all is 0.29, tells nothing.
+pub const KNOWN_PART: f64 = 0.2;

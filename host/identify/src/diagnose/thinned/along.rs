@@ -15,5 +15,9 @@ pub fn along(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> 
         evaluations: model.evaluations,
     };
     let predicted = model.predicted_rms_counts;
-    score_candidate(context, start.structure, &found, predicted, model.method).ok()
+    let along = score_candidate(context, start.structure, &found, predicted, model.method).ok()?;
+    Some(FittedModel {
+        standard_errors: model.standard_errors.clone(),
+        ..along
+    })
 }

@@ -13,5 +13,6 @@ mod on_all;
 mod recordings;
 mod settings;
 
+pub use along::along;
 pub use on_all::on_all_readings;
 pub use recordings::Thinned;

@@ -5,13 +5,12 @@ use super::pool::Pool;
 use super::settings::{CLASS_NATS, FINALISTS};
 use crate::diagnose::candidate::observer::observe_all;
 use crate::diagnose::candidate::polish::polish;
+use crate::diagnose::candidate::several_horizons::fit_over_horizons;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
 use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::negligible::small_in;
-use crate::diagnose::outcome::{Floor, FloorKind};
-use crate::diagnose::score::settings::FORETOLD;
-use crate::diagnose::screening::restart;
+use crate::diagnose::ordered::in_order;
 use crate::diagnose::selection::{Level, forms};
 use shared::effects::Kind;
 
@@ -27,20 +26,24 @@ pub struct Answer {
     pub scores: Vec<(Vec<Kind>, f64)>,
     /// Whether free runs of the chosen model leave the encoder's own error only.
     pub explained: bool,
-    /// What stands below the model's error, where it was run in windows.
-    pub floor: Option<Floor>,
 }
 
 /// The answer of a pool that was walked through.
 pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Sync)) -> Answer {
     prune(pool, done);
-    let finalists = finalists(context, pool);
-    let explained = explained(context, &finalists);
-    let best = explained.clone().or_else(|| {
-        let worth = |node: &&Node| finalists.iter().any(|m| same(&m.effects, &node.effects));
-        let chosen = simplest_of_class(pool.nodes.iter().filter(worth))?;
-        pool.model(chosen).ok()
-    });
+    let (finalists, explained, best) = loop {
+        let finalists = finalists(context, pool);
+        let explained = explained(context, &finalists);
+        let best = explained.clone().or_else(|| {
+            let worth = |node: &&Node| finalists.iter().any(|m| same(&m.effects, &node.effects));
+            let chosen = simplest_of_class(pool.nodes.iter().filter(worth))?;
+            pool.model(chosen).ok()
+        });
+        match best.as_ref().and_then(|best| vanishing(context, best)) {
+            Some(kind) => pool.drop_sets_with(kind),
+            None => break (finalists, explained, best),
+        }
+    };
     let Some(best) = best.filter(|model| !model.effects.is_empty()) else {
         return Answer {
             chosen: None,
@@ -48,7 +51,6 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
             known: finalists,
             scores: scores(pool),
             explained: explained.is_some(),
-            floor: None,
         };
     };
     if let Some(node) = pool.node(&best.effects).cloned() {
@@ -56,32 +58,12 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
     }
     let order = order_of_fall(pool, &best, done);
     let chosen = in_order(context, &best, &order);
-    let floor = (context.span.window_s).map(|window_s| floor(pool, &chosen, window_s));
     Answer {
         levels: levels(context, pool, &chosen),
         chosen: Some(chosen),
         known: finalists,
         scores: scores(pool),
         explained: explained.is_some(),
-        floor,
-    }
-}
-
-/// What stands below a model's error in windows.
-fn floor(pool: &Pool<'_>, model: &FittedModel, window_s: f64) -> Floor {
-    let counts = pool
-        .evidence
-        .repeatability_counts(&model.candidate, window_s);
-    let foretold = pool.evidence.foretold(&model.candidate);
-    Floor {
-        kind: match foretold {
-            Some(foretold) if foretold.share <= FORETOLD => FloorKind::Repeatability,
-            _ => FloorKind::Unknown,
-        },
-        counts,
-        window_s: Some(window_s),
-        foretold,
-        repeats: None,
     }
 }
 
@@ -112,6 +94,15 @@ fn finalists(context: &Context<'_>, pool: &Pool<'_>) -> Vec<FittedModel> {
         .filter(|model| small_in(context.data, model).is_none() && !model.any_at_wall())
         .take(FINALISTS)
         .collect()
+}
+
+/// An effect of a model that is too small to matter once it is fitted by its free runs in windows: there the score has taken it for
+/// something else.
+fn vanishing(context: &Context<'_>, model: &FittedModel) -> Option<Kind> {
+    context.span.window_s?;
+    let horizon = context.fitted_horizon.clone();
+    let refitted = fit_over_horizons(context, model, &[horizon])?;
+    small_in(context.data, &refitted)
 }
 
 /// The simplest model whose free runs leave the encoder's own error only. Where none does, the best is followed along its chaotic
@@ -185,39 +176,6 @@ fn order_of_fall(pool: &mut Pool<'_>, model: &FittedModel, done: &(dyn Fn() + Sy
     order.extend(left.into_iter().rev());
     order.reverse();
     order
-}
-
-/// The same model with its effects in another order.
-fn in_order(context: &Context<'_>, model: &FittedModel, order: &[Kind]) -> FittedModel {
-    if model.losses.is_some() || model.followed_fraction > 0.0 {
-        return model.clone();
-    }
-    let mut ordered = model.clone();
-    ordered.structure.effects.clear();
-    ordered.parameters.clear();
-    for kind in order {
-        let mut rest = &model.parameters[..];
-        for own in &model.structure.effects {
-            let (values, further) = rest.split_at(own.parameters().len());
-            rest = further;
-            if own == kind {
-                ordered.structure.effects.push(*own);
-                ordered.parameters.extend_from_slice(values);
-            }
-        }
-    }
-    let start = restart(context, &ordered);
-    let values = start.structure.values_of(
-        &model.candidate.machine,
-        &ordered.parameters,
-        model.candidate.start_speed,
-    );
-    ordered.effects = order.to_vec();
-    ordered.structure = start.structure;
-    ordered.x = ordered.structure.coordinates(&values);
-    ordered.candidate = ordered.structure.candidate(&values);
-    ordered.candidate.start_offset = model.candidate.start_offset;
-    ordered
 }
 
 /// For each step of the ladder the models that could stand there.

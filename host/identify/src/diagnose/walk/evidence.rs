@@ -6,12 +6,13 @@ use crate::diagnose::models::FittedModel;
 use crate::diagnose::score::settings::NOISE_RUNS;
 use crate::diagnose::score::{
     Filter, Foretold, Innovations, Noise, Plant, Prior, Readings, correlation_length, estimate,
-    foretold, likelihoods, repeatability_counts,
+    foretold, likelihoods, repeatability_counts, standard_errors,
 };
 use servoid_engine::problem::{
     Candidate, Horizon, START_OFFSET, START_SPEED, StartAngle, Structure, errors,
 };
 use shared::cost::Cost;
+use std::collections::BTreeMap;
 
 /// The recordings on one side with their observer.
 struct Side<'a> {
@@ -139,6 +140,12 @@ impl<'a> Evidence<'a> {
             readings, filter, ..
         } = &self.fitted;
         Innovations::new(readings, filter, self.prior, structure.clone(), method)
+    }
+
+    /// Standard errors of a model's unknowns, by name.
+    pub fn standard_errors(&self, model: &FittedModel) -> BTreeMap<String, f64> {
+        let innovations = self.innovations(&model.structure);
+        standard_errors(&innovations, &model.structure, &model.x, self.correlation)
     }
 
     /// What is foretold of the innovations of a node on the fitted recordings.

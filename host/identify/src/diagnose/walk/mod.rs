@@ -8,16 +8,24 @@
 //! | `evidence` | by what they are judged: all recordings with their observers and noise |
 //! | `pool` | all nodes, fitted and scored alike |
 //! | `answer` | the model that is chosen, and what leads to it |
+//! | `floor` | what stands below its error |
+//! | `told` | what a score tells of one model |
+//! | `ring` | the neighbours of one model on their own |
 
 mod answer;
 mod evidence;
+mod floor;
 mod moves;
 mod node;
 mod pool;
+mod ring;
 mod settings;
+mod told;
 
 pub use answer::Answer;
+pub use ring::{Neighbour, Ring, ring};
 pub use settings::CLASS_NATS;
+pub use told::told;
 
 use answer::answer;
 use pool::Pool;

@@ -9,6 +9,9 @@ use shared::effects::{Kind, MAX_EFFECTS};
 /// Of these a model has one: along a motion they are nearly the same.
 const CONSTANTS: [Kind; 2] = [Kind::OffsetVoltage, Kind::LoadTorque];
 
+/// These differ between the directions.
+const OF_DIRECTIONS: [Kind; 2] = [Kind::AsymCoulomb, Kind::AsymViscous];
+
 /// A neighbour to be fitted from where `parent` stands.
 pub struct Start {
     /// The effects that stay.
@@ -42,7 +45,7 @@ pub fn neighbours(
 ) -> Vec<Start> {
     let mut starts = Vec::new();
     let candidates = context.candidates.iter().copied();
-    for kind in candidates.filter(|kind| may_be(*kind)) {
+    for kind in candidates.filter(|kind| may_be(context, *kind)) {
         if node.effects.contains(&kind) {
             continue;
         }
@@ -66,10 +69,21 @@ pub fn neighbours(
     unknown(starts, pool, most_effects)
 }
 
+/// The neighbours of `node` with one effect more; what it holds as a special case goes.
+pub fn additions(context: &Context<'_>, node: &Node, pool: &Pool<'_>) -> Vec<Start> {
+    let mut starts = neighbours(context, node, pool, MAX_EFFECTS);
+    starts.retain(|start| {
+        let gone = node.effects.iter().filter(|own| !start.kept.contains(own));
+        let mut gone = gone.copied();
+        (start.added).is_some_and(|added| gone.all(|own| added.containing(own).is_some()))
+    });
+    starts
+}
+
 /// Sets in which a look-alike stands in the place of an effect.
 pub fn substitutes(context: &Context<'_>, node: &Node) -> Vec<Start> {
     let candidates = context.candidates.iter().copied();
-    let new = candidates.filter(|kind| may_be(*kind) && !node.effects.contains(kind));
+    let new = candidates.filter(|kind| may_be(context, *kind) && !node.effects.contains(kind));
     let pairs = new.flat_map(|kind| node.effects.iter().map(move |&place| (place, kind)));
     // Where the motor never reverses a constant does what friction does.
     let one_way = !together_move_both_ways(context.data, context.held_out);
@@ -101,7 +115,9 @@ fn unknown(mut starts: Vec<Start>, pool: &Pool<'_>, most_effects: usize) -> Vec<
     starts
 }
 
-/// Lost counts are found, not fitted; bristles cost much.
-fn may_be(kind: Kind) -> bool {
-    !kind.facts().by_chance && !kind.facts().costly
+/// Lost counts are found, not fitted; bristles cost much; and a motor that never reverses shows one direction only.
+fn may_be(context: &Context<'_>, kind: Kind) -> bool {
+    let facts = kind.facts();
+    let both_ways = || together_move_both_ways(context.data, context.held_out);
+    !facts.by_chance && !facts.costly && (!OF_DIRECTIONS.contains(&kind) || both_ways())
 }

@@ -43,7 +43,7 @@ pub struct Pool<'a> {
 }
 
 impl<'a> Pool<'a> {
-    /// A pool that holds the linear motor alone.
+    /// A pool that holds `base` alone: the linear motor, or a model whose neighbours are looked for.
     pub fn begun(context: &'a Context<'a>, base: &FittedModel) -> Self {
         let mut pool = Pool {
             context,
@@ -52,9 +52,9 @@ impl<'a> Pool<'a> {
             nodes: Vec::new(),
         };
         pool.evidence.estimate_noise(&base.candidate);
-        let linear = pool.fit(&base.structure, std::slice::from_ref(&base.x), CONVERGED);
+        let fitted = pool.fit(&base.structure, std::slice::from_ref(&base.x), CONVERGED);
         let standing = || Node::new(base.structure.clone(), base.x.clone());
-        pool.put(vec![linear.unwrap_or_else(standing)]);
+        pool.put(vec![fitted.unwrap_or_else(standing)]);
         pool
     }
 
@@ -226,6 +226,11 @@ impl<'a> Pool<'a> {
             }
         }
         self.sort();
+    }
+
+    /// Takes all sets with an effect away.
+    pub fn drop_sets_with(&mut self, kind: Kind) {
+        self.nodes.retain(|node| !node.effects.contains(&kind));
     }
 
     fn sort(&mut self) {
