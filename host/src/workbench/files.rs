@@ -52,6 +52,7 @@ pub(super) fn files() -> Vec<File> {
         file!(SCRIPT, "js/failing.js"),
         file!(SCRIPT, "js/gallery.js"),
         file!(SCRIPT, "js/keyboard.js"),
+        file!(SCRIPT, "js/floor.js"),
         file!(SCRIPT, "js/ladder.js"),
         file!(SCRIPT, "js/lanes.js"),
         file!(SCRIPT, "js/law.js"),

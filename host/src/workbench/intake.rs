@@ -5,6 +5,7 @@ use super::loaded::{Loaded, MOTOR, Source};
 use crate::error::Error;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use servoid_identify::LateDriver;
 use servoid_io::channel::Channel;
 use servoid_io::input::{
     AngleUnit, CommandUnit, DriveKind, Envelope, MotorFile, PRESETS, ReadError, Survey,
@@ -260,8 +261,13 @@ pub fn read(
     let reading = reading.map_err(|error| called(path, name, error))?;
     let own = path.display().to_string();
     let shown = |text: &str| text.replace(&own, name);
+    let mut notes: Vec<String> = reading.notes.iter().map(|note| shown(note)).collect();
     let mut sources = Vec::new();
     for recording in &reading.recordings {
+        let late = LateDriver::of(recording);
+        notes.extend(
+            late.map(|late| format!("{}: {}", shown(&recording.source), late.finding().text())),
+        );
         let mut csv = Vec::new();
         let written = write_csv(&mut csv, recording, &[]);
         written.map_err(|error| Error::Failed(format!("{name}: {error}")))?;
@@ -269,10 +275,9 @@ pub fn read(
             name: shown(&recording.source),
             csv: String::from_utf8_lossy(&csv).into_owned(),
             motor: reading.motor.for_written(recording).to_toml(),
-            span_s: None,
+            span_s: late.map(|late| late.span_s(recording)),
         });
     }
-    let notes = reading.notes.iter().map(|note| shown(note)).collect();
     Ok((Loaded::read(sources)?, notes))
 }
 

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use servoid_identify::diagnose::Suggestion;
 use servoid_identify::plan::Hypothesis;
 use servoid_identify::residual_analysis::{Axis, Signature};
+use servoid_results::schema::diagnosis::Floor;
 use std::cmp::Ordering;
 
 /// Effects explain about equally if the logarithms of what they divide the held-out error by are within this part of the best one's.
@@ -21,13 +22,15 @@ pub(super) fn view(state: &State, id: usize) -> Option<Value> {
     let before = state.model(id).ok()?.held_out_rms_counts();
     let list: Vec<Value> = ordered(proposed, before)
         .into_iter()
-        .map(|suggestion| entry(state, suggestion, before))
+        .map(|suggestion| entry(state, proposed, suggestion, before))
         .collect();
+    let floor = proposed.floor.as_ref().map(Floor::from);
     let rivals: Vec<&str> = (rivals(state, id).iter())
         .map(|one| one.effect.name())
         .collect();
     Some(json!({
         "of": id, "tried": proposed.tried, "seconds": proposed.seconds, "list": list, "rivals": rivals,
+        "floor": floor,
     }))
 }
 
@@ -84,11 +87,20 @@ fn ordered(proposed: &Proposed, before: Option<f64>) -> Vec<&Suggestion> {
     list
 }
 
-fn entry(state: &State, suggestion: &Suggestion, before: Option<f64>) -> Value {
+fn entry(
+    state: &State,
+    proposed: &Proposed,
+    suggestion: &Suggestion,
+    before: Option<f64>,
+) -> Value {
     let description = suggestion.effect.description();
     let model = &suggestion.model;
     let errors = suggestion.errors;
-    let little = before.is_some_and(|before| errors.held_out > LITTLE * before);
+    // A score knows what the motor itself does not repeat, which hides most of an error.
+    let little = match proposed.floor {
+        Some(_) => !suggestion.believed,
+        None => before.is_some_and(|before| errors.held_out > LITTLE * before),
+    };
     json!({
         "effect": suggestion.effect.name(),
         "title": description.title,

@@ -10,7 +10,7 @@ use super::recordings::Recordings;
 use crate::error::Error;
 use crate::twins::Found;
 use serde_json::Value;
-use servoid_identify::diagnose::Suggestion;
+use servoid_identify::diagnose::{Floor, Suggestion};
 use servoid_plant::Hidden;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -91,6 +91,8 @@ pub(super) struct State {
 pub(super) struct Proposed {
     /// Best first.
     pub(super) list: Vec<Suggestion>,
+    /// What stands below the model's error, where models run in windows.
+    pub(super) floor: Option<Floor>,
     /// Models that were tried for it.
     pub(super) tried: usize,
     /// Time that this took, s.

@@ -132,6 +132,7 @@ pub(super) fn suggest(bench: &Arc<Bench>, id: usize) -> Result<(), Error> {
     )?;
     let proposed = Proposed {
         list: found.list,
+        floor: found.floor,
         tried: watched.tried.load(Ordering::Relaxed),
         seconds: began.elapsed().as_secs_f64(),
     };

@@ -75,6 +75,12 @@ impl LateDriver {
         )
     }
 
+    /// The span without the moments before, s after the first sample.
+    pub fn span_s(&self, recording: &Recording) -> [f64; 2] {
+        let last = recording.time_s.last().copied().unwrap_or_default();
+        [self.after_s, last - recording.time_s[0]]
+    }
+
     /// The recording without the moments before.
     pub fn cut(&self, recording: &Recording) -> Recording {
         recording.samples(self.sample..recording.len())

@@ -16,8 +16,17 @@ pub struct LadderBar {
     pub held_out: Option<f64>,
 }
 
+/// How the models were judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Judged {
+    /// Length of the windows through which they ran, s; whole runs for none.
+    pub window_s: Option<f64>,
+    /// What the motor itself does not repeat there, counts RMS, where that is known.
+    pub repeatability: Option<f64>,
+}
+
 /// Draws the ladder.
-pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
+pub fn ladder(id: &str, entries: &[LadderBar], judged: &Judged) -> Picture {
     let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
     let mut plot = Chart::default();
     // The first and the last model have their colours; how full they are tells what was fitted.
@@ -74,14 +83,37 @@ pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
                 .set("dash", "dash")
                 .set("width", 2.0),
         );
+    let band = judged.repeatability.map(|counts| {
+        Properties::default()
+            .set("type", "rect")
+            .set("layer", "below")
+            .set("xref", "paper")
+            .set("x0", 0)
+            .set("x1", 1)
+            .set("y0", rounded(FLOOR_RMS_COUNTS))
+            .set("y1", rounded(counts))
+            .set("fillcolor", colour::FLOOR)
+            .set("opacity", 0.15)
+            .set("line", Properties::default().set("width", 0))
+    });
+    let span = match judged.window_s {
+        Some(seconds) => format!("runs through windows of {seconds:.3} s"),
+        None => "the free run over the whole recording".to_owned(),
+    };
+    let repeated = judged.repeatability.map_or(String::new(), |repeated| {
+        format!(
+            " What this motor does not repeat, {} counts there, is shaded: no model explains that.",
+            counts(repeated)
+        )
+    });
     plot.lay_out(
         layout(360)
-            .set("shapes", vec![floor])
-            .set("xaxis", axis(""))
             .set(
-                "yaxis",
-                axis("error of the free run, counts RMS").set("type", "log"),
-            ),
+                "shapes",
+                band.into_iter().chain([floor]).collect::<Vec<_>>(),
+            )
+            .set("xaxis", axis(""))
+            .set("yaxis", axis("error, counts RMS").set("type", "log")),
     );
     let mut table = Table::new(&["model", "fitted, counts RMS", "held out, counts RMS"]);
     for entry in entries {
@@ -92,8 +124,8 @@ pub fn ladder(id: &str, entries: &[LadderBar]) -> Picture {
         id: id.to_owned(),
         title: "Error ladder".to_owned(),
         caption: format!(
-            "Error of the free run over the whole recording as effects are added, logarithmic. No model can leave less \
-             than the encoder's own {FLOOR_RMS_COUNTS:.3} counts for long."
+            "Error of {span} as effects are added, logarithmic. No model can leave less than the encoder's own \
+             {FLOOR_RMS_COUNTS:.3} counts for long.{repeated}"
         ),
         drawing: Drawing::Chart(plot),
         table: Some(table),

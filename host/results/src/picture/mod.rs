@@ -44,7 +44,7 @@ pub use distribution::{Distribution, distribution};
 pub use effect_curve::effect_curve;
 pub use forest::{Estimates, forest};
 pub use intervals::intervals;
-pub use ladder::{LadderBar, ladder};
+pub use ladder::{Judged, LadderBar, ladder};
 pub use maps::maps;
 pub use orders::orders;
 pub use profiles::profiles;

@@ -227,7 +227,7 @@ fn ladder(entries: &[LadderEntry]) -> String {
         FLOOR_RMS_COUNTS,
         if floor { FLOOR_RMS_COUNTS } else { f64::NAN },
     ));
-    bars::ladder(&lines)
+    bars::ladder(&lines, None)
 }
 
 /// A remark, folded to 80 columns behind a dash.

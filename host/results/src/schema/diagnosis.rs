@@ -100,7 +100,8 @@ pub struct Diagnosis {
     /// Intensity of the process noise that the last model leaves, referred to the winding; absent with `likelihood`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub process_noise: Option<Bounded>,
-    /// The fit with process noise; absent where the last model reaches the encoder's floor.
+    /// The fit with process noise; absent where the last model reaches the encoder's floor, and where the diagnosis was judged in windows:
+    /// there the parameters have their standard errors from the score.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub likelihood: Option<Likelihood>,
     /// Sets of effects that may be what is missing: the last model's, then the others by their probability. What they leave to
@@ -263,6 +264,9 @@ pub struct Base {
     pub rms_counts: Option<f64>,
     /// On what was held out, counts RMS.
     pub validate_rms_counts: Option<f64>,
+    /// Errors in windows, each run from the measured state, where whole runs say little.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub windowed: Option<Errors>,
 }
 
 /// Errors of a model.
@@ -465,6 +469,7 @@ impl From<&FittedModel> for Base {
             model: Model::of(&refit.candidate, refit.method),
             rms_counts: finite(refit.rms_counts),
             validate_rms_counts: finite(refit.validate_rms_counts),
+            windowed: refit.windowed.map(Errors::from),
         }
     }
 }

@@ -52,14 +52,15 @@ pub fn counts(rms: f64) -> String {
 }
 
 /// The error ladder: a line for each model with its error where it was fitted, its error on what was held out
-/// (not a number where nothing was), and a bar for the latter.
-pub fn ladder(entries: &[(String, f64, f64)]) -> String {
+/// (not a number where nothing was), and a bar for the latter. Errors of runs through windows of `window_s`, s; of whole runs for none.
+pub fn ladder(entries: &[(String, f64, f64)], window_s: Option<f64>) -> String {
     let errors = entries.iter().flat_map(|entry| [entry.1, entry.2]);
     let most = errors.filter(|rms| rms.is_finite()).fold(0.0, f64::max);
     let head = format!("{:28}{:>10}{:>11}", "error ladder", "fitted", "held out");
     let mut out = format!(
-        "{}   counts RMS, bars logarithmic\n",
-        painted(HEADING, head)
+        "{}   counts RMS{}, bars logarithmic\n",
+        painted(HEADING, head),
+        window_s.map_or(String::new(), |window_s| format!(" in {window_s:.2} s")),
     );
     for (name, fitted, held_out) in entries {
         let shown = if held_out.is_finite() {

@@ -10,8 +10,7 @@ use crate::report::position_loop;
 use crate::report::style::{BAD, GOOD, HEADING, painted};
 use crate::report::text::{parameter, recordings, wrapped};
 use anstyle::Style;
-use servoid_identify::diagnose::evidence;
-use servoid_identify::diagnose::{HeldOut, Step, Verdict};
+use servoid_identify::diagnose::{Errors, HeldOut, Step, Verdict, evidence};
 use servoid_identify::discovery::Proposed;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::fmt::Write;
@@ -102,31 +101,33 @@ impl DiagnosisReport<'_> {
     /// Errors from the linear motor to the last model, and the encoder's own.
     fn ladder(&self, out: &mut String) -> std::fmt::Result {
         let diagnosis = self.diagnosis;
-        let mut entries = vec![(
-            "linear motor".to_owned(),
-            diagnosis.base.rms_counts,
-            diagnosis.base.validate_rms_counts,
-        )];
+        let mut entries = Vec::new();
+        let mut enter = |name: String, ran: Errors| entries.push((name, ran.fitted, ran.held_out));
+        enter("linear motor".to_owned(), diagnosis.base.ran());
+        if let Some(baseline) = &diagnosis.baseline {
+            enter("baseline".to_owned(), self.over_span(&baseline.prediction));
+        }
         for step in &diagnosis.steps {
             if let Some(after) = step.candidates.first() {
-                let name = format!("+ {}", step.added.name());
-                entries.push((name, after.rms_counts, after.validate_rms_counts));
+                enter(format!("+ {}", step.added.name()), after.ran());
             }
         }
         if let Some(last) = entries.last_mut().filter(|_| !diagnosis.steps.is_empty()) {
-            (last.1, last.2) = self.last_errors();
+            (last.1, last.2) = self.last_over_span();
         }
-        if let Some(baseline) = &diagnosis.baseline {
-            let both = &baseline.prediction;
-            let entry = ("baseline".to_owned(), both.whole, both.held_out_whole);
-            entries.insert(1, entry);
+        if let Some(floor) = self.repeats_itself() {
+            entries.push((
+                "not repeated by the motor".to_owned(),
+                floor.counts,
+                f64::NAN,
+            ));
         }
         entries.push((
             "encoder's own".to_owned(),
             FLOOR_RMS_COUNTS,
             FLOOR_RMS_COUNTS,
         ));
-        out.push_str(&super::bars::ladder(&entries));
+        out.push_str(&super::bars::ladder(&entries, diagnosis.span.window_s));
         if let Some(baseline) = &diagnosis.baseline {
             let text = format!(
                 "baseline: linear motor + {}",

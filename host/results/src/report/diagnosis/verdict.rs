@@ -6,7 +6,7 @@ use super::{DiagnosisReport, names};
 use crate::report::repeats;
 use servoid_identify::diagnose::evidence::largest;
 use servoid_identify::diagnose::{
-    Floor, FloorKind, HeldOut, ProbableSet, Verdict, moves_both_ways,
+    Errors, Floor, FloorKind, HeldOut, Prediction, ProbableSet, Verdict, moves_both_ways,
 };
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
@@ -173,7 +173,7 @@ impl DiagnosisReport<'_> {
     }
 
     /// The floor, where it is the motor's own repeatability.
-    fn repeats_itself(&self) -> Option<Floor> {
+    pub(super) fn repeats_itself(&self) -> Option<Floor> {
         let floor = self.diagnosis.floor?;
         (floor.kind == FloorKind::Repeatability && floor.is_reached()).then_some(floor)
     }
@@ -249,6 +249,28 @@ impl DiagnosisReport<'_> {
     pub(super) fn last_errors(&self) -> (f64, f64) {
         let held_out = self.last.validate_rms_counts.unwrap_or(f64::NAN);
         (self.last.rms_counts, held_out)
+    }
+
+    /// The last model's errors over the span in which models were judged.
+    pub(super) fn last_over_span(&self) -> (f64, f64) {
+        if self.diagnosis.span.window_s.is_none() {
+            return self.last_errors();
+        }
+        let predicted = self.diagnosis.predicts.as_ref();
+        let ran = || self.diagnosis.last.ran();
+        let last = predicted.map_or_else(ran, |own| self.over_span(own));
+        (last.fitted, last.held_out)
+    }
+
+    /// What a model predicts over the span in which models were judged.
+    pub(super) fn over_span(&self, prediction: &Prediction) -> Errors {
+        let windows = self.diagnosis.span.window_s.is_some();
+        let of = |windowed: f64, whole: f64| if windows { windowed } else { whole };
+        Errors {
+            fitted: of(prediction.windowed, prediction.whole),
+            held_out: of(prediction.held_out_windowed, prediction.held_out_whole),
+            floor: FLOOR_RMS_COUNTS,
+        }
     }
 
     /// Part of the fitted motion's variance that the last model explains in one run over the whole recording, per cent; none where

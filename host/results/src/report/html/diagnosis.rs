@@ -7,11 +7,12 @@ use super::{
 };
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, LadderBar, Table};
+use crate::picture::{self, Judged, LadderBar, Table};
 use crate::report::diagnosis::bars::counts;
 use crate::report::diagnosis::nothing_else;
-use crate::schema::diagnosis::Step;
+use crate::schema::diagnosis::{Errors, Step};
 use crate::schema::{Demo, Diagnosis};
+use servoid_identify::diagnose::FloorKind;
 use servoid_identify::fit::margins::Loop;
 use servoid_io::recording::Drive;
 
@@ -99,27 +100,50 @@ fn held_out(diagnosis: &Diagnosis) -> String {
 }
 
 fn ladder(diagnosis: &Diagnosis) -> Section {
-    let mut entries = vec![LadderBar {
-        name: "linear motor".to_owned(),
-        fitted: diagnosis.base.rms_counts,
-        held_out: diagnosis.base.validate_rms_counts,
-    }];
-    entries.extend(diagnosis.steps.iter().map(|step| LadderBar {
-        name: format!("+ {}", step.added),
-        fitted: step.rms_counts,
-        held_out: step.validate_rms_counts,
+    let bar = |name: String, whole: [Option<f64>; 2], windowed: Option<Errors>| {
+        let [fitted, held_out] =
+            windowed.map_or(whole, |own| [own.rms_counts, own.validate_rms_counts]);
+        LadderBar {
+            name,
+            fitted,
+            held_out,
+        }
+    };
+    let (base, last) = (&diagnosis.base, &diagnosis.last);
+    let whole = [base.rms_counts, base.validate_rms_counts];
+    let mut entries = vec![bar("linear motor".to_owned(), whole, base.windowed)];
+    entries.extend(diagnosis.steps.iter().map(|step| {
+        let whole = [step.rms_counts, step.validate_rms_counts];
+        bar(format!("+ {}", step.added), whole, step.windowed)
     }));
-    if let Some(last) = entries.last_mut() {
-        last.fitted = diagnosis.last.rms_counts;
-        last.held_out = diagnosis.last.validate_rms_counts;
+    let windowed = diagnosis
+        .prediction
+        .filter(|_| diagnosis.window_s.is_some());
+    let windowed = windowed.map(|own| Errors {
+        rms_counts: Some(own.windowed_rms_counts),
+        validate_rms_counts: Some(own.validate_windowed_rms_counts),
+    });
+    if let Some(entry) = entries.last_mut() {
+        let whole = [last.rms_counts, last.validate_rms_counts];
+        if diagnosis.window_s.is_none() || windowed.is_some() {
+            *entry = bar(entry.name.clone(), whole, windowed);
+        }
     }
+    let floor = diagnosis.floor.as_ref();
+    let floor = floor.filter(|floor| floor.kind == FloorKind::Repeatability.name());
+    let judged = Judged {
+        window_s: diagnosis.window_s,
+        repeatability: floor.and_then(|floor| floor.counts),
+    };
     let mut section = Section::new("ladder", "The error falls");
     if diagnosis.steps.is_empty() {
         section.heading = "The error".to_owned();
     }
-    section
-        .blocks
-        .push(Block::Picture(picture::ladder("error-ladder", &entries)));
+    section.blocks.push(Block::Picture(picture::ladder(
+        "error-ladder",
+        &entries,
+        &judged,
+    )));
     section
 }
 

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::error::Error;
 use crate::page::{Block, Page, Section};
-use crate::picture::{self, Drawing, LadderBar, Picture, Table};
+use crate::picture::{self, Drawing, Judged, LadderBar, Picture, Table};
 use crate::report::diagnosis::bars::counts;
 use crate::report::repeats;
 use crate::schema::certificate::Certificate;
@@ -34,6 +34,7 @@ pub(super) fn page(fit: &Fit, recordings: Recordings<'_>) -> Result<Page, Error>
         ladder.blocks.push(Block::Picture(picture::ladder(
             "error-ladder",
             &entries(fit),
+            &Judged::default(),
         )));
         sections.push(ladder);
     }

@@ -3,6 +3,7 @@
 import { colour, letter, step } from "./names.js";
 import { at, svg } from "./elements.js";
 import { judged } from "./error.js";
+import { repeatability } from "./floor.js";
 import { counts, times } from "./numbers.js";
 
 const [WIDE, HIGH] = [288, 200];
@@ -55,6 +56,12 @@ export function show(bench, foreseen) {
       full(svg("text", { x: left - 6, y: y + 4, "text-anchor": "end" }, power < 3 ? String(10 ** power) : `10${"⁰¹²³⁴⁵⁶⁷⁸⁹"[power]}`)));
   }
   const floor = Y(bench.floor_counts);
+  const own = repeatability(bench);
+  if (own > bench.floor_counts) {
+    const y = Y(Math.min(own, most));
+    place.append(svg("rect", { class: "repeats", x: left, y, width: WIDE - left, height: Math.max(0, floor - y) }));
+    place.append(full(svg("text", { x: WIDE - 4, y: floor - 5, "text-anchor": "end" }, `the motor's repeatability ${counts(own)}`)));
+  }
   place.append(svg("path", { class: "floor", d: `M${left} ${floor}H${WIDE}` }));
   steps.forEach((one, k) => {
     const [x, right, y] = [X(k), X(k + 1), Y(one.error)];

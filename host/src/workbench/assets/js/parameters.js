@@ -4,6 +4,7 @@ import { colour, letter, spoken } from "./names.js";
 import { at, el, svg } from "./elements.js";
 import { digits, estimate, times, usual } from "./numbers.js";
 import { judged } from "./error.js";
+import { floorCounts, repeatability } from "./floor.js";
 
 // Half of the width of the whisker's scale, as a part of the value.
 const SCALE = 0.25;
@@ -36,9 +37,9 @@ export function show(bench, model, parent) {
   at("parameters-tag").replaceChildren(...(model ? [el("span", { class: "tag", style: `background:${colour(model.id)}` }, letter(model.id))] : []));
   at("parameters").replaceChildren(...(model ? shownOf(model).map((one, k, all) => row(one, parent, model.id, all)) : []));
   at("parameters-key").textContent = parent ? "± 95 %, ○ before" : "± 95 %";
-  const over = model ? judged(model) / bench.floor_counts : 1;
+  const over = model ? judged(model) / floorCounts(bench) : 1;
   at("trust").hidden = over < 1.5;
-  at("trust").textContent = `Not to be trusted yet: the error is ${times(over)} times the ${bench.recording.window_s ? "readings'" : "encoder's"} own.`;
+  at("trust").textContent = `Not to be trusted yet: the error is ${times(over)} times the ${repeatability(bench) ? "motor's repeatability" : bench.recording.window_s ? "readings' own" : "encoder's own"}.`;
 }
 
 function row(one, parent, id, all) {

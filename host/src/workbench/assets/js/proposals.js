@@ -4,6 +4,7 @@ import { colour, letter, spoken } from "./names.js";
 import { at, button, el, row } from "./elements.js";
 import { field } from "./law.js";
 import { counts, digits, estimate, usual } from "./numbers.js";
+import { repeatability } from "./floor.js";
 import { shownOf } from "./parameters.js";
 import { signature } from "./signature.js";
 
@@ -52,9 +53,10 @@ function missing(bench, chosen, does) {
   const head = el("div", { class: "sec head" }, el("h2", {}, "What is missing?"), el("span", { class: "space" }),
     el("span", { class: "dim s12" }, `${proposed.tried} tested, ${proposed.seconds.toFixed(1)} s`));
   if (!rows.length) {
-    return el("div", {}, head, el("div", { class: "sec" }, el("p", {}, chosen.at_floor
+    const said = repeatability(bench) ? explained(bench, chosen, does) : el("div", { class: "sec" }, el("p", {}, chosen.at_floor
       ? "The error is the encoder's own, yet it is not noise: a longer recording would tell more."
-      : "Nothing in the catalogue explains more. Something else is missing.")), little(rest, bench, does));
+      : "Nothing in the catalogue explains more. Something else is missing."));
+    return el("div", {}, head, said, little(rest, bench, does));
   }
   const list = el("div", { id: "proposals" });
   rows.forEach((one, k) => list.append(k === open ? opened(one, rows, chosen, bench, does) : closed(one, k, bench, does)));
@@ -62,9 +64,11 @@ function missing(bench, chosen, does) {
   return el("div", {}, head, list, little(rest, bench, does));
 }
 
-// Those that are shown with their signatures: the first in any case, others where they explain much.
+// Those that are shown with their signatures: others than the first where they explain much. By a score, which knows the motor's own noise, only
+// what is believed.
 function rowsOf(proposed) {
-  return proposed.list.filter((one) => !one.locked).filter((one, k) => k === 0 || !one.little);
+  const first = proposed.floor ? -1 : 0;
+  return proposed.list.filter((one) => !one.locked).filter((one, k) => k === first || !one.little);
 }
 
 const thead = () => el("div", { class: "thead", "aria-hidden": "true" }, el("span", {}, "Effect"), el("span", {}, "foreseen"), el("span", {}, "held out"));
@@ -83,7 +87,7 @@ function opened(one, rows, chosen, bench, does) {
   const others = one.looks_like.filter((name) => !alike.includes(spoken(name))).map(spoken);
   const facts = [
     ["Evidence", one.evidence],
-    ["Foreseen", `${counts(one.foreseen_rms_counts)} before the refit`],
+    ["Foreseen", one.foreseen_rms_counts === null ? null : `${counts(one.foreseen_rms_counts)} before the refit`],
     ["Look-alikes", [...alike.map((name) => `${name} (tested below)`), ...others].join(", ") || "none"],
   ];
   if (!one.believed) facts.unshift(["Doubt", "removes too little of the held-out error to be believed"]);
@@ -169,13 +173,17 @@ function explained(bench, chosen, does) {
   const tint = colour(chosen.id);
   const names = chosen.effects.map(spoken);
   const said = names.length ? `${listed_of(names)} explain${names.length === 1 ? "s" : ""} this motor.` : "A linear motor explains this recording.";
+  const motor = repeatability(bench);
+  const readings = `${bench.recording.window_s ? "readings'" : "encoder's"} own error`;
+  const left = motor ? `the motor's own repeatability is left: about ${counts(motor)} counts after ${digits(bench.recording.window_s, 2)} s` : `the ${readings} is left`;
   const own = el("div", { class: "sec" }, el("h2", {}, "The model"), ...chosen.effects.map((effect) => owned(bench, chosen, effect, does)));
   return el("div", {},
     el("div", { class: "sec done explained", id: "explained", style: `--tint:${tint}` }, el("span", { class: "check", "aria-hidden": "true" }, "✓"), el("h2", {}, "Explained"),
-      el("p", { class: "quiet" }, `${said[0].toUpperCase()}${said.slice(1)} ${bench.recording.held_out ? "On the held-out recording" : "Also in what was not fitted"} only the ${bench.recording.window_s ? "readings'" : "encoder's"} own error is left.`)),
+      el("p", { class: "quiet" }, `${said[0].toUpperCase()}${said.slice(1)} ${bench.recording.held_out ? "On the held-out recording" : "Also in what was not fitted"} only ${left}.`)),
     chosen.effects.length ? own : null,
     el("div", { class: "sec" }, el("h2", {}, "Is anything left?"), el("table", { class: "facts" },
       row("Fitted, counts", counts(chosen.rms_counts)), row("Held out, counts", counts(chosen.held_out_rms_counts)),
+      motor ? row("The motor's repeatability, counts", counts(motor)) : null,
       row(bench.recording.window_s ? "The readings' own, counts" : "The encoder's own, counts", counts(bench.floor_counts)),
       bench.recording.window_s ? null : row("Residual is noise", chosen.white === null ? "too little motion to tell" : chosen.white ? "yes" : "no")),
     el("p", { class: "acts" }, button("Export the model", does.exports, { class: "btn pri" }))));
