@@ -67,8 +67,19 @@ pub(super) fn options(
     })
 }
 
-/// A range `LOW:HIGH` of a flag.
+/// A range `LOW:HIGH` of a flag, wider than nothing.
 pub(super) fn range(flag: &str, text: &str) -> Result<(f64, f64), Error> {
+    let (low, high) = limits(flag, text)?;
+    if low == high {
+        return Err(Error::Usage(format!(
+            "{flag} {text}: the bounds are equal: nothing is left to draw from"
+        )));
+    }
+    Ok((low, high))
+}
+
+/// Limits `LOW:HIGH` of a flag; equal ones hold what they limit.
+fn limits(flag: &str, text: &str) -> Result<(f64, f64), Error> {
     let wrong = |why: &str| Error::Usage(format!("{flag} {text}: {why}"));
     let (low, high) = text
         .split_once(':')
@@ -81,7 +92,7 @@ pub(super) fn range(flag: &str, text: &str) -> Result<(f64, f64), Error> {
             .ok_or_else(|| wrong(&format!("`{part}` is not a finite number")))
     };
     let (low, high) = (number(low)?, number(high)?);
-    if low >= high {
+    if low > high {
         return Err(wrong("the bounds are crossed: the lower one comes first"));
     }
     Ok((low, high))
@@ -89,11 +100,11 @@ pub(super) fn range(flag: &str, text: &str) -> Result<(f64, f64), Error> {
 
 /// A bound `NAME=LOW:HIGH` of `--bounds`.
 fn bound(text: &str) -> Result<Bound, Error> {
-    let (name, limits) = text
+    let (name, ends) = text
         .split_once('=')
         .ok_or_else(|| Error::Usage(format!("--bounds {text}: write it like gain=10:100")))?;
     Ok(Bound {
         name: name.to_owned(),
-        range: range(&format!("--bounds {name} ="), limits)?,
+        range: limits(&format!("--bounds {name} ="), ends)?,
     })
 }

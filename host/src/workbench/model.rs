@@ -92,7 +92,7 @@ impl Model {
         let mut problem = fit::problem(data, &options)?;
         problem.structure = servoid_engine::problem::Structure::around(
             data,
-            fit::base_for(data, &effects),
+            fit::base_for(data, &effects, options.window_s.is_some()),
             &effects,
             &candidate.machine,
             candidate.start_speed != 0.0,

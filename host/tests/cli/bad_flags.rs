@@ -21,7 +21,7 @@ const FIT: &[(&str, &[&str])] = &[
     ("--bounds gain", &["--bounds", "gain=10:100"]),
     ("--bounds gain=1", &["--bounds"]),
     ("--bounds gain=10:1", &["--bounds", "crossed"]),
-    ("--bounds gain=1:1", &["--bounds", "crossed"]),
+    ("paper --bounds 1:1", &["--bounds", "equal"]),
     ("--bounds gain=-1:10", &["--bounds", "negative"]),
     ("--bounds gain=0:10", &["--bounds", "above zero"]),
     ("--bounds gain=nan:10", &["--bounds", "finite"]),

@@ -157,7 +157,7 @@ fn standing(context: &Context<'_>, candidate: &Candidate) -> Result<FittedModel,
     let data = context.data;
     let mut structure = Structure::around(
         data,
-        base_for(data, &effects),
+        base_for(data, &effects, context.span.window_s.is_some()),
         &effects,
         &candidate.machine,
         candidate.start_speed != 0.0,

@@ -172,7 +172,7 @@ struct Start {
 
 /// The problem, without a start, and the guesses for one.
 fn starts<'a>(data: &'a Data, options: &Options) -> Starts<'a> {
-    let base = base_for(data, &options.effects);
+    let base = base_for(data, &options.effects, options.window_s.is_some());
     let unit = Machine {
         kb: 1.0,
         damping: 0.0,
@@ -226,14 +226,22 @@ impl Starts<'_> {
 
 /// Viscous friction is searched for apart from back-EMF where something can tell the two apart:
 /// coasting with the bridge open, a torque that passes only the one of them, or an effect of the
-/// current, since the current that a speed takes depends on how much of the damping is friction.
-pub fn base_for(data: &Data, effects: &[Kind]) -> Base {
+/// current, since the current that a speed takes depends on how much of the damping is friction. Beside a torque only the
+/// winding's delay tells them apart, which runs `in_windows`, above the encoder's floor, do not hold.
+pub fn base_for(data: &Data, effects: &[Kind], in_windows: bool) -> Base {
     let separates = |kind: &Kind| {
+        let needs = kind.needs();
         let mechanical = matches!(
             kind.description().place,
             Place::Friction | Place::Torque | Place::Load
         );
-        mechanical || kind.needs().winding || kind.needs().current
+        let of_current = needs.winding || needs.current;
+        of_current
+            || if in_windows {
+                needs.lost_torque
+            } else {
+                mechanical
+            }
     };
     match data.drive {
         Drive::Current | Drive::Torque => Base::CurrentDriven,

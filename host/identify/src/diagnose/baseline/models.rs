@@ -69,9 +69,15 @@ fn fit_terms(
     let data = context.data;
     let machine = &base.candidate.machine;
     let speed = base.structure.start_speed;
-    let structure = Structure::around(data, base_for(data, effects), effects, machine, speed)
-        .with_fixed(ELECTRICAL_TIME_CONSTANT, 0.0)
-        .with_fixed(VISCOUS_PART, 0.0);
+    let structure = Structure::around(
+        data,
+        base_for(data, effects, false),
+        effects,
+        machine,
+        speed,
+    )
+    .with_fixed(ELECTRICAL_TIME_CONSTANT, 0.0)
+    .with_fixed(VISCOUS_PART, 0.0);
     let parameters: Vec<f64> = effects
         .iter()
         .map(|kind| match kind {

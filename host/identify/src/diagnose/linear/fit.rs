@@ -87,7 +87,7 @@ fn started_problem<'a>(
     let speed = with_offset.structure.start_speed;
     let structure = Structure::around(
         context.data,
-        base_for(context.data, &[]),
+        base_for(context.data, &[], context.span.window_s.is_some()),
         &[],
         &candidate.machine,
         speed,

@@ -16,7 +16,7 @@ use crate::diagnose::spectrum::spectrum;
 use crate::fit::base_for;
 use series_parallel::{SeriesParallel, follows};
 use servoid_engine::problem::Scale;
-use servoid_engine::problem::{Structure, VISCOUS_PART};
+use servoid_engine::problem::Structure;
 use servoid_engine::solve::Objective;
 use shared::effects::{Kind, MAX_EFFECTS, Starts};
 use shared::units::Quantity;
@@ -145,28 +145,19 @@ pub fn restart(context: &Context<'_>, rest: &FittedModel) -> ScreenedModel {
 
 /// The unknowns of a model with `effects` and a machine near that of `there`, with the forms that it has.
 fn structure_near(context: &Context<'_>, effects: &[Kind], there: &FittedModel) -> Structure {
+    let windows = context.span.window_s.is_some();
     let mut structure = Structure::around(
         context.data,
-        base_for(context.data, effects),
+        base_for(context.data, effects, windows),
         effects,
         &there.candidate.machine,
         there.structure.start_speed,
     );
     structure.take_forms_of(&there.structure);
-    if context.span.window_s.is_some() {
+    if windows {
         widen(&mut structure, context.data.supply);
-        if !context.data.coasts() && !effects.iter().any(needs_current) {
-            structure = structure.with_fixed(VISCOUS_PART, 0.0);
-        }
     }
     structure
-}
-
-/// Whether an effect depends on the current, and with it on how much of the damping is friction. Without one, only the winding's
-/// delay tells the two apart, which windows above the encoder's floor do not hold.
-fn needs_current(kind: &Kind) -> bool {
-    let needs = kind.needs();
-    needs.current || needs.winding || needs.lost_torque
 }
 
 /// Parameters of a cogging torque of several orders: in windows, far above the reading's floor, its

@@ -8,7 +8,7 @@ pub use orders::{Line, lines};
 
 use crate::fit::scores::{EquationResidual, equation_residuals, filtered_values};
 use nalgebra::{DMatrix, DVector};
-use orders::{FILTER_SAMPLES, lines_of, others};
+use orders::{clearest, lines_of, others};
 use servoid_engine::problem::{Candidate, Data};
 
 /// Most orders that are listed.
@@ -29,7 +29,7 @@ pub struct Spectrum {
 /// The orders that explain what the equation of `candidate`, a model without cogging, leaves. They have the
 /// sign of a torque against the motion, V.
 pub fn spectrum(data: &Data, candidate: &Candidate) -> Spectrum {
-    let time = FILTER_SAMPLES * data.units.interval;
+    let (time, _) = clearest(data, candidate);
     let left = equation_residuals(data, candidate, time);
     let mut columns = beside(&left);
     let mut lines: Vec<Line> = Vec::new();
