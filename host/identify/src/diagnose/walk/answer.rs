@@ -39,9 +39,9 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
             let chosen = simplest_of_class(pool.nodes.iter().filter(worth))?;
             pool.model(chosen).ok()
         });
-        match best.as_ref().and_then(|best| vanishing(context, best)) {
-            Some(kind) => pool.drop_sets_with(kind),
-            None => break (finalists, explained, best),
+        match &best {
+            Some(best) if any_vanishes(context, best) => pool.drop_set(&best.effects),
+            _ => break (finalists, explained, best),
         }
     };
     let Some(best) = best.filter(|model| !model.effects.is_empty()) else {
@@ -96,13 +96,15 @@ fn finalists(context: &Context<'_>, pool: &Pool<'_>) -> Vec<FittedModel> {
         .collect()
 }
 
-/// An effect of a model that is too small to matter once it is fitted by its free runs in windows: there the score has taken it for
-/// something else.
-fn vanishing(context: &Context<'_>, model: &FittedModel) -> Option<Kind> {
-    context.span.window_s?;
+/// Whether an effect of a model is too small to matter once the model is fitted by its free runs in windows: there the score has taken it
+/// for something else.
+fn any_vanishes(context: &Context<'_>, model: &FittedModel) -> bool {
+    if context.span.window_s.is_none() {
+        return false;
+    }
     let horizon = context.fitted_horizon.clone();
-    let refitted = fit_over_horizons(context, model, &[horizon])?;
-    small_in(context.data, &refitted)
+    let refitted = fit_over_horizons(context, model, &[horizon]);
+    refitted.is_some_and(|refitted| small_in(context.data, &refitted).is_some())
 }
 
 /// The simplest model whose free runs leave the encoder's own error only. Where none does, the best is followed along its chaotic

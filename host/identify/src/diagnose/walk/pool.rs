@@ -40,6 +40,8 @@ pub struct Pool<'a> {
     pub evidence: Evidence<'a>,
     /// Best first.
     pub nodes: Vec<Node>,
+    /// Sets that were taken away.
+    dropped: Vec<Vec<Kind>>,
 }
 
 impl<'a> Pool<'a> {
@@ -50,6 +52,7 @@ impl<'a> Pool<'a> {
             base: base.clone(),
             evidence: Evidence::new(context, base),
             nodes: Vec::new(),
+            dropped: Vec::new(),
         };
         pool.evidence.estimate_noise(&base.candidate);
         let fitted = pool.fit(&base.structure, std::slice::from_ref(&base.x), CONVERGED);
@@ -214,6 +217,9 @@ impl<'a> Pool<'a> {
     /// Adds nodes, or puts them in the place of worse ones of the same set, and sorts.
     fn put(&mut self, nodes: Vec<Node>) {
         for mut node in nodes {
+            if self.is_dropped(&node) {
+                continue;
+            }
             self.evidence.rate(&mut node);
             let known = self
                 .nodes
@@ -228,9 +234,17 @@ impl<'a> Pool<'a> {
         self.sort();
     }
 
-    /// Takes all sets with an effect away.
-    pub fn drop_sets_with(&mut self, kind: Kind) {
-        self.nodes.retain(|node| !node.effects.contains(&kind));
+    /// Takes a set away, and all that hold it: none of them is fitted again.
+    pub fn drop_set(&mut self, effects: &[Kind]) {
+        self.dropped.push(effects.to_vec());
+        let mut nodes = std::mem::take(&mut self.nodes);
+        nodes.retain(|node| !self.is_dropped(node));
+        self.nodes = nodes;
+    }
+
+    fn is_dropped(&self, node: &Node) -> bool {
+        let holds = |set: &Vec<Kind>| set.iter().all(|kind| node.effects.contains(kind));
+        self.dropped.iter().any(holds)
     }
 
     fn sort(&mut self) {
