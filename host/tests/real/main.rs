@@ -12,6 +12,7 @@ mod likelihood;
 mod limits;
 mod position;
 mod program;
+mod proposals;
 mod recordings;
 mod source;
 mod steady;

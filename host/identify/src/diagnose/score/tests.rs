@@ -2,12 +2,19 @@
 
 use super::foretold::foretold;
 use super::gains::{Filter, Plant};
+use super::innovations::{Innovations, Prior};
 use super::noise::{Noise, estimate};
 use super::readings::Readings;
 use super::repeatability::repeatability_counts;
 use super::settings::FORETOLD;
+use super::spread::standard_errors;
+use crate::diagnose::candidate::descent::{Settings, descend};
+use crate::diagnose::context::Budget;
+use crate::fit::base_for;
 use crate::noisy_motor::{self, candidate, machine};
-use servoid_engine::problem::{Data, Horizon, StartAngle, errors, rms_counts};
+use servoid_engine::problem::{
+    Data, ELECTRICAL_TIME_CONSTANT, Horizon, StartAngle, Structure, errors, rms_counts,
+};
 use servoid_engine::simulation::Method;
 use shared::cost::Cost;
 use std::sync::atomic::AtomicBool;
@@ -104,4 +111,41 @@ fn a_ripple_is_foretold_and_noise_is_not() {
         wrong += usize::from(white.share > FORETOLD);
     }
     assert!(wrong <= 1, "{wrong} of {} are no noise", SEEDS.count());
+}
+
+/// Over thirty seeds: what gain and time constant are off by, in their standard errors.
+#[test]
+fn standard_errors_are_as_large_as_the_errors() {
+    let truth = machine().response();
+    let (mut held, mut squares, mut tried) = (0, 0.0, 0);
+    for seed in SEEDS {
+        let data = recording(6.0, 1e9, 0.0, seed);
+        let readings = Readings::every(&data, 0.012);
+        let filter = Filter::new(&readings, plant(), &[estimated(&readings)]);
+        let base = base_for(&data, &[], true);
+        let structure = Structure::around(&data, base, &[], &machine(), false)
+            .with_fixed(ELECTRICAL_TIME_CONSTANT, 0.0);
+        let about = Prior { about: machine() };
+        let method = Method::default();
+        let innovations = Innovations::new(&readings, &filter, about, structure.clone(), method);
+        let start = structure.coordinates(&structure.values_of(&machine(), &[], 0.0));
+        let stop = AtomicBool::new(false);
+        let budget = Budget::usual(&stop);
+        let found = descend(&innovations, &start, Settings::THOROUGH, &budget).expect("a fit");
+        let values = structure.values(&found.x);
+        let errors = standard_errors(&innovations, &structure, &found.x, 1.0);
+        for (name, truth) in [("gain", truth.gain), ("a1", truth.a1)] {
+            let mut unknowns = structure.unknowns.iter();
+            let place = unknowns.position(|unknown| unknown.name == name);
+            let off = (values[place.expect("an unknown")] - truth) / errors[name];
+            println!("seed {seed}: {name} is off by {off:.2} standard errors");
+            held += usize::from(off.abs() < 2.0);
+            squares += off * off;
+            tried += 1;
+        }
+    }
+    let square = squares / f64::from(tried);
+    println!("{held} of {tried} within two, mean square {square:.2}");
+    assert!(held >= 53, "{held} of {tried}");
+    assert!((0.5..1.6).contains(&square), "{square}");
 }
