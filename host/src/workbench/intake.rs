@@ -265,9 +265,7 @@ pub fn read(
     let mut sources = Vec::new();
     for recording in &reading.recordings {
         let late = LateDriver::of(recording);
-        notes.extend(
-            late.map(|late| format!("{}: {}", shown(&recording.source), late.finding().text())),
-        );
+        notes.extend(late.map(|late| shown(&late.remark(recording))));
         let mut csv = Vec::new();
         let written = write_csv(&mut csv, recording, &[]);
         written.map_err(|error| Error::Failed(format!("{name}: {error}")))?;

@@ -54,9 +54,13 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
         floor,
     } = confirmed;
     let chosen = chosen.map(|chosen| {
+        // The walk has them in this order already.
+        if !scores.is_empty() {
+            return chosen;
+        }
         let all = levels.iter().flat_map(|level| &level.models).chain(&known);
         let order = order_of_fall(&chosen.effects, all);
-        if order == chosen.effects || !scores.is_empty() {
+        if order == chosen.effects {
             chosen
         } else {
             in_order(&context, &chosen, &order)

@@ -76,9 +76,9 @@ pub fn suggest(
             floor: None,
         });
     }
-    let (neighbours, floor) = match context.span.window_s {
+    let Ring { neighbours, floor } = match context.span.window_s {
         Some(_) => by_score(&context, &parent, done),
-        None => (by_held_out_error(&context, &parent, done), None),
+        None => by_held_out_error(&context, &parent, done),
     };
     let mut list = Vec::new();
     for neighbour in neighbours {
@@ -112,7 +112,7 @@ fn by_held_out_error(
     context: &Context<'_>,
     parent: &FittedModel,
     done: &(dyn Fn() + Sync),
-) -> Vec<Neighbour> {
+) -> Ring {
     let models = extensions(context, &[parent], done).into_iter();
     let neighbours = models.filter_map(|model| {
         Some(Neighbour {
@@ -121,15 +121,14 @@ fn by_held_out_error(
             model,
         })
     });
-    neighbours.collect()
+    Ring {
+        neighbours: neighbours.collect(),
+        floor: None,
+    }
 }
 
 /// Where models run in windows: by the score, along as many readings as a diagnosis needs.
-fn by_score(
-    context: &Context<'_>,
-    parent: &FittedModel,
-    done: &(dyn Fn() + Sync),
-) -> (Vec<Neighbour>, Option<Floor>) {
+fn by_score(context: &Context<'_>, parent: &FittedModel, done: &(dyn Fn() + Sync)) -> Ring {
     let whole = Linear {
         context: context.with_recordings(context.data, context.held_out),
         base: parent.clone(),
@@ -137,15 +136,17 @@ fn by_score(
     };
     let thinned = Thinned::of(&whole);
     let Some(fewer) = thinned.as_ref().and_then(|thinned| thinned.linear(&whole)) else {
-        let Ring { neighbours, floor } = ring(context, parent, done);
-        return (neighbours, floor);
+        return ring(context, parent, done);
     };
     let Ring { neighbours, floor } = ring(&fewer.context, &fewer.base, done);
     let on_all = neighbours.into_iter().filter_map(|neighbour| {
         let model = along(context, &neighbour.model)?;
         Some(Neighbour { model, ..neighbour })
     });
-    (on_all.collect(), floor)
+    Ring {
+        neighbours: on_all.collect(),
+        floor,
+    }
 }
 
 /// A model as it stands, in the terms of a diagnosis.

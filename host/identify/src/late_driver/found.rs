@@ -75,6 +75,11 @@ impl LateDriver {
         )
     }
 
+    /// As a remark on a recording among others.
+    pub fn remark(&self, recording: &Recording) -> String {
+        format!("{}: {}", recording.source, self.finding().text())
+    }
+
     /// The span without the moments before, s after the first sample.
     pub fn span_s(&self, recording: &Recording) -> [f64; 2] {
         let last = recording.time_s.last().copied().unwrap_or_default();
@@ -92,7 +97,7 @@ pub fn cut_late_drivers(recordings: &mut [Recording]) -> Vec<String> {
     let mut remarks = Vec::new();
     for recording in recordings {
         if let Some(late) = LateDriver::of(recording) {
-            remarks.push(format!("{}: {}", recording.source, late.finding().text()));
+            remarks.push(late.remark(recording));
             *recording = late.cut(recording);
         }
     }

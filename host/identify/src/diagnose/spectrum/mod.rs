@@ -6,9 +6,9 @@ mod waves;
 
 pub use orders::{Line, lines};
 
-use crate::fit::scores::{EquationResidual, equation_residuals, filtered_values};
+use crate::fit::scores::{EquationResidual, filtered_values};
 use nalgebra::{DMatrix, DVector};
-use orders::{clearest, lines_of, others};
+use orders::{Filtered, clearest, lines_of, others};
 use servoid_engine::problem::{Candidate, Data};
 
 /// Most orders that are listed.
@@ -29,8 +29,11 @@ pub struct Spectrum {
 /// The orders that explain what the equation of `candidate`, a model without cogging, leaves. They have the
 /// sign of a torque against the motion, V.
 pub fn spectrum(data: &Data, candidate: &Candidate) -> Spectrum {
-    let (time, _) = clearest(data, candidate);
-    let left = equation_residuals(data, candidate, time);
+    let Filtered {
+        time,
+        residuals: left,
+        ..
+    } = clearest(data, candidate);
     let mut columns = beside(&left);
     let mut lines: Vec<Line> = Vec::new();
     let Some((mut solution, mut rest)) = solve(&left, &columns) else {

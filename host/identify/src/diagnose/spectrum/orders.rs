@@ -45,19 +45,32 @@ impl Line {
 
 /// The strongest lines in what the model's equation leaves unexplained, strongest first.
 pub fn lines(data: &Data, candidate: &Candidate) -> Vec<Line> {
-    clearest(data, candidate).1
+    clearest(data, candidate).lines
 }
 
-/// The filter time, s, through which one line explains most, and the lines there.
-pub fn clearest(data: &Data, candidate: &Candidate) -> (f64, Vec<Line>) {
-    let through = FILTERS_SAMPLES.map(|samples| {
+/// What the model's equation leaves unexplained, through one filter.
+pub struct Filtered {
+    /// Time of the filter, s.
+    pub time: f64,
+    /// Its output.
+    pub residuals: Vec<EquationResidual>,
+    /// The lines there, strongest first.
+    lines: Vec<Line>,
+}
+
+/// Through the filter where one line explains most.
+pub fn clearest(data: &Data, candidate: &Candidate) -> Filtered {
+    let [short, long] = FILTERS_SAMPLES.map(|samples| {
         let time = samples * data.units.interval;
         let residuals = equation_residuals(data, candidate, time);
-        (time, lines_of(data, &residuals, time))
+        Filtered {
+            time,
+            lines: lines_of(data, &residuals, time),
+            residuals,
+        }
     });
-    let clear = |lines: &[Line]| lines.first().map_or(0.0, |line| line.explains);
-    let [short, long] = through;
-    if clear(&short.1) > clear(&long.1) {
+    let clear = |through: &Filtered| through.lines.first().map_or(0.0, |line| line.explains);
+    if clear(&short) > clear(&long) {
         short
     } else {
         long

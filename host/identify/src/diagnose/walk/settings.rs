@@ -21,3 +21,5 @@ pub const FAR_PART: f64 = 0.1;
 pub const FINALISTS: usize = 12;
 /// Neighbours of a ring that are fitted: those that start with the best scores.
 pub const PROMISING: usize = 10;
+/// Estimates of the noise under the last model, each from where the one before ended.
+pub const NOISE_ROUNDS: usize = 2;

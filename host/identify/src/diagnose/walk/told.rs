@@ -2,13 +2,11 @@
 
 use super::evidence::Evidence;
 use super::floor::floor;
+use super::settings::NOISE_ROUNDS;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Floor;
 use std::collections::BTreeMap;
-
-/// Estimates of the noise, each from where the one before ended.
-const ROUNDS: usize = 2;
 
 /// Standard errors of the model's unknowns by name, and the floor; nothing where whole runs are judged. `base` is the linear motor.
 pub fn told(
@@ -18,7 +16,7 @@ pub fn told(
 ) -> Option<(BTreeMap<String, f64>, Floor)> {
     let window_s = context.span.window_s?;
     let mut evidence = Evidence::new(context, base);
-    for _ in 0..ROUNDS {
+    for _ in 0..NOISE_ROUNDS {
         evidence.estimate_noise(&model.candidate);
     }
     evidence.estimate_correlation(&model.candidate);
