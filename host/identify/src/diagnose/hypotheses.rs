@@ -12,81 +12,38 @@ pub struct ProbableSet {
     pub effects: Vec<Kind>,
     /// Probability that these are what is missing. What all sets leave to one is "none of these".
     pub probability: f64,
-    /// Logarithm of its likelihood less the price of its parameters, nats; only differences mean anything. `None` where the sets were
-    /// judged by their errors.
+    /// Logarithm of its likelihood less the price of its parameters, nats; only differences mean anything. `None` where the set
+    /// was not scored.
     pub nats: Option<f64>,
 }
 
-/// A model is less probable by a factor e where its score, the logarithm of both errors' product, is worse by this.
-const TEMPERATURE: f64 = 0.1;
-/// Logarithms by which each parameter and each effect more make a set less probable. Where something remains unexplained
-/// a parameter may take up a part of that, and costs little.
-const PER_PARAMETER: f64 = 0.5;
-const PER_EFFECT: f64 = 0.7;
 /// A set that is less probable than this is not listed.
 const LEAST: f64 = 0.01;
 /// Probability that the catalogue holds the truth where a model reaches the encoder's floor.
 const AT_FLOOR: f64 = 0.98;
 /// The same, at most, where none does.
 const ABOVE_FLOOR: f64 = 0.9;
-/// Part of the fitted recording's samples whose errors are independent: counts dwell in their cells.
-const INDEPENDENT: f64 = 0.1;
-
-/// The sets of effects that were tried: the chosen one, then the others by their probability.
+/// The sets of effects that were scored: the chosen one, then the others by their probability.
 pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
-    if !named.scores.is_empty() {
-        return by_score(named);
-    }
-    let chosen = &named.last;
-    let per_parameter = if chosen.ran().fitted_at_floor() {
-        // What remains is the reading's own error: the price is that of the Bayesian information criterion (Schwarz, "Estimating
-        // the dimension of a model", 1978).
-        0.5 * libm::log(INDEPENDENT * named.context.data.counts.len() as f64).max(1.0)
-    } else {
-        PER_PARAMETER
-    };
-    let weight = |model: &FittedModel| weight(model, chosen, per_parameter);
-    let own = sorted(&chosen.effects);
-    let mut others: Vec<(Vec<Kind>, f64)> = Vec::new();
-    // Errors under an observer and those of free runs are no common measure.
-    let comparable = |model: &&FittedModel| model.observed.is_some() == chosen.observed.is_some();
-    for model in named.rivals.iter().chain([&named.base]).filter(comparable) {
-        let (effects, weight) = (sorted(&model.effects), weight(model));
-        match others.iter_mut().find(|(known, _)| *known == effects) {
-            Some((_, known)) => *known = known.max(weight),
-            None => others.push((effects, weight)),
-        }
-    }
-    others.retain(|(effects, weight)| *effects != own && weight.is_finite());
-    others.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let own_weight = weight(chosen);
-    let sum = own_weight + others.iter().map(|(_, weight)| weight).sum::<f64>();
-    let share = in_catalogue(chosen, &named.base) / sum;
-    let others = others.into_iter().map(|(effects, weight)| ProbableSet {
-        effects,
-        probability: share * weight,
-        nats: None,
-    });
-    std::iter::once(ProbableSet {
-        effects: chosen.effects.clone(),
-        probability: share * own_weight,
-        nats: None,
-    })
-    .chain(others.filter(|set| set.probability >= LEAST))
-    .collect()
-}
-
-/// The same where the sets have scores, which are logarithms of probabilities.
-fn by_score(named: &Named<'_>) -> Vec<ProbableSet> {
     let own = sorted(&named.last.effects);
     let scores = || named.scores.iter();
+    let of_own = scores().find(|(effects, _)| sorted(effects) == own);
     let best = scores().map(|(_, nats)| *nats).fold(f64::MIN, f64::max);
-    // The chosen set may be simpler than the best and as probable.
+    // The chosen set may be simpler than the best and as probable. Where it leaves the encoder's error only, an effect more explains nothing
+    // that is there: below a count the arithmetic decides.
+    let proven = named.last.is_proven();
+    let limit = match of_own {
+        Some((_, nats)) if proven => *nats,
+        None if proven => f64::INFINITY,
+        _ => best,
+    };
     let weight = |effects: &[Kind], nats: f64| {
         if effects == own {
             1.0
+        } else if proven && own.iter().all(|kind| effects.contains(kind)) {
+            0.0
         } else {
-            libm::exp(nats - best)
+            libm::exp((nats - limit).min(0.0))
         }
     };
     let mut sets: Vec<ProbableSet> = scores()
@@ -128,13 +85,6 @@ fn sorted(effects: &[Kind]) -> Vec<Kind> {
     let mut sorted = effects.to_vec();
     sorted.sort_by_key(|kind| kind.name());
     sorted
-}
-
-/// Weight of a model beside the chosen one, of which none is better: what was chosen was judged by more than these errors.
-fn weight(model: &FittedModel, chosen: &FittedModel, per_parameter: f64) -> f64 {
-    let behind = (model.judged().score() - chosen.judged().score()).max(0.0);
-    let (parameters, effects) = (model.freedom() as f64, model.effects.len() as f64);
-    libm::exp(-behind / TEMPERATURE - per_parameter * parameters - PER_EFFECT * effects)
 }
 
 /// Probability that the catalogue holds what is missing. Above the floor it grows with what the model takes away of the

@@ -12,16 +12,11 @@
 //! | prepare | both recordings, options, budget | `Context` | `context` |
 //! | fit the linear motor | `Context` | `Linear`: the span of the runs, the motor, where the search starts | `linear` |
 //! | thin | `Linear` | `Linear` along fewer readings, where models run in windows and a log holds many more than a motor of its time constant asks for | `thinned` |
-//! | walk | `Linear` | `Answer`: the set of effects with the best score, where models run in windows | `walk`, `score` |
-//! | select effects | `Linear` | `Selected`: models with one effect, with two, and so on, where whole runs may come down to the encoder's error | `selection` |
-//! | confirm them | `Selected` | `Confirmed`: the model whose effects all hold, and its rivals | `confirmation` |
-//! | hold to the baseline | `Confirmed` | `Confirmed`: predicts no worse than the linear motor with Coulomb friction, offset and delay | `baseline` |
-//! | name them | `Confirmed` | `Named`: the steps that may be named | `naming` |
+//! | walk | `Linear` | `Chosen`: the set of effects with the best score, or the simplest that comes down to the encoder's error | `walk`, `score` |
+//! | hold to the baseline | `Chosen` | `Chosen`: predicts no worse than the linear motor with Coulomb friction, offset and delay | `baseline` |
+//! | name them | `Chosen` | `Named`: the steps that may be named | `naming` |
 //! | weigh them | `Named` | [`ProbableSet`]s: sets of effects with their probabilities | `hypotheses` |
 //! | conclude | `Named` | [`Diagnosis`]: verdict and advice | `conclude`, `outcome` |
-//!
-//! Where the error of a right model is not the encoder's, the walk stands in the place of selection and confirmation; where
-//! whole runs are judged and those do not explain the recording, it is the second try.
 //!
 //! Below the stages, each knows only those above it in this list:
 //!
@@ -34,7 +29,10 @@
 //! | `spectrum` | the orders of the angle at which a torque repeats |
 //! | `screening` | one effect more, fitted roughly along the measured motion |
 //! | `negligible` | which effects are too small to be named |
-//! | `ordered` | the order in which effects are told |
+//! | `ordered` | a model with its effects in another order |
+//! | `gain` | what an effect more takes away of the error |
+//! | `rivals` | what may stand in the place of an effect |
+//! | `chosen` | the model that is chosen, as stages hand it on |
 //! | `lost_counts` | jumps of the reading by whole counts |
 //!
 //! Beside the pipeline stand [`Criterion`] (over which span models are judged), [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
@@ -43,11 +41,12 @@
 mod baseline;
 mod built_up;
 mod candidate;
+mod chosen;
 mod conclude;
-mod confirmation;
 mod context;
 mod criterion;
 mod explain;
+mod gain;
 mod hypotheses;
 mod linear;
 mod lost_counts;
@@ -57,9 +56,9 @@ mod negligible;
 mod ordered;
 mod outcome;
 mod recordings;
+mod rivals;
 mod score;
 mod screening;
-mod selection;
 mod settle;
 mod spectrum;
 mod suggest;
@@ -83,69 +82,57 @@ pub use suggest::{Suggestion, Suggestions, suggest};
 use crate::error::Error;
 use crate::fit::Options;
 use baseline::hold_to_baseline;
+use chosen::Chosen;
 use conclude::conclude;
-use confirmation::{Confirmed, confirm};
 use context::Context;
 use linear::{Linear, fit_linear_motor};
 use naming::name_effects;
-use selection::select_effects;
 use servoid_engine::problem::Data;
 use thinned::{Thinned, on_all_readings};
 use walk::{Answer, told, walk};
 
-/// Where models run in windows a score decides: the error of a right model is not the encoder's, and nobody knows it before.
-fn in_windows<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
+/// The walk, along as many readings as it needs.
+fn found<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Chosen<'a> {
     let thinned = Thinned::of(&linear);
-    let Some(fewer) = thinned.as_ref().and_then(|thinned| thinned.linear(&linear)) else {
-        return walked(linear, done);
-    };
-    let found = walked(fewer, done);
-    on_all_readings(linear, found)
+    match thinned.as_ref().and_then(|thinned| thinned.linear(&linear)) {
+        Some(fewer) => on_all_readings(linear, walked(fewer, done)),
+        None => walked(linear, done),
+    }
 }
 
 /// The walk, held to the baseline, and what the score tells of the model that it ends with.
-fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
-    let Linear { context, base, .. } = linear;
-    let answer = walk(&context, &base, done);
+fn walked<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Chosen<'a> {
+    let Linear {
+        context,
+        base,
+        anchor,
+    } = linear;
+    let Answer {
+        chosen,
+        levels,
+        known,
+        scores,
+        explained,
+    } = walk(&context, &anchor, done);
     let linear = base.clone();
-    let mut held = hold_to_baseline(by_score(context, base, answer));
-    let last = held.chosen.as_mut().unwrap_or(&mut held.base);
+    let mut held = hold_to_baseline(Chosen {
+        context,
+        base,
+        levels,
+        model: chosen,
+        known,
+        predicts: None,
+        baseline: None,
+        as_one: !explained,
+        scores,
+        floor: None,
+    });
+    let last = held.model.as_mut().unwrap_or(&mut held.base);
     if let Some((standard_errors, floor)) = told(&held.context, &linear, last) {
         last.standard_errors = standard_errors;
         held.floor = Some(floor);
     }
     held
-}
-
-/// Where whole runs may come down to the encoder's error they are judged by it; a walk is the second try where that fails.
-fn selected<'a>(linear: Linear<'a>, done: &(dyn Fn() + Sync)) -> Confirmed<'a> {
-    let confirmed = confirm(select_effects(linear, done));
-    let best = confirmed.chosen.as_ref().unwrap_or(&confirmed.base);
-    if best.explains() || confirmed.context.budget.exhausted() {
-        return hold_to_baseline(confirmed);
-    }
-    let answer = walk(&confirmed.context, &confirmed.base, done);
-    if answer.explained {
-        by_score(confirmed.context, confirmed.base, answer)
-    } else {
-        hold_to_baseline(confirmed)
-    }
-}
-
-fn by_score(context: Context<'_>, base: FittedModel, answer: Answer) -> Confirmed<'_> {
-    Confirmed {
-        context,
-        base,
-        levels: answer.levels,
-        chosen: answer.chosen,
-        known: answer.known,
-        not_named: None,
-        predicts: None,
-        baseline: None,
-        as_one: !answer.explained,
-        scores: answer.scores,
-        floor: None,
-    }
 }
 
 /// Diagnoses `data`, judging by `held_out`, which is never fitted. `done` is called after each piece of work.
@@ -161,10 +148,5 @@ pub fn search_catalogue(
 ) -> Result<Diagnosis, Error> {
     let prepared = Context::new(data, held_out, options, budget);
     let linear = fit_linear_motor(prepared, options)?;
-    let confirmed = if linear.context.span.window_s.is_some() {
-        in_windows(linear, done)
-    } else {
-        selected(linear, done)
-    };
-    Ok(conclude(name_effects(confirmed)))
+    Ok(conclude(name_effects(found(linear, done))))
 }

@@ -1,15 +1,15 @@
-//! Stage 5: the steps from the linear motor to the model that was confirmed. An effect is named only where not too many
+//! The steps from the linear motor to the model that was chosen. An effect is named only where not too many
 //! others do as well in its place.
 
 use super::baseline::{Baseline, Prediction};
 use super::candidate::score::refine_held_out_start;
-use super::confirmation::Confirmed;
+use super::chosen::Chosen;
 use super::context::{Context, together_move_both_ways};
+use super::gain::p_value;
 use super::models::{FittedModel, same};
-use super::ordered::{in_order, order_of_fall};
+use super::ordered::with_first;
 use super::outcome::{Floor, Step};
-use super::selection::judge::{self, Rivals};
-use super::selection::{Level, backward_elimination};
+use super::rivals::Rivals;
 use super::spectrum::spectrum;
 use super::walk::CLASS_NATS;
 use shared::effects::{Kind, Starts};
@@ -26,56 +26,35 @@ pub struct Named<'a> {
     pub last: FittedModel,
     /// Models with as many effects as the one that was confirmed, and those in which one of its effects is another.
     pub rivals: Vec<FittedModel>,
-    /// The best candidate that was not believed.
+    /// The effect that would raise the score most and is not believed.
     pub not_named: Option<Kind>,
     /// What the last model predicts, where it was held against the baseline.
     pub predicts: Option<Prediction>,
     /// The baseline.
     pub baseline: Option<Baseline>,
-    /// Sets of effects with their scores, nats; none where the sets were judged by their errors.
+    /// Sets of effects with their scores, nats.
     pub scores: Vec<(Vec<Kind>, f64)>,
     /// What stands below the chosen model's error, where more than the encoder is known of it.
     pub floor: Option<Floor>,
 }
 
-/// Writes down the steps to the model that was confirmed, up to the first effect that may not be named.
-pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
-    let Confirmed {
+/// Writes down the steps to the chosen model, up to the first effect that may not be named.
+pub fn name_effects(chosen: Chosen<'_>) -> Named<'_> {
+    let (steps, last) = match &chosen.model {
+        Some(model) => steps_to(&chosen, model),
+        None => (Vec::new(), chosen.base.clone()),
+    };
+    let not_named = next_best(&last.effects, &chosen.scores);
+    let Chosen {
         context,
         base,
-        levels,
-        chosen,
         known,
-        not_named,
         predicts,
         baseline,
-        as_one,
         scores,
         floor,
-    } = confirmed;
-    let chosen = chosen.map(|chosen| {
-        // The walk has them in this order already.
-        if !scores.is_empty() {
-            return chosen;
-        }
-        let all = levels.iter().flat_map(|level| &level.models).chain(&known);
-        let order = order_of_fall(&chosen.effects, all);
-        if order == chosen.effects {
-            chosen
-        } else {
-            in_order(&context, &chosen, &order)
-        }
-    });
-    let (steps, last) = match &chosen {
-        Some(chosen) => {
-            let rivals = |place: Kind| match &scores[..] {
-                [] => judge::rivals(chosen, place, &known),
-                scores => judge::rivals_by_score(&chosen.effects, place, scores, CLASS_NATS),
-            };
-            steps_to(&context, &base, &levels, chosen, &known, as_one, &rivals)
-        }
-        None => (Vec::new(), base.clone()),
-    };
+        ..
+    } = chosen;
     Named {
         context,
         base,
@@ -90,23 +69,32 @@ pub fn name_effects(confirmed: Confirmed<'_>) -> Named<'_> {
     }
 }
 
-/// The steps from `base` to `chosen`, and the model after the last of them.
-fn steps_to(
-    context: &Context<'_>,
-    base: &FittedModel,
-    levels: &[Level],
-    chosen: &FittedModel,
-    known: &[FittedModel],
-    as_one: bool,
-    rivals: &dyn Fn(Kind) -> Rivals,
-) -> (Vec<Step>, FittedModel) {
+/// The effect that raises the score of the set `own` most, of those sets that have one effect more.
+fn next_best(own: &[Kind], scores: &[(Vec<Kind>, f64)]) -> Option<Kind> {
+    let (_, nats) = scores.iter().find(|(set, _)| same(set, own))?;
+    let larger = scores.iter().filter(|(set, score)| {
+        set.len() == own.len() + 1 && own.iter().all(|kind| set.contains(kind)) && score > nats
+    });
+    let (best, _) = larger.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    best.iter().copied().find(|kind| !own.contains(kind))
+}
+
+/// The steps from the linear motor to `chosen`, and the model after the last of them.
+fn steps_to(held: &Chosen<'_>, chosen: &FittedModel) -> (Vec<Step>, FittedModel) {
+    let Chosen {
+        context,
+        base,
+        levels,
+        known,
+        ..
+    } = held;
     // A motor that never reverses cannot tell any of them apart: they are named as one.
-    let as_one = as_one
+    let as_one = held.as_one
         || context.span.window_s.is_some()
             && !together_move_both_ways(context.data, context.held_out);
     let (mut steps, mut before) = (Vec::new(), base.clone());
     for (depth, &added) in chosen.effects.iter().enumerate() {
-        let rivals = rivals(added);
+        let rivals = Rivals::of(&chosen.effects, added, &held.scores, CLASS_NATS);
         if !as_one && !rivals.allows(added) {
             break;
         }
@@ -125,7 +113,7 @@ fn steps_to(
         );
         let p_values = candidates
             .iter()
-            .map(|c| judge::p_value(context.data, &before, c))
+            .map(|c| p_value(context.data, &before, c))
             .collect();
         steps.push(Step {
             added,
@@ -156,7 +144,7 @@ fn model_at(
     } else {
         let fitted = |model: &&FittedModel| same(&model.effects, prefix);
         let made = list.iter().chain(known).find(fitted).cloned();
-        made.or_else(|| backward_elimination::with_first(context, chosen, depth + 1))
+        made.or_else(|| with_first(context, chosen, depth + 1))
     };
     let mut after = after.or(list.first().cloned())?;
     refine_held_out_start(context, &mut after);

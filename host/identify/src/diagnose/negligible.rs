@@ -2,12 +2,7 @@
 //! the effect: flanks about a gap of nothing swing as a spring does, and beside a sag of nothing viscous friction is free. Such an
 //! effect is not named, whatever its error says.
 
-use super::candidate::polish::polish;
-use super::candidate::search::fit_problem;
-use super::context::Context;
 use super::models::FittedModel;
-use super::selection::{backward_elimination, judge};
-use crate::fit::uncertainty::uncertainty;
 use servoid_engine::problem::Data;
 use shared::effects::{Kind, Pair, Parameter};
 use shared::units::Quantity;
@@ -17,52 +12,9 @@ use std::f64::consts::TAU;
 const PART_OF_TYPICAL: f64 = 1.0 / 300.0;
 /// Part of a count below which an angle is.
 const PART_OF_COUNT: f64 = 0.1;
-/// A size that is not so many standard errors from nothing is not known to be there.
-const STANDARD_ERRORS: f64 = 3.0;
-
-/// `chosen`, or the best other model where an effect of it is negligible: of those in `known` without such an effect that do as
-/// well, else what is left without the effect. `None` where that is the linear motor.
-pub fn without_negligible(
-    context: &Context<'_>,
-    chosen: FittedModel,
-    known: &[FittedModel],
-) -> Option<FittedModel> {
-    let mut chosen = chosen;
-    while let Some(place) = negligible_in(context, &chosen) {
-        let does_as_well = |model: &&FittedModel| {
-            !model.effects.contains(&place)
-                && small_in(context.data, model).is_none()
-                && !judge::removes(model, &chosen)
-        };
-        let other = known.iter().filter(does_as_well);
-        let other = other.min_by(|a, b| a.by_score(b)).cloned();
-        let rest = || match chosen.effects.len() {
-            0 | 1 => None,
-            _ => backward_elimination::left(context, &chosen, place),
-        };
-        let model = other.or_else(rest)?;
-        let fewer = model.effects.len() < chosen.effects.len();
-        // What is chosen in its place is brought to its end as the chosen one was.
-        chosen = if model.is_proven() {
-            model
-        } else {
-            polish(context, &model).unwrap_or(model)
-        };
-        // An equal that was found on another way is not looked at again.
-        if !fewer {
-            break;
-        }
-    }
-    Some(chosen)
-}
-
-/// An effect of a model that is too small to matter, or not known to be there.
-fn negligible_in(context: &Context<'_>, model: &FittedModel) -> Option<Kind> {
-    small_in(context.data, model).or_else(|| unsure_in(context, model))
-}
 
 /// An effect of a model that is too small to matter.
-pub(super) fn small_in(data: &Data, model: &FittedModel) -> Option<Kind> {
+pub fn small_in(data: &Data, model: &FittedModel) -> Option<Kind> {
     let small = |kind: &Kind| is_small(*kind, &model.values_of(*kind), data);
     model.effects.iter().copied().find(small)
 }
@@ -88,40 +40,6 @@ fn is_small(kind: Kind, values: &[f64], data: &Data) -> bool {
         .filter(|(parameter, _)| parameter.amplitude)
         .peekable();
     sizes.peek().is_some() && sizes.all(|(parameter, &value)| small(parameter, value))
-}
-
-/// An effect none of whose sizes is known to be there. Only where the model's own run says so: an error under an observer has no
-/// such standard errors.
-fn unsure_in(context: &Context<'_>, model: &FittedModel) -> Option<Kind> {
-    if model.losses.is_some() || model.observed.is_some() {
-        return None;
-    }
-    let problem = fit_problem(context, &model.structure, model.method);
-    let values = model.structure.values(&model.x);
-    let spread = uncertainty(&problem, &values).ok()??;
-    if !spread.converged {
-        return None;
-    }
-    let is_known = |name: &str| {
-        let places = model.structure.unknowns.iter().enumerate();
-        let mut places = places.filter(|(_, unknown)| unknown.name == name);
-        places.any(|(k, _)| {
-            let std = spread.std(k);
-            std.is_none_or(|std| values[k].abs() >= STANDARD_ERRORS * std)
-        })
-    };
-    let is_unsure = |kind: &Kind| {
-        // Each of a pair may be uncertain where their difference is not.
-        if kind.facts().pair == Some(Pair::Difference) {
-            return false;
-        }
-        let sizes = kind.parameters().iter().filter(|p| p.amplitude);
-        let mut names = sizes
-            .map(|p| format!("{}.{}", kind.name(), p.name))
-            .peekable();
-        names.peek().is_some() && !names.any(|name| is_known(&name))
-    };
-    model.effects.iter().copied().find(is_unsure)
 }
 
 #[cfg(test)]

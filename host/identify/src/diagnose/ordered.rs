@@ -1,7 +1,8 @@
-//! The order in which the effects of a model are told: those first that lower the error most.
+//! A model with its effects in another order, and with the first of them only.
 
+use super::candidate::fit::fit_screened;
 use super::context::Context;
-use super::models::{FittedModel, same};
+use super::models::FittedModel;
 use super::screening::restart;
 use shared::effects::Kind;
 
@@ -38,30 +39,16 @@ pub fn in_order(context: &Context<'_>, model: &FittedModel, order: &[Kind]) -> F
     ordered
 }
 
-/// The effects of `chosen` in the order of the fall, as far as `models` of its subsets were fitted: each lowers the error most of those that are
-/// left.
-pub fn order_of_fall<'m>(
-    chosen: &[Kind],
-    models: impl Iterator<Item = &'m FittedModel> + Clone,
-) -> Vec<Kind> {
-    let (mut order, mut left): (Vec<Kind>, Vec<Kind>) = (Vec::new(), chosen.to_vec());
-    while left.len() > 1 {
-        let error_with = |kind: Kind| {
-            let set: Vec<Kind> = order.iter().copied().chain([kind]).collect();
-            let own = models.clone().filter(|model| same(&model.effects, &set));
-            own.map(|model| model.judged().score())
-                .fold(f64::INFINITY, f64::min)
-        };
-        let errors = left.iter().map(|&kind| (error_with(kind), kind));
-        let Some((error, next)) = errors.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            break;
-        };
-        if error.is_infinite() {
-            break;
-        }
-        order.push(next);
-        left.retain(|kind| *kind != next);
+/// `chosen` with the first `depth` of its effects only. `None` where it cannot run, or has losses.
+pub fn with_first(
+    context: &Context<'_>,
+    chosen: &FittedModel,
+    depth: usize,
+) -> Option<FittedModel> {
+    if chosen.losses.is_some() {
+        return None;
     }
-    order.extend(left);
-    order
+    let drop = |rest: FittedModel, &place: &Kind| rest.without(place);
+    let rest = chosen.effects[depth..].iter().fold(chosen.clone(), drop);
+    fit_screened(context, &restart(context, &rest)).ok()
 }

@@ -6,10 +6,10 @@ use super::candidate::search::fit_problem;
 use super::context::{Budget, Context};
 use super::criterion::Criterion;
 use super::explain::evidence;
+use super::gain::p_value;
 use super::linear::Linear;
 use super::models::{Errors, FittedModel};
 use super::outcome::{Floor, Verdict};
-use super::selection::{extensions, judge};
 use super::thinned::{Thinned, along};
 use super::walk::{Neighbour, Ring, ring};
 use crate::error::Error;
@@ -34,7 +34,7 @@ pub struct Suggestion {
     pub signature: Option<Signature>,
     /// Chance of so large a gain if it were absent.
     pub p_value: f64,
-    /// Whether it removes enough of the held-out error to be believed.
+    /// Whether its score is beyond doubt above that of the model without it.
     pub believed: bool,
 }
 
@@ -45,7 +45,7 @@ pub struct Suggestions {
     pub verdict: Verdict,
     /// Best first; empty where the model leaves nothing but the encoder's error.
     pub list: Vec<Suggestion>,
-    /// What stands below the model's error, where models run in windows; there [`Suggestion::believed`] is read off the score of a diagnosis.
+    /// What stands below the model's error, where models run in windows.
     pub floor: Option<Floor>,
 }
 
@@ -76,10 +76,7 @@ pub fn suggest(
             floor: None,
         });
     }
-    let Ring { neighbours, floor } = match context.span.window_s {
-        Some(_) => by_score(&context, &parent, done),
-        None => by_held_out_error(&context, &parent, done),
-    };
+    let Ring { neighbours, floor } = by_score(&context, &parent, done);
     let mut list = Vec::new();
     for neighbour in neighbours {
         let Neighbour {
@@ -94,7 +91,7 @@ pub fn suggest(
             effect,
             evidence: evidence::sentence(effect, &values, &missing),
             signature: signature(data, &model.candidate, effect, model.method),
-            p_value: judge::p_value(data, &parent, &model),
+            p_value: p_value(data, &parent, &model),
             believed,
             errors: criterion.errors_of(data, held_out, &model)?,
             model,
@@ -107,27 +104,7 @@ pub fn suggest(
     })
 }
 
-/// Where whole runs are judged: whether enough of the held-out error goes.
-fn by_held_out_error(
-    context: &Context<'_>,
-    parent: &FittedModel,
-    done: &(dyn Fn() + Sync),
-) -> Ring {
-    let models = extensions(context, &[parent], done).into_iter();
-    let neighbours = models.filter_map(|model| {
-        Some(Neighbour {
-            added: *model.effects.last()?,
-            believed: judge::removes(parent, &model),
-            model,
-        })
-    });
-    Ring {
-        neighbours: neighbours.collect(),
-        floor: None,
-    }
-}
-
-/// Where models run in windows: by the score, along as many readings as a diagnosis needs.
+/// By the score, along as many readings as a diagnosis needs.
 fn by_score(context: &Context<'_>, parent: &FittedModel, done: &(dyn Fn() + Sync)) -> Ring {
     let whole = Linear {
         context: context.with_recordings(context.data, context.held_out),

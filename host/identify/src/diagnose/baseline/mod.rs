@@ -1,7 +1,7 @@
-//! Stage 5: no diagnosis predicts worse than the baseline, the model that an engineer fits in an afternoon: a linear motor
+//! No diagnosis predicts worse than the baseline, the model that an engineer fits in an afternoon: a linear motor
 //! with Coulomb friction, an offset and a delay.
 //!
-//! Where the model that was confirmed reaches the encoder's floor there is nothing to do. Elsewhere something is missing that no
+//! Where the model that was chosen reaches the encoder's floor there is nothing to do. Elsewhere something is missing that no
 //! effect of the catalogue explains, and selection by one measure may have ended with a model that predicts worse over
 //! another span than simpler ones do.
 
@@ -9,7 +9,7 @@ mod models;
 mod prediction;
 
 use super::candidate::several_horizons::fit_over_horizons;
-use super::confirmation::Confirmed;
+use super::chosen::Chosen;
 use super::context::{Budget, Context, together_move_both_ways};
 use super::models::{FittedModel, same};
 use crate::fit::contradictions;
@@ -47,17 +47,17 @@ struct Rated {
     prediction: Prediction,
 }
 
-/// Holds the confirmed model against the baseline, on both recordings, in windows and over whole runs.
-pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
-    let mut confirmed = confirmed;
-    let chosen = confirmed.chosen.as_ref().unwrap_or(&confirmed.base).clone();
-    if is_explained(&confirmed.context, &chosen) || chosen.losses.is_some() {
-        return confirmed;
+/// Holds the chosen model against the baseline, on both recordings, in windows and over whole runs.
+pub fn hold_to_baseline(held: Chosen<'_>) -> Chosen<'_> {
+    let mut held = held;
+    let chosen = held.model.as_ref().unwrap_or(&held.base).clone();
+    if is_explained(&held.context, &chosen) || chosen.losses.is_some() {
+        return held;
     }
     // The search may have used up its own.
-    let budget = confirmed.context.budget;
+    let budget = held.context.budget;
     let own = Budget::of((PART * budget.most() as f64) as u64, budget.stop());
-    let context = &confirmed.context.with_budget(&own);
+    let context = &held.context.with_budget(&own);
     let windows = Windows::of(context);
     let rate = |model: FittedModel| -> Option<Rated> {
         let prediction = windows.prediction(context, &model)?;
@@ -75,12 +75,12 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         let all: Vec<FittedModel> = refitted.chain(models.iter().cloned()).collect();
         all.into_iter().filter_map(rate).collect()
     };
-    let baseline = baseline_models(context, &confirmed.base);
+    let baseline = baseline_models(context, &held.base);
     let mut rated = rate_all(&baseline);
     let held_out = |rated: &&Rated| rated.prediction.held_out_score();
     let by_held_out = |a: &&Rated, b: &&Rated| held_out(a).total_cmp(&held_out(b));
     let Some(limit) = rated.iter().min_by(by_held_out) else {
-        return confirmed;
+        return held;
     };
     let limit_ran = limit.model.ran();
     let limit = Baseline {
@@ -92,7 +92,7 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
     rated.extend(rate_all(&further));
     // A set that a score chose keeps its names: what was held out is evidence in it, no veto. How it is fitted the baseline decides, and
     // which of the baseline's terms are fitted with it.
-    if names_are_sure(&confirmed) {
+    if names_are_sure(&held) {
         let kept =
             |rated: &Rated| (chosen.effects.iter()).all(|kind| rated.model.effects.contains(kind));
         // A set whose runs are worse than the baseline's on both recordings is no better one, whatever its score.
@@ -107,28 +107,26 @@ pub fn hold_to_baseline(confirmed: Confirmed<'_>) -> Confirmed<'_> {
         }
     }
     budget.book(own.spent());
-    confirmed.known.extend(further);
-    confirmed.known.extend(baseline);
-    confirmed.baseline = Some(limit.clone());
-    if let Some(best) = select(confirmed.context.data, rated, &chosen, &limit.prediction) {
-        let kept = |kind: &Kind| best.model.effects.contains(kind);
-        confirmed.not_named = confirmed.not_named.filter(|kind| !kept(kind));
-        confirmed.predicts = Some(best.prediction);
+    held.known.extend(further);
+    held.known.extend(baseline);
+    held.baseline = Some(limit.clone());
+    if let Some(best) = select(held.context.data, rated, &chosen, &limit.prediction) {
+        held.predicts = Some(best.prediction);
         if best.model.effects.is_empty() {
-            confirmed.base = best.model;
-            confirmed.chosen = None;
+            held.base = best.model;
+            held.model = None;
         } else {
-            confirmed.as_one |= !same(&best.model.effects, &chosen.effects);
-            confirmed.chosen = Some(best.model);
+            held.as_one |= !same(&best.model.effects, &chosen.effects);
+            held.model = Some(best.model);
         }
     }
-    confirmed
+    held
 }
 
 /// Whether a score chose the effects beyond doubt. Where the motor never reverses friction, a constant and a torque that repeats with the
 /// angle look alike: there what they gain beyond the baseline's terms must count beside what those gain.
-fn names_are_sure(confirmed: &Confirmed<'_>) -> bool {
-    let scores = &confirmed.scores;
+fn names_are_sure(held: &Chosen<'_>) -> bool {
+    let scores = &held.scores;
     let Some((_, linear)) = scores.iter().find(|(effects, _)| effects.is_empty()) else {
         return false;
     };
@@ -137,7 +135,7 @@ fn names_are_sure(confirmed: &Confirmed<'_>) -> bool {
     let best = most(&mut scores.iter().map(|(_, nats)| *nats));
     let baseline = scores.iter().filter(|(effects, _)| is_baseline(effects));
     let limit = most(&mut baseline.map(|(_, nats)| *nats));
-    let Context { data, held_out, .. } = confirmed.context;
+    let Context { data, held_out, .. } = held.context;
     together_move_both_ways(data, held_out) || best - limit > ONE_WAY_GAIN * (best - linear)
 }
 

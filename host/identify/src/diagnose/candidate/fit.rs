@@ -126,6 +126,13 @@ fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f6
     x
 }
 
+/// A model that stands at the end of a range that may be wider, fitted in a wider one; `None` where it does not.
+pub fn fit_widening(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> {
+    model.structure.widened_at(&model.x)?;
+    let start = ScreenedModel::at(model.structure.clone(), model.x.clone());
+    fit_from(context, &start, &model.x).ok()
+}
+
 /// Searches, and again in a wider range where the search ends at the end of one that may be wider. Keeps what fits better. Not
 /// in windows: there an effect that is as large as is searched for does another one's work (see [`FittedModel::at_wall`]).
 fn search_widening(

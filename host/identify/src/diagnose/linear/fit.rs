@@ -9,7 +9,6 @@ use crate::diagnose::models::FittedModel;
 use crate::error::Error;
 use crate::fit::{self, Options, base_for};
 use servoid_engine::problem::{FitProblem, Structure};
-use shared::motor::Machine;
 
 /// Of the linear motor.
 const BASE: Settings = Settings {
@@ -45,22 +44,6 @@ pub fn fit_linear<'a>(
         windowed.floor = context.floor;
     }
     Ok((context, base))
-}
-
-/// The linear motor, fitted again from `machine`, if that explains the recording down to the encoder after all.
-pub fn fit_linear_again(
-    context: &Context<'_>,
-    base: &FittedModel,
-    machine: &Machine<f64>,
-) -> Option<FittedModel> {
-    let (kind, speed) = (base.structure.base, base.structure.start_speed);
-    let structure = Structure::around(context.data, kind, &[], machine, speed);
-    let start = structure.values_of(machine, &[], base.candidate.start_speed);
-    let start = structure.coordinates(&start);
-    let problem = fit_problem(context, &structure, context.method);
-    let found = search(context, &problem, &start, BASE, context.method)?;
-    let again = scored(context, structure, &found).ok()?;
-    again.judged().at_floor().then_some(again)
 }
 
 fn scored(

@@ -3,7 +3,7 @@
 mod fit;
 mod offset_regressor;
 
-pub use fit::{fit_linear, fit_linear_again};
+pub use fit::fit_linear;
 
 use super::context::Context;
 use super::models::FittedModel;

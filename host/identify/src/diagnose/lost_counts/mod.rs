@@ -62,26 +62,6 @@ pub fn found(context: &Context<'_>, parent: &FittedModel) -> Option<FittedModel>
     with_losses(context, parent, parent.effects.len(), &[])
 }
 
-/// What `work` makes of a model with losses when the lost counts are put back, in each case with the losses
-/// that the recordings then show; the losses keep their place among the effects.
-pub fn beside(
-    context: &Context<'_>,
-    parent: &FittedModel,
-    work: impl Fn(&Context<'_>, &FittedModel) -> Vec<FittedModel>,
-) -> Vec<FittedModel> {
-    let (Some(losses), Some((place, bare))) = (&parent.losses, without(parent)) else {
-        return Vec::new();
-    };
-    let repaired = Repaired::new(context, losses);
-    work(&repaired.context(context), &bare)
-        .iter()
-        .filter_map(|model| {
-            let place = place.min(model.effects.len());
-            with_losses(context, model, place, &losses.fitted)
-        })
-        .collect()
-}
-
 /// The model `parent` with losses after `place` of its effects, `known` being those that it was fitted with.
 fn with_losses(
     context: &Context<'_>,
@@ -300,20 +280,6 @@ fn problem<'d>(data: &'d Data, structure: &Structure, method: Method) -> FitProb
         method,
         start: None,
     }
-}
-
-/// A model with losses as one of the repaired recordings, and the place that the losses had.
-fn without(model: &FittedModel) -> Option<(usize, FittedModel)> {
-    let mut bare = model.clone();
-    let place = bare
-        .effects
-        .iter()
-        .position(|&kind| kind == Kind::MissedCounts)?;
-    let before = parameters_of(&bare.effects[..place]);
-    bare.effects.remove(place);
-    bare.parameters.drain(before..before + 2);
-    bare.losses = None;
-    Some((place, bare))
 }
 
 /// How many parameters some effects have.

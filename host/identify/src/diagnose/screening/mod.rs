@@ -1,11 +1,8 @@
 //! A model with one effect more, fitted roughly: in series-parallel form, along the measured motion, where that is possible.
 //! It predicts what the effect can explain, and is where the full fit starts.
 
-mod common_parameters;
 mod series_parallel;
 mod starts;
-
-pub use common_parameters::{EffectValues, with_common_parameters};
 
 use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::fit::LOST;
@@ -96,46 +93,6 @@ pub fn screen(
     best
 }
 
-/// What a count of a series-parallel error is worth in a free run of `parent` (see [`ScreenedModel::free_run_ratio`]).
-/// Near standstill the series-parallel model errs by more than the free run, whatever is added to it.
-pub fn free_run_ratio(context: &Context<'_>, parent: &FittedModel) -> f64 {
-    // In windows both are set back to the measured state.
-    if context.span.window_s.is_some() {
-        return 1.0;
-    }
-    let alone = screen_from(context, &parent.structure, parent.x.clone());
-    let series_parallel = alone.map_or(f64::INFINITY, |screened| screened.series_parallel);
-    if !series_parallel.is_finite() {
-        return 1.0;
-    }
-    (parent.ran().fitted / series_parallel.max(NOISE_COUNTS)).min(1.0)
-}
-
-/// A screened model once more, from where `there` stands and with what it has found.
-pub fn rescreen(
-    context: &Context<'_>,
-    screened: &ScreenedModel,
-    parent: &FittedModel,
-    there: &ScreenedModel,
-) -> Option<ScreenedModel> {
-    let (own, theirs) = (screened.values(), there.values());
-    let own = EffectValues {
-        effects: &screened.structure.effects,
-        values: &own,
-    };
-    let theirs = EffectValues {
-        effects: &there.structure.effects,
-        values: &theirs,
-    };
-    let structure = structure_near(context, own.effects, parent);
-    let start = ScreenedModel::standing(
-        structure,
-        &parent.candidate,
-        &with_common_parameters(own, theirs),
-    );
-    screen_from(context, &start.structure, start.x)
-}
-
 /// A model that has lost effects, or has others in their place, where it stands.
 pub fn restart(context: &Context<'_>, rest: &FittedModel) -> ScreenedModel {
     let structure = structure_near(context, &rest.structure.effects, rest);
@@ -194,7 +151,6 @@ pub fn screen_from(
             structure: structure.clone(),
             x: found.x,
             series_parallel: f64::INFINITY,
-            free_run_ratio: 1.0,
             simulated: (found.squares / samples).sqrt(),
         });
     }

@@ -1,17 +1,16 @@
 //! What the walk ends with: the model that is chosen, the ladder that leads to it, and what else is as probable.
 
+use super::moves;
 use super::node::Node;
 use super::pool::Pool;
-use super::settings::{CLASS_NATS, FINALISTS};
-use crate::diagnose::candidate::observer::observe_all;
-use crate::diagnose::candidate::polish::polish;
+use super::settings::{CLASS_NATS, FINALISTS, NEAR};
 use crate::diagnose::candidate::several_horizons::fit_over_horizons;
+use crate::diagnose::chosen::Level;
 use crate::diagnose::context::Context;
-use crate::diagnose::lost_counts;
+use crate::diagnose::gain::removes;
 use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::negligible::small_in;
 use crate::diagnose::ordered::in_order;
-use crate::diagnose::selection::{Level, forms};
 use shared::effects::Kind;
 
 /// What the walk ends with.
@@ -30,10 +29,10 @@ pub struct Answer {
 
 /// The answer of a pool that was walked through.
 pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Sync)) -> Answer {
-    prune(pool, done);
+    prune(context, pool, done);
     let (finalists, explained, best) = loop {
         let finalists = finalists(context, pool);
-        let explained = explained(context, &finalists);
+        let explained = explained(context, pool, &finalists);
         let best = explained.clone().or_else(|| {
             let worth = |node: &&Node| finalists.iter().any(|m| same(&m.effects, &node.effects));
             let chosen = simplest_of_class(pool.nodes.iter().filter(worth))?;
@@ -43,6 +42,12 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
             Some(best) if any_vanishes(context, best) => pool.drop_set(&best.effects),
             _ => break (finalists, explained, best),
         }
+    };
+    let best = match best {
+        Some(best) if explained.is_none() && context.span.window_s.is_none() => {
+            Some(earned(pool, best, done))
+        }
+        best => best,
     };
     let Some(best) = best.filter(|model| !model.effects.is_empty()) else {
         return Answer {
@@ -76,11 +81,10 @@ fn scores(pool: &Pool<'_>) -> Vec<(Vec<Kind>, f64)> {
 
 /// Fits the best set again without each of its effects, as long as a smaller set becomes the best: when the smaller ones were fitted, more
 /// noise was thought of.
-fn prune(pool: &mut Pool<'_>, done: &(dyn Fn() + Sync)) {
+fn prune(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Sync)) {
     loop {
         let best = pool.best().clone();
-        pool.fit_without_each(&best);
-        done();
+        pool.fit_again(&best, moves::simpler(context, &best), done);
         if same(&best.effects, &pool.best().effects) {
             return;
         }
@@ -107,38 +111,63 @@ fn any_vanishes(context: &Context<'_>, model: &FittedModel) -> bool {
     refitted.is_some_and(|refitted| small_in(context.data, &refitted).is_some())
 }
 
-/// The simplest model whose free runs leave the encoder's own error only. Where none does, the best is followed along its chaotic
-/// run, tried with counts that the encoder lost, and in other forms.
-fn explained(context: &Context<'_>, finalists: &[FittedModel]) -> Option<FittedModel> {
-    let simplest = |models: &[FittedModel]| {
-        let at_floor = models.iter().filter(|model| model.is_proven());
-        let simplicity = |model: &&FittedModel| (model.freedom(), model.effects.len());
-        at_floor.min_by_key(simplicity).cloned()
-    };
-    if let Some(found) = simplest(finalists) {
-        return Some(found);
+/// The simplest model whose free runs leave the encoder's own error only.
+fn explained(
+    context: &Context<'_>,
+    pool: &mut Pool<'_>,
+    finalists: &[FittedModel],
+) -> Option<FittedModel> {
+    let polished = pool.polished.iter();
+    let polished = polished.filter(|model| small_in(context.data, model).is_none());
+    let known: Vec<FittedModel> = polished.chain(finalists).cloned().collect();
+    simplest(&known).map(|found| simplified(context, pool, found))
+}
+
+/// The simplest of those that leave the encoder's own error only.
+fn simplest(models: &[FittedModel]) -> Option<FittedModel> {
+    let at_floor = models.iter().filter(|model| model.is_proven());
+    let simplicity = |model: &&FittedModel| (model.freedom(), model.effects.len());
+    at_floor.min_by_key(simplicity).cloned()
+}
+
+/// The simplest model that does what `found` does: simpler sets that come near it are polished as it was.
+fn simplified(context: &Context<'_>, pool: &mut Pool<'_>, found: FittedModel) -> FittedModel {
+    let mut found = found;
+    while let Some(node) = pool.node(&found.effects).cloned() {
+        let sets = moves::simpler(context, &node);
+        let simpler: Vec<FittedModel> = (sets.iter().map(moves::Start::effects))
+            .filter_map(|set| pool.model(pool.node(&set)?).ok())
+            .filter(|model| model.ran().score() - found.ran().score() < NEAR)
+            .collect();
+        let simpler = simpler.iter().filter_map(|model| pool.polish(model));
+        let simpler: Vec<FittedModel> = simpler
+            .filter(|model| small_in(context.data, model).is_none())
+            .collect();
+        match simplest(&simpler) {
+            Some(simpler) => found = simpler,
+            None => break,
+        }
     }
-    if context.span.window_s.is_some() {
-        return None;
+    found
+}
+
+/// `best` without the effects that do not earn their place. Where whole runs show that something is missing, any further parameter takes up a
+/// part of it, and the likelihood, which knows of noise only, believes it.
+fn earned(pool: &mut Pool<'_>, best: FittedModel, done: &(dyn Fn() + Sync)) -> FittedModel {
+    let mut best = best;
+    while let Some(node) = pool.node(&best.effects).cloned() {
+        pool.fit_again(&node, moves::removals(&node).collect(), done);
+        let simpler = moves::removals(&node).filter_map(|start| {
+            let node = pool.node(&start.effects())?;
+            pool.model(node).ok()
+        });
+        let needless = simpler.filter(|simpler| !removes(simpler, &best));
+        match needless.min_by(FittedModel::by_score) {
+            Some(simpler) => best = simpler,
+            None => break,
+        }
     }
-    let best = finalists.first()?;
-    let mut tried = Vec::new();
-    let mut followed = [best.clone()];
-    if best.candidate.needs_angle() {
-        observe_all(context, &mut followed);
-    }
-    tried.extend(polish(context, &followed[0]).ok());
-    if let Some(found) = simplest(&tried) {
-        return Some(found);
-    }
-    for model in finalists.iter().take(2) {
-        tried.extend(lost_counts::found(context, model));
-    }
-    if let Some(found) = simplest(&tried) {
-        return Some(found);
-    }
-    tried.extend(forms::with_other_forms(context, best));
-    simplest(&tried)
+    best
 }
 
 /// Of the sets that are as probable as the best the one with fewest effects, and of those the one with fewest parameters.
@@ -161,8 +190,7 @@ fn order_of_fall(pool: &mut Pool<'_>, model: &FittedModel, done: &(dyn Fn() + Sy
             break;
         };
         // What was fitted when more noise was thought of is fitted again: each step shows what is left without the others.
-        pool.fit_without_each(&node);
-        done();
+        pool.fit_again(&node, moves::removals(&node).collect(), done);
         let error_without = |gone: Kind| {
             let rest: Vec<Kind> = left.iter().filter(|kind| **kind != gone).copied().collect();
             let model = pool.node(&rest).map(|node| pool.model(node));
@@ -206,11 +234,7 @@ fn levels(context: &Context<'_>, pool: &Pool<'_>, chosen: &FittedModel) -> Vec<L
         models.retain(|model| !same(&model.effects, own));
         let best = in_order(context, &best, own);
         models.insert(0, best.clone());
-        levels.push(Level {
-            models,
-            best,
-            believed: true,
-        });
+        levels.push(Level { models, best });
     }
     levels
 }

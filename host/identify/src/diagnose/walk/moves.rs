@@ -95,9 +95,47 @@ pub fn substitutes(context: &Context<'_>, node: &Node) -> Vec<Start> {
         .collect()
 }
 
-fn removals(node: &Node) -> impl Iterator<Item = Start> {
+/// `node` without each of its effects.
+pub fn removals(node: &Node) -> impl Iterator<Item = Start> {
     let places = node.effects.iter().copied();
     places.map(|place| Start::from(node, |own| own == place, None))
+}
+
+/// Simpler sets that may do what `node` does: without an effect, with a special case of one in its place, or with one effect that is the sum of
+/// another and a constant.
+pub fn simpler(context: &Context<'_>, node: &Node) -> Vec<Start> {
+    let mut starts: Vec<Start> = removals(node).collect();
+    let candidates = context.candidates.iter().copied();
+    let new = candidates.filter(|kind| !kind.facts().by_chance && !node.effects.contains(kind));
+    for kind in new {
+        for &place in node
+            .effects
+            .iter()
+            .filter(|own| own.containing(kind).is_some())
+        {
+            starts.push(Start::from(node, |own| own == place, Some(kind)));
+        }
+        let sum = Start::from(
+            node,
+            |own| CONSTANTS.contains(&own) || kind.containing(own).is_some(),
+            Some(kind),
+        );
+        if sum.kept.len() + 1 < node.effects.len() {
+            starts.push(sum);
+        }
+    }
+    starts
+}
+
+/// `node` with effects that cost much to simulate in the place of their special cases.
+pub fn costly(context: &Context<'_>, node: &Node) -> Vec<Start> {
+    let candidates = context.candidates.iter().copied();
+    let costly = candidates.filter(|kind| kind.facts().costly && !node.effects.contains(kind));
+    let contained = |kind: Kind| move |own: Kind| kind.containing(own).is_some();
+    costly
+        .filter(|kind| node.effects.iter().any(|own| contained(*kind)(*own)))
+        .map(|kind| Start::from(node, contained(kind), Some(kind)))
+        .collect()
 }
 
 /// Each set once, if it is small enough and not in the pool.

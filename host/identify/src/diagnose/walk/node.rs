@@ -36,6 +36,11 @@ impl Node {
         self.structure.candidate_at(&self.x)
     }
 
+    /// Whether an effect of it costs much to simulate.
+    pub fn is_costly(&self) -> bool {
+        self.effects.iter().any(|kind| kind.facts().costly)
+    }
+
     /// Numbers that were fitted.
     pub fn freedom(&self) -> usize {
         self.structure.dim() - self.structure.held()

@@ -1,13 +1,18 @@
 //! Every set that was fitted, all scored with the same noise.
 
 use super::evidence::Evidence;
+use super::forms::with_other_forms;
 use super::moves::{self, Start};
 use super::node::Node;
 use super::settings::{FAR_NATS, FAR_PART, LEADERS, PROMISING, ROUNDS, SETTLED_NATS};
 use crate::diagnose::candidate::descent::{Descent, Settings};
+use crate::diagnose::candidate::fit::fit_widening;
+use crate::diagnose::candidate::observer::observe_all;
+use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
+use crate::diagnose::lost_counts;
 use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::screening::{restart, screen};
 use crate::error::Error;
@@ -42,6 +47,8 @@ pub struct Pool<'a> {
     pub nodes: Vec<Node>,
     /// Sets that were taken away.
     dropped: Vec<Vec<Kind>>,
+    /// Models whose free runs were fitted until they converged, with finer steps if need be.
+    pub polished: Vec<FittedModel>,
 }
 
 impl<'a> Pool<'a> {
@@ -53,6 +60,7 @@ impl<'a> Pool<'a> {
             evidence: Evidence::new(context, base),
             nodes: Vec::new(),
             dropped: Vec::new(),
+            polished: Vec::new(),
         };
         pool.evidence.estimate_noise(&base.candidate);
         let fitted = pool.fit(&base.structure, std::slice::from_ref(&base.x), CONVERGED);
@@ -138,21 +146,37 @@ impl<'a> Pool<'a> {
         self.converge_leaders();
     }
 
-    /// Fits a node without each of its effects, from where it stands, until it converges.
-    pub fn fit_without_each(&mut self, node: &Node) {
+    /// Fits sets again from where a node stands, or from where they stood if that is better, until they converge.
+    pub fn fit_again(&mut self, node: &Node, starts: Vec<Start>, done: &(dyn Fn() + Sync)) {
         let Ok(model) = self.model(node) else { return };
-        let nodes: Vec<Node> = (node.effects.par_iter())
+        let nodes: Vec<Node> = (starts.par_iter())
             .filter(|_| !self.context.budget.exhausted())
-            .filter_map(|&gone| {
-                let rest = model.without(gone);
-                let start = restart(self.context, &rest);
-                let known = self.node(&rest.effects);
-                let known = known.map(|known| start.structure.point(&known.candidate()));
-                let starts: Vec<Vec<f64>> = known.into_iter().chain([start.x]).collect();
-                self.fit(&start.structure, &starts, CONVERGED)
+            .filter_map(|start| {
+                let begun = self.begin(node, &model, start)?;
+                let known = self.node(&begun.effects);
+                let known = known.map(|known| begun.structure.point(&known.candidate()));
+                let starts: Vec<Vec<f64>> = known.into_iter().chain([begun.x]).collect();
+                let fitted = self.fit(&begun.structure, &starts, CONVERGED);
+                done();
+                fitted
             })
             .collect();
         self.put(nodes);
+    }
+
+    /// The node from which the walk goes on, if it has not been there: the best, then the best few of each size. One effect may stand in
+    /// for two, and leaves each of them behind. A set that costs much to simulate has no neighbours: it takes the place of one that has.
+    pub fn next(&self, visited: &[Vec<Kind>], few: usize) -> Option<Node> {
+        let new =
+            |node: &&Node| !node.is_costly() && !visited.iter().any(|set| same(set, &node.effects));
+        let of_size = |size: usize| {
+            let nodes = self.nodes.iter();
+            let nodes = nodes.filter(move |node| node.effects.len() == size);
+            nodes.take(few).find(new)
+        };
+        let best = Some(self.best()).filter(new);
+        best.or_else(|| (0..=self.best().effects.len()).find_map(of_size))
+            .cloned()
     }
 
     /// A neighbour of a node where its fit starts.
@@ -280,10 +304,61 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Whether the free runs of the best node leave the encoder's own error only.
+    /// Whether free runs of the best node, or of one that was polished, leave the encoder's own error only.
     pub fn is_explained(&self) -> bool {
-        self.model(self.best())
-            .is_ok_and(|model| model.free().at_floor())
+        self.polished.iter().any(FittedModel::is_proven)
+            || self
+                .model(self.best())
+                .is_ok_and(|model| model.free().at_floor())
+    }
+
+    /// Polishes the best node, if that was not done: before more is blamed, what is there is fitted by its free runs until they converge. Then
+    /// counts that the encoder lost are looked for.
+    pub fn polish_best(&mut self) {
+        if self.is_explained() {
+            return;
+        }
+        let Ok(model) = self.model(self.best()) else {
+            return;
+        };
+        let polished = self.polish(&model).unwrap_or(model);
+        if let Some(found) = self.with_losses(&polished) {
+            self.polished.push(found);
+        }
+    }
+
+    /// A model with the counts that the encoder lost, if they are what is left. In windows a jump is forgotten with the window.
+    pub fn with_losses(&self, model: &FittedModel) -> Option<FittedModel> {
+        let whole = self.context.span.window_s.is_none() && !model.is_proven();
+        whole
+            .then(|| lost_counts::found(self.context, model))
+            .flatten()
+    }
+
+    /// The model of a set, polished, with other forms of its effects' curves where they earn it.
+    pub fn polish(&mut self, model: &FittedModel) -> Option<FittedModel> {
+        let known = |polished: &&FittedModel| same(&polished.effects, &model.effects);
+        if let Some(known) = self.polished.iter().find(known) {
+            return Some(known.clone());
+        }
+        let widened = fit_widening(self.context, model);
+        let begun = widened.unwrap_or_else(|| model.clone());
+        // A run over detents may be chaotic, and right: an observer shows it, and then it is followed from stretch to stretch.
+        let mut observed = [begun.clone()];
+        if begun.candidate.needs_angle() && !begun.is_proven() {
+            observe_all(self.context, &mut observed);
+        }
+        let [observed] = observed;
+        let is_chaotic = !begun.is_proven() && observed.judged().at_floor();
+        let start = if is_chaotic { &observed } else { &begun };
+        let polished = polish(self.context, start).ok()?;
+        let polished = with_other_forms(self.context, &polished).unwrap_or(polished);
+        self.put(vec![Node::new(
+            polished.structure.clone(),
+            polished.x.clone(),
+        )]);
+        self.polished.push(polished.clone());
+        Some(polished)
     }
 
     /// Lets the best nodes converge, until the best are those that did.
@@ -292,7 +367,11 @@ impl<'a> Pool<'a> {
             let leaders = &self.nodes[..LEADERS.min(self.nodes.len())];
             let linear = self.node(&[]).map_or(0.0, |linear| linear.score);
             let far = FAR_NATS.max(FAR_PART * (self.best().score - linear));
-            let near = |node: &&Node| !node.converged && self.best().score - node.score < far;
+            let best = self.best();
+            let near = |node: &&Node| {
+                let dear = node.is_costly() && !same(&node.effects, &best.effects);
+                !node.converged && !dear && best.score - node.score < far
+            };
             let again: Vec<Node> = leaders
                 .par_iter()
                 .filter(near)

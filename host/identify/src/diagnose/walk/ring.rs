@@ -5,6 +5,7 @@ use super::moves;
 use super::pool::Pool;
 use super::settings::CLASS_NATS;
 use crate::diagnose::context::Context;
+use crate::diagnose::gain::removes;
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::negligible::small_in;
 use crate::diagnose::outcome::Floor;
@@ -36,6 +37,10 @@ pub fn ring(context: &Context<'_>, standing: &FittedModel, done: &(dyn Fn() + Sy
     let from = pool.best().clone();
     pool.fit_from_node(&from, moves::additions(context, &from, &pool), done);
     pool.anneal();
+    if context.span.window_s.is_none() && !pool.is_explained() {
+        pool.fit_from_node(&from, moves::costly(context, &from), done);
+        pool.anneal();
+    }
     let own = pool.node(&standing.effects).unwrap_or(&from).clone();
     let given = pool.model(&own).unwrap_or_else(|_| standing.clone());
     let neighbours = pool.nodes.iter().filter_map(|node| {
@@ -54,7 +59,13 @@ pub fn ring(context: &Context<'_>, standing: &FittedModel, done: &(dyn Fn() + Sy
             model,
         })
     });
-    let neighbours = neighbours.collect();
+    // Losses are found, not searched for: where they are what is left, nothing smooth does the same.
+    let losses = pool.with_losses(&given).map(|model| Neighbour {
+        added: Kind::MissedCounts,
+        believed: removes(&given, &model),
+        model,
+    });
+    let neighbours = losses.into_iter().chain(neighbours).collect();
     let floor = (context.span.window_s).map(|window_s| floor(&pool.evidence, &given, window_s));
     Ring { neighbours, floor }
 }

@@ -23,3 +23,9 @@ pub const FINALISTS: usize = 12;
 pub const PROMISING: usize = 10;
 /// Estimates of the noise under the last model, each from where the one before ended.
 pub const NOISE_ROUNDS: usize = 2;
+/// Where whole runs tell that something is missing, the best nodes of each size from which the walk goes on.
+pub const BEAM: usize = 3;
+/// Rings that leave something unexplained before an effect that costs much to simulate is tried.
+pub const PATIENCE: usize = 2;
+/// A simpler set is polished beside one that explains the recording if the logarithm of its errors' product is behind by no more than this.
+pub const NEAR: f64 = 3.0;

@@ -1,11 +1,11 @@
 //! Forms other than the textbook's. They are searched for where the textbook's leave something to explain, and must earn
 //! their freedom as an effect must: a parameter that is free in every model would cost naming power in every diagnosis.
 
-use super::judge::removes;
 use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::{fit_problem, search};
 use crate::diagnose::context::Context;
+use crate::diagnose::gain::removes;
 use crate::diagnose::models::{Errors, FittedModel};
 use crate::diagnose::screening::FORMS;
 use crate::fit::forms::MUST_REMOVE;
