@@ -23,6 +23,10 @@ const LEAST: f64 = 0.01;
 const AT_FLOOR: f64 = 0.98;
 /// The same, at most, where none does.
 const ABOVE_FLOOR: f64 = 0.9;
+/// Part of the fitted recording's samples whose errors are independent at the encoder's floor: counts dwell in their cells. There a parameter
+/// has the price of the Bayesian information criterion (Schwarz, "Estimating the dimension of a model", 1978).
+const INDEPENDENT: f64 = 0.1;
+
 /// The sets of effects that were scored: the chosen one, then the others by their probability.
 pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
     let own = sorted(&named.last.effects);
@@ -37,9 +41,18 @@ pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {
         None if proven => f64::INFINITY,
         _ => best,
     };
+    let as_good = |effects: &[Kind]| {
+        let rivals = named.rivals.iter().filter(|rival| rival.is_proven());
+        let mut rivals = rivals.filter(|rival| sorted(&rival.effects) == effects);
+        proven.then(|| rivals.next()).flatten()
+    };
+    let per_parameter = 0.5 * libm::log(INDEPENDENT * named.context.data.counts.len() as f64);
     let weight = |effects: &[Kind], nats: f64| {
         if effects == own {
             1.0
+        } else if let Some(rival) = as_good(effects) {
+            let more = rival.freedom().saturating_sub(named.last.freedom());
+            libm::exp(-per_parameter.max(0.0) * more as f64)
         } else if proven && own.iter().all(|kind| effects.contains(kind)) {
             0.0
         } else {

@@ -94,7 +94,7 @@ fn steps_to(held: &Chosen<'_>, chosen: &FittedModel) -> (Vec<Step>, FittedModel)
             && !together_move_both_ways(context.data, context.held_out);
     let (mut steps, mut before) = (Vec::new(), base.clone());
     for (depth, &added) in chosen.effects.iter().enumerate() {
-        let rivals = Rivals::of(&chosen.effects, added, &held.scores, CLASS_NATS);
+        let rivals = Rivals::of(chosen, added, &held.scores, CLASS_NATS, known);
         if !as_one && !rivals.allows(added) {
             break;
         }

@@ -8,7 +8,7 @@ use shared::effects::Kind;
 
 /// The same model with its effects in another order.
 pub fn in_order(context: &Context<'_>, model: &FittedModel, order: &[Kind]) -> FittedModel {
-    if model.losses.is_some() || model.followed_fraction > 0.0 {
+    if model.effects == order || model.losses.is_some() || model.followed_fraction > 0.0 {
         return model.clone();
     }
     let mut ordered = model.clone();
@@ -25,7 +25,14 @@ pub fn in_order(context: &Context<'_>, model: &FittedModel, order: &[Kind]) -> F
             }
         }
     }
-    let start = restart(context, &ordered);
+    let mut start = restart(context, &ordered);
+    // A range that was widened stays.
+    for unknown in &mut start.structure.unknowns {
+        let mut own = model.structure.unknowns.iter();
+        if let Some(own) = own.find(|own| own.name == unknown.name) {
+            unknown.range = own.range;
+        }
+    }
     let values = start.structure.values_of(
         &model.candidate.machine,
         &ordered.parameters,

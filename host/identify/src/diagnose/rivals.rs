@@ -1,6 +1,6 @@
 //! What stands beside the chosen model.
 
-use super::models::same;
+use super::models::{FittedModel, same};
 use shared::effects::Kind;
 
 /// More models than this that explain a recording alike, and none of them is named.
@@ -13,16 +13,31 @@ pub struct Rivals {
 }
 
 impl Rivals {
-    /// Those of sets with `scores`, nats, that differ from `chosen` in `place` alone and are within `nats` of it.
-    pub fn of(chosen: &[Kind], place: Kind, scores: &[(Vec<Kind>, f64)], nats: f64) -> Self {
-        let own = scores.iter().find(|(set, _)| same(set, chosen));
+    /// Those of sets with `scores`, nats, that differ from `chosen` in `place` alone and are within `nats` of it; of the `known` models those that
+    /// leave the encoder's error only, where the chosen one does. Below a count the arithmetic decides scores.
+    pub fn of(
+        chosen: &FittedModel,
+        place: Kind,
+        scores: &[(Vec<Kind>, f64)],
+        nats: f64,
+        known: &[FittedModel],
+    ) -> Self {
+        let effects = &chosen.effects;
+        let own = scores.iter().find(|(set, _)| same(set, effects));
         let least = own.map_or(f64::INFINITY, |(_, score)| score - nats);
         let probable = scores.iter().filter(|(_, score)| *score > least);
-        Rivals {
-            equivalent: probable
-                .filter_map(|(set, _)| instead(chosen, place, set))
-                .collect(),
+        let proven = known
+            .iter()
+            .filter(|model| chosen.is_proven() && model.is_proven());
+        let sets = probable.map(|(set, _)| set);
+        let sets = sets.chain(proven.map(|model| &model.effects));
+        let mut equivalent = Vec::new();
+        for kind in sets.filter_map(|set| instead(effects, place, set)) {
+            if !equivalent.contains(&kind) {
+                equivalent.push(kind);
+            }
         }
+        Rivals { equivalent }
     }
 
     /// Whether the effect may be named beside these rivals: not where too many others, or others of quite

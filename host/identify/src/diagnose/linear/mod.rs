@@ -38,9 +38,11 @@ pub fn fit_linear_motor<'a>(prepared: Context<'a>, options: &Options) -> Result<
     if span != context.span {
         (context, base) = fit_linear(context.over(span), options)?;
     }
+    // In windows the error of a whole run says little.
+    let whole = context.span.window_s.is_none();
     let mut anchor = base.clone();
     if let Some((machine, _)) =
-        beside_offset.filter(|(_, rms)| *rms < OTHER_MOTOR * base.rms_counts)
+        beside_offset.filter(|(_, rms)| whole && *rms < OTHER_MOTOR * base.rms_counts)
     {
         anchor.candidate.machine = machine;
     }

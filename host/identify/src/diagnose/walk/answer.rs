@@ -49,7 +49,7 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
         }
         best => best,
     };
-    let Some(best) = best.filter(|model| !model.effects.is_empty()) else {
+    let Some(mut best) = best.filter(|model| !model.effects.is_empty()) else {
         return Answer {
             chosen: None,
             levels: Vec::new(),
@@ -58,15 +58,22 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
             explained: explained.is_some(),
         };
     };
+    let mut known = finalists;
     if let Some(node) = pool.node(&best.effects).cloned() {
         pool.fit_substitutes(&node, done);
+        if best.is_proven() {
+            let alike = alike(context, pool, &node, &best);
+            known.push(best.clone());
+            known.extend(alike.iter().cloned());
+            best = nearest(best, alike);
+        }
     }
     let order = order_of_fall(pool, &best, done);
     let chosen = in_order(context, &best, &order);
     Answer {
         levels: levels(context, pool, &chosen),
         chosen: Some(chosen),
-        known: finalists,
+        known,
         scores: scores(pool),
         explained: explained.is_some(),
     }
@@ -149,6 +156,47 @@ fn simplified(context: &Context<'_>, pool: &mut Pool<'_>, found: FittedModel) ->
         }
     }
     found
+}
+
+/// Models with a look-alike in the place of an effect that leave the encoder's error only, as `best` does: those that come near it are polished as
+/// it was.
+fn alike(
+    context: &Context<'_>,
+    pool: &mut Pool<'_>,
+    node: &Node,
+    best: &FittedModel,
+) -> Vec<FittedModel> {
+    let starts = moves::substitutes(context, node);
+    let sets = starts.iter().map(moves::Start::effects);
+    let models = sets.filter_map(|set| pool.model(pool.node(&set)?).ok());
+    let near = |model: &FittedModel| model.ran().score() - best.ran().score() < NEAR;
+    let models: Vec<FittedModel> = models.filter(near).collect();
+    let polished = models.into_iter().filter_map(|model| {
+        if model.is_proven() {
+            Some(model)
+        } else {
+            pool.polish(&model)
+        }
+    });
+    polished.filter(FittedModel::is_proven).collect()
+}
+
+/// The one that errs least of `best` and those of its `alike` that are as simple.
+fn nearest(best: FittedModel, alike: Vec<FittedModel>) -> FittedModel {
+    let as_simple = |other: &FittedModel| {
+        other.freedom() <= best.freedom() && other.effects.len() <= best.effects.len()
+    };
+    let squares = |model: &FittedModel| {
+        let ran = model.ran();
+        ran.fitted * ran.fitted + ran.held_out * ran.held_out
+    };
+    let mut nearest = best.clone();
+    for other in alike.into_iter().filter(as_simple) {
+        if squares(&other) < squares(&nearest) {
+            nearest = other;
+        }
+    }
+    nearest
 }
 
 /// `best` without the effects that do not earn their place. Where whole runs show that something is missing, any further parameter takes up a

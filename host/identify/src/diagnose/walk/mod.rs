@@ -88,6 +88,9 @@ fn to_the_floor(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + S
         };
         fit_ring(context, pool, &from, done);
         pool.polish_best();
+        if from.effects.is_empty() && !pool.is_explained() {
+            pool.fit_each_alone(done);
+        }
         visited.push(from.effects);
         // An effect that costs much may be all that is missing.
         if visited.len() == PATIENCE {
@@ -95,7 +98,12 @@ fn to_the_floor(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + S
             fit_costly(context, pool, alone, done);
         }
     }
-    fit_costly(context, pool, |_| true, done);
+    for set in fit_costly(context, pool, |_| true, done) {
+        let model = pool.node(&set).map(|node| pool.model(node));
+        if let Some(Ok(model)) = model {
+            pool.polish(&model);
+        }
+    }
 }
 
 /// Fits the neighbours of a node, and estimates the noise again.
@@ -107,24 +115,30 @@ fn fit_ring(context: &Context<'_>, pool: &mut Pool<'_>, from: &Node, done: &(dyn
 }
 
 /// Fits effects that cost much to simulate in the place of their special cases in the best of the nodes that are `meant`, where nothing
-/// explains the recording.
+/// explains the recording. Answers the sets that were fitted, if something is still left.
 fn fit_costly(
     context: &Context<'_>,
     pool: &mut Pool<'_>,
     meant: impl Fn(&Node) -> bool,
     done: &(dyn Fn() + Sync),
-) {
+) -> Vec<Vec<Kind>> {
     if pool.is_explained() || context.budget.exhausted() {
-        return;
+        return Vec::new();
     }
     let nodes = pool
         .nodes
         .iter()
         .filter(|node| !node.is_costly() && meant(node));
     let starts = nodes.map(|node| (node.clone(), moves::costly(context, node)));
-    if let Some((node, starts)) = starts.into_iter().find(|(_, starts)| !starts.is_empty()) {
-        pool.fit_from_node(&node, starts, done);
-        pool.anneal();
-        pool.polish_best();
+    let Some((node, starts)) = starts.into_iter().find(|(_, starts)| !starts.is_empty()) else {
+        return Vec::new();
+    };
+    let sets = starts.iter().map(moves::Start::effects).collect();
+    pool.fit_from_node(&node, starts, done);
+    pool.anneal();
+    pool.polish_best();
+    if pool.is_explained() {
+        return Vec::new();
     }
+    sets
 }

@@ -44,8 +44,7 @@ pub fn neighbours(
     most_effects: usize,
 ) -> Vec<Start> {
     let mut starts = Vec::new();
-    let candidates = context.candidates.iter().copied();
-    for kind in candidates.filter(|kind| may_be(context, *kind)) {
+    for kind in possible(context) {
         if node.effects.contains(&kind) {
             continue;
         }
@@ -82,8 +81,7 @@ pub fn additions(context: &Context<'_>, node: &Node, pool: &Pool<'_>) -> Vec<Sta
 
 /// Sets in which a look-alike stands in the place of an effect.
 pub fn substitutes(context: &Context<'_>, node: &Node) -> Vec<Start> {
-    let candidates = context.candidates.iter().copied();
-    let new = candidates.filter(|kind| may_be(context, *kind) && !node.effects.contains(kind));
+    let new = possible(context).filter(|kind| !node.effects.contains(kind));
     let pairs = new.flat_map(|kind| node.effects.iter().map(move |&place| (place, kind)));
     // Where the motor never reverses a constant does what friction does.
     let one_way = !together_move_both_ways(context.data, context.held_out);
@@ -105,8 +103,7 @@ pub fn removals(node: &Node) -> impl Iterator<Item = Start> {
 /// another and a constant.
 pub fn simpler(context: &Context<'_>, node: &Node) -> Vec<Start> {
     let mut starts: Vec<Start> = removals(node).collect();
-    let candidates = context.candidates.iter().copied();
-    let new = candidates.filter(|kind| !kind.facts().by_chance && !node.effects.contains(kind));
+    let new = possible(context).filter(|kind| !node.effects.contains(kind));
     for kind in new {
         for &place in node
             .effects
@@ -151,6 +148,12 @@ fn unknown(mut starts: Vec<Start>, pool: &Pool<'_>, most_effects: usize) -> Vec<
         fits && !known
     });
     starts
+}
+
+/// The effects that may come.
+pub fn possible<'c>(context: &'c Context<'_>) -> impl Iterator<Item = Kind> + 'c {
+    let candidates = context.candidates.iter().copied();
+    candidates.filter(|kind| may_be(context, *kind))
 }
 
 /// Lost counts are found, not fitted; bristles cost much; and a motor that never reverses shows one direction only.

@@ -13,6 +13,8 @@ pub struct Node {
     pub structure: Structure,
     /// Where they stand in the unit cube.
     pub x: Vec<f64>,
+    /// RMS error that was foreseen before it was fitted, counts; infinite where none was.
+    pub foreseen: f64,
     /// The score, nats.
     pub score: f64,
     /// Whether its fit has converged under the noise by which it is scored.
@@ -26,6 +28,7 @@ impl Node {
             effects: distinct(&structure.effects),
             structure,
             x,
+            foreseen: f64::INFINITY,
             score: f64::NEG_INFINITY,
             converged: false,
         }

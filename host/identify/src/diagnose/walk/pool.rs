@@ -6,18 +6,18 @@ use super::moves::{self, Start};
 use super::node::Node;
 use super::settings::{FAR_NATS, FAR_PART, LEADERS, PROMISING, ROUNDS, SETTLED_NATS};
 use crate::diagnose::candidate::descent::{Descent, Settings};
-use crate::diagnose::candidate::fit::fit_widening;
+use crate::diagnose::candidate::fit::{fit_screened, fit_widening};
 use crate::diagnose::candidate::observer::observe_all;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::search;
 use crate::diagnose::context::Context;
 use crate::diagnose::lost_counts;
-use crate::diagnose::models::{FittedModel, same};
+use crate::diagnose::models::{FittedModel, ScreenedModel, same};
 use crate::diagnose::screening::{restart, screen};
 use crate::error::Error;
 use rayon::prelude::*;
-use servoid_engine::problem::Structure;
+use servoid_engine::problem::{Candidate, Structure};
 use servoid_engine::solve::Objective;
 use shared::effects::Kind;
 
@@ -82,6 +82,55 @@ impl<'a> Pool<'a> {
     /// Whether a set was fitted.
     pub fn knows(&self, effects: &[Kind]) -> bool {
         self.node(effects).is_some()
+    }
+
+    /// Fits each effect alone by its free runs, from where it was screened, and polishes the best of them: torque noise that is estimated under the
+    /// linear motor hides from innovations what is far from it, as a slow spring is.
+    pub fn fit_each_alone(&mut self, done: &(dyn Fn() + Sync)) {
+        let kinds: Vec<Kind> = moves::possible(self.context).collect();
+        let on = |_: &&Kind| !self.context.budget.exhausted();
+        let fitted = kinds.par_iter().filter(on).filter_map(|&kind| {
+            let fitted = fit_screened(self.context, &self.screened(&self.base, kind)?).ok();
+            done();
+            fitted
+        });
+        let mut models: Vec<FittedModel> = fitted.collect();
+        // One that is larger than usual may lie in a valley of its own.
+        let beyond = models.par_iter().filter_map(|model| self.beyond(model));
+        let beyond: Vec<FittedModel> = beyond.collect();
+        models.extend(beyond);
+        let nodes = models.iter().map(|model| Node {
+            foreseen: model.predicted_rms_counts,
+            ..Node::new(model.structure.clone(), model.x.clone())
+        });
+        self.put(nodes.collect());
+        if let Some(best) = models.iter().min_by(|a, b| a.by_score(b)) {
+            self.polish(best);
+        }
+    }
+
+    /// `model`, fitted again from where its effect is twice as large as its usual range ends; `None` where the range may not be wider.
+    fn beyond(&self, model: &FittedModel) -> Option<FittedModel> {
+        let structure = &model.structure;
+        let effect = *model.effects.first()?;
+        let amplitude = effect.parameters().iter().find(|p| p.amplitude)?;
+        let name = format!("{}.{}", effect.name(), amplitude.name);
+        let mut unknowns = structure.unknowns.iter();
+        let place = unknowns.position(|unknown| unknown.name == name)?;
+        let mut x = model.x.clone();
+        x[place] = 1.0;
+        let wider = structure.widened_at(&x)?;
+        let mut values = structure.values(&x);
+        values[place] *= 2.0;
+        let x = wider.coordinates(&values);
+        fit_screened(self.context, &ScreenedModel::at(wider, x)).ok()
+    }
+
+    /// `model` with one effect more, fitted roughly.
+    fn screened(&self, model: &FittedModel, kind: Kind) -> Option<ScreenedModel> {
+        let first = kind.facts().starts.after();
+        let first = first.and_then(|simpler| screen(self.context, model, simpler, &[]));
+        screen(self.context, model, kind, first.as_slice())
     }
 
     /// Fits a set from the linear motor, one effect after the other.
@@ -194,16 +243,18 @@ impl<'a> Pool<'a> {
             let start = restart(self.context, &rest);
             return Some(Node::new(start.structure, start.x));
         };
-        let first = kind.facts().starts.after();
-        let first = first.and_then(|simpler| screen(self.context, &rest, simpler, &[]));
-        let screened = screen(self.context, &rest, kind, first.as_slice())?;
+        let screened = self.screened(&rest, kind)?;
         // Where the effect was screened, or where the parent stands with the effect as it was screened.
         let beside = self.beside(&rest, &screened.structure, &screened.values());
         let problem = self.evidence.innovations(&screened.structure);
+        let foreseen = screened.predicted();
         let starts = [screened.x, beside];
         let costs = starts.into_iter().map(|x| (problem.cost(&x), x));
         let (_, x) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Node::new(screened.structure, x))
+        Some(Node {
+            foreseen,
+            ..Node::new(screened.structure, x)
+        })
     }
 
     /// The parameters of `rest` with those of the newest effect from `values`.
@@ -220,8 +271,30 @@ impl<'a> Pool<'a> {
         self.fit(&node.structure, std::slice::from_ref(&node.x), settings)
     }
 
-    /// The fit from the best of several starts; not scored.
+    /// The fit from the best of several starts; not scored. Where whole runs may come down to the encoder's error it is begun again in a wider
+    /// range where it ends at the end of one that may be wider. In windows an effect that is as large as is searched for does another one's work.
     fn fit(&self, structure: &Structure, starts: &[Vec<f64>], settings: Settings) -> Option<Node> {
+        let mut node = self.fit_within(structure, starts, settings)?;
+        while self.context.span.window_s.is_none()
+            && let Some(wider) = node.structure.widened_at(&node.x)
+        {
+            let start = wider.coordinates(&node.structure.values(&node.x));
+            let again = self.fit_within(&wider, &[start], settings)?;
+            let cost = |node: &Node| self.evidence.innovations(&node.structure).cost(&node.x);
+            if cost(&again) >= cost(&node) {
+                break;
+            }
+            node = again;
+        }
+        Some(node)
+    }
+
+    fn fit_within(
+        &self,
+        structure: &Structure,
+        starts: &[Vec<f64>],
+        settings: Settings,
+    ) -> Option<Node> {
         let problem = self.evidence.innovations(structure);
         let method = self.context.method;
         let cost = |start: &&Vec<f64>| match starts {
@@ -250,7 +323,10 @@ impl<'a> Pool<'a> {
                 .iter()
                 .position(|other| same(&other.effects, &node.effects));
             match known {
-                Some(place) if self.nodes[place].score <= node.score => self.nodes[place] = node,
+                Some(place) if self.nodes[place].score <= node.score => {
+                    node.foreseen = node.foreseen.min(self.nodes[place].foreseen);
+                    self.nodes[place] = node;
+                }
                 Some(place) => self.nodes[place].converged |= node.converged,
                 None => self.nodes.push(node),
             }
@@ -275,11 +351,10 @@ impl<'a> Pool<'a> {
         self.nodes.sort_by(|a, b| b.score.total_cmp(&a.score));
     }
 
-    /// Estimates the noise under the best node, and scores all again.
-    pub fn estimate_noise(&mut self) {
-        let candidate = self.best().candidate();
-        self.evidence.estimate_noise(&candidate);
-        self.evidence.estimate_correlation(&candidate);
+    /// Estimates the noise under a model, and scores all again.
+    fn estimate_noise(&mut self, candidate: &Candidate) {
+        self.evidence.estimate_noise(candidate);
+        self.evidence.estimate_correlation(candidate);
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.par_iter_mut().for_each(|node| {
             node.converged = false;
@@ -294,7 +369,8 @@ impl<'a> Pool<'a> {
         self.converge_leaders();
         for _ in 0..ROUNDS {
             let noise_of = self.best().effects.clone();
-            self.estimate_noise();
+            let candidate = self.best().candidate();
+            self.estimate_noise(&candidate);
             let before = self.best().score;
             self.converge_leaders();
             let best = self.best();
@@ -321,7 +397,7 @@ impl<'a> Pool<'a> {
         let Ok(model) = self.model(self.best()) else {
             return;
         };
-        let polished = self.polish(&model).unwrap_or(model);
+        let polished = self.polish(&model).unwrap_or_else(|| model.clone());
         if let Some(found) = self.with_losses(&polished) {
             self.polished.push(found);
         }
@@ -353,10 +429,11 @@ impl<'a> Pool<'a> {
         let start = if is_chaotic { &observed } else { &begun };
         let polished = polish(self.context, start).ok()?;
         let polished = with_other_forms(self.context, &polished).unwrap_or(polished);
-        self.put(vec![Node::new(
-            polished.structure.clone(),
-            polished.x.clone(),
-        )]);
+        let node = Node {
+            foreseen: model.predicted_rms_counts,
+            ..Node::new(polished.structure.clone(), polished.x.clone())
+        };
+        self.put(vec![node]);
         self.polished.push(polished.clone());
         Some(polished)
     }
@@ -403,7 +480,7 @@ impl<'a> Pool<'a> {
             self.context,
             node.structure.clone(),
             &found,
-            f64::INFINITY,
+            node.foreseen,
             method,
         )
     }

@@ -35,7 +35,8 @@ pub fn ring(context: &Context<'_>, standing: &FittedModel, done: &(dyn Fn() + Sy
     let mut pool = Pool::begun(context, standing);
     pool.anneal();
     let from = pool.best().clone();
-    pool.fit_from_node(&from, moves::additions(context, &from, &pool), done);
+    let starts = moves::additions(context, &from, &pool);
+    pool.fit_from_node(&from, starts, done);
     pool.anneal();
     if context.span.window_s.is_none() && !pool.is_explained() {
         pool.fit_from_node(&from, moves::costly(context, &from), done);
