@@ -127,7 +127,10 @@ fn explained(
     let polished = pool.polished.iter();
     let polished = polished.filter(|model| small_in(context.data, model).is_none());
     let known: Vec<FittedModel> = polished.chain(finalists).cloned().collect();
-    simplest(&known).map(|found| simplified(context, pool, found))
+    let found = simplified(context, pool, simplest(&known)?);
+    // What was fitted to innovations is at the floor, and not yet where its free runs err least.
+    let polished = pool.polish(&found).filter(FittedModel::is_proven);
+    Some(polished.unwrap_or(found))
 }
 
 /// The simplest of those that leave the encoder's own error only.
@@ -159,7 +162,7 @@ fn simplified(context: &Context<'_>, pool: &mut Pool<'_>, found: FittedModel) ->
 }
 
 /// Models with a look-alike in the place of an effect that leave the encoder's error only, as `best` does: those that come near it are polished as
-/// it was.
+/// it was, so that their errors can be compared.
 fn alike(
     context: &Context<'_>,
     pool: &mut Pool<'_>,
@@ -171,13 +174,7 @@ fn alike(
     let models = sets.filter_map(|set| pool.model(pool.node(&set)?).ok());
     let near = |model: &FittedModel| model.ran().score() - best.ran().score() < NEAR;
     let models: Vec<FittedModel> = models.filter(near).collect();
-    let polished = models.into_iter().filter_map(|model| {
-        if model.is_proven() {
-            Some(model)
-        } else {
-            pool.polish(&model)
-        }
-    });
+    let polished = models.iter().filter_map(|model| pool.polish(model));
     polished.filter(FittedModel::is_proven).collect()
 }
 
