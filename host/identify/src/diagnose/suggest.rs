@@ -111,7 +111,7 @@ fn by_score(context: &Context<'_>, parent: &FittedModel, done: &(dyn Fn() + Sync
         base: parent.clone(),
         anchor: parent.clone(),
     };
-    let thinned = Thinned::of(&whole);
+    let thinned = Thinned::of(&whole).or_else(|| Thinned::begin_of(&whole));
     let Some(fewer) = thinned.as_ref().and_then(|thinned| thinned.linear(&whole)) else {
         return ring(context, parent, done);
     };

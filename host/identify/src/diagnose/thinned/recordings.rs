@@ -1,7 +1,7 @@
 //! The recordings with fewer readings.
 
 use super::along::along;
-use super::settings::{FEWEST_READINGS, IN_TIME_CONSTANT, IN_WINDOW, MOST_TURNS};
+use super::settings::{FEWEST_READINGS, IN_TIME_CONSTANT, IN_WINDOW, MOST_READINGS, MOST_TURNS};
 use crate::diagnose::context::Context;
 use crate::diagnose::linear::Linear;
 use crate::diagnose::score::Plant;
@@ -21,6 +21,21 @@ impl Thinned {
         Some(Thinned {
             data: data.thinned(every).ok()?,
             held_out: held_out.thinned(every).ok()?,
+        })
+    }
+
+    /// The first readings of a long bench, enough for a proposal; `None` of a short one, and in windows.
+    pub fn begin_of(linear: &Linear<'_>) -> Option<Self> {
+        let Context {
+            data,
+            held_out,
+            span,
+            ..
+        } = &linear.context;
+        let is_long = data.len() > MOST_READINGS && span.window_s.is_none();
+        is_long.then(|| Thinned {
+            data: data.first(MOST_READINGS),
+            held_out: held_out.first(MOST_READINGS.min(held_out.len())),
         })
     }
 
