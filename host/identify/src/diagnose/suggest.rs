@@ -10,7 +10,7 @@ use super::gain::p_value;
 use super::linear::Linear;
 use super::models::{Errors, FittedModel};
 use super::outcome::{Floor, Verdict};
-use super::thinned::{Thinned, along};
+use super::thinned::{MOST_ON_ALL, Thinned, along};
 use super::walk::{Neighbour, Ring, ring};
 use crate::error::Error;
 use crate::fit::{Options, base_for};
@@ -116,7 +116,11 @@ fn by_score(context: &Context<'_>, parent: &FittedModel, done: &(dyn Fn() + Sync
         return ring(context, parent, done);
     };
     let Ring { neighbours, floor } = ring(&fewer.context, &fewer.base, done);
-    let on_all = neighbours.into_iter().filter_map(|neighbour| {
+    let most = context
+        .span
+        .window_s
+        .map_or(MOST_ON_ALL, |_| neighbours.len());
+    let on_all = neighbours.into_iter().take(most).filter_map(|neighbour| {
         let model = along(context, &neighbour.model)?;
         Some(Neighbour { model, ..neighbour })
     });

@@ -16,3 +16,4 @@ mod settings;
 pub use along::along;
 pub use on_all::on_all_readings;
 pub use recordings::Thinned;
+pub use settings::MOST_ON_ALL;
