@@ -314,7 +314,7 @@ impl<'a> Pool<'a> {
     /// Adds nodes, or puts them in the place of worse ones of the same set, and sorts.
     fn put(&mut self, nodes: Vec<Node>) {
         for mut node in nodes {
-            if self.is_dropped(&node) {
+            if self.is_dropped(&node.effects) {
                 continue;
             }
             self.evidence.rate(&mut node);
@@ -338,12 +338,15 @@ impl<'a> Pool<'a> {
     pub fn drop_set(&mut self, effects: &[Kind]) {
         self.dropped.push(effects.to_vec());
         let mut nodes = std::mem::take(&mut self.nodes);
-        nodes.retain(|node| !self.is_dropped(node));
+        nodes.retain(|node| !self.is_dropped(&node.effects));
         self.nodes = nodes;
+        let mut polished = std::mem::take(&mut self.polished);
+        polished.retain(|model| !self.is_dropped(&model.effects));
+        self.polished = polished;
     }
 
-    fn is_dropped(&self, node: &Node) -> bool {
-        let holds = |set: &Vec<Kind>| set.iter().all(|kind| node.effects.contains(kind));
+    fn is_dropped(&self, effects: &[Kind]) -> bool {
+        let holds = |set: &Vec<Kind>| set.iter().all(|kind| effects.contains(kind));
         self.dropped.iter().any(holds)
     }
 
