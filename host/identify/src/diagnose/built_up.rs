@@ -41,9 +41,7 @@ pub fn built_up(
 
 /// `model` with one effect more, brought to its end. `None` where it cannot be added.
 pub(super) fn added(context: &Context<'_>, model: &FittedModel, kind: Kind) -> Option<FittedModel> {
-    let first = kind.facts().starts.after();
-    let first = first.and_then(|simpler| screen(context, model, simpler, &[]));
-    let screened = screen(context, model, kind, first.as_slice())?;
+    let screened = screen(context, model, kind)?;
     let fitted = fit_screened(context, &screened).ok()?;
     if fitted.judged().at_floor() {
         return Some(fitted);

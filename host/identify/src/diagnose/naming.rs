@@ -24,7 +24,7 @@ pub struct Named<'a> {
     pub steps: Vec<Step>,
     /// The model with all of them.
     pub last: FittedModel,
-    /// Models with as many effects as the one that was confirmed, and those in which one of its effects is another.
+    /// Other models that were fitted.
     pub rivals: Vec<FittedModel>,
     /// The effect that would raise the score most and is not believed.
     pub not_named: Option<Kind>,

@@ -1,4 +1,4 @@
-//! What stands beside the chosen model.
+//! Effects that explain a recording as well as one of the chosen model does.
 
 use super::models::{FittedModel, same};
 use shared::effects::Kind;

@@ -3,12 +3,11 @@
 use super::descent::{Descent, Settings};
 use super::observer::observe_all;
 use super::score::score_candidate;
-use super::search::{fit_problem, search};
+use super::search::{fit_problem, search, search_widening};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ROOM, ScreenedModel};
 use crate::error::Error;
 use servoid_engine::problem::{FitProblem, Horizon, Structure};
-use servoid_engine::simulation::Method;
 
 /// Of a fit by full simulation.
 const FULL: Settings = Settings {
@@ -93,7 +92,12 @@ fn fit_from(
         enough: (context.floor * ROOM).powi(2) * context.samples() as f64,
         ..FULL
     };
-    let (structure, found) = search_widening(context, &screened.structure, start, settings)?;
+    let widened = search_widening(context, &screened.structure, start, |structure, start| {
+        let problem = fit_problem(context, structure, context.method);
+        search(context, &problem, start, settings, context.method)
+    });
+    let (structure, found) = widened
+        .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", context.data.source)))?;
     score_candidate(
         context,
         structure,
@@ -131,44 +135,4 @@ pub fn fit_widening(context: &Context<'_>, model: &FittedModel) -> Option<Fitted
     model.structure.widened_at(&model.x)?;
     let start = ScreenedModel::at(model.structure.clone(), model.x.clone());
     fit_from(context, &start, &model.x).ok()
-}
-
-/// Searches, and again in a wider range where the search ends at the end of one that may be wider. Keeps what fits better. Not
-/// in windows: there an effect that is as large as is searched for does another one's work (see [`FittedModel::at_wall`]).
-fn search_widening(
-    context: &Context<'_>,
-    structure: &Structure,
-    start: &[f64],
-    settings: Settings,
-) -> Result<(Structure, Descent), Error> {
-    let mut structure = structure.clone();
-    let mut found = search_or_fail(context, &structure, start, settings, context.method)?;
-    while context.span.window_s.is_none()
-        && let Some(wider) = structure.widened_at(&found.x)
-    {
-        let start = wider.coordinates(&structure.values(&found.x));
-        let again = search_or_fail(context, &wider, &start, settings, context.method)?;
-        if again.squares >= found.squares {
-            break;
-        }
-        (structure, found) = (wider, again);
-    }
-    Ok((structure, found))
-}
-
-fn search_or_fail(
-    context: &Context<'_>,
-    structure: &Structure,
-    start: &[f64],
-    settings: Settings,
-    method: Method,
-) -> Result<Descent, Error> {
-    search(
-        context,
-        &fit_problem(context, structure, method),
-        start,
-        settings,
-        method,
-    )
-    .ok_or_else(|| Error::Failed(format!("{}: no start for a fit", context.data.source)))
 }

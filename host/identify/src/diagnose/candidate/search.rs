@@ -38,3 +38,26 @@ pub fn search(
     context.budget.book(steps as u64);
     Some(found)
 }
+
+/// Searches by `search`, and again in a wider range where that ends at the end of one that may be wider. Keeps what fits better. Not
+/// in windows: there an effect that is as large as is searched for does another one's work (see `FittedModel::any_at_wall`).
+pub fn search_widening(
+    context: &Context<'_>,
+    structure: &Structure,
+    start: &[f64],
+    search: impl Fn(&Structure, &[f64]) -> Option<Descent>,
+) -> Option<(Structure, Descent)> {
+    let mut structure = structure.clone();
+    let mut found = search(&structure, start)?;
+    while context.span.window_s.is_none()
+        && let Some(wider) = structure.widened_at(&found.x)
+    {
+        let start = wider.coordinates(&structure.values(&found.x));
+        let again = search(&wider, &start)?;
+        if again.squares >= found.squares {
+            break;
+        }
+        (structure, found) = (wider, again);
+    }
+    Some((structure, found))
+}

@@ -1,6 +1,6 @@
 //! One model with one set of effects, fitted to one recording and judged on the other.
 
-use super::errors::{Errors, NOISE_COUNTS};
+use super::errors::Errors;
 use super::losses::Losses;
 use super::observer_errors::ObserverErrors;
 use servoid_engine::problem::{Candidate, Structure};
@@ -12,9 +12,6 @@ use std::collections::BTreeMap;
 
 /// A chaotic run that was followed over such a part of the recording proves the model.
 const PROOF: f64 = 0.5;
-
-/// What is predicted along the measured motion and what a free run leaves are compared as roughly as this.
-const AS_LITTLE: f64 = 2.0;
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
@@ -79,13 +76,6 @@ impl FittedModel {
         }
     }
 
-    /// Whether its free run is chaotic, and hides that it may leave about as little as the one whose free run leaves least: along the
-    /// measured motion, where near standstill any model errs by more than on its own.
-    pub fn may_rival(&self, best: &FittedModel) -> bool {
-        let least = best.ran().fitted.max(best.predicted_rms_counts);
-        self.chaotic && self.predicted_rms_counts < AS_LITTLE * least.max(NOISE_COUNTS)
-    }
-
     /// Whether it leaves the reading's own error only, by what it is judged by.
     pub fn explains(&self) -> bool {
         self.is_proven() || self.judged().at_floor()
@@ -94,12 +84,6 @@ impl FittedModel {
     /// Whether it does so running on its own: to the end, or as far as a chaotic run can be followed.
     pub fn is_proven(&self) -> bool {
         self.ran().at_floor() || self.followed_fraction >= PROOF
-    }
-
-    /// Whether nothing more need be looked for. A model that has to be held tightly to the readings may yet lack something.
-    pub fn is_complete(&self) -> bool {
-        let tight = self.observed.is_some_and(|tracked| !tracked.is_loose());
-        self.is_proven() || (self.judged().at_floor() && !tight)
     }
 
     /// Number of its effects' parameters that were searched for: a form that is held at the textbook's is none.
@@ -112,14 +96,7 @@ impl FittedModel {
         self.judged().score().total_cmp(&other.judged().score())
     }
 
-    /// Whether its newest effect is as large as is searched for: then it does another one's work.
-    pub fn at_wall(&self) -> bool {
-        self.effects
-            .last()
-            .is_some_and(|newest| self.is_at_wall(*newest))
-    }
-
-    /// Whether any of its effects is as large as is searched for.
+    /// Whether any of its effects is as large as is searched for: then it does another one's work.
     pub fn any_at_wall(&self) -> bool {
         self.effects.iter().any(|kind| self.is_at_wall(*kind))
     }

@@ -1,7 +1,6 @@
 //! A model that was fitted roughly: it predicts what an effect can explain, and is where the full fit starts.
 
 use servoid_engine::problem::{Candidate, Structure};
-use shared::effects::Kind;
 
 /// A model that was fitted roughly.
 pub struct ScreenedModel {
@@ -39,11 +38,6 @@ impl ScreenedModel {
     pub fn values(&self) -> Vec<f64> {
         let values = self.structure.values(&self.x);
         self.structure.effect_values(&values).to_vec()
-    }
-
-    /// The effect that was added.
-    pub fn newest(&self) -> Option<Kind> {
-        self.structure.effects.last().copied()
     }
 
     /// RMS error that a full fit is expected to reach, counts.

@@ -33,19 +33,14 @@ const GLANCED: usize = 2;
 /// first start, gets no other.
 const PROMISING: f64 = 0.9;
 
-/// The model `parent` with `kind` added.
-///
-/// `dry` are screened models with dry friction, from which bristles start.
-pub fn screen(
-    context: &Context<'_>,
-    parent: &FittedModel,
-    kind: Kind,
-    dry: &[ScreenedModel],
-) -> Option<ScreenedModel> {
+/// The model `parent` with `kind` added. An effect that starts from a simpler one, as bristles do from dry friction, is screened after that.
+pub fn screen(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option<ScreenedModel> {
+    let first = kind.facts().starts.after();
+    let first = first.and_then(|simpler| screen(context, parent, simpler));
     let mut effects = parent.structure.effects.clone();
     let starts = match cogging_orders(context, parent, kind) {
         Some(orders) => vec![orders],
-        None => starts(context, parent, kind, dry),
+        None => starts(context, parent, kind, first.as_ref()),
     };
     let own = kind.parameters().len();
     let times = starts.first()?.len().div_ceil(own);

@@ -10,13 +10,13 @@ const LINES: usize = 3;
 /// Part of the typical amplitude to start from.
 const AMPLITUDE: f64 = 0.5;
 
-/// Starts for the parameters of `kind`, SI, beside the model `parent`. `first` are screened models with other effects, best
-/// first, which some effects start from.
+/// Starts for the parameters of `kind`, SI, beside the model `parent`. `first` is that with the simpler effect from which some
+/// effects start.
 pub fn starts(
     context: &Context<'_>,
     parent: &FittedModel,
     kind: Kind,
-    first: &[ScreenedModel],
+    first: Option<&ScreenedModel>,
 ) -> Vec<Vec<f64>> {
     let data = context.data;
     let parameters = kind.parameters();
@@ -46,25 +46,15 @@ pub fn starts(
             .take(LINES)
             .map(|line| vec![line.cosine, line.sine, line.order as f64])
             .collect(),
-        Starts::Fit(_) => fitted_first(parent, kind, typical, first)
-            .into_iter()
-            .collect(),
+        Starts::Fit(_) => fitted_first(kind, typical, first).into_iter().collect(),
     }
 }
 
-/// Typical values, but what the effect has in common with a simpler one as the best screened model with that has it.
-fn fitted_first(
-    parent: &FittedModel,
-    kind: Kind,
-    typical: Vec<f64>,
-    first: &[ScreenedModel],
-) -> Option<Vec<f64>> {
+/// Typical values, but what the effect has in common with a simpler one as the model with that has it.
+fn fitted_first(kind: Kind, typical: Vec<f64>, first: Option<&ScreenedModel>) -> Option<Vec<f64>> {
     let simpler = kind.facts().starts.after()?;
     let contained = kind.containing(simpler)?;
-    let screened = first.iter().find(|screened| {
-        screened.newest() == Some(simpler)
-            && screened.structure.effects.starts_with(&parent.effects)
-    })?;
+    let screened = first?;
     let found = screened.structure.values(&screened.x);
     let found = screened.structure.effect_values(&found);
     let own = &found[found.len().saturating_sub(contained.values.len())..];

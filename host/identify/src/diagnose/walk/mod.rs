@@ -9,6 +9,7 @@
 //! | `pool` | all nodes, fitted and scored alike |
 //! | `answer` | the model that is chosen, and what leads to it |
 //! | `forms` | forms of effects other than the textbook's |
+//! | `free_runs` | fits by free runs, where those may come down to the encoder's error |
 //! | `floor` | what stands below its error |
 //! | `told` | what a score tells of one model |
 //! | `ring` | the neighbours of one model on their own |
@@ -17,6 +18,7 @@ mod answer;
 mod evidence;
 mod floor;
 mod forms;
+mod free_runs;
 mod moves;
 mod node;
 mod pool;

@@ -1,19 +1,14 @@
 //! Every set that was fitted, all scored with the same noise.
 
 use super::evidence::Evidence;
-use super::forms::with_other_forms;
 use super::moves::{self, Start};
 use super::node::Node;
 use super::settings::{FAR_NATS, FAR_PART, LEADERS, PROMISING, ROUNDS, SETTLED_NATS};
 use crate::diagnose::candidate::descent::{Descent, Settings};
-use crate::diagnose::candidate::fit::{fit_screened, fit_widening};
-use crate::diagnose::candidate::observer::observe_all;
-use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::score::score_candidate;
-use crate::diagnose::candidate::search::search;
+use crate::diagnose::candidate::search::{search, search_widening};
 use crate::diagnose::context::Context;
-use crate::diagnose::lost_counts;
-use crate::diagnose::models::{FittedModel, ScreenedModel, same};
+use crate::diagnose::models::{FittedModel, same};
 use crate::diagnose::screening::{restart, screen};
 use crate::error::Error;
 use rayon::prelude::*;
@@ -39,8 +34,8 @@ const ROUGH: Settings = Settings {
 
 /// Every set that was fitted.
 pub struct Pool<'a> {
-    context: &'a Context<'a>,
-    base: FittedModel,
+    pub(super) context: &'a Context<'a>,
+    pub(super) base: FittedModel,
     /// By what the sets are judged.
     pub evidence: Evidence<'a>,
     /// Best first.
@@ -84,60 +79,11 @@ impl<'a> Pool<'a> {
         self.node(effects).is_some()
     }
 
-    /// Fits each effect alone by its free runs, from where it was screened, and polishes the best of them: torque noise that is estimated under the
-    /// linear motor hides from innovations what is far from it, as a slow spring is.
-    pub fn fit_each_alone(&mut self, done: &(dyn Fn() + Sync)) {
-        let kinds: Vec<Kind> = moves::possible(self.context).collect();
-        let on = |_: &&Kind| !self.context.budget.exhausted();
-        let fitted = kinds.par_iter().filter(on).filter_map(|&kind| {
-            let fitted = fit_screened(self.context, &self.screened(&self.base, kind)?).ok();
-            done();
-            fitted
-        });
-        let mut models: Vec<FittedModel> = fitted.collect();
-        // One that is larger than usual may lie in a valley of its own.
-        let beyond = models.par_iter().filter_map(|model| self.beyond(model));
-        let beyond: Vec<FittedModel> = beyond.collect();
-        models.extend(beyond);
-        let nodes = models.iter().map(|model| Node {
-            foreseen: model.predicted_rms_counts,
-            ..Node::new(model.structure.clone(), model.x.clone())
-        });
-        self.put(nodes.collect());
-        if let Some(best) = models.iter().min_by(|a, b| a.by_score(b)) {
-            self.polish(best);
-        }
-    }
-
-    /// `model`, fitted again from where its effect is twice as large as its usual range ends; `None` where the range may not be wider.
-    fn beyond(&self, model: &FittedModel) -> Option<FittedModel> {
-        let structure = &model.structure;
-        let effect = *model.effects.first()?;
-        let amplitude = effect.parameters().iter().find(|p| p.amplitude)?;
-        let name = format!("{}.{}", effect.name(), amplitude.name);
-        let mut unknowns = structure.unknowns.iter();
-        let place = unknowns.position(|unknown| unknown.name == name)?;
-        let mut x = model.x.clone();
-        x[place] = 1.0;
-        let wider = structure.widened_at(&x)?;
-        let mut values = structure.values(&x);
-        values[place] *= 2.0;
-        let x = wider.coordinates(&values);
-        fit_screened(self.context, &ScreenedModel::at(wider, x)).ok()
-    }
-
-    /// `model` with one effect more, fitted roughly.
-    fn screened(&self, model: &FittedModel, kind: Kind) -> Option<ScreenedModel> {
-        let first = kind.facts().starts.after();
-        let first = first.and_then(|simpler| screen(self.context, model, simpler, &[]));
-        screen(self.context, model, kind, first.as_slice())
-    }
-
     /// Fits a set from the linear motor, one effect after the other.
     pub fn add_seed(&mut self, effects: &[Kind]) {
         let mut parent = self.base.clone();
         for &kind in effects {
-            let Some(screened) = screen(self.context, &parent, kind, &[]) else {
+            let Some(screened) = screen(self.context, &parent, kind) else {
                 return;
             };
             let Some(node) = self.fit(&screened.structure, &[screened.x], CONVERGED) else {
@@ -243,7 +189,7 @@ impl<'a> Pool<'a> {
             let start = restart(self.context, &rest);
             return Some(Node::new(start.structure, start.x));
         };
-        let screened = self.screened(&rest, kind)?;
+        let screened = screen(self.context, &rest, kind)?;
         // Where the effect was screened, or where the parent stands with the effect as it was screened.
         let beside = self.beside(&rest, &screened.structure, &screened.values());
         let problem = self.evidence.innovations(&screened.structure);
@@ -271,48 +217,29 @@ impl<'a> Pool<'a> {
         self.fit(&node.structure, std::slice::from_ref(&node.x), settings)
     }
 
-    /// The fit from the best of several starts; not scored. Where whole runs may come down to the encoder's error it is begun again in a wider
-    /// range where it ends at the end of one that may be wider. In windows an effect that is as large as is searched for does another one's work.
+    /// The fit from the best of several starts; not scored. Where whole runs may come down to the encoder's error a range is widened where it ends at
+    /// its end.
     fn fit(&self, structure: &Structure, starts: &[Vec<f64>], settings: Settings) -> Option<Node> {
-        let mut node = self.fit_within(structure, starts, settings)?;
-        while self.context.span.window_s.is_none()
-            && let Some(wider) = node.structure.widened_at(&node.x)
-        {
-            let start = wider.coordinates(&node.structure.values(&node.x));
-            let again = self.fit_within(&wider, &[start], settings)?;
-            let cost = |node: &Node| self.evidence.innovations(&node.structure).cost(&node.x);
-            if cost(&again) >= cost(&node) {
-                break;
-            }
-            node = again;
-        }
-        Some(node)
-    }
-
-    fn fit_within(
-        &self,
-        structure: &Structure,
-        starts: &[Vec<f64>],
-        settings: Settings,
-    ) -> Option<Node> {
-        let problem = self.evidence.innovations(structure);
-        let method = self.context.method;
         let cost = |start: &&Vec<f64>| match starts {
             [_] => 0.0,
-            _ => problem.cost(start),
+            _ => self.evidence.innovations(structure).cost(start),
         };
         let costs = starts.iter().map(|start| (cost(&start), start));
         let (_, start) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let found = search(self.context, &problem, start, settings, method)?;
+        let (structure, found) =
+            search_widening(self.context, structure, start, |within, start| {
+                let problem = self.evidence.innovations(within);
+                search(self.context, &problem, start, settings, self.context.method)
+            })?;
         Some(Node {
             converged: found.evaluations < settings.evaluations
                 && settings.tolerance <= CONVERGED.tolerance,
-            ..Node::new(structure.clone(), found.x)
+            ..Node::new(structure, found.x)
         })
     }
 
     /// Adds nodes, or puts them in the place of worse ones of the same set, and sorts.
-    fn put(&mut self, nodes: Vec<Node>) {
+    pub(super) fn put(&mut self, nodes: Vec<Node>) {
         for mut node in nodes {
             if self.is_dropped(&node.effects) {
                 continue;
@@ -381,64 +308,6 @@ impl<'a> Pool<'a> {
                 return;
             }
         }
-    }
-
-    /// Whether free runs of the best node, or of one that was polished, leave the encoder's own error only.
-    pub fn is_explained(&self) -> bool {
-        self.polished.iter().any(FittedModel::is_proven)
-            || self
-                .model(self.best())
-                .is_ok_and(|model| model.free().at_floor())
-    }
-
-    /// Polishes the best node, if that was not done: before more is blamed, what is there is fitted by its free runs until they converge. Then
-    /// counts that the encoder lost are looked for.
-    pub fn polish_best(&mut self) {
-        if self.is_explained() {
-            return;
-        }
-        let Ok(model) = self.model(self.best()) else {
-            return;
-        };
-        let polished = self.polish(&model).unwrap_or_else(|| model.clone());
-        if let Some(found) = self.with_losses(&polished) {
-            self.polished.push(found);
-        }
-    }
-
-    /// A model with the counts that the encoder lost, if they are what is left. In windows a jump is forgotten with the window.
-    pub fn with_losses(&self, model: &FittedModel) -> Option<FittedModel> {
-        let whole = self.context.span.window_s.is_none() && !model.is_proven();
-        whole
-            .then(|| lost_counts::found(self.context, model))
-            .flatten()
-    }
-
-    /// The model of a set, polished, with other forms of its effects' curves where they earn it.
-    pub fn polish(&mut self, model: &FittedModel) -> Option<FittedModel> {
-        let known = |polished: &&FittedModel| same(&polished.effects, &model.effects);
-        if let Some(known) = self.polished.iter().find(known) {
-            return Some(known.clone());
-        }
-        let widened = fit_widening(self.context, model);
-        let begun = widened.unwrap_or_else(|| model.clone());
-        // A run over detents may be chaotic, and right: an observer shows it, and then it is followed from stretch to stretch.
-        let mut observed = [begun.clone()];
-        if begun.candidate.needs_angle() && !begun.is_proven() {
-            observe_all(self.context, &mut observed);
-        }
-        let [observed] = observed;
-        let is_chaotic = !begun.is_proven() && observed.judged().at_floor();
-        let start = if is_chaotic { &observed } else { &begun };
-        let polished = polish(self.context, start).ok()?;
-        let polished = with_other_forms(self.context, &polished).unwrap_or(polished);
-        let node = Node {
-            foreseen: model.predicted_rms_counts,
-            ..Node::new(polished.structure.clone(), polished.x.clone())
-        };
-        self.put(vec![node]);
-        self.polished.push(polished.clone());
-        Some(polished)
     }
 
     /// Lets the best nodes converge, until the best are those that did.
