@@ -1,5 +1,6 @@
 //! A search on fewer readings. An observer corrects a motor about once a time constant; what a log holds many times in between costs time and
 //! tells nothing where the motor's own noise is far above the encoder's. What was found is then judged on all readings.
+//! Proposals for a long bench are searched along its first readings, every one of them.
 //!
 //! | file | holds |
 //! |---|---|
