@@ -44,8 +44,8 @@ test("armed, the motor is recorded; a model runs along the next run; Esc stops i
 });
 
 test("the experiment that decides is planned, recorded with both models running along, and decides", async () => {
-  // A third of the supply, a coarse encoder and no coasting: a drop at the brushes does what friction does.
-  const bench = await at.desk.device("--hide coulomb --no-coast --counts-per-rev 64 --amplitude 0.3");
+  // A third of the supply, an encoder of 32 counts and no coasting: a drop at the brushes does what friction does. 64 counts tell them apart.
+  const bench = await at.desk.device("--hide coulomb --no-coast --counts-per-rev 32 --amplitude 0.3");
   const page = await open(at.chrome, bench.url, { viewport: { width: 1280, height: 800 } });
   await start(page, "record");
   await over(page);
@@ -53,7 +53,7 @@ test("the experiment that decides is planned, recorded with both models running 
   await page.click("#plan");
   await page.waitForSelector("#play", { timeout: 120_000 });
   const { planned } = (await state(page)).device;
-  assert.ok(planned.missed_counts > 2 && planned.voltage_v <= 0.3 * 12 + 1e-9, JSON.stringify([planned.missed_counts, planned.voltage_v]));
+  assert.ok(planned.missed_counts > 1 && planned.voltage_v <= 0.3 * 12 + 1e-9, JSON.stringify([planned.missed_counts, planned.voltage_v]));
   const rivals = planned.rivals.map((one) => one.effect);
   assert.ok(rivals.includes("coulomb") && rivals.length > 1, rivals.join());
   await start(page, "play");

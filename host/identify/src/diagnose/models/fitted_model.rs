@@ -16,7 +16,7 @@ const PROOF: f64 = 0.5;
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]
 pub struct FittedModel {
-    /// The effects, the newest last; one that its structure holds several times stands here once.
+    /// The effects in the order in which they are told, the newest last; one that its structure holds several times stands here once.
     pub effects: Vec<Kind>,
     /// The model.
     pub candidate: Candidate,

@@ -65,13 +65,13 @@ pub fn answer(context: &Context<'_>, pool: &mut Pool<'_>, done: &(dyn Fn() + Syn
             let alike = alike(context, pool, &node, &best);
             known.push(best.clone());
             known.extend(alike.iter().cloned());
-            best = nearest(best, alike);
+            best = simplest_then_nearest(best, alike);
         }
     }
     let order = order_of_fall(pool, &best, done);
-    let chosen = in_order(context, &best, &order);
+    let chosen = in_order(&best, &order);
     Answer {
-        levels: levels(context, pool, &chosen),
+        levels: levels(pool, &chosen),
         chosen: Some(chosen),
         known,
         scores: scores(pool),
@@ -136,19 +136,19 @@ fn explained(
 /// The simplest of those that leave the encoder's own error only.
 fn simplest(models: &[FittedModel]) -> Option<FittedModel> {
     let at_floor = models.iter().filter(|model| model.is_proven());
-    let simplicity = |model: &&FittedModel| (model.freedom(), model.effects.len());
-    at_floor.min_by_key(simplicity).cloned()
+    at_floor.min_by_key(|model| simplicity(model)).cloned()
+}
+
+/// Numbers that were fitted, and effects.
+fn simplicity(model: &FittedModel) -> (usize, usize) {
+    (model.freedom(), model.effects.len())
 }
 
 /// The simplest model that does what `found` does: simpler sets that come near it are polished as it was.
 fn simplified(context: &Context<'_>, pool: &mut Pool<'_>, found: FittedModel) -> FittedModel {
     let mut found = found;
     while let Some(node) = pool.node(&found.effects).cloned() {
-        let sets = moves::simpler(context, &node);
-        let simpler: Vec<FittedModel> = (sets.iter().map(moves::Start::effects))
-            .filter_map(|set| pool.model(pool.node(&set)?).ok())
-            .filter(|model| model.ran().score() - found.ran().score() < NEAR)
-            .collect();
+        let simpler = near(pool, &node, &found, &moves::simpler(context, &node));
         let simpler = simpler.iter().filter_map(|model| pool.polish(model));
         let simpler: Vec<FittedModel> = simpler
             .filter(|model| small_in(context.data, model).is_none())
@@ -161,6 +161,27 @@ fn simplified(context: &Context<'_>, pool: &mut Pool<'_>, found: FittedModel) ->
     found
 }
 
+/// Models of the sets to which `starts` lead that come near `found`, which stands at `node`: by their free runs, or by their score. Over
+/// detents a free run may be chaotic until it is polished.
+fn near(
+    pool: &Pool<'_>,
+    node: &Node,
+    found: &FittedModel,
+    starts: &[moves::Start],
+) -> Vec<FittedModel> {
+    let nodes = starts
+        .iter()
+        .filter_map(|start| pool.node(&start.effects()));
+    nodes
+        .filter_map(|other| {
+            let model = pool.model(other).ok()?;
+            let behind = model.ran().score() - found.ran().score();
+            let near = behind < NEAR || other.score > node.score - CLASS_NATS;
+            near.then_some(model)
+        })
+        .collect()
+}
+
 /// Models with a look-alike in the place of an effect that leave the encoder's error only, as `best` does: those that come near it are polished as
 /// it was, so that their errors can be compared.
 fn alike(
@@ -169,31 +190,28 @@ fn alike(
     node: &Node,
     best: &FittedModel,
 ) -> Vec<FittedModel> {
-    let starts = moves::substitutes(context, node);
-    let sets = starts.iter().map(moves::Start::effects);
-    let models = sets.filter_map(|set| pool.model(pool.node(&set)?).ok());
-    let near = |model: &FittedModel| model.ran().score() - best.ran().score() < NEAR;
-    let models: Vec<FittedModel> = models.filter(near).collect();
+    let models = near(pool, node, best, &moves::substitutes(context, node));
     let polished = models.iter().filter_map(|model| pool.polish(model));
     polished.filter(FittedModel::is_proven).collect()
 }
 
-/// The one that errs least of `best` and those of its `alike` that are as simple.
-fn nearest(best: FittedModel, alike: Vec<FittedModel>) -> FittedModel {
-    let as_simple = |other: &FittedModel| {
-        other.freedom() <= best.freedom() && other.effects.len() <= best.effects.len()
-    };
+/// The simplest of `best` and its `alike`, and of those as simple as it the one that errs least.
+fn simplest_then_nearest(best: FittedModel, alike: Vec<FittedModel>) -> FittedModel {
     let squares = |model: &FittedModel| {
         let ran = model.ran();
         ran.fitted * ran.fitted + ran.held_out * ran.held_out
     };
-    let mut nearest = best.clone();
-    for other in alike.into_iter().filter(as_simple) {
-        if squares(&other) < squares(&nearest) {
-            nearest = other;
+    let before = |a: &FittedModel, b: &FittedModel| {
+        let simpler = simplicity(a).cmp(&simplicity(b));
+        simpler.then(squares(a).total_cmp(&squares(b)))
+    };
+    let mut first = best;
+    for other in alike {
+        if before(&other, &first).is_lt() {
+            first = other;
         }
     }
-    nearest
+    first
 }
 
 /// `best` without the effects that do not earn their place. Where whole runs show that something is missing, any further parameter takes up a
@@ -254,7 +272,7 @@ fn order_of_fall(pool: &mut Pool<'_>, model: &FittedModel, done: &(dyn Fn() + Sy
 }
 
 /// For each step of the ladder the models that could stand there.
-fn levels(context: &Context<'_>, pool: &Pool<'_>, chosen: &FittedModel) -> Vec<Level> {
+fn levels(pool: &Pool<'_>, chosen: &FittedModel) -> Vec<Level> {
     let mut levels = Vec::new();
     for depth in 1..=chosen.effects.len() {
         let before = &chosen.effects[..depth - 1];
@@ -265,7 +283,7 @@ fn levels(context: &Context<'_>, pool: &Pool<'_>, chosen: &FittedModel) -> Vec<L
         let mut models: Vec<FittedModel> = (pool.nodes.iter().filter(stands_here))
             .take(CANDIDATES)
             .filter_map(|node| pool.model(node).ok())
-            .map(|model| newest_last(context, model, before))
+            .map(|model| newest_last(model, before))
             .collect();
         let place = models.iter().position(|model| same(&model.effects, own));
         let best = match place {
@@ -277,7 +295,7 @@ fn levels(context: &Context<'_>, pool: &Pool<'_>, chosen: &FittedModel) -> Vec<L
             },
         };
         models.retain(|model| !same(&model.effects, own));
-        let best = in_order(context, &best, own);
+        let best = in_order(&best, own);
         models.insert(0, best.clone());
         levels.push(Level { models, best });
     }
@@ -287,8 +305,8 @@ fn levels(context: &Context<'_>, pool: &Pool<'_>, chosen: &FittedModel) -> Vec<L
 /// Most models that are shown beside a step.
 const CANDIDATES: usize = 12;
 
-fn newest_last(context: &Context<'_>, model: FittedModel, before: &[Kind]) -> FittedModel {
+fn newest_last(model: FittedModel, before: &[Kind]) -> FittedModel {
     let newest = model.effects.iter().filter(|kind| !before.contains(kind));
     let order: Vec<Kind> = before.iter().chain(newest).copied().collect();
-    in_order(context, &model, &order)
+    in_order(&model, &order)
 }

@@ -4,6 +4,7 @@ use super::forms::with_other_forms;
 use super::moves;
 use super::node::Node;
 use super::pool::Pool;
+use super::settings::NEAR;
 use crate::diagnose::candidate::fit::{fit_screened, fit_widening};
 use crate::diagnose::candidate::observer::observe_all;
 use crate::diagnose::candidate::polish::polish;
@@ -65,7 +66,7 @@ impl Pool<'_> {
         let polished = with_other_forms(self.context, &polished).unwrap_or(polished);
         let node = Node {
             foreseen: model.predicted_rms_counts,
-            ..Node::new(polished.structure.clone(), polished.x.clone())
+            ..Node::at(&polished)
         };
         self.put(vec![node]);
         self.polished.push(polished.clone());
@@ -76,25 +77,53 @@ impl Pool<'_> {
     /// linear motor hides from innovations what is far from it, as a slow spring is.
     pub fn fit_each_alone(&mut self, done: &(dyn Fn() + Sync)) {
         let kinds: Vec<Kind> = moves::possible(self.context).collect();
-        let on = |_: &&Kind| !self.context.budget.exhausted();
-        let fitted = kinds.par_iter().filter(on).filter_map(|&kind| {
-            let fitted = fit_screened(self.context, &screen(self.context, &self.base, kind)?).ok();
-            done();
-            fitted
-        });
-        let mut models: Vec<FittedModel> = fitted.collect();
+        let mut models = self.fit_beside(&self.base, &kinds, done);
         // One that is larger than usual may lie in a valley of its own.
         let beyond = models.par_iter().filter_map(|model| self.beyond(model));
         let beyond: Vec<FittedModel> = beyond.collect();
         models.extend(beyond);
-        let nodes = models.iter().map(|model| Node {
-            foreseen: model.predicted_rms_counts,
-            ..Node::new(model.structure.clone(), model.x.clone())
-        });
-        self.put(nodes.collect());
+        self.put(models.iter().map(Node::at).collect());
         if let Some(best) = models.iter().min_by(|a, b| a.by_score(b)) {
             self.polish(best);
         }
+    }
+
+    /// Fits `kind` and its look-alikes beside `parent` by their free runs, and polishes those that come near the best: where one of them explains
+    /// what is missing, innovations need not lead to where another does so, too.
+    pub fn fit_alike(&mut self, parent: &FittedModel, kind: Kind, done: &(dyn Fn() + Sync)) {
+        let possible = moves::possible(self.context);
+        let alike = |&other: &Kind| other == kind || kind.looks_like(other);
+        let kinds: Vec<Kind> = possible
+            .filter(|other| !parent.effects.contains(other))
+            .filter(alike)
+            .collect();
+        let models = self.fit_beside(parent, &kinds, done);
+        self.put(models.iter().map(Node::at).collect());
+        let scores = models.iter().map(|model| model.ran().score());
+        let best = scores.fold(f64::INFINITY, f64::min);
+        for near in models
+            .iter()
+            .filter(|model| model.ran().score() - best < NEAR)
+        {
+            self.polish(near);
+        }
+    }
+
+    /// `parent` with each of `kinds`, fitted by its free runs from where it was screened.
+    fn fit_beside(
+        &self,
+        parent: &FittedModel,
+        kinds: &[Kind],
+        done: &(dyn Fn() + Sync),
+    ) -> Vec<FittedModel> {
+        let on = |_: &&Kind| !self.context.budget.exhausted();
+        let fitted = kinds.par_iter().filter(on).filter_map(|&kind| {
+            let screened = screen(self.context, parent, kind)?;
+            let fitted = fit_screened(self.context, &screened).ok();
+            done();
+            fitted
+        });
+        fitted.collect()
     }
 
     /// `model`, fitted again from where its effect is twice as large as its usual range ends; `None` where the range may not be wider.

@@ -1,6 +1,6 @@
 //! A set of effects with the best fit that is known of it.
 
-use crate::diagnose::models::distinct;
+use crate::diagnose::models::{FittedModel, distinct};
 use servoid_engine::problem::{Candidate, Structure};
 use shared::effects::Kind;
 
@@ -31,6 +31,14 @@ impl Node {
             foreseen: f64::INFINITY,
             score: f64::NEG_INFINITY,
             converged: false,
+        }
+    }
+
+    /// Where a model stands; not scored yet.
+    pub fn at(model: &FittedModel) -> Self {
+        Node {
+            foreseen: model.predicted_rms_counts,
+            ..Node::new(model.structure.clone(), model.x.clone())
         }
     }
 

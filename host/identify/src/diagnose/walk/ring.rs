@@ -2,6 +2,7 @@
 
 use super::floor::floor;
 use super::moves;
+use super::node::Node;
 use super::pool::Pool;
 use super::settings::CLASS_NATS;
 use crate::diagnose::context::Context;
@@ -38,18 +39,19 @@ pub fn ring(context: &Context<'_>, standing: &FittedModel, done: &(dyn Fn() + Sy
     let starts = moves::additions(context, &from, &pool);
     pool.fit_from_node(&from, starts, done);
     pool.anneal();
-    if context.span.window_s.is_none() && !pool.is_explained() {
-        pool.fit_from_node(&from, moves::costly(context, &from), done);
-        pool.anneal();
+    if context.span.window_s.is_none() {
+        if !pool.is_explained() {
+            pool.fit_from_node(&from, moves::costly(context, &from), done);
+            pool.anneal();
+        }
+        if let Some(best) = added(pool.best(), &from) {
+            pool.fit_alike(standing, best, done);
+        }
     }
     let own = pool.node(&standing.effects).unwrap_or(&from).clone();
     let given = pool.model(&own).unwrap_or_else(|_| standing.clone());
     let neighbours = pool.nodes.iter().filter_map(|node| {
-        let mut added = node
-            .effects
-            .iter()
-            .filter(|kind| !own.effects.contains(kind));
-        let added = *added.next()?;
+        let added = added(node, &own)?;
         let model = pool.model(node).ok()?;
         let (ran, before) = (model.ran(), given.ran());
         let worse = ran.fitted > before.fitted && ran.held_out > before.held_out;
@@ -69,4 +71,10 @@ pub fn ring(context: &Context<'_>, standing: &FittedModel, done: &(dyn Fn() + Sy
     let neighbours = losses.into_iter().chain(neighbours).collect();
     let floor = (context.span.window_s).map(|window_s| floor(&pool.evidence, &given, window_s));
     Ring { neighbours, floor }
+}
+
+/// The effect that `node` has and `own` has not.
+fn added(node: &Node, own: &Node) -> Option<Kind> {
+    let mut new = node.effects.iter().copied();
+    new.find(|kind| !own.effects.contains(kind))
 }
