@@ -11,7 +11,7 @@ pub struct StatedLaw {
     law: &'static Law,
     values: Vec<f64>,
     machine: Machine,
-    /// Whether it goes with the time, which it then remembers.
+    /// Whether it depends on the time, which it then remembers.
     ages: bool,
 }
 

@@ -47,7 +47,7 @@ REFUSED = [
     (lambda: recording(voltage=np.stack([VOLTS, VOLTS])), "usage", "shape (2, 200)"),
     (lambda: recording(enabled=VOLTS), "usage", "enabled"),
     (lambda: recording(temperature=TIME[:9]), "recording", "temperature has 9 samples, time has 200"),
-    (lambda: sv.fit(recording(), effects=[WARM]), "model", "warm goes with the temperature"),
+    (lambda: sv.fit(recording(), effects=[WARM]), "model", "warm depends on the temperature"),
     (lambda: sv.read("nothing.csv"), "recording", "nothing.csv"),
     (lambda: sv.read("."), "recording", "folder"),
     (lambda: sv.fit(recording(), effects=["colomb"]), "usage", "did you mean `coulomb`"),

@@ -24,7 +24,7 @@ pub enum ModelError {
     /// The dynamics are too fast to discretise at this sample interval (time constants below
     /// a millionth of a millionth of it).
     TooFast,
-    /// An effect goes with the temperature, and nothing tells it.
+    /// An effect depends on the temperature, and nothing tells it.
     NoTemperature {
         /// The effect.
         name: &'static str,
@@ -55,7 +55,7 @@ impl fmt::Display for ModelError {
             }
             ModelError::NoTemperature { name } => write!(
                 f,
-                "{name} goes with the temperature, which nothing tells here; give recordings that each have a column of it"
+                "{name} depends on the temperature, which nothing tells here; give recordings that each have a column of it"
             ),
             ModelError::TooManyEffects { limit } => {
                 write!(f, "at most {limit} effects fit into one model")

@@ -34,7 +34,7 @@ fn numbered(place: usize) -> &'static str {
 impl Definition {
     /// The law as a function of speed `w` (rad/s), angle within the revolution `theta` (rad), current `i` and torque passed on `tau`
     /// (both in V referred to the winding), voltage of the drive `u` (V), the state `z`, of a law with two states `z2`, and, of a law that
-    /// goes with them, the time `t` (s) and the temperature `temperature` (°C); and one of each state's rate.
+    /// depends on them, the time `t` (s) and the temperature `temperature` (°C); and one of each state's rate.
     pub fn functions_in(&self, language: Language, values: &[f64]) -> String {
         let law = self.function(language, &self.name, &self.law, values);
         let rates = self.states.iter().enumerate().map(|(place, state)| {

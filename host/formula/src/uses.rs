@@ -20,12 +20,12 @@ impl Definition {
         place.map_or("", |(name, _)| name)
     }
 
-    /// Whether the law goes with the time.
+    /// Whether the law depends on the time.
     pub fn ages(&self) -> bool {
         self.uses().contains(&Used::Variable(Variable::Time))
     }
 
-    /// Whether the law or a state of it goes with the temperature that a recording tells.
+    /// Whether the law or a state of it depends on the temperature that a recording tells.
     pub fn is_of_temperature(&self) -> bool {
         let temperature = Used::Variable(Variable::Temperature);
         let mut found = self.uses();

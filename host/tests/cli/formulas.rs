@@ -99,7 +99,7 @@ fn a_law_of_the_temperature_is_found_where_the_recording_tells_it() {
     recorded(&desk, AGEING, 8);
     let law = tight(WARM);
     for (command, code, says) in [
-        ("fit rec.csv", 1, "warm goes with the temperature"),
+        ("fit rec.csv", 1, "warm depends on the temperature"),
         ("compare rec.csv", 1, "a column of it"),
         ("diagnose rec.csv", 1, "a column of it"),
         ("simulate --out none.csv", 2, "tells no temperature"),

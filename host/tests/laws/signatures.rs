@@ -26,7 +26,7 @@ fn recorded(hidden: &Hidden, seed: u64) -> (Data, Candidate, Kind) {
     (Data::new(&recording).expect("data"), candidate, kind)
 }
 
-/// Effects whose volts go with no quantity that can be drawn: they pass by, or are no volts at all.
+/// Effects whose volts depend on no quantity that can be drawn: they pass by, or are no volts at all.
 const NOT_DRAWN: [&str; 6] = [
     "backlash",
     "compliance",

@@ -225,7 +225,7 @@ impl Data {
     /// Whether these effects can run along the data.
     ///
     /// # Errors
-    /// [`ModelError::NoTemperature`] where one goes with the temperature, and the data tell none.
+    /// [`ModelError::NoTemperature`] where one depends on the temperature, and the data tell none.
     pub fn check_told(&self, effects: impl IntoIterator<Item = Kind>) -> Result<(), ModelError> {
         match self.measured.get(Measured::Temperature) {
             Some(_) => Ok(()),

@@ -129,7 +129,7 @@ fn integrated<const N: usize>(rate: impl Fn([f64; N], f64) -> [f64; N]) -> Vec<f
     integrated_along(|state, volts, _| rate(state, volts))
 }
 
-/// The same, whose `rate` goes with the sample, too.
+/// The same, whose `rate` depends on the sample, too.
 fn integrated_along<const N: usize>(rate: impl Fn([f64; N], f64, usize) -> [f64; N]) -> Vec<f64> {
     let ahead = |state: [f64; N], by: [f64; N], h: f64| -> [f64; N] {
         std::array::from_fn(|n| state[n] + h * by[n])

@@ -119,7 +119,7 @@ impl<'a> Search<'a> {
 }
 
 /// Whether two terms may stand in one law. What the catalogue has stands beside a law in the model, but for the constant part of a
-/// friction that goes with the angle, which is never negative.
+/// friction that depends on the angle, which is never negative.
 fn together(a: &Term, b: &Term) -> bool {
     // Pairs with each place of the revolution would be as many as all others.
     if a.bump.is_some() || b.bump.is_some() {

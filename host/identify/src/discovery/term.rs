@@ -19,7 +19,7 @@ pub enum Place {
     Voltage,
     /// A voltage that the winding is short of by the current.
     Drop,
-    /// A moment of inertia that goes with the angle, as a part of the motor's; the term depends on nothing else.
+    /// A moment of inertia that depends on the angle, as a part of the motor's; the term depends on nothing else.
     Inertia,
 }
 
@@ -106,7 +106,7 @@ impl Term {
         }
     }
 
-    /// An inertia that goes with cosine and sine of a multiple of the angle.
+    /// An inertia that depends on cosine and sine of a multiple of the angle.
     pub fn inertia(order: u32) -> Self {
         Term {
             place: Place::Inertia,
@@ -229,7 +229,7 @@ impl Term {
         self.place == Place::Torque && self.load != Load::One
     }
 
-    /// The same as a drop of the winding: a torque that goes with the current and not with the motion's direction is that, but for how late
+    /// The same as a drop of the winding: a torque that depends on the current and not on the motion's direction is that, but for how late
     /// the current follows. `None` of other terms.
     pub fn as_drop(&self) -> Option<Term> {
         let of_the_current = self.speed == Speed::One && self.sees_the_current();

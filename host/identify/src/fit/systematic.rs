@@ -72,7 +72,7 @@ pub struct Systematic {
     /// What is wrong.
     pub cause: Cause,
     /// Change of the parameter for the cause's [size](Cause::size), in the parameter's unit; without a sign where the cause has
-    /// several parts that go with their squares.
+    /// several parts that depend on their squares.
     pub change: f64,
 }
 

@@ -155,7 +155,7 @@ fn solve_above(
         match (scale > 0.0, i == k) {
             (true, _) => scaled_covariance[(i, k)] / scale,
             (false, true) => f64::INFINITY,
-            // What nothing determines goes with nothing.
+            // What nothing determines is correlated with nothing.
             (false, false) => 0.0,
         }
     });

@@ -29,7 +29,7 @@ const FEWEST: usize = 100;
 pub const AUTOCORRELATION_LIMIT: f64 = 0.5;
 /// Correlation with the input up to which an error may be the encoder's alone, in standard deviations of what
 /// independent samples give. In the same recordings the largest of 21 lags had a median of 0.23, 0.86 at 90 %, and
-/// 2.96 at most: below what noise would give, since a fit leaves nothing that goes with its input.
+/// 2.96 at most: below what noise would give, since a fit leaves nothing that is correlated with its input.
 pub const INPUT_LIMIT: f64 = 4.0;
 
 /// Correlations of an error.

@@ -48,7 +48,7 @@ fn map(
         }
         if map.beyond_chance {
             said.push(format!(
-                "with the {model}, {:.0} % of what is missing goes with it",
+                "with the {model}, {:.0} % of what is missing depends on it",
                 100.0 * map.share
             ));
         }
@@ -81,7 +81,7 @@ fn map(
         "against forward motion"
     };
     let said = if said.is_empty() {
-        "nothing goes with it beyond chance".to_owned()
+        "nothing depends on it beyond chance".to_owned()
     } else {
         said.join("; ")
     };

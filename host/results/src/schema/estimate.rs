@@ -42,7 +42,7 @@ pub struct Systematic {
     pub size: f64,
     /// Unit of the size: `s`, `count` or `1`.
     pub size_unit: String,
-    /// Change of the value, in its unit; without a sign where the cause has several parts that go with their squares.
+    /// Change of the value, in its unit; without a sign where the cause has several parts that depend on their squares.
     pub change: f64,
 }
 

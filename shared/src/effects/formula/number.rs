@@ -62,7 +62,7 @@ impl<S: Scalar> Number<S> for S {
 pub(super) struct Dual<S> {
     /// Its value.
     pub(super) value: S,
-    /// By the state, or by the current where a voltage goes with that.
+    /// By the state, or by the current where a voltage depends on that.
     pub(super) by_state: S,
     /// By the speed.
     pub(super) by_speed: S,

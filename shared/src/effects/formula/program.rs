@@ -148,7 +148,7 @@ impl Program {
         self.output == Output::Voltage && within
     }
 
-    /// Whether it is a voltage that goes with the current.
+    /// Whether it is a voltage that depends on the current.
     pub(super) fn is_a_resistance(&self) -> bool {
         self.output == Output::Voltage && self.looks_at(Variable::Current)
     }

@@ -64,7 +64,7 @@ impl Program {
         let current = self.looks_at(Variable::Current) || self.looks_at(Variable::Transmitted);
         let sensed = self.output == Output::Angle;
         let winding = self.acts_within_a_part();
-        // A voltage that goes with the command alone is the drive's.
+        // A voltage that depends on the command alone is the drive's.
         let by_command = self.output != Output::Voltage && self.looks_at(Variable::Command);
         let varies = current || by_command || self.goes_with_the_run();
         Needs {
@@ -208,7 +208,7 @@ impl<S: Scalar> Stated<S> {
         self.law(&at).by_state
     }
 
-    /// A voltage that goes with the motion or the current or has a state, as its mean over the part.
+    /// A voltage that depends on the motion or the current or has a state, as its mean over the part.
     #[inline(never)]
     pub(in crate::effects) fn winding(&self, shaft: &Shaft<S>, memory: &Memory<S>) -> Winding<S> {
         if !self.program.acts_within_a_part() {

@@ -48,7 +48,7 @@ impl<S: Scalar> Stated<S> {
             swing,
             ..Dual::constant(value)
         };
-        // Where the motion reverses, what goes with its direction bends.
+        // Where the motion reverses, what depends on its direction bends.
         let speed_change = S::select(reverses(shaft), S::zero(), shaft.speed_change);
         At {
             speed: Dual {

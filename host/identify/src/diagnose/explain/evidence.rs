@@ -238,7 +238,7 @@ fn general(map: &Map) -> String {
         )
     });
     format!(
-        "{:.0} % of the volts missing without it go with the {name}{place}",
+        "{:.0} % of the volts missing without it depend on the {name}{place}",
         100.0 * map.share
     )
 }

@@ -38,7 +38,7 @@ pub enum Load {
 }
 
 impl Load {
-    /// Whether it goes with the commands before.
+    /// Whether it depends on the commands before.
     pub fn remembers(self) -> bool {
         matches!(self, Load::Slewed { .. } | Load::Lagging { .. })
     }

@@ -120,7 +120,7 @@ impl Speed {
         }
     }
 
-    /// The same but for a part that goes with the speed itself, of which every motor has its own.
+    /// The same but for a part that depends on the speed itself, of which every motor has its own.
     pub(super) fn beside_linear(self) -> Self {
         match self {
             Speed::Bending { scale } => Speed::Saturating { scale },

@@ -25,7 +25,7 @@ use winding::{Winding, winding_evidence};
 /// What the current says. `None` without one, or where it says little.
 ///
 /// Where the model explains the motion down to the encoder, its own current has no noise, and the torque's equation tells most. A
-/// torque that the model lacks is in the current and moves the shaft, so that it looks like one that goes with the speed: then the
+/// torque that the model lacks is in the current and moves the shaft, so that it looks like one that depends on the speed: then the
 /// winding's equation, which knows of no torque. Where that has no logged voltage, the inertia alone is taken from the current.
 pub fn current_evidence(
     problem: &FitProblem<'_>,

@@ -27,7 +27,7 @@ pub struct Torque {
 /// Inertia and viscous friction over the torque constant. `None` without a current, or where it says little of the inertia.
 ///
 /// The torques on the shaft are `Kt·i = J·dω/dt + f·ω + T`. The model's `R·i` holds all of these but for the viscous friction that
-/// it has taken for back-EMF, which goes with the speed. So the measured current is regressed on the model's `R·i`, the speed, and a
+/// it has taken for back-EMF, which depends on the speed. So the measured current is regressed on the model's `R·i`, the speed, and a
 /// constant, which is the sensor's zero.
 pub fn torque_evidence(
     problem: &FitProblem<'_>,

@@ -74,7 +74,7 @@ pub(super) const TORQUE_RIPPLE: Outside = Outside {
 
 pub(super) const WINDING_RIPPLE: Outside = Outside {
     name: "winding_ripple",
-    about: "a drop of a*R*i*cos(k*theta + phase) V, a resistance that goes with the angle",
+    about: "a drop of a*R*i*cos(k*theta + phase) V, a resistance that depends on the angle",
     draw: |machine, chance| {
         let [order, phase] = order_and_phase(chance, 6.0);
         vec![

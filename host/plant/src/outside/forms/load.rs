@@ -35,7 +35,7 @@ pub(super) const GEAR_LOSS: Outside = Outside {
 
 pub(super) const LOAD_DRAG: Outside = Outside {
     name: "load_drag",
-    about: "-c*|i|/i0*w/w0, a drag that goes with the load",
+    about: "-c*|i|/i0*w/w0, a drag that depends on the load",
     draw: |machine, chance| {
         let c = 4.0 * torque(machine, chance);
         vec![c, machine.stall_current_a(), machine.top_speed_rad_s()]

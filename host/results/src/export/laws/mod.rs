@@ -43,7 +43,7 @@ fn stated() -> Kind {
     servoid_formula::define(text).expect("a law")
 }
 
-/// A law with two states that goes with the command and the temperature, too.
+/// A law with two states that depends on the command and the temperature, too.
 fn of_everything() -> Kind {
     let text = "sticky: x' = (w - y)*a; y' = k*x; current = -c*x*(1 - b*(temperature - t0)) + d*v*sgn(w); \
                 c = 0.2 in [0, 1] V; a = 1 in [0, 2] 1/rad; k = 90 in [1, 1000] rad/s^2; b = 0.004 in [0, 0.1] 1/degC; t0 = 25 degC; \

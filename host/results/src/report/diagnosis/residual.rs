@@ -20,7 +20,7 @@ pub(super) fn table(
         plain(found.perfect_volts_rms)
     );
     let Some(most) = found.most() else {
-        return out + "   it goes with none of speed, voltage, current and time\n";
+        return out + "   it depends on none of speed, voltage, current and time\n";
     };
     out += &(folded(&format!("   {}", explained(found)), "     ") + "\n");
     let own = wanted.and_then(|against| found.map(against));
@@ -52,7 +52,7 @@ pub(super) fn table(
     out
 }
 
-/// What goes with which quantity, each of what the ones before leave, so that the parts sum.
+/// What depends on which quantity, each of what the ones before leave, so that the parts sum.
 fn explained(found: &ResidualAnalysis) -> String {
     let mut maps: Vec<&Map> = (found.maps.iter())
         .filter(|map| map.beyond_chance && map.own_share >= LEAST)
@@ -92,7 +92,7 @@ pub(super) fn whiteness_text(found: Option<&Whiteness>) -> String {
             "the motor moved too little to tell whether its error is the encoder's alone".to_owned()
         }
         Some(found) if found.is_white() => format!(
-            "what is left does not hang together (mean autocorrelation {:.2}, limit {AUTOCORRELATION_LIMIT}) nor go \
+            "what is left is correlated neither in time (mean autocorrelation {:.2}, limit {AUTOCORRELATION_LIMIT}) nor \
              with the command ({:.1} standard deviations, limit {INPUT_LIMIT})",
             found.autocorrelation, found.input
         ),

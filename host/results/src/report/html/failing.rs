@@ -144,7 +144,7 @@ fn missing(found: &[(&str, ResidualAnalysis)], symbol: &str) -> String {
                 if share > 0.5 {
                     format!(", most of it ({percent}) against {against}")
                 } else {
-                    format!(", of which the largest part, {percent}, goes with {against}")
+                    format!(", of which the largest part, {percent}, depends on {against}")
                 }
             });
             format!(
