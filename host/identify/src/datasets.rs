@@ -3,7 +3,7 @@
 use crate::diagnose::{HeldOut, Remark, holdout, usable};
 use crate::error::Error;
 use crate::fit::{self, Options};
-use crate::late_driver::cut_late_drivers;
+use crate::prepared::prepare;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
 use std::slice;
@@ -80,9 +80,8 @@ impl Datasets {
                 remarks.extend(usable::check(other, options.force)?);
             }
         }
-        for recordings in [&mut fitted, &mut held_out] {
-            remarks.extend(cut_late_drivers(recordings).into_iter().map(Remark::aside));
-        }
+        let prepared = prepare(&mut fitted, &mut held_out);
+        remarks.extend(prepared.into_iter().map(Remark::aside));
         let (fitted, held_out) = (Data::joined(fitted)?, Data::joined(held_out)?);
         for data in [&fitted, &held_out] {
             if fit::is_reversed(data, options) {
@@ -106,8 +105,8 @@ impl Datasets {
 
     fn of_one(mut recording: Recording, options: &Options) -> Result<Self, Error> {
         let mut remarks = usable::check(&recording, options.force)?;
-        let cut = cut_late_drivers(slice::from_mut(&mut recording));
-        remarks.extend(cut.into_iter().map(Remark::aside));
+        let prepared = prepare(slice::from_mut(&mut recording), &mut []);
+        remarks.extend(prepared.into_iter().map(Remark::aside));
         let (first, rest, kind) = holdout::cut(&recording).ok_or_else(|| {
             Error::Failed(format!(
                 "{}: {:.3} s are too short to hold a part of them out; give another recording of the same motor with \

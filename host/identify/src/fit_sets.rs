@@ -4,7 +4,7 @@ use crate::check;
 use crate::error::Error;
 use crate::fit::{Fit, Options};
 use crate::identify::identify_data;
-use crate::late_driver::cut_late_drivers;
+use crate::prepared::prepare;
 use crate::progress::Progress;
 use servoid_engine::problem::Data;
 use servoid_io::recording::Recording;
@@ -46,9 +46,7 @@ impl FitSets {
                     .to_owned(),
             );
         }
-        for recordings in [&mut fitted, &mut held_out] {
-            remarks.extend(cut_late_drivers(recordings));
-        }
+        remarks.extend(prepare(&mut fitted, &mut held_out));
         let scored = !held_out.is_empty();
         Ok(FitSets {
             fitted: Data::joined(fitted)?,

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `check` | what a recording can be trusted for, before anything is fitted to it |
 //! | `late_driver` | drivers that wake after the log has begun |
+//! | `shaft_angle` | recordings that begin at different angles of the shaft |
 //! | `fit` | start by regression, search, uncertainty, physical parameters, scores |
 //! | `likelihood` | a second fit with process noise, for real motion: inertia, delay, standard errors, BIC |
 //! | `diagnose` | which physical effects a recording shows that the model lacks |
@@ -30,6 +31,7 @@ pub mod error;
 mod findings;
 pub mod fit;
 mod fit_sets;
+mod golden_section;
 mod identify;
 mod late_driver;
 pub mod likelihood;
@@ -37,9 +39,11 @@ pub mod likelihood;
 mod noisy_motor;
 pub mod paper;
 pub mod plan;
+mod prepared;
 mod progress;
 pub mod repeats;
 pub mod residual_analysis;
+mod shaft_angle;
 pub mod steady;
 pub mod truth;
 
@@ -51,3 +55,4 @@ pub use fit_sets::FitSets;
 pub use identify::{LEAST_SQUARES, bounded_problem, identify, identify_data};
 pub use late_driver::LateDriver;
 pub use progress::{Progress, Silent};
+pub use shaft_angle::turns;

@@ -161,6 +161,13 @@ impl Recording {
         self.counts == other.counts && self.command == other.command
     }
 
+    /// Adds so many counts to each reading, which need not be whole: then angles are counted from elsewhere.
+    pub fn turn(&mut self, counts: f64) {
+        for count in &mut self.counts {
+            *count += counts;
+        }
+    }
+
     /// Some of the samples.
     pub fn samples(&self, samples: std::ops::Range<usize>) -> Recording {
         self.rows(samples, self.source.clone())

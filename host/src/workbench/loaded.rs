@@ -4,6 +4,7 @@ use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Data;
 use servoid_identify::diagnose::{HeldOut, holdout};
+use servoid_identify::turns;
 use servoid_io::input::{Known, MotorFile, read_recording_from};
 use servoid_io::recording::Recording;
 use std::sync::{Arc, OnceLock};
@@ -26,12 +27,23 @@ pub struct Source {
 /// What messages call the motor file, whether it was a file or fields of the page.
 pub(super) const MOTOR: &str = "what is said of the motor";
 
+/// One of several recordings.
+#[derive(Clone)]
+pub struct Single {
+    source: Source,
+    recording: Recording,
+    /// Counts that were added to its readings.
+    turned: f64,
+}
+
 /// Recordings on the bench that are taken as one: one, or several of one motor.
 pub struct Loaded {
     /// As they came.
     pub sources: Vec<Source>,
     /// Read, in the same order.
     recordings: Vec<Recording>,
+    /// Counts that were added to the readings of each, for all to be in terms of one angle of the shaft.
+    turned: Vec<f64>,
     /// As they are fitted.
     pub data: Arc<Data>,
     /// Facts about the motor.
@@ -73,21 +85,47 @@ impl Loaded {
             known.get_or_insert(motor.known);
             recordings.push(recording);
         }
-        Self::taken(sources, recordings, known.unwrap_or_default())
+        let turned = vec![0.0; recordings.len()];
+        Self::taken(sources, recordings, turned, known.unwrap_or_default())
     }
 
     fn taken(
         sources: Vec<Source>,
-        recordings: Vec<Recording>,
+        mut recordings: Vec<Recording>,
+        mut turned: Vec<f64>,
         known: Known,
     ) -> Result<Self, Error> {
+        if let Some((first, others)) = recordings.split_first_mut() {
+            turn(others, &mut turned[1..], first);
+        }
         Ok(Loaded {
             data: Arc::new(joined(&recordings)?),
             known,
             recordings,
+            turned,
             sources,
             cut: OnceLock::new(),
         })
+    }
+
+    /// The same in terms of the shaft's angle in the first recording of `other`.
+    #[must_use]
+    pub fn in_angle_of(self: Arc<Self>, other: &Loaded) -> Arc<Self> {
+        let (mut recordings, mut turned) = (self.recordings.clone(), self.turned.clone());
+        if let Some(first) = other.recordings.first() {
+            turn(&mut recordings, &mut turned, first);
+        }
+        if turned == self.turned {
+            return self;
+        }
+        let (sources, known) = (self.sources.clone(), self.known.clone());
+        // What was taken together once can be taken together turned.
+        Self::taken(sources, recordings, turned, known).map_or(self, Arc::new)
+    }
+
+    /// Counts that were added to the readings of each.
+    pub fn turned(&self) -> &[f64] {
+        &self.turned
     }
 
     /// These recordings and further ones.
@@ -97,13 +135,19 @@ impl Loaded {
     pub fn with(&self, further: &Loaded) -> Result<Self, Error> {
         let sources = [&self.sources[..], &further.sources].concat();
         let recordings = [&self.recordings[..], &further.recordings].concat();
-        Self::taken(sources, recordings, self.known.clone())
+        let turned = [&self.turned[..], &further.turned].concat();
+        Self::taken(sources, recordings, turned, self.known.clone())
     }
 
-    /// Each of them with its source.
-    pub fn singles(&self) -> impl Iterator<Item = (Source, Recording)> + '_ {
-        let sources = self.sources.iter().cloned();
-        sources.zip(self.recordings.iter().cloned())
+    /// Each of them on its own.
+    pub fn singles(&self) -> impl Iterator<Item = Single> + '_ {
+        let sources = self.sources.iter().zip(&self.turned);
+        let each = sources.zip(&self.recordings);
+        each.map(|((source, turned), recording)| Single {
+            source: source.clone(),
+            recording: recording.clone(),
+            turned: *turned,
+        })
     }
 
     /// These recordings of one motor, of which `known` is known; nothing of none.
@@ -111,14 +155,20 @@ impl Loaded {
     /// # Errors
     /// Recordings that cannot be taken together.
     pub fn of(
-        singles: Vec<(Source, Recording)>,
+        singles: impl IntoIterator<Item = Single>,
         known: &Known,
     ) -> Result<Option<Arc<Self>>, Error> {
-        if singles.is_empty() {
+        let (mut sources, mut recordings, mut turned) = (Vec::new(), Vec::new(), Vec::new());
+        for single in singles {
+            sources.push(single.source);
+            recordings.push(single.recording);
+            turned.push(single.turned);
+        }
+        if sources.is_empty() {
             return Ok(None);
         }
-        let (sources, recordings) = singles.into_iter().unzip();
-        Self::taken(sources, recordings, known.clone()).map(|taken| Some(Arc::new(taken)))
+        let taken = Self::taken(sources, recordings, turned, known.clone())?;
+        Ok(Some(Arc::new(taken)))
     }
 
     /// Name, seconds and samples of each.
@@ -161,6 +211,15 @@ impl Loaded {
                 kind: HeldOut::Recording(last.source.clone()),
             }),
         }
+    }
+}
+
+/// Counts the angles of `others` from where `first` does, and adds to what was `turned` before.
+fn turn(others: &mut [Recording], turned: &mut [f64], first: &Recording) {
+    let turns = turns(first, &others.iter().collect::<Vec<_>>());
+    for ((other, turned), turn) in others.iter_mut().zip(turned).zip(turns) {
+        other.turn(turn);
+        *turned += turn;
     }
 }
 

@@ -48,7 +48,9 @@ pub(super) fn stamp() -> u64 {
 }
 
 impl Recordings {
+    /// Those that are held out are put in terms of the angle of the first that is fitted.
     pub(super) fn new(fitted: Arc<Loaded>, held_out: Option<Arc<Loaded>>) -> Self {
+        let held_out = held_out.map(|other| other.in_angle_of(&fitted));
         Recordings {
             fitted,
             held_out,
@@ -90,10 +92,8 @@ impl Recordings {
         }
         let of = |role: Role| {
             let own = all.iter().zip(roles).filter(|(_, own)| **own == role);
-            Loaded::of(
-                own.map(|(single, _)| single.clone()).collect(),
-                &self.fitted.known,
-            )
+            let own = own.map(|(single, _)| single.clone());
+            Loaded::of(own, &self.fitted.known)
         };
         let fitted = of(Role::Fitted)?.ok_or_else(|| {
             Error::Usage(

@@ -96,12 +96,15 @@ fn sources(recordings: &Recordings) -> Vec<Value> {
         .flat_map(|ignored| ignored.recordings());
     let sources = recordings.all().flat_map(|loaded| &loaded.sources);
     let spans = sources.map(|source| source.span_s);
+    let turned = recordings.all().flat_map(|loaded| loaded.turned());
     fitted
         .chain(held_out.map(|own| (own, "held out")))
         .chain(ignored.map(|own| (own, "ignored")))
-        .zip(spans)
-        .map(|(((name, seconds, samples), role), span)| {
-            json!({ "name": name, "seconds": seconds, "samples": samples, "role": role, "span_s": span })
+        .zip(spans.zip(turned))
+        .map(|(((name, seconds, samples), role), (span, turned))| {
+            json!({
+                "name": name, "seconds": seconds, "samples": samples, "role": role, "span_s": span, "turned_counts": turned,
+            })
         })
         .collect()
 }

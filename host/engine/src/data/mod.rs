@@ -176,6 +176,16 @@ impl Data {
         self
     }
 
+    /// The same with so many counts added to each reading, which need not be whole.
+    #[must_use]
+    pub fn turned(&self, counts: f64) -> Self {
+        let mut turned = self.clone();
+        for count in &mut turned.counts {
+            *count += counts;
+        }
+        turned
+    }
+
     /// Changes of the reading from sample to sample, counts.
     pub fn steps(&self) -> impl Iterator<Item = f64> {
         self.recordings.steps(&self.counts)

@@ -3,6 +3,7 @@
 use super::blocks::Blocks;
 use super::equation::Equation;
 use super::term::{Term, Varied};
+use crate::golden_section::golden_section;
 
 /// Farthest that a number moves, as a factor.
 const REACH: f64 = 2.5;
@@ -92,26 +93,11 @@ impl<'e> Polish<'e> {
         let Some((_, middle)) = best else {
             return terms;
         };
-        let best = golden(cost, (middle - step).max(low), (middle + step).min(high));
+        let best = golden_section(
+            cost,
+            (middle - step).max(low)..(middle + step).min(high),
+            STEPS,
+        );
         at(best)
     }
-}
-
-/// The least of a function of one number (Kiefer 1953).
-fn golden(cost: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    const PART: f64 = 0.618_033_988_749_894_9;
-    let (mut a, mut b) = (high - PART * (high - low), low + PART * (high - low));
-    let (mut at_a, mut at_b) = (cost(a), cost(b));
-    for _ in 0..STEPS {
-        if at_a < at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = high - PART * (high - low);
-            at_a = cost(a);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = low + PART * (high - low);
-            at_b = cost(b);
-        }
-    }
-    if at_a < at_b { a } else { b }
 }

@@ -19,7 +19,7 @@ export function show(bench, heldOut, does) {
     const name = one.name.split(/[\\/]/).at(-1);
     return el("li", { class: `rec ${one.role}`, "data-shown": String(held === heldOut && one.role !== "ignored") },
       el("button", {
-        type: "button", "aria-pressed": String(held === heldOut && one.role !== "ignored"), title: `Show ${one.name} along the models`,
+        type: "button", "aria-pressed": String(held === heldOut && one.role !== "ignored"), title: `Show ${one.name} along the models${turned(one)}`,
         disabled: one.role === "ignored", onclick: () => does.view(held),
       }, el("b", {}, name), el("span", { class: "quiet s12 len" }, one.span_s ? `${one.span_s.map((t) => digits(t, 3)).join("–")} s` : `${digits(one.seconds, 3)} s · ${rate(one)}`)),
       one.span_s ? el("button", { type: "button", class: "whole", title: "Use the whole recording again", "aria-label": `Use the whole of ${name}`, disabled: Boolean(bench.job),
@@ -34,6 +34,10 @@ export function show(bench, heldOut, does) {
   const motor = recording.motor ? `${recording.motor} · ` : "";
   at("about").textContent = `${motor}${digits(recording.supply_v, 3)} ${recording.drive_unit} · ${recording.counts_per_rev} counts/rev${end}`;
   at("drive-name").textContent = `Drive, ${recording.drive_unit}`;
+}
+
+function turned(one) {
+  return one.turned_counts ? `; ${digits(one.turned_counts, 4)} counts are added to its readings: its encoder was zeroed at another angle of the shaft` : "";
 }
 
 function rate(one) {
