@@ -1,5 +1,6 @@
 // The loop of the workbench in a real browser: measured against model, where it fails, what is missing, add, the error falls.
 import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
 import { add, close, drag, error, open, opened, outside, settled, state, tab, test, turnAndResize, workplace } from "./bench.mjs";
 
 const at = workplace(
@@ -20,6 +21,22 @@ async function inSight(page, ids) {
 }
 
 const ALWAYS = ["#error-now", "#ladder", "#lane-angle", "#lane-residual", "#lane-drive", "#strip", "#tree", "#parameters"];
+
+test("a log of an encoder that was zeroed at another angle is turned to that of the first", async () => {
+  const moved = readFileSync(at.desk.path("more.csv"), "utf8").split("\n").map((line) => {
+    const [time, volts, counts, ...rest] = line.split(",");
+    return /^[0-9]/.test(line) ? [time, volts, Number(counts) - 300, ...rest].join(",") : line;
+  });
+  writeFileSync(at.desk.path("moved.csv"), moved.join("\n"));
+  const [bench, page] = await opened(at, "two.csv --validate moved.csv");
+  const turned = (await state(page)).recording.sources.map((one) => one.turned_counts);
+  // One of twelve waves looks like the next.
+  const wave = 2000 / 12;
+  const off = (((turned[1] - 300 + wave / 2) % wave) + wave) % wave - wave / 2;
+  assert.ok(turned[0] === 0 && Math.abs(off) < 1, turned.join());
+  assert.match(await page.getAttribute("#recordings li:nth-child(2) button", "title"), /counts are added to its readings/);
+  await close(page, bench);
+});
 
 test("from the recording to `explained` without scrolling, and each added effect makes the error fall", async () => {
   const [bench, page] = await opened(at, "two.csv --validate more.csv", 1, { viewport: { width: 1280, height: 800 } });
