@@ -1,7 +1,7 @@
 //! By how much the shaft's angle in one recording is ahead of that in another, as torques that repeat with it show.
 
 use super::settings::{
-    AGREE, BESIDE, BETTER, CLEAR, LEAST_COUNTS, MEMORY_S, REACH, STEPS, TRIED_PER_WAVE,
+    AGREE, ALIKE, BESIDE, BETTER, CLEAR, LEAST_COUNTS, MEMORY_S, REACH, RUNS, STEPS, TRIED_PER_WAVE,
 };
 use crate::diagnose::{Budget, Line, built_up, order_lines};
 use crate::fit::{self, Options};
@@ -79,7 +79,8 @@ impl<'a> Reference<'a> {
             .collect()
     }
 
-    /// The angle at which the waves of `other` agree best with those of the first, and its uncertainty, rad.
+    /// The angle at which the waves of `other` agree best with those of the first, and its uncertainty, rad; `None` where they agree as they were
+    /// read, or at no angle.
     fn by_waves(&self, other: &Data) -> Option<(f64, f64)> {
         let lines = clear(other, &self.model);
         let shared = self.lines.iter().filter_map(|first| {
@@ -113,7 +114,8 @@ impl<'a> Reference<'a> {
                 best = (agreement, Some(angle));
             }
         }
-        Some((best.1?, REACH * TAU / highest))
+        let alike = agreement(0.0) > ALIKE;
+        (best.1.filter(|_| !alike)).map(|angle| (angle, REACH * TAU / highest))
     }
 
     /// Friction and the torques whose waves the first recording shows.
@@ -132,7 +134,7 @@ impl<'a> Reference<'a> {
     /// The first recording's motor with these effects.
     fn built_up(&self, effects: &[Kind]) -> Option<Candidate> {
         let stop = AtomicBool::new(false);
-        let budget = Budget::usual(&stop);
+        let budget = Budget::of(RUNS * self.first.len() as u64, &stop);
         built_up(self.first, effects, &with(effects), &budget)
     }
 }

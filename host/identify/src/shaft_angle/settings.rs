@@ -11,6 +11,11 @@ pub const TRIED_PER_WAVE: usize = 32;
 /// Agreement of the waves at the angle that is found, 1 where they are the same. It was 0.990 and more where one was there; 0.8 leaves an amplitude
 /// a factor of two.
 pub const AGREE: f64 = 0.8;
+/// Agreement from which on recordings are taken as they were read, at once: 8 degrees of a wave. It was 0.997 and more where nothing was shifted; of
+/// encoders that were zeroed anywhere one in twenty lies within.
+pub const ALIKE: f64 = 0.99;
+/// Runs of the recording that a fit of the model may take: it need not converge over detents, where its run is held to the readings.
+pub const RUNS: u64 = 500;
 /// Farthest that the angle by a fitted model is from that by the waves, parts of a wave of the highest order.
 pub const REACH: f64 = 0.25;
 /// Steps of the golden section to it: to a thousandth of its reach.
