@@ -2,7 +2,8 @@
 //! seeds, the second recording as it was and with its counts shifted. Cogging and unbalance explained 26 to 97 % of what the motor with Coulomb
 //! friction left, by one wave or by one and its side lobes at up to 16 %; a Stribeck curve showed chance waves of 5 to 8 %.
 
-/// Part of the equation's residual that a wave must explain in both recordings to be compared.
+/// Part of the equation's residual that a wave must explain in both recordings to be compared: an unbalance beside friction half as large again explained
+/// 7 % of what its poor start left, and a false wave turns nothing, since no model errs less by it.
 pub const CLEAR: f64 = 0.03;
 /// The same, parts of what the clearest wave explains: what is less may be its side lobe.
 pub const BESIDE: f64 = 0.5;
