@@ -96,8 +96,18 @@ impl Loaded {
         known: Known,
     ) -> Result<Self, Error> {
         if let Some((first, others)) = recordings.split_first_mut() {
-            turn(others, &mut turned[1..], first);
+            let turns = turns(first, &others.iter().collect::<Vec<_>>());
+            turn(others, &mut turned[1..], turns);
         }
+        Self::lowered(sources, recordings, turned, known)
+    }
+
+    fn lowered(
+        sources: Vec<Source>,
+        recordings: Vec<Recording>,
+        turned: Vec<f64>,
+        known: Known,
+    ) -> Result<Self, Error> {
         Ok(Loaded {
             data: Arc::new(joined(&recordings)?),
             known,
@@ -111,16 +121,17 @@ impl Loaded {
     /// The same in terms of the shaft's angle in the first recording of `other`.
     #[must_use]
     pub fn in_angle_of(self: Arc<Self>, other: &Loaded) -> Arc<Self> {
-        let (mut recordings, mut turned) = (self.recordings.clone(), self.turned.clone());
-        if let Some(first) = other.recordings.first() {
-            turn(&mut recordings, &mut turned, first);
-        }
-        if turned == self.turned {
+        let own: Vec<&Recording> = self.recordings.iter().collect();
+        let first = other.recordings.first();
+        let turns = first.map_or(Vec::new(), |first| turns(first, &own));
+        if turns.iter().all(|turn| *turn == 0.0) {
             return self;
         }
+        let (mut recordings, mut turned) = (self.recordings.clone(), self.turned.clone());
+        turn(&mut recordings, &mut turned, turns);
         let (sources, known) = (self.sources.clone(), self.known.clone());
         // What was taken together once can be taken together turned.
-        Self::taken(sources, recordings, turned, known).map_or(self, Arc::new)
+        Self::lowered(sources, recordings, turned, known).map_or(self, Arc::new)
     }
 
     /// Counts that were added to the readings of each.
@@ -214,11 +225,10 @@ impl Loaded {
     }
 }
 
-/// Counts the angles of `others` from where `first` does, and adds to what was `turned` before.
-fn turn(others: &mut [Recording], turned: &mut [f64], first: &Recording) {
-    let turns = turns(first, &others.iter().collect::<Vec<_>>());
-    for ((other, turned), turn) in others.iter_mut().zip(turned).zip(turns) {
-        other.turn(turn);
+/// Adds `turns` to the readings, and to what was `turned` before.
+fn turn(recordings: &mut [Recording], turned: &mut [f64], turns: Vec<f64>) {
+    for ((recording, turned), turn) in recordings.iter_mut().zip(turned).zip(turns) {
+        recording.turn(turn);
         *turned += turn;
     }
 }
