@@ -65,7 +65,7 @@ fn with_effects(plan: Plan<f64>, kinds: &[Kind], rng: &mut Generator) -> Plan<f6
         let parameters = kind.parameters().iter();
         let values: Vec<f64> = parameters
             .map(|p| {
-                if p.form {
+                if p.form.is_some() {
                     return p.range.0 + (p.range.1 - p.range.0) * rng::uniform::<f64>(rng);
                 }
                 let value = p.typical * between(rng, 1.0 / 3.0, 3.0);

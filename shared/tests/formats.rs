@@ -83,7 +83,7 @@ fn every_effect_in_every_format_stays_within_one_count_of_f64() {
 fn in_all_forms(kind: Kind, bench: &Bench) -> Vec<(Kind, Vec<f64>)> {
     let mut all = vec![(kind, bench.typical(kind))];
     for (index, parameter) in kind.parameters().iter().enumerate() {
-        if parameter.form {
+        if parameter.form.is_some() {
             for end in [parameter.range.0, parameter.range.1] {
                 // Not at the typical size: a form that jumps would jump at a command of the mix, on either side of it by the
                 // format's last digit.

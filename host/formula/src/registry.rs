@@ -172,7 +172,7 @@ fn describe(definition: &Definition) -> Description {
             typical: parameter.start,
             amplitude,
             neutral: amplitude.then_some(0.0),
-            form: false,
+            form: None,
         })
         .collect();
     Description {

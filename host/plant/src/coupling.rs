@@ -12,6 +12,13 @@ pub struct Coupling {
     pub damping_ratio: f64,
     /// Half of the gap, rad: the load is free while the twist is smaller.
     pub half_gap_rad: f64,
+    /// Dry friction of the load, N·m.
+    pub friction_n_m: f64,
+}
+
+/// Share of the dry friction that the load has, if the motor has none.
+pub(super) fn share_alone(friction_n_m: f64) -> f64 {
+    if friction_n_m > 0.0 { 1.0 } else { 0.0 }
 }
 
 impl Coupling {
@@ -22,6 +29,7 @@ impl Coupling {
             compliance_rad_n_m: self.compliance_rad_n_m + other.compliance_rad_n_m,
             damping_ratio: self.damping_ratio.max(other.damping_ratio),
             half_gap_rad: self.half_gap_rad + other.half_gap_rad,
+            friction_n_m: self.friction_n_m + other.friction_n_m,
         }
     }
 }
@@ -47,6 +55,8 @@ pub(super) struct Shaft {
     stiffness_n_m_rad: f64,
     damping_n_m_s: f64,
     half_gap_rad: f64,
+    /// Dry friction of the load, N·m.
+    pub(super) friction_n_m: f64,
 }
 
 impl Shaft {
@@ -61,6 +71,7 @@ impl Shaft {
             stiffness_n_m_rad: stiffness,
             damping_n_m_s: 2.0 * coupling.damping_ratio * (stiffness * reduced).sqrt(),
             half_gap_rad: coupling.half_gap_rad,
+            friction_n_m: coupling.friction_n_m,
         }
     }
 

@@ -63,9 +63,13 @@ impl Plant<'_> {
         }
         let bend = self.runge_kutta(feed, after);
         let settles = self.grip_changes(&bend);
+        let load_settles = self.load_grip_changes(&bend);
         self.state = bend;
         if settles {
             self.settle();
+        }
+        if load_settles {
+            self.settle_load();
         }
         self.look_around();
         after
@@ -80,6 +84,7 @@ impl Plant<'_> {
     /// True if the right-hand side has a kink or a jump between the present state and `next`.
     fn bends_before(&self, next: &State) -> bool {
         self.grip_changes(next)
+            || self.load_grip_changes(next)
             || self.flank_at(next) != self.flank
             || self.pieces_at(next) != self.pieces
     }
@@ -91,6 +96,31 @@ impl Plant<'_> {
             Grip::Sliding(direction) => state.speed * direction < 0.0,
             Grip::Held => !self.holds(state),
         }
+    }
+
+    /// True if the load has stopped sliding, or the torque on it exceeds the friction that holds it.
+    fn load_grip_changes(&self, state: &State) -> bool {
+        match self.load_grip {
+            Grip::None => false,
+            Grip::Sliding(direction) => state.load_speed * direction < 0.0,
+            Grip::Held => self.on_load(state).1,
+        }
+    }
+
+    /// Torque on the load, N·m, but for its friction, and whether it exceeds that.
+    fn on_load(&self, state: &State) -> (f64, bool) {
+        let torque = self.torques(state, &self.winding(state)).shaft;
+        let friction = self.shaft.map_or(0.0, |shaft| shaft.friction_n_m);
+        (torque, torque.abs() > friction)
+    }
+
+    /// Decides if friction holds a load at rest, or which way it slides.
+    fn settle_load(&mut self) {
+        self.state.load_speed = 0.0;
+        self.load_grip = match self.on_load(&self.state) {
+            (torque, true) => Grip::Sliding(torque.signum()),
+            _ => Grip::Held,
+        };
     }
 
     fn holds(&self, state: &State) -> bool {

@@ -4,10 +4,10 @@
 //! L di/dt   = v − R i − Kb ω                        armature (Krause et al., "Analysis of Electric
 //! J dω/dt   = Kt i − b ω + ΣT − Tshaft − F sgn ω    Machinery": machine with a constant field)
 //!             − ½ ω² dJ/dθ                           for a J that the angle changes
-//! Jl dωl/dt = Tshaft                               load side, if there is one
+//! Jl dωl/dt = Tshaft − Fl sgn ωl                   load side, if there is one
 //! ```
 //!
-//! F is the budget of dry friction. The shaft is either sliding in a known direction or held, and a load
+//! F is the budget of dry friction, Fl that of the load. The shaft is either sliding in a known direction or held, and a load
 //! behind a gap is driven forward, backward or not at all: [`Grip`] and [`Flank`] fix that while
 //! the equations are evaluated, so that their right-hand side is smooth. `integrate` moves the
 //! state forward and changes both when it is time.
@@ -40,7 +40,7 @@ pub(super) struct State {
     pub(super) speed: f64,
     pub(super) current: f64,
     load_angle: f64,
-    load_speed: f64,
+    pub(super) load_speed: f64,
     memory: [f64; MEMORIES],
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Torques {
     /// From the motor to its load, with its sign.
     pub(super) transmitted: f64,
     /// From the motor side to the load side of the coupling.
-    shaft: f64,
+    pub(super) shaft: f64,
 }
 
 /// The machine with its effects, in motion.
@@ -89,6 +89,8 @@ pub(super) struct Plant<'a> {
     pub(super) motor_inertia_kg_m2: f64,
     pub(super) substep_hz: f64,
     pub(super) grip: Grip,
+    /// How dry friction grips the load.
+    pub(super) load_grip: Grip,
     pub(super) flank: Flank,
     pub(super) pieces: i64,
     pub(super) state: State,
@@ -136,6 +138,10 @@ impl<'a> Plant<'a> {
             shaft,
             substep_hz,
             grip: Grip::None,
+            load_grip: match shaft {
+                Some(shaft) if shaft.friction_n_m > 0.0 => Grip::Held,
+                _ => Grip::None,
+            },
             flank: Flank::None,
             pieces: 0,
             state,
@@ -196,9 +202,14 @@ impl<'a> Plant<'a> {
                 Feed::Amps(_) | Feed::Open => 0.0,
             },
             load_angle: state.load_speed,
-            load_speed: self
-                .shaft
-                .map_or(0.0, |shaft| torques.shaft / shaft.load_inertia_kg_m2),
+            load_speed: self.shaft.map_or(0.0, |shaft| {
+                let accelerating = match self.load_grip {
+                    Grip::None => torques.shaft,
+                    Grip::Sliding(direction) => torques.shaft - direction * shaft.friction_n_m,
+                    Grip::Held => 0.0,
+                };
+                accelerating / shaft.load_inertia_kg_m2
+            }),
             memory,
         }
     }

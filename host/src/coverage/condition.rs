@@ -208,7 +208,7 @@ fn own_truth(kind: Kind, values: &[f64]) -> Vec<(String, f64)> {
     }
     let parameters = kind.parameters().iter().zip(values);
     parameters
-        .filter(|(parameter, _)| !parameter.form && parameter.quantity != Quantity::PerRev)
+        .filter(|(parameter, _)| parameter.form.is_none() && parameter.quantity != Quantity::PerRev)
         .map(|(parameter, &value)| (format!("{}.{}", kind.name(), parameter.name), value))
         .collect()
 }

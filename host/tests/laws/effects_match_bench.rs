@@ -38,14 +38,23 @@ fn record(machine: Machine, effects: Vec<Hidden>, plan: &[Experiment]) -> Run {
     bench.run(&drive).expect("the bench runs")
 }
 
-/// RMS error of the model in counts, with the true parameters and the mean error removed.
-fn rms(machine: &Machine, effects: &[Hidden], run: &Run, substeps: u16) -> f64 {
+/// Effects of the bench in the terms of the model.
+fn truths(machine: &Machine, effects: &[Hidden]) -> EffectSet<f64> {
     let mut set = EffectSet::default();
     for hidden in effects {
         let kind = Kind::by_name(hidden.name()).expect("the catalogues agree");
         let values = hidden.truth(machine, COUNTS_PER_REV);
         set.push(kind, &values).expect("a valid effect");
     }
+    set
+}
+
+/// RMS error of the model in counts, with the true parameters and the mean error removed.
+fn rms(machine: &Machine, effects: &[Hidden], run: &Run, substeps: u16) -> f64 {
+    rms_of(machine, truths(machine, effects), run, substeps)
+}
+
+fn rms_of(machine: &Machine, set: EffectSet<f64>, run: &Run, substeps: u16) -> f64 {
     let units = PerUnit::new(
         machine.supply_v,
         1.3 * machine.top_speed_rad_s(),
@@ -156,6 +165,46 @@ fn every_other_form_leaves_the_encoders_own_error_on_every_machine() {
                 );
                 println!("{case}: {error:.4} counts RMS");
                 assert!(LIMITS.contains(&error), "{case}: {error} counts RMS");
+            }
+        }
+    }
+}
+
+/// Parts of the dry friction that the load has.
+const SHARES: [f64; 3] = [0.3, 0.7, 1.0];
+
+#[test]
+fn friction_on_both_sides_of_a_gap_or_a_spring_leaves_the_encoders_own_error() {
+    for (m, name) in PRESETS.iter().enumerate() {
+        let machine = Machine::preset(name).expect("a preset");
+        for (k, kind) in [Kind::Backlash, Kind::Compliance].into_iter().enumerate() {
+            for (l, share) in SHARES.into_iter().enumerate() {
+                if !has_its_turn(m + k + l, PRESETS.len()) {
+                    continue;
+                }
+                let torque = 0.03 * machine.stall_torque_n_m();
+                let mut coupling = Hidden::typical(kind.name(), &machine).expect("a coupling");
+                coupling
+                    .set("friction", share * torque)
+                    .expect("in its range");
+                let mut own = Hidden::typical("coulomb", &machine).expect("friction");
+                own.set("torque", (1.0 - share) * torque)
+                    .expect("in its range");
+                let run = record(machine, vec![own.clone(), coupling.clone()], &COMMISSIONING);
+                own.set("torque", torque).expect("in its range");
+                let mut set = truths(&machine, &[own]);
+                let mut values = coupling.truth(&machine, COUNTS_PER_REV);
+                *values.last_mut().expect("the share") = share;
+                set.push(kind, &values).expect("a valid effect");
+                for (substeps, limits) in [(COARSE, COARSE_LIMITS), (FINE, LIMITS)] {
+                    let error = rms_of(&machine, set.clone(), &run, substeps);
+                    let case = format!(
+                        "{name} with {share} of the friction behind {} at {substeps} substeps",
+                        kind.name()
+                    );
+                    println!("{case}: {error:.4} counts RMS");
+                    assert!(limits.contains(&error), "{case}: {error} counts RMS");
+                }
             }
         }
     }

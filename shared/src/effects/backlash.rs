@@ -8,7 +8,8 @@ use core::marker::PhantomData;
 
 /// Part of the machine's inertia is a load that is driven only while the flanks of a gap touch; the
 /// encoder sits on the motor. The flanks are a spring and a damper, given by the period of the two
-/// inertias against each other while they touch.
+/// inertias against each other while they touch. A share of the dry friction acts on the load: that of a gearbox, which holds the load while
+/// the motor crosses the gap.
 #[derive(Clone, Copy, Debug)]
 pub struct Backlash<S>(PhantomData<S>);
 
@@ -25,6 +26,7 @@ impl<S: Scalar> Effect<S> for Backlash<S> {
             Parameter::shape("contact_period", Quantity::Time, (0.0005, 0.02), 0.002)
                 .widening_to(0.2),
             Parameter::shape("contact_damping", Quantity::Ratio, (0.0, 1.5), 0.7),
+            Parameter::friction_share("friction_share"),
         ],
         equation: "T = k*(twist -+ gap/2) + d*d(twist)/dt beyond the gap, never pulling; 0 within",
         signature: "acceleration too high just after a reversal of the torque, then a knock",
@@ -35,11 +37,12 @@ impl<S: Scalar> Effect<S> for Backlash<S> {
             // A gap that is closed. Its flanks are stiffer than many a shaft.
             contains: &[Contained {
                 name: "compliance",
-                values: &[Value::Own(2), Value::Own(1), Value::Own(3)],
+                values: &[Value::Own(2), Value::Own(1), Value::Own(3), Value::Own(4)],
                 at_rest: &[(0, 1e-6)],
                 whole: false,
             }],
             starts: Starts::Shares(&[(0, &[1.0, 0.4]), (1, &[1.0, 0.4, 1.75]), (2, &[1.0, 0.3])]),
+            both_forms: true,
             series_parallel: false,
             ..Facts::PLAIN
         },
@@ -58,12 +61,10 @@ impl<S: Scalar> Effect<S> for Backlash<S> {
         let half_gap = values[0] / (units.speed * units.interval) * R::from_f64(0.5);
         let period = units.lower(values[2], Quantity::Time);
         let (load_share, damping_ratio) = (values[1], values[3]);
-        Some(Coupling::new(
-            load_share,
-            machine.inertia,
-            period,
-            damping_ratio,
+        Some(Coupling {
             half_gap,
-        ))
+            friction_share: values[4],
+            ..Coupling::new(load_share, machine.inertia, period, damping_ratio)
+        })
     }
 }

@@ -8,7 +8,7 @@ use core::marker::PhantomData;
 
 /// Part of the machine's inertia is a load on an elastic shaft; the encoder sits on the motor. The
 /// spring is given by the period of the two inertias against each other, `2π·√(Jm·Jl/(J·k))`: at zero
-/// it is rigid.
+/// it is rigid. A share of the dry friction acts on the load.
 #[derive(Clone, Copy, Debug)]
 pub struct Compliance<S>(PhantomData<S>);
 
@@ -23,6 +23,7 @@ impl<S: Scalar> Effect<S> for Compliance<S> {
             Parameter::amplitude("period", Quantity::Time, (0.0, 0.1), 0.033).widening_to(1.0),
             Parameter::shape("load_share", Quantity::Ratio, (0.05, 0.95), 0.4),
             Parameter::shape("damping_ratio", Quantity::Ratio, (0.0, 1.0), 0.05),
+            Parameter::friction_share("friction_share"),
         ],
         equation: "T = k*twist + d*d(twist)/dt on the motor and against the load",
         signature: "ringing after steps; a notch and a peak in the frequency response",
@@ -58,14 +59,10 @@ impl<S: Scalar> Effect<S> for Compliance<S> {
         machine: &Machine<R>,
     ) -> Option<Coupling<R>> {
         let period = units.lower(values[0], Quantity::Time);
-        let none = R::zero();
         let (load_share, damping_ratio) = (values[1], values[2]);
-        Some(Coupling::new(
-            load_share,
-            machine.inertia,
-            period,
-            damping_ratio,
-            none,
-        ))
+        Some(Coupling {
+            friction_share: values[3],
+            ..Coupling::new(load_share, machine.inertia, period, damping_ratio)
+        })
     }
 }

@@ -29,9 +29,18 @@ pub struct Parameter {
     /// Value, in the same measure as the range, at which the effect vanishes; `None` for a
     /// parameter that only shapes it.
     pub neutral: Option<f64>,
-    /// Whether it bends the textbook's equation, which it is at 0, towards a relative of it. It is held there until a
-    /// recording speaks for another form, so that freedom costs nothing where the textbook is right.
-    pub form: bool,
+    /// Whether it changes the textbook's equation, which it is at 0. It is held there until a recording speaks for another form, so that
+    /// freedom costs nothing where the textbook is right.
+    pub form: Option<Form>,
+}
+
+/// How a parameter changes the textbook's equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// It blends the equation, at 0, into a relative of it, at 1.
+    Blend,
+    /// It is the share, from 0 to 1, of the dry friction of the other effects that acts elsewhere.
+    FrictionShare,
 }
 
 impl Parameter {
@@ -50,7 +59,7 @@ impl Parameter {
             typical,
             amplitude: true,
             neutral: Some(0.0),
-            form: false,
+            form: None,
         }
     }
 
@@ -69,7 +78,7 @@ impl Parameter {
             typical,
             amplitude: false,
             neutral: None,
-            form: false,
+            form: None,
         }
     }
 
@@ -77,8 +86,16 @@ impl Parameter {
     /// inside the range. Where a model does not state it, it is 0.
     pub const fn form(name: &'static str) -> Self {
         Parameter {
-            form: true,
+            form: Some(Form::Blend),
             ..Parameter::shape(name, Quantity::Ratio, FORMS, 0.0)
+        }
+    }
+
+    /// A [share of the dry friction](Form::FrictionShare). Where a model does not state it, it is 0.
+    pub const fn friction_share(name: &'static str) -> Self {
+        Parameter {
+            form: Some(Form::FrictionShare),
+            ..Parameter::shape(name, Quantity::Ratio, (0.0, 1.0), 0.0)
         }
     }
 

@@ -44,7 +44,7 @@ mod set;
 mod shaft;
 mod tangent;
 
-pub use describe::{Description, MAX_PARAMETERS, Parameter, Place};
+pub use describe::{Description, Form, MAX_PARAMETERS, Parameter, Place};
 pub use facts::{AtSpeed, Contained, Evidence, Facts, Order, Other, Pair, Starts, ToldFrom, Value};
 pub use lowered::Lowered;
 pub use set::EffectSet;

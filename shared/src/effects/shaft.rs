@@ -263,19 +263,22 @@ pub struct Coupling<R> {
     pub damping_ratio: R,
     /// Half of the gap, in base speed × interval.
     pub half_gap: R,
+    /// Share of the dry friction that acts on the load.
+    pub friction_share: R,
 }
 
 impl<R: Real> Coupling<R> {
     /// Two inertias that swing against each other with `period` (in intervals), sharing the
-    /// inertia of a machine.
-    pub fn new(load_share: R, inertia: R, period: R, damping_ratio: R, half_gap: R) -> Self {
+    /// inertia of a machine; without a gap, and with all dry friction on the motor.
+    pub fn new(load_share: R, inertia: R, period: R, damping_ratio: R) -> Self {
         let reduced = load_share * (R::from_f64(1.0) - load_share) * inertia;
         let per_radian = period / R::from_f64(core::f64::consts::TAU);
         Coupling {
             load_share,
             compliance: per_radian * per_radian / reduced,
             damping_ratio,
-            half_gap,
+            half_gap: R::zero(),
+            friction_share: R::zero(),
         }
     }
 
@@ -287,6 +290,7 @@ impl<R: Real> Coupling<R> {
             compliance: self.compliance + other.compliance,
             damping_ratio: self.damping_ratio.max(other.damping_ratio),
             half_gap: self.half_gap + other.half_gap,
+            friction_share: self.friction_share.max(other.friction_share),
         }
     }
 }

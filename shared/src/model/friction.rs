@@ -55,6 +55,8 @@ struct Trial<S: Scalar> {
     turns_back: S::Mask,
     /// The pull outgrew what friction can hold.
     breaks_loose: S::Mask,
+    /// The load stopped or reversed.
+    load_turns_back: S::Mask,
 }
 
 impl<S: Scalar> Trial<S> {
@@ -68,11 +70,8 @@ impl<S: Scalar> Trial<S> {
         forces: &Forces<S>,
         open: bool,
     ) -> Self {
-        let Forces {
-            volts,
-            torque,
-            budget,
-        } = *forces;
+        let Forces { volts, torque, .. } = *forces;
+        let (budget, behind) = mechanics.shared(&forces.budget);
         let zero = S::zero();
         let pull = from.current - torque - mechanics.load(from, side);
         let sense = direction(from.speed, pull, &budget);
@@ -89,14 +88,27 @@ impl<S: Scalar> Trial<S> {
             end.twist = from.twist + S::select(holds, stuck.twist, free.twist);
             end.slip = from.slip + S::select(holds, stuck.slip, free.slip);
         }
+        let mut travel = S::select(holds, zero, free.angle);
+        let mut load_turns_back = zero.less(zero);
+        if let Some((by, turns_back)) =
+            mechanics.brake(level, from, &end, side, holds, behind, open)
+        {
+            end.current = end.current + by.current;
+            end.speed = end.speed + by.speed;
+            end.twist = end.twist + by.twist;
+            end.slip = end.slip + by.slip;
+            travel = travel + by.angle;
+            load_turns_back = turns_back;
+        }
         let pull_after = end.current - torque - mechanics.load(&end, side);
         Trial {
             end,
-            travel: S::select(holds, zero, free.angle),
+            travel,
             pull: (pull, pull_after),
             holds,
             turns_back: (end.speed * sense).less(zero),
             breaks_loose: budget.holding.less(pull_after.abs()).and(holds),
+            load_turns_back,
         }
     }
 
@@ -189,7 +201,8 @@ pub fn step_with_events<S: Scalar, M: Mechanics<S>>(
                 let mut trial = Trial::take(mechanics, level, motion, side, forces, open);
                 let end_side = mechanics.side(&trial.end);
                 let contact = M::COUPLED && is_zero(end_side - side).not().any();
-                if (trial.has_event() || contact) && substeps.halve() {
+                let located = trial.has_event() || trial.load_turns_back.any() || contact;
+                if (located || level < mechanics.longest()) && substeps.halve() {
                     continue;
                 }
                 if contact {
@@ -201,7 +214,8 @@ pub fn step_with_events<S: Scalar, M: Mechanics<S>>(
                     trial.resolve_contact(&touching, S::select(lands, share, S::zero()));
                 }
                 if trial.has_event() {
-                    trial.resolve_event(mechanics, level, &forces.budget);
+                    let (budget, _) = mechanics.shared(&forces.budget);
+                    trial.resolve_event(mechanics, level, &budget);
                 }
                 trial.end.angle = motion.angle.advance(trial.travel, counts_per_unit);
                 *motion = trial.end;

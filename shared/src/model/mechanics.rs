@@ -2,6 +2,7 @@
 
 use super::state::Motion;
 use super::substep_map::SubstepTiming;
+use crate::effects::Budget;
 use crate::scalar::Scalar;
 
 /// What a substep adds to the state.
@@ -51,6 +52,35 @@ pub trait Mechanics<S: Scalar> {
 
     /// Speed that a held torque against positive rotation adds within a substep, per torque.
     fn speed_per_torque(&self, level: usize) -> S::Coefficient;
+
+    /// Level of the longest substep that may be taken as one.
+    #[inline(always)]
+    fn longest(&self) -> usize {
+        0
+    }
+
+    /// Dry friction of the motor, and the budget of that of its load.
+    #[inline(always)]
+    fn shared(&self, budget: &Budget<S>) -> (Budget<S>, S) {
+        (*budget, S::zero())
+    }
+
+    /// What dry friction of at most `budget` on the load adds to a substep that ends at `end` without it, and whether the load stops or
+    /// reverses; `held` where friction holds the motor. `None` where there is no such friction.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "a substep, and how it ended")]
+    fn brake(
+        &self,
+        _level: usize,
+        _from: &Motion<S>,
+        _end: &Motion<S>,
+        _side: S,
+        _held: S::Mask,
+        _budget: S,
+        _open: bool,
+    ) -> Option<(Increment<S>, S::Mask)> {
+        None
+    }
 
     /// Torque of the load on the motor shaft, against positive rotation.
     #[inline(always)]

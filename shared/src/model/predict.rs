@@ -278,7 +278,8 @@ impl<S: Scalar, M: Mechanics<S>> Substep<'_, S, M> {
         }
         let load = self.mechanics.load(&self.state.motion, self.side);
         let pull = self.start.current - forces.torque - load;
-        direction(self.start.speed, pull, &forces.budget) * forces.budget.moving
+        let (budget, _) = self.mechanics.shared(&forces.budget);
+        direction(self.start.speed, pull, &budget) * budget.moving
     }
 
     /// The forces at `shaft`, with a torque `further` that is known already.

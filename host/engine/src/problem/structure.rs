@@ -6,7 +6,7 @@
 use super::unknown::{Scale, Unknown};
 use crate::data::Data;
 use crate::simulation::Candidate;
-use shared::effects::{EffectSet, Kind};
+use shared::effects::{EffectSet, Form, Kind};
 use shared::model::MAX_DELAY;
 use shared::motor::{Machine, Physical, Response};
 use shared::units::Quantity;
@@ -73,7 +73,7 @@ impl Structure {
                 let scaled = |x| parameter.scaled(x, data.supply, no_load);
                 let name = format!("{}.{}", kind.name(), parameter.name);
                 let unit = parameter.quantity.unit();
-                if parameter.form {
+                if parameter.form.is_some() {
                     let (low, high) = parameter.range;
                     let range = (scaled(low), scaled(high));
                     unknowns.push(Unknown::held(&name, unit, 0.0, range));
@@ -161,14 +161,20 @@ impl Structure {
         (freed.held() < self.held()).then_some(freed)
     }
 
-    /// The same with the form of `kind` held at `form`.
+    /// The same with the form of `kind` held at `form`; a share of friction is searched for where it is not zero.
     #[must_use]
     pub fn with_form_at(mut self, kind: Kind, form: f64) -> Self {
-        for parameter in kind.parameters().iter().filter(|parameter| parameter.form) {
+        for parameter in kind.parameters() {
+            let Some(own) = parameter.form else {
+                continue;
+            };
             let name = format!("{}.{}", kind.name(), parameter.name);
             let of_kind = |unknown: &&mut Unknown| unknown.name == name;
             for unknown in self.unknowns.iter_mut().filter(of_kind) {
-                unknown.hold_at(form);
+                match own {
+                    Form::FrictionShare if form != 0.0 => unknown.free(),
+                    _ => unknown.hold_at(form),
+                }
             }
         }
         self

@@ -2,6 +2,7 @@
 
 use super::{Effect, Kind, Param};
 use crate::Coupling;
+use crate::coupling::share_alone;
 use std::f64::consts::TAU;
 
 /// Part of the inertia is the load's, and it is driven only while the flanks touch: the torque passed on
@@ -14,6 +15,7 @@ struct Backlash {
     contact_hz: f64,
     damping_ratio: f64,
     inertia_kg_m2: f64,
+    friction_n_m: f64,
 }
 
 pub(super) static KIND: Kind = Kind {
@@ -53,6 +55,14 @@ pub(super) static KIND: Kind = Kind {
             range: (0.0, 2.0),
             typical: |_| 0.7,
         },
+        Param {
+            name: "friction",
+            unit: "N*m",
+            about: "dry friction of the load",
+            scales: false,
+            range: (0.0, f64::INFINITY),
+            typical: |_| 0.0,
+        },
     ],
     other_laws: &[],
     build: |values, machine| {
@@ -62,6 +72,7 @@ pub(super) static KIND: Kind = Kind {
             contact_hz: values[2],
             damping_ratio: values[3],
             inertia_kg_m2: machine.inertia_kg_m2,
+            friction_n_m: values[4],
         })
     },
     draw: |_, _, random| {
@@ -71,7 +82,10 @@ pub(super) static KIND: Kind = Kind {
             ("damping", random.uniform(0.4, 1.0)),
         ]
     },
-    truth: |values, _, _| vec![values[0], values[1], 1.0 / values[2], values[3]],
+    truth: |values, _, _| {
+        let share = share_alone(values[4]);
+        vec![values[0], values[1], 1.0 / values[2], values[3], share]
+    },
 };
 
 impl Effect for Backlash {
@@ -85,6 +99,7 @@ impl Effect for Backlash {
             compliance_rad_n_m: 1.0 / (reduced * (TAU * self.contact_hz).powi(2)),
             damping_ratio: self.damping_ratio,
             half_gap_rad: self.half_gap_rad,
+            friction_n_m: self.friction_n_m,
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Compliance: the load hangs on an elastic shaft.
 
 use super::{Effect, Kind, Param};
+use crate::coupling::share_alone;
 use crate::{Coupling, Machine};
 use std::f64::consts::TAU;
 
@@ -10,6 +11,7 @@ struct Compliance {
     compliance_rad_n_m: f64,
     load_share: f64,
     damping_ratio: f64,
+    friction_n_m: f64,
 }
 
 pub(super) static KIND: Kind = Kind {
@@ -41,6 +43,14 @@ pub(super) static KIND: Kind = Kind {
             range: (0.0, 2.0),
             typical: |_| 0.05,
         },
+        Param {
+            name: "friction",
+            unit: "N*m",
+            about: "dry friction of the load",
+            scales: false,
+            range: (0.0, f64::INFINITY),
+            typical: |_| 0.0,
+        },
     ],
     other_laws: &[],
     build: |values, _| {
@@ -48,6 +58,7 @@ pub(super) static KIND: Kind = Kind {
             compliance_rad_n_m: values[0],
             load_share: values[1],
             damping_ratio: values[2],
+            friction_n_m: values[3],
         })
     },
     draw: |_, _, random| {
@@ -60,7 +71,7 @@ pub(super) static KIND: Kind = Kind {
         let share = values[1];
         let reduced = share * (1.0 - share) * machine.inertia_kg_m2;
         let period = TAU * (values[0] * reduced).sqrt();
-        vec![period, share, values[2]]
+        vec![period, share, values[2], share_alone(values[3])]
     },
 };
 
@@ -79,6 +90,7 @@ impl Effect for Compliance {
             compliance_rad_n_m: self.compliance_rad_n_m,
             damping_ratio: self.damping_ratio,
             half_gap_rad: 0.0,
+            friction_n_m: self.friction_n_m,
         })
     }
 }

@@ -122,7 +122,7 @@ impl Subject {
                     .push(refer(&name, value, parameter.quantity.unit())?);
                 let stated = values.iter().filter(|v| v.name == name).nth(earlier);
                 // A form that nobody searched for is the textbook's.
-                let determined = stated.map_or(parameter.form, |v| v.determined);
+                let determined = stated.map_or(parameter.form.is_some(), |v| v.determined);
                 term.determined.push(determined);
             }
             Ok(term)

@@ -249,7 +249,7 @@ pub(super) fn terms(
             let name = format!("{effect}.{}", parameter.name);
             let at = left.iter().position(|known| known.name == name);
             // Results from before the effect had a form have the textbook's.
-            if at.is_none() && parameter.form {
+            if at.is_none() && parameter.form.is_some() {
                 values.push(0.0);
                 continue;
             }
@@ -320,9 +320,9 @@ mod tests {
                 let read = lacking.candidate("model");
                 match read {
                     Ok(read) => assert_eq!(format!("{read:?}"), format!("{candidate:?}")),
-                    Err(_) => assert!(!parameter.form, "{kind:?}.{}", parameter.name),
+                    Err(_) => assert!(parameter.form.is_none(), "{kind:?}.{}", parameter.name),
                 }
-                assert_eq!(lacking.candidate("model").is_ok(), parameter.form);
+                assert_eq!(lacking.candidate("model").is_ok(), parameter.form.is_some());
             }
         }
     }

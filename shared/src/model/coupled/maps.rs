@@ -1,6 +1,7 @@
 //! The exact maps of a motor and its load while the flanks touch, made in scaled units (see the module above).
 
 use super::SubstepTiming;
+use super::load_friction::{Brake, Brakes};
 use crate::discretise::{Discretisation, LinearMap, LinearSystem, scaled};
 use crate::effects::Coupling;
 use crate::error::ModelError;
@@ -20,6 +21,8 @@ pub struct Touching<S: Scalar> {
     pub held: [[S::Coefficient; 2]; 2],
     /// Twist per slip while the load is free.
     pub flight: S::Coefficient,
+    /// What dry friction on the load does.
+    pub brakes: Brakes<S>,
 }
 
 lanes!(Touching {
@@ -27,7 +30,8 @@ lanes!(Touching {
     driven,
     coast,
     held,
-    flight
+    flight,
+    brakes
 });
 
 /// A machine split into motor and load, per unit.
@@ -89,6 +93,7 @@ impl<R: Real> Split<R> {
         let (x, s) = (turn, self.twice_damping * turn);
         let (mx, ms) = (self.share * x, self.share * s);
         let load = R::from_f64(1.0) - self.share;
+        let behind = push * load / self.share;
         let driven = LinearSystem {
             states: [
                 [-rate, -(machine.kb * rate), zero, zero],
@@ -96,17 +101,22 @@ impl<R: Real> Split<R> {
                 [zero, zero, zero, turn],
                 [push, -drag, -x, -s],
             ],
-            inputs: [[rate, zero], [zero, -push], [zero, zero], [zero, -push]],
+            inputs: [
+                [rate, zero, zero],
+                [zero, -push, zero],
+                [zero, zero, zero],
+                [zero, -push, behind],
+            ],
             speed: 1,
         };
         let coast = LinearSystem {
             states: [[-drag, -mx, -ms], [zero, zero, turn], [-drag, -x, -s]],
-            inputs: [[-push], [zero], [-push]],
+            inputs: [[-push, zero], [zero, zero], [-push, behind]],
             speed: 0,
         };
         let held = LinearSystem {
             states: [[zero, turn], [-(load * x), -(load * s)]],
-            inputs: [[], []],
+            inputs: [[zero], [behind]],
             speed: 0,
         };
         Ok(RealMaps {
@@ -120,9 +130,9 @@ impl<R: Real> Split<R> {
 /// The maps of a substep in a real format, before they are lowered.
 #[derive(Clone, Copy)]
 pub struct RealMaps<R> {
-    driven: LinearMap<R, 4, 2>,
-    coast: LinearMap<R, 3, 1>,
-    held: LinearMap<R, 2, 0>,
+    driven: LinearMap<R, 4, 3>,
+    coast: LinearMap<R, 3, 2>,
+    held: LinearMap<R, 2, 1>,
 }
 
 impl<R: Real> RealMaps<R> {
@@ -177,17 +187,66 @@ impl<R: Real> RealMaps<R> {
             scaled::<S, R, 2>("held load increment", row, rows[k + 2], columns)
         };
         let flight = split.frequency * own * length;
+        let [angle_per_volt, angle_per_torque, _] = self.driven.angle_by_inputs;
         Ok(Touching {
             timing: SubstepTiming::new(
                 machine,
                 length,
                 self.driven.inputs[0][0],
-                self.driven.angle_by_inputs,
+                [angle_per_volt, angle_per_torque],
             ),
+            brakes: self.brakes(split, machine, length)?,
             driven: [driven(0)?, driven(1)?, driven(2)?, driven(3)?, driven(4)?],
             coast: [coast(0)?, coast(1)?, coast(2)?, coast(3)?],
             held: [held(0)?, held(1)?],
             flight: S::coefficient(flight.to_f64()),
+        })
+    }
+
+    /// The responses to dry friction on the load. Where the substep is so long that the load swings back within it, motor and load lose
+    /// their speed together.
+    fn brakes<S: Scalar>(
+        &self,
+        split: &Split<R>,
+        machine: &Machine<R>,
+        length: R,
+    ) -> Result<Brakes<S>, ModelError> {
+        let (zero, one) = (R::zero(), R::from_f64(1.0));
+        let together = split.frequency * length > R::from_f64(core::f64::consts::FRAC_PI_2);
+        let push = length / machine.inertia;
+        let brake = |response: [R; 5]| {
+            let [_, speed, _, slip, _] = response;
+            let taken = slip - speed;
+            let rigid = push * (one - split.share);
+            let (per_torque, response) = if together {
+                let half = length * R::from_f64(0.5);
+                (rigid, [zero, -one, zero, zero, -half])
+            } else {
+                (taken, response.map(|by| by / taken))
+            };
+            Ok(Brake {
+                per_torque: scaled::<S, R, 1>("load friction", [per_torque], one, [one])?[0],
+                response: scaled::<S, R, 5>(
+                    "response to load friction",
+                    response,
+                    one,
+                    [one, one, split.scale, one, one],
+                )?,
+            })
+        };
+        let (driven, coast, held) = (&self.driven, &self.coast, &self.held);
+        let [current, speed, twist, slip] = [0, 1, 2, 3].map(|k| driven.inputs[k][2]);
+        let driven = [current, speed, twist, slip, driven.angle_by_inputs[2]];
+        let [speed, twist, slip] = [0, 1, 2].map(|k| coast.inputs[k][1]);
+        let coasting = [zero, speed, twist, slip, coast.angle_by_inputs[1]];
+        let held = [zero, zero, held.inputs[0][0], held.inputs[1][0], zero];
+        let behind = push * (one - split.share) / split.share;
+        let twist = split.frequency * length * R::from_f64(0.5) * behind;
+        Ok(Brakes {
+            driven: brake(driven)?,
+            coasting: brake(coasting)?,
+            held: brake(held)?,
+            free: brake([zero, zero, twist, behind, zero])?,
         })
     }
 }

@@ -10,8 +10,9 @@
 //! maps; contacts are located like stops of friction. The maps are made for `x = Ω·ε`, with `Ω` the
 //! frequency of the two inertias against each other, and the slip `s = ω − ωl`: `x' = Ω·s` and
 //! `s' = … − Ω·x − 2ζΩ·s`, numbers of one size. The state keeps a twist `σ·ε` with `σ ≤ Ω` such that
-//! a wide gap does not leave the range of a fixed-point number.
+//! a wide gap does not leave the range of a fixed-point number. Dry friction on the load is in `load_friction`.
 
+mod load_friction;
 mod maps;
 
 use super::dyadic::{DyadicMaps, LEVELS, shortest};
@@ -21,11 +22,16 @@ use super::state::Motion;
 use super::step_map::weighted_sum;
 use super::substep_map::SubstepTiming;
 use crate::discretise::Discretisation;
-use crate::effects::Coupling;
+use crate::effects::{Budget, Coupling};
 use crate::error::ModelError;
 use crate::motor::Machine;
 use crate::scalar::{Mask, Real, Scalar, lanes};
+use load_friction::turns_back;
 use maps::{Split, Touching};
+
+/// Angle of the load's swing against the motor that a substep with friction on the load may span, rad: an eighth of a turn. The torque of
+/// friction is held over a substep.
+const LONGEST_SWING: f64 = core::f64::consts::FRAC_PI_4;
 
 /// The coupling's constants, per unit.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +48,12 @@ struct Joint<S: Scalar> {
     half_gap: S,
     /// Whether there is a gap.
     loose: bool,
+    /// Share of the dry friction that acts on the load.
+    friction_share: S::Coefficient,
+    /// Whether any does.
+    load_rubs: bool,
+    /// Longest substep in which the load does not swing back, as a level.
+    longest: usize,
 }
 
 lanes!(Joint {
@@ -50,7 +62,10 @@ lanes!(Joint {
     most,
     twist_per_angle,
     half_gap,
-    loose
+    loose,
+    friction_share,
+    load_rubs,
+    longest
 });
 
 /// A motor with its load: maps for each level.
@@ -90,6 +105,12 @@ impl<S: Scalar> Coupled<S> {
         let damping = split.twice_damping * split.scale;
         let twist_per_angle = split.frequency * split.scale;
         let half_gap = coupling.half_gap * twist_per_angle;
+        let load_rubs = coupling.friction_share > R::zero();
+        let short = |&level: &usize| {
+            let turn = split.frequency * lengths[level];
+            turn < R::from_f64(LONGEST_SWING)
+        };
+        let longest = (0..depth).find(short).unwrap_or(depth);
         let joint = Joint {
             damping: S::coefficient(damping.to_f64()),
             stiffness: S::coefficient(stiffness.to_f64()),
@@ -97,6 +118,9 @@ impl<S: Scalar> Coupled<S> {
             twist_per_angle: S::coefficient(twist_per_angle.to_f64()),
             half_gap: S::from_f64(half_gap.to_f64()),
             loose: coupling.half_gap > R::zero(),
+            friction_share: S::coefficient(coupling.friction_share.to_f64()),
+            load_rubs,
+            longest: if load_rubs { longest } else { 0 },
         };
         Ok((Coupled { joint, touching }, split.motor))
     }
@@ -234,6 +258,63 @@ impl<S: Scalar> Mechanics<S> for MotorAndLoad<'_, S> {
     #[inline(always)]
     fn speed_per_torque(&self, level: usize) -> S::Coefficient {
         self.coupled.touching[level].driven[1][5]
+    }
+
+    #[inline(always)]
+    fn longest(&self) -> usize {
+        self.coupled.joint.longest
+    }
+
+    #[inline(always)]
+    fn shared(&self, budget: &Budget<S>) -> (Budget<S>, S) {
+        let joint = &self.coupled.joint;
+        if !joint.load_rubs {
+            return (*budget, S::zero());
+        }
+        let behind = budget.moving.times(joint.friction_share);
+        let own = Budget {
+            moving: budget.moving - behind,
+            holding: budget.holding - budget.holding.times(joint.friction_share),
+            bias: budget.bias,
+        };
+        (own, behind)
+    }
+
+    #[inline(always)]
+    fn brake(
+        &self,
+        level: usize,
+        from: &Motion<S>,
+        end: &Motion<S>,
+        side: S,
+        held: S::Mask,
+        budget: S,
+        open: bool,
+    ) -> Option<(Increment<S>, S::Mask)> {
+        let joint = &self.coupled.joint;
+        if !joint.load_rubs {
+            return None;
+        }
+        let brakes = &self.coupled.touching[level].brakes;
+        let (before, speed) = (from.speed - from.slip, end.speed - end.slip);
+        let moving = if open {
+            &brakes.coasting
+        } else {
+            &brakes.driven
+        };
+        let (by_moving, stops_moving) = moving.brake(speed, budget);
+        let (by_held, stops_held) = brakes.held.brake(speed, budget);
+        let mut by = select(held, by_held, by_moving);
+        let mut stops = held.and(stops_held).or(held.not().and(stops_moving));
+        if joint.loose {
+            let flies = is_zero(side);
+            let (by_free, stops_free) = brakes.free.brake(speed, budget);
+            by = select(flies, by_free, by);
+            stops = flies.and(stops_free).or(flies.not().and(stops));
+        }
+        let shortest = &self.coupled.touching[LEVELS - 1].brakes.free;
+        let least = budget.times(shortest.per_torque);
+        Some((by, turns_back(before, speed, stops, least)))
     }
 
     #[inline(always)]
