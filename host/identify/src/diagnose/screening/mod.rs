@@ -11,15 +11,18 @@ use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ScreenedModel};
 use crate::diagnose::spectrum::spectrum;
 use crate::fit::base_for;
-use series_parallel::{SeriesParallel, follows};
+use series_parallel::SeriesParallel;
+pub use series_parallel::follows;
 use servoid_engine::problem::{Scale, Structure};
 use servoid_engine::solve::Objective;
-use shared::effects::{Kind, MAX_EFFECTS, Starts};
+use shared::effects::{Form, Kind, MAX_EFFECTS, Starts};
 use shared::units::Quantity;
 use starts::starts;
 
 /// The textbook's form of an effect, and its relative.
 pub const FORMS: [f64; 2] = [0.0, 1.0];
+/// Where the search for a share of friction starts.
+const FRICTION_SHARE: f64 = 0.5;
 /// Most orders of a cogging torque in a model.
 const MOST_ORDERS: usize = 5;
 const SCREENING: Settings = Settings {
@@ -35,6 +38,16 @@ const PROMISING: f64 = 0.9;
 
 /// The model `parent` with `kind` added. An effect that starts from a simpler one, as bristles do from dry friction, is screened after that.
 pub fn screen(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option<ScreenedModel> {
+    let begun = begin(context, parent, kind)?;
+    screen_begun(context, parent, kind, begun)
+}
+
+/// The models `parent` with `kind` added, where their fits start.
+pub fn begin(
+    context: &Context<'_>,
+    parent: &FittedModel,
+    kind: Kind,
+) -> Option<Vec<ScreenedModel>> {
     let first = kind.facts().starts.after();
     let first = first.and_then(|simpler| screen(context, parent, simpler));
     let mut effects = parent.structure.effects.clone();
@@ -46,20 +59,29 @@ pub fn screen(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option
     let times = starts.first()?.len().div_ceil(own);
     effects.extend(std::iter::repeat_n(kind, times));
     let structure = structure_near(context, &effects, parent);
-    let forms = if kind.facts().both_forms {
-        &FORMS[..]
-    } else {
-        &FORMS[..1]
-    };
     let mut begun: Vec<ScreenedModel> = Vec::new();
-    for &form in forms {
+    for &form in forms(parent, kind) {
         let structure = structure.clone().with_form_at(kind, form);
         begun.extend(starts.iter().map(|start| {
             let mut parameters = parent.parameters.clone();
             parameters.extend(start);
+            if form != 0.0 && shares_friction(kind) {
+                parameters.pop();
+                parameters.push(FRICTION_SHARE);
+            }
             ScreenedModel::standing(structure.clone(), &parent.candidate, &parameters)
         }));
     }
+    Some(begun)
+}
+
+/// The best of models that were [begun](begin) after a rough fit.
+pub fn screen_begun(
+    context: &Context<'_>,
+    parent: &FittedModel,
+    kind: Kind,
+    mut begun: Vec<ScreenedModel>,
+) -> Option<ScreenedModel> {
     // Where every fit is a simulation, a glance at each start shows which of them is worth one.
     if !follows(kind) && begun.len() > 1 {
         for screened in &mut begun {
@@ -86,6 +108,20 @@ pub fn screen(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option
         }
     }
     best
+}
+
+/// The forms in which `kind` is begun beside `parent`: friction is shared where there is any.
+fn forms(parent: &FittedModel, kind: Kind) -> &'static [f64] {
+    let rubs = |kind: &Kind| kind.needs().friction;
+    let both =
+        kind.facts().both_forms && (!shares_friction(kind) || parent.effects.iter().any(rubs));
+    if both { &FORMS } else { &FORMS[..1] }
+}
+
+/// Whether the last parameter of an effect is a share of the dry friction of others.
+fn shares_friction(kind: Kind) -> bool {
+    let last = kind.parameters().last();
+    last.is_some_and(|parameter| parameter.form == Some(Form::FrictionShare))
 }
 
 /// A model that has lost effects, or has others in their place, where it stands.

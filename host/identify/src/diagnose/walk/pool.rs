@@ -8,8 +8,8 @@ use crate::diagnose::candidate::descent::{Descent, Settings};
 use crate::diagnose::candidate::score::score_candidate;
 use crate::diagnose::candidate::search::{search, search_widening};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{FittedModel, same};
-use crate::diagnose::screening::{restart, screen};
+use crate::diagnose::models::{FittedModel, ScreenedModel, same};
+use crate::diagnose::screening::{self, follows, restart, screen, screen_begun};
 use crate::error::Error;
 use rayon::prelude::*;
 use servoid_engine::problem::{Candidate, Structure};
@@ -189,18 +189,31 @@ impl<'a> Pool<'a> {
             let start = restart(self.context, &rest);
             return Some(Node::new(start.structure, start.x));
         };
-        let screened = screen(self.context, &rest, kind)?;
+        let begun = screening::begin(self.context, &rest, kind)?;
+        // A free run may be chaotic where innovations are not: behind a gap a load bounces.
+        let unscreened = (!follows(kind)).then(|| self.nearest(&begun)).flatten();
+        let screened = screen_begun(self.context, &rest, kind, begun)?;
         // Where the effect was screened, or where the parent stands with the effect as it was screened.
         let beside = self.beside(&rest, &screened.structure, &screened.values());
         let problem = self.evidence.innovations(&screened.structure);
         let foreseen = screened.predicted();
         let starts = [screened.x, beside];
         let costs = starts.into_iter().map(|x| (problem.cost(&x), x));
-        let (_, x) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Node {
-            foreseen,
-            ..Node::new(screened.structure, x)
-        })
+        let (cost, x) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let node = match unscreened {
+            Some((nearer, node)) if nearer < cost => node,
+            _ => Node::new(screened.structure, x),
+        };
+        Some(Node { foreseen, ..node })
+    }
+
+    /// The one of some models whose innovations cost least, and what they cost.
+    fn nearest(&self, begun: &[ScreenedModel]) -> Option<(f64, Node)> {
+        let cost =
+            |model: &ScreenedModel| self.evidence.innovations(&model.structure).cost(&model.x);
+        let costs = begun.iter().map(|model| (cost(model), model));
+        let (cost, model) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((cost, Node::new(model.structure.clone(), model.x.clone())))
     }
 
     /// The parameters of `rest` with those of the newest effect from `values`.
