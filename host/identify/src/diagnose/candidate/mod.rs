@@ -1,5 +1,6 @@
 //! One model with given effects: searched for, scored, and brought to its end.
 
+mod both;
 mod bounded_step;
 pub mod continuation;
 pub mod descent;

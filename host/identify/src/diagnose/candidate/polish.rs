@@ -1,5 +1,6 @@
 //! Bringing a fit to its end, before what it leaves is blamed on anything but the arithmetic.
 
+use super::both::fit_both;
 use super::continuation::follow_by_continuation;
 use super::descent::{FINEST, Settings};
 use super::observer::observe_like;
@@ -36,8 +37,9 @@ pub fn polish(context: &Context<'_>, model: &FittedModel) -> Result<FittedModel,
     if model.followed_fraction > 0.0 {
         return Ok(model.clone());
     }
-    let polished = converge(context, model)?;
-    if polished.observed.is_none() || polished.ran().at_floor() {
+    let mut polished = converge(context, model)?;
+    polished.on_both = fit_both(context, &polished);
+    if polished.observed.is_none() || polished.is_proven() {
         return Ok(polished);
     }
     // Near enough to the truth even a run over detents, which is chaotic, has a floor to go down to.

@@ -50,6 +50,7 @@ pub fn score_candidate(
         observed: None,
         observed_runs: Vec::new(),
         followed_fraction: 0.0,
+        on_both: None,
         predicted_rms_counts: predicted,
         evaluations: found.evaluations,
         method,

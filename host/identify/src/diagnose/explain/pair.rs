@@ -66,8 +66,9 @@ pub fn remarks(
     }
     let own = scores::whole(data, &last.candidate, last.method)?;
     let other = fit::validation_errors(held_out, &last.candidate, last.method)?;
-    let found = jumps(data, &own).into_iter().chain(jumps(held_out, &other));
-    Ok(found.collect())
+    let gap = last.effects.contains(&Kind::Backlash);
+    let found = jumps(data, &own, gap).into_iter();
+    Ok(found.chain(jumps(held_out, &other, gap)).collect())
 }
 
 /// Whether one kind of model explains each recording by itself, with constants that differ.
@@ -194,8 +195,8 @@ fn differences(one: &Fit, other: &Fit, least: f64) -> Option<String> {
     (!said.is_empty()).then(|| said.join(", "))
 }
 
-/// Jumps of the reading that the motor cannot have made, a sentence for each recording that has any.
-fn jumps(data: &Data, errors: &[f64]) -> Vec<Remark> {
+/// Jumps of the reading that the motor cannot have made, a sentence for each recording that has any; `gap` where its model has one.
+fn jumps(data: &Data, errors: &[f64], gap: bool) -> Vec<Remark> {
     if rms_counts(data, errors) < 2.0 * NOISE_COUNTS {
         return Vec::new();
     }
@@ -203,7 +204,7 @@ fn jumps(data: &Data, errors: &[f64]) -> Vec<Remark> {
     each.filter_map(|(range, source)| {
         let times = &data.time_s[range.clone()];
         let found = jumps_of_one(times, &errors[range.clone()])?;
-        Some(remark(data, range.start, source, times, &found))
+        Some(remark(data, range.start, source, times, &found, gap))
     })
     .collect()
 }
@@ -240,14 +241,15 @@ fn jumps_of_one(times: &[f64], errors: &[f64]) -> Option<Vec<(usize, f64)>> {
     Some(found.into_iter().map(|k| (k + 1, -change[k])).collect())
 }
 
-/// What jumps of a reading tell. One alone explains no error of a whole recording, and jumps that each follow a reversal of the shaft may as
-/// well be impacts in a gear.
+/// What jumps of a reading tell. One alone explains no error of a whole recording, and jumps that each follow a reversal of the shaft, or
+/// of a motor with a gap, may as well be impacts in a gear.
 fn remark(
     data: &Data,
     start: usize,
     source: &str,
     times: &[f64],
     found: &[(usize, f64)],
+    gap: bool,
 ) -> Remark {
     let (first, height) = found[0];
     let seen = format!(
@@ -256,6 +258,9 @@ fn remark(
         if found.len() == 1 { "" } else { "s" },
         times[first] - times[0]
     );
+    if gap {
+        return Remark::aside(format!("{seen}: impacts in the gap, or lost counts"));
+    }
     if found.len() > 1 && found.iter().all(|(k, _)| reverses_before(data, start + k)) {
         return Remark::aside(format!(
             "{seen}, each shortly after the shaft reverses: impacts in a gear with backlash, or lost counts"

@@ -43,6 +43,8 @@ pub struct FittedModel {
     pub(in crate::diagnose) observed_runs: Vec<ObserverErrors>,
     /// The part of the recording, from its begin, over which a chaotic free run was followed and leaves the reading's own error.
     pub followed_fraction: f64,
+    /// Its errors once it is fitted to both recordings, where those tell what the held-out error alone does not.
+    pub on_both: Option<Errors>,
     /// RMS error that was predicted before the refit, counts.
     pub predicted_rms_counts: f64,
     /// Evaluations spent on it.
@@ -83,7 +85,12 @@ impl FittedModel {
 
     /// Whether it does so running on its own: to the end, or as far as a chaotic run can be followed.
     pub fn is_proven(&self) -> bool {
-        self.ran().at_floor() || self.followed_fraction >= PROOF
+        self.ran().at_floor() || self.explains_both() || self.followed_fraction >= PROOF
+    }
+
+    /// Whether one set of parameters leaves the reading's own error only on both recordings, although those of the fitted one do not.
+    pub fn explains_both(&self) -> bool {
+        self.on_both.is_some_and(|errors| errors.at_floor())
     }
 
     /// Number of its effects' parameters that were searched for: a form that is held at the textbook's is none.

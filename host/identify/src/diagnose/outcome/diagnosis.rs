@@ -61,6 +61,8 @@ impl Diagnosis {
     /// Whether the last model explains the fitted recording down to the encoder, and what was held out not.
     pub fn fits_only_its_own(&self) -> bool {
         let errors = self.last.judged();
-        errors.fitted < NOISE_COUNTS && errors.held_out >= NOISE_COUNTS
+        errors.fitted < NOISE_COUNTS
+            && errors.held_out >= NOISE_COUNTS
+            && !self.last.explains_both()
     }
 }

@@ -17,7 +17,7 @@ const PROMISING: f64 = 0.5;
 /// `model` with its forms free, if that removes enough of what it leaves. `None` where nothing is left, no form is held, or
 /// free runs are chaotic.
 pub fn with_other_forms(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> {
-    if model.ran().at_floor() || model.losses.is_some() || model.observed.is_some() {
+    if model.is_proven() || model.losses.is_some() || model.observed.is_some() {
         return None;
     }
     let structure = model.structure.with_forms_free()?;

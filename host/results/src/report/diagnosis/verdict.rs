@@ -100,7 +100,7 @@ impl DiagnosisReport<'_> {
                 counts(fitted),
                 counts(held_out),
                 self.where_held_out(),
-                self.chaos_text() + &self.look_alikes_text()
+                self.both_text() + &self.chaos_text() + &self.look_alikes_text()
             ),
             Verdict::Unexplained if diagnosis.fits_only_its_own() => {
                 format!(
@@ -301,6 +301,19 @@ impl DiagnosisReport<'_> {
             .map(|s| title(s.added))
             .collect();
         titles.join(" and ")
+    }
+
+    /// What one set of parameters leaves on both recordings, where that shows that one motor made them.
+    fn both_text(&self) -> String {
+        let last = &self.diagnosis.last;
+        match last.on_both.filter(|_| last.explains_both()) {
+            Some(errors) => format!(
+                " One set of parameters leaves {} and {} counts on the two: the fitted recording alone does not determine it better.",
+                counts(errors.fitted),
+                counts(errors.held_out)
+            ),
+            None => String::new(),
+        }
     }
 
     /// By what the model was judged where free runs over the whole recording say little.
