@@ -91,6 +91,58 @@ const LOGGERS: &[Logger] = &[
         file: "[columns]\ntime = \"millis\"\n[units]\ntime = \"ms\"\n",
         flags: "--column time=millis --unit time=ms",
     },
+    Logger {
+        header: "t_s,voltage_v,angle_counts",
+        row: |t, v, c| format!("{t},{v},\n{t},,{c}"),
+        file: "",
+        flags: "",
+    },
+    Logger {
+        header: "t_s,voltage_v,angle_counts",
+        row: |t, v, c| format!("{t},,{c}\n{t},{v},"),
+        file: "",
+        flags: "",
+    },
+    Logger {
+        header: "t_s,voltage_v,angle_counts",
+        row: |t, v, c| {
+            let warns = ((2.0 * t).fract() < 1e-6).then_some("WARN: lag=3,late=12,q=500\n");
+            format!("{}{t},{v},{c}", warns.unwrap_or_default())
+        },
+        file: "",
+        flags: "",
+    },
+    Logger {
+        header: "t_s,voltage_v,angle_counts",
+        row: |t, v, c| format!("{},{v},{c}", if (t - 1.0).abs() < 1e-9 { 1e12 } else { t }),
+        file: "",
+        flags: "",
+    },
+    Logger {
+        header: "t_s,volts,Richtung,angle_counts",
+        row: |t, v, c| {
+            let way = match v {
+                v if v > 0.0 => "vor",
+                v if v < 0.0 => "zurueck",
+                _ => "halt",
+            };
+            format!("{t},{},{way},{c}", v.abs())
+        },
+        file: "[columns]\nvoltage = \"volts\"\ndirection = \"Richtung\"\n",
+        flags: "--column voltage=volts --column direction=Richtung",
+    },
+    Logger {
+        header: "t_s,voltage_v,angle_counts,Endstufe",
+        row: |t, v, c| format!("{t},{v},{c},EIN"),
+        file: "[columns]\nenabled = \"Endstufe\"\n",
+        flags: "--column enabled=Endstufe",
+    },
+    Logger {
+        header: "rst:0x1 (POWERON_RESET),boot:0x13\nwhoami: bench v2.3",
+        row: |t, v, c| format!("{t} {v} {c}"),
+        file: "[columns]\ntime = 1\nvoltage = 2\nangle = 3\n",
+        flags: "--column time=1 --column voltage=2 --column angle=3",
+    },
 ];
 
 /// Time, volts and counts of a recording in the contract's columns.
@@ -179,5 +231,23 @@ fn radians_to_six_digits_are_as_good_as_counts() {
     assert!(
         (0.26..0.32).contains(&number(&fit, "rms_counts")),
         "{fit:#}"
+    );
+}
+
+#[test]
+fn a_counter_that_is_zeroed_at_rest_before_a_run_leaves_the_fit_as_it_is() {
+    let desk = Desk::new();
+    desk.done("simulate --seconds 4 --out rec.csv");
+    let wanted = desk.json("fit rec.csv");
+    let mut log = "t_s,voltage_v,angle_counts\n".to_owned();
+    let rest = (0..100).map(|k| [0.001 * f64::from(k) - 0.1, 0.0, 54_321.0]);
+    for [t, v, c] in rest.chain(samples(&desk.read("rec.csv"))) {
+        writeln!(log, "{t},{v},{c}").expect("a string takes it");
+    }
+    desk.write("rested.csv", &log);
+    assert_same_fit(
+        &desk.json("fit rested.csv --counts-per-rev 2000"),
+        &wanted,
+        "rested",
     );
 }

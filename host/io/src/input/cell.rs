@@ -57,13 +57,44 @@ pub(super) fn finite(value: f64, text: &str) -> Result<f64, ReadFault> {
     }
 }
 
-/// 0 or 1, false or true.
+/// Words for a bridge that drives, and for one that does not; lower case.
+const SWITCHES: [(&[&str], bool); 2] = [
+    (
+        &[
+            "true",
+            "on",
+            "yes",
+            "enabled",
+            "armed",
+            "ein",
+            "an",
+            "ja",
+            "marche",
+            "oui",
+            "encendido",
+            "si",
+        ],
+        true,
+    ),
+    (
+        &[
+            "false", "off", "no", "disabled", "disarmed", "aus", "nein", "arret", "non", "apagado",
+        ],
+        false,
+    ),
+];
+
+/// Whether a word says that a bridge drives, or that it does not.
+pub(super) fn switch_word(text: &str) -> Option<bool> {
+    let says = |words: &[&str]| words.iter().any(|word| text.eq_ignore_ascii_case(word));
+    let mut found = SWITCHES.iter().filter(|(words, _)| says(words));
+    found.next().map(|(_, on)| *on)
+}
+
+/// 0 or 1, or a word.
 pub(super) fn switch(text: &str) -> Result<bool, ReadFault> {
-    if text.eq_ignore_ascii_case("true") {
-        return Ok(true);
-    }
-    if text.eq_ignore_ascii_case("false") {
-        return Ok(false);
+    if let Some(on) = switch_word(text) {
+        return Ok(on);
     }
     match number(text) {
         Ok(1.0) => Ok(true),

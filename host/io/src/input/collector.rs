@@ -101,7 +101,7 @@ impl<'m> Collector<'m> {
             Next::WithoutLast => {
                 self.absurd.push(line_before);
                 if self.took_last {
-                    self.samples.pop();
+                    self.samples.move_last_before(now);
                 }
                 span.drop_last();
                 span.take(now);
@@ -109,7 +109,9 @@ impl<'m> Collector<'m> {
             Next::Resumes => {
                 self.absurd.push(line_before);
                 if let Some(done) = self.done.pop() {
-                    self.samples = done.samples;
+                    let absurd = std::mem::replace(&mut self.samples, done.samples);
+                    self.samples.extend(absurd);
+                    self.samples.move_last_before(now);
                     self.repeats = done.repeats;
                     span = done.span.unwrap_or(span);
                 }
@@ -199,6 +201,9 @@ impl<'m> Collector<'m> {
                         milliseconds(tick_s),
                         milliseconds(interval_s)
                     ),
+                    Spread::Merged(rows) => format!(
+                        "{rows} rows have the stamp of the row before and what that lacks, angle or command: each pair is taken as one row"
+                    ),
                     Spread::Copies(rows) => {
                         format!("{rows} rows are copies of the row before, and are left out")
                     }
@@ -241,7 +246,7 @@ impl<'m> Collector<'m> {
             return Err(ReadError::new(Place::line(source, *first), fault));
         }
         notes.add(format!(
-            "the time of line {first}{} lies far outside the recording: the row is left out",
+            "the time of line {first}{} lies far outside the recording: the row is taken half-way between its neighbours",
             match count {
                 1 => String::new(),
                 _ => format!(" (and of {} more)", count - 1),

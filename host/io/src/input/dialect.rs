@@ -118,8 +118,9 @@ impl Dialect {
         row.set_quoted_rows(dialect.quoted_rows);
         let split = |row: &mut Row, line: &[u8]| row.split(line).ok().map(|()| Shape::of(row));
         let names = split(row, rows.first()?)?;
+        let speaks = row.separator() == b' ' && is_message(row);
         let next = split(row, rows.get(1)?)?;
-        if names.width < 2 || next.cells < names.width || next.width > names.cells {
+        if speaks || names.width < 2 || next.cells < names.width || next.width > names.cells {
             return None;
         }
         let mut first = 1;
@@ -353,6 +354,12 @@ pub(super) fn data_lines(head: &[u8]) -> Vec<&[u8]> {
         .map(<[u8]>::trim_ascii_end)
         .filter(|line| !line.trim_ascii().is_empty() && line.trim_ascii()[0] != b'#')
         .collect()
+}
+
+/// Whether a row of words is what a device says of itself, as `board: rev 2`, and no names.
+fn is_message(row: &Row) -> bool {
+    let speaks = |k: usize| row.cell(k).is_ok_and(|cell| cell.ends_with(':'));
+    row.len() > 1 && speaks(0) && !speaks(row.len() - 1)
 }
 
 #[cfg(test)]

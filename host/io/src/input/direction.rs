@@ -1,4 +1,4 @@
-//! A direction in words: two of them, of which one is backwards.
+//! A direction in words: two of them, of which one is backwards, and perhaps one for a motor that is to stand.
 
 use super::read_error::ReadFault;
 use super::shown::shown;
@@ -16,6 +16,9 @@ impl DirectionWords {
     /// # Errors
     /// A third word.
     pub(super) fn sign(&mut self, text: &str) -> Result<f64, ReadFault> {
+        if is_halt(text) {
+            return Ok(0.0);
+        }
         let place = (self.words.iter()).position(|word| word.eq_ignore_ascii_case(text));
         let place = match place {
             Some(place) => place,
@@ -56,6 +59,16 @@ impl DirectionWords {
             shown(backward)
         ))
     }
+}
+
+/// Words for a motor that is to stand; lower case.
+const HALTS: [&str; 9] = [
+    "halt", "stop", "stopp", "brake", "idle", "neutral", "bremse", "arret", "parada",
+];
+
+/// Whether a word says that the motor is to stand.
+pub(super) fn is_halt(word: &str) -> bool {
+    HALTS.iter().any(|halt| word.eq_ignore_ascii_case(halt))
 }
 
 /// How much the motion has the sign of the command.

@@ -17,6 +17,8 @@ const SHARES: usize = 40;
 const SECTIONS: usize = 16;
 /// A filter is told where the next speed follows so much better once it is undone: part of the RMS error that is left.
 const BETTER: f64 = 0.3;
+/// A shorter delay than this, samples, is as well that of the winding, whose lag a speed has too.
+const SHORTEST: f64 = 0.5;
 /// Fewest samples that tell a filter.
 const FEWEST: usize = 200;
 /// Samples of a longer recording by which it is told, from where the motor first moves: two hundred filters are tried on each.
@@ -116,7 +118,8 @@ fn told(speeds: &[f64], command: &[f64]) -> Option<(Filter, Way)> {
         error(speeds, &lagged(command, share), &lagged(&signs, share))
     }));
     let (least, filter, way) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (least <= BETTER * raw).then_some((filter, way))
+    let is_told = least <= BETTER * raw && filter.delay_samples() >= SHORTEST;
+    is_told.then_some((filter, way))
 }
 
 /// The first-order lag that leaves the least error: the best of a grid, and then between its neighbours by golden section.

@@ -4,7 +4,7 @@ use super::bridge_off::driven;
 use super::counts::snap_to_whole;
 use super::filtered::{Filter, Way, unfiltered};
 use super::gaps::{closed, pauses};
-use super::jumps::{set_anew, unwrapped};
+use super::jumps::{DECIDEGREES, Wrapped, set_anew, unwrapped};
 use super::motor_file::MotorFile;
 use super::motor_units::{AngleUnit, SpeedUnit};
 use super::read_error::ReadFault;
@@ -90,6 +90,20 @@ pub(super) fn finished(
     Ok(recordings)
 }
 
+/// Leaves out parts without a command beside others that have one: a counter is often set to zero before a run, or after it.
+fn leave_out_resting(parts: &mut Vec<Recording>, notes: &mut Notes<'_>) {
+    let rests = |part: &Recording| part.command.iter().all(|command| *command == 0.0);
+    let resting = parts.iter().filter(|part| rests(part)).count();
+    if resting == 0 || resting == parts.len() {
+        return;
+    }
+    parts.retain(|part| !rests(part));
+    notes.add(match resting {
+        1 => "one of these parts has no command but zero, and is left out".to_owned(),
+        count => format!("{count} of these parts have no command but zero, and are left out"),
+    });
+}
+
 /// Leaves out the beginning or the end of a recording in which the bridge was off.
 fn leave_out_standing(recording: &mut Recording, notes: &mut Notes<'_>) {
     let Some(driven) = driven(recording) else {
@@ -143,9 +157,14 @@ impl Run<'_> {
             return Ok(vec![self.behind_loop(settings)?]);
         }
         if let Some(wrapped) = unwrapped(&mut self.samples.counts, scale.counts_per_rev) {
+            let Wrapped { turn, times } = wrapped;
+            let tenths = if turn == DECIDEGREES && turn != scale.counts_per_rev {
+                "; where these are tenths of a degree, --counts-per-rev is 3600"
+            } else {
+                ""
+            };
             notes.add(format!(
-                "the angle wraps every {} counts: it is unwrapped ({} times)",
-                wrapped.turn, wrapped.times
+                "the angle wraps every {turn} counts: it is unwrapped ({times} times){tenths}"
             ));
         }
         let anew = set_anew(&self.samples.time_s, &self.samples.counts);
@@ -195,7 +214,9 @@ impl Run<'_> {
                 || snap_to_whole(&mut samples.counts).is_some();
             recording(samples, motor, scale, whole, None)
         });
-        Ok(parts.collect())
+        let mut parts: Vec<Recording> = parts.collect();
+        leave_out_resting(&mut parts, notes);
+        Ok(parts)
     }
 
     fn of_speeds(

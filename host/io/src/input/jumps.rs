@@ -6,6 +6,8 @@ use crate::median::median_interval;
 const TOLD: f64 = 0.4;
 /// A step that is left when the turn is added may differ from its neighbours by so many of the usual differences, and counts.
 const LIKE: (f64, f64) = (4.0, 4.0);
+/// Tenths of a degree in a turn.
+pub(super) const DECIDEGREES: f64 = 3600.0;
 /// Part of the jumps that must agree.
 const AGREE: f64 = 0.9;
 /// A counter was set anew where a step is so many times farther off its neighbours than any other, and by so many counts; fewer are
@@ -38,7 +40,8 @@ pub(super) fn unwrapped(counts: &mut [f64], counts_per_rev: f64) -> Option<Wrapp
     let most = counts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let travel = most - least;
     let powers = (8..=32).map(|bits| 2f64.powi(bits));
-    let turns = std::iter::once(counts_per_rev).chain(powers);
+    // Tenths of a degree are what many magnetic encoders and servos log.
+    let turns = [counts_per_rev, DECIDEGREES].into_iter().chain(powers);
     // Angles printed with few digits may end a little outside the turn.
     let mut fitting = turns.filter(|turn| travel <= 1.001 * turn && travel > 0.6 * turn);
     let turn = fitting.find(|turn| wraps(counts, *turn))?;
@@ -197,6 +200,15 @@ mod tests {
         let held = counts[300];
         counts[300..500].fill(held);
         assert!(found(&counts).is_empty());
+    }
+
+    #[test]
+    fn tenths_of_a_degree_wrap_whatever_the_encoder_counts() {
+        let whole = motion(100.0);
+        let mut wrapped: Vec<f64> = whole.iter().map(|x| x.rem_euclid(3600.0)).collect();
+        let found = unwrapped(&mut wrapped, 1024.0).expect("it wraps");
+        assert_eq!(found.turn, 3600.0);
+        assert_eq!(wrapped[1999] - wrapped[0], whole[1999] - whole[0]);
     }
 
     #[test]

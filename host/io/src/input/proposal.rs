@@ -27,6 +27,8 @@ pub struct Proposal {
     drive: bool,
     /// Rows of one motor among several that take turns.
     select: bool,
+    /// Whether the values of the angle tell the counts per revolution.
+    counts: bool,
     /// What is still to be said, a sentence each, with the option that says it.
     pub needs: Vec<Need>,
     /// Why it is not sure; empty where another verb may take it.
@@ -208,6 +210,7 @@ impl Proposal {
                 };
                 if self.motor.counts_per_rev.is_none() {
                     self.motor.counts_per_rev = Some(counts);
+                    self.counts = true;
                 }
                 Some(unit)
             }
@@ -313,6 +316,9 @@ impl Proposal {
             if let Some(unit) = one.unit.filter(|_| !is_usual) {
                 words.push(format!("--unit {key}={}", for_shell(unit)));
             }
+        }
+        if let (true, Some(counts)) = (self.counts, self.motor.counts_per_rev) {
+            words.push(format!("--counts-per-rev {counts}"));
         }
         if let (true, [.., selection]) = (self.select, &self.motor.log.select[..]) {
             words.push(format!("--select {}", for_shell(&selection.to_string())));

@@ -75,6 +75,32 @@ impl Samples {
         Ok(())
     }
 
+    /// Gives the last sample the time half-way from that of the sample before to `now`.
+    pub(super) fn move_last_before(&mut self, now: f64) {
+        if let [.., before, last] = &mut self.time_s[..] {
+            *last = 0.5 * (*before + now);
+        } else {
+            self.pop();
+        }
+    }
+
+    /// Takes samples behind its own.
+    pub(super) fn extend(&mut self, other: Samples) {
+        self.time_s.extend(other.time_s);
+        self.command.extend(other.command);
+        self.counts.extend(other.counts);
+        let columns = self.measured.0.iter_mut().zip(other.measured.0);
+        for (own, other) in columns {
+            if let (Some(own), Some(other)) = (own, other) {
+                own.extend(other);
+            }
+        }
+        if let (Some(own), Some(other)) = (&mut self.enabled, other.enabled) {
+            own.extend(other);
+        }
+        self.held_commands += other.held_commands;
+    }
+
     /// Takes the last sample out again.
     pub(super) fn pop(&mut self) {
         self.time_s.pop();

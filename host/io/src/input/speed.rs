@@ -43,16 +43,21 @@ const OVERFLOWS: (f64, f64) = (0.6, 0.3);
 
 /// Undoes the overflow of speeds that were kept in a `word` of so many counts a second; `None` where they show none. Gives how many times.
 pub(super) fn without_overflow(speeds: &mut [f64], word: f64) -> Option<usize> {
-    let within = speeds
+    let half = 0.5 * word * (1.0 + 1e-9);
+    let signed = speeds.iter().all(|speed| speed.abs() <= half);
+    let unsigned = speeds
         .iter()
-        .all(|speed| speed.abs() <= 0.5 * word * (1.0 + 1e-9));
+        .all(|speed| (0.0..=2.0 * half).contains(speed));
+    let within = signed || unsigned;
     let large = |pair: &[f64]| (pair[1] - pair[0]).abs() > OVERFLOWS.0 * word;
     if !within || !speeds.windows(2).any(large) {
         return None;
     }
-    let (mut turns, mut times) = (0.0, 0);
-    let mut whole = Vec::with_capacity(speeds.len());
     let mut before = *speeds.first()?;
+    // In a word without a sign the upper half is negative.
+    let begins_below = before > half;
+    let (mut turns, mut times) = (if begins_below { -word } else { 0.0 }, 0);
+    let mut whole = Vec::with_capacity(speeds.len());
     for speed in speeds.iter() {
         let step = speed - before;
         before = *speed;
@@ -107,6 +112,15 @@ mod tests {
         assert_eq!(without_overflow(&mut speeds, word), Some(6));
         assert_eq!(speeds, whole);
         assert_eq!(without_overflow(&mut speeds, word), None);
+        // Negative speeds in a word without a sign.
+        let slow: Vec<f64> = whole
+            .iter()
+            .map(|speed| 0.01 * speed.round())
+            .map(f64::round)
+            .collect();
+        let mut speeds: Vec<f64> = slow.iter().map(|speed| speed.rem_euclid(word)).collect();
+        assert!(without_overflow(&mut speeds, word).is_some());
+        assert_eq!(speeds, slow);
     }
 
     #[test]

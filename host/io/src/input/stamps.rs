@@ -1,4 +1,4 @@
-//! Time stamps that repeat, as whole milliseconds do above 1 kHz: the rows are spread evenly.
+//! Time stamps that repeat. Rows of one stamp that complement each other are one; of whole milliseconds above 1 kHz they are spread evenly.
 
 use super::samples::Samples;
 
@@ -23,10 +23,41 @@ pub(super) enum Spread {
     },
     /// Copies of the row before were left out.
     Copies(usize),
+    /// So many rows complement the one before with the same stamp, which tells an angle where this one does not, or the other way round.
+    Merged(usize),
+}
+
+/// Makes one row of each two with the same stamp of which one alone tells an angle; `None` where others repeat a stamp.
+fn merged(samples: &mut Samples) -> Option<Spread> {
+    let same = |k: usize, samples: &Samples| samples.time_s[k] == samples.time_s[k - 1];
+    let mut keep = vec![true; samples.len()];
+    for k in 1..samples.len() {
+        if !same(k, samples) {
+            continue;
+        }
+        let told = [k - 1, k].map(|k| !samples.counts[k].is_nan());
+        if !keep[k - 1] || told[0] == told[1] {
+            return None;
+        }
+        // The later row has the command that holds from this stamp on.
+        keep[k - 1] = false;
+        if told[0] {
+            samples.counts[k] = samples.counts[k - 1];
+        }
+    }
+    let rows = keep.iter().filter(|keep| !**keep).count();
+    samples.keep(&keep);
+    samples.held_commands = samples.held_commands.saturating_sub(rows as u64);
+    Some(Spread::Merged(rows))
 }
 
 /// Makes times increase where some repeat; `None` where they cannot be told.
 pub(super) fn spread(samples: &mut Samples) -> Option<Spread> {
+    if samples.counts.iter().any(|counts| counts.is_nan())
+        && let Some(merged) = merged(&mut samples.clone()).and_then(|_| merged(samples))
+    {
+        return Some(merged);
+    }
     let time = &samples.time_s;
     let repeated = time.windows(2).filter(|pair| pair[1] == pair[0]).count();
     let is_copy = |k: &usize| {

@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, Chain, Cursor, Read};
 
+use super::cell::is_told;
 use super::dialect::{Dialect, HEAD_BYTES, Names, data_lines};
 use super::layout::{Layout, header_names};
 use super::lines::{Lines, recoded};
@@ -86,7 +87,8 @@ impl<'s, R: BufRead> TextRows<'s, R> {
     pub(super) fn split_row(&mut self) -> Result<bool, ReadError> {
         let split = self.split();
         let (cells, header) = (self.row.len(), self.names.len());
-        if split.is_ok() && self.has_width() && !self.repeats_names() {
+        let is_row = split.is_ok() && self.has_width() && !self.is_text_of_a_rows_width();
+        if is_row && !self.repeats_names() {
             self.rows += 1;
             return Ok(true);
         }
@@ -121,17 +123,36 @@ impl<'s, R: BufRead> TextRows<'s, R> {
 
     /// Whether the line at hand is a text and no row with a fault: it has other cells, and begins with no number.
     fn is_text(&self, was_split: bool) -> bool {
+        let is_keyed = matches!(self.dialect.names, Names::Keys(_));
+        let width = self.row.len().max(self.names.len()).max(2);
+        self.begins_with_a_word() && (is_keyed || !was_split || 2 * self.numbers() < width)
+    }
+
+    /// Whether the line at hand is a text although it has as many cells as a row: it begins with a word, and every cell says something that is
+    /// no number.
+    fn is_text_of_a_rows_width(&self) -> bool {
+        let says = |k: usize| self.row.cell(k).is_ok_and(is_told);
+        self.begins_with_a_word()
+            && self.numbers() == 0
+            && self.names.len() > 1
+            && (0..self.names.len()).all(says)
+    }
+
+    fn begins_with_a_word(&self) -> bool {
         let line = self.lines.bytes().trim_ascii();
-        let starts = line.first().is_some_and(|byte| {
+        line.first().is_some_and(|byte| {
             let of_number = byte.is_ascii_digit() || b"+-.,;\t\"".contains(byte);
             !of_number && !byte.is_ascii_control()
-        });
+        })
+    }
+
+    /// Cells of the line at hand that are numbers.
+    fn numbers(&self) -> usize {
         let numbers = (0..self.row.len()).filter(|k| {
             let cell = self.row.cell(*k);
             cell.is_ok_and(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite))
         });
-        let is_keyed = matches!(self.dialect.names, Names::Keys(_));
-        starts && (is_keyed || !was_split || 2 * numbers.count() < self.names.len().max(2))
+        numbers.count()
     }
 
     fn read_names(&mut self, any_names: bool) -> Result<(), ReadError> {

@@ -1,5 +1,7 @@
 //! What the values of a column tell: whether it may be a channel, and in which unit.
 
+use super::cell::switch_word;
+use super::direction::is_halt;
 use super::names::parts;
 use super::profile::Profile;
 use crate::channel::Channel;
@@ -24,7 +26,8 @@ pub(super) fn is_plausible(channel: Channel, profile: &Profile) -> bool {
             Channel::Time => profile.dates > 0,
             Channel::Direction => is_two_words(profile),
             Channel::Enabled => {
-                profile.words.len() <= 2 && profile.words.iter().all(|w| is_switch(w))
+                profile.words.len() <= 2
+                    && profile.words.iter().all(|word| switch_word(word).is_some())
             }
             _ => false,
         };
@@ -47,14 +50,10 @@ pub(super) fn is_plausible(channel: Channel, profile: &Profile) -> bool {
     }
 }
 
+/// Whether a column has two words, and perhaps one for a halt.
 fn is_two_words(profile: &Profile) -> bool {
-    profile.words.len() == 2 && profile.dates == 0
-}
-
-fn is_switch(word: &str) -> bool {
-    ["true", "false"]
-        .iter()
-        .any(|own| word.eq_ignore_ascii_case(own))
+    let moving = profile.words.iter().filter(|word| !is_halt(word));
+    moving.count() == 2 && profile.words.len() <= 3 && profile.dates == 0
 }
 
 /// The unit of a time without one: the largest for which its steps are those of a motor's log; none for seconds.
