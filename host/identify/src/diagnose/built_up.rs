@@ -7,13 +7,11 @@ use super::context::{Budget, Context};
 use super::linear::fit_linear;
 use super::models::FittedModel;
 use super::screening::screen;
+use crate::diagnose::settings::LOST;
 use crate::fit::Options;
 use servoid_engine::problem::{Candidate, Data};
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
-
-/// A sum of squares beyond this, in parts of what the encoder leaves, is worth another start.
-const LOST: f64 = 1.2;
 
 /// Whether a fit may have ended in the wrong valley: it leaves more than the encoder does in so many samples.
 pub fn is_lost(squares: f64, samples: usize) -> bool {

@@ -6,6 +6,7 @@ use super::hypotheses::{probability_of, probable_sets};
 use super::models::{Errors, FittedModel};
 use super::naming::Named;
 use super::outcome::{Diagnosis, Floor, FloorKind, Repeated, Verdict};
+use crate::diagnose::settings::STRAYED;
 use crate::repeats::Repeats;
 
 /// The diagnosis with its verdict and advice.
@@ -74,10 +75,6 @@ fn by_repeats(named: &Named<'_>) -> Option<Floor> {
         repeats: Some(Repeated { base, last }),
     })
 }
-
-/// A whole run further from the readings than so many times the floor of its windows says that the floor was none: a sensor that
-/// holds its value looks like noise from which no window can stray.
-const STRAYED: f64 = 10.0;
 
 /// Whether a model that is at the floor in windows runs away over the whole recording.
 fn strays(diagnosis: &Diagnosis) -> bool {

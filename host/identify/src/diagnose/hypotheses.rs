@@ -3,6 +3,7 @@
 
 use super::models::FittedModel;
 use super::naming::Named;
+use crate::diagnose::settings::{ABOVE_FLOOR, AT_FLOOR, INDEPENDENT, LEAST};
 use shared::effects::Kind;
 
 /// A set of effects that may be what the linear motor lacks.
@@ -16,16 +17,6 @@ pub struct ProbableSet {
     /// was not scored.
     pub nats: Option<f64>,
 }
-
-/// A set that is less probable than this is not listed.
-const LEAST: f64 = 0.01;
-/// Probability that the catalogue holds the truth where a model reaches the encoder's floor.
-const AT_FLOOR: f64 = 0.98;
-/// The same, at most, where none does.
-const ABOVE_FLOOR: f64 = 0.9;
-/// Part of the fitted recording's samples whose errors are independent at the encoder's floor: counts dwell in their cells. There a parameter
-/// has the price of the Bayesian information criterion (Schwarz, "Estimating the dimension of a model", 1978).
-const INDEPENDENT: f64 = 0.1;
 
 /// The sets of effects that were scored: the chosen one, then the others by their probability.
 pub fn probable_sets(named: &Named<'_>) -> Vec<ProbableSet> {

@@ -33,6 +33,7 @@
 //! | `gain` | what an effect more takes away of the error |
 //! | `rivals` | what may stand in the place of an effect |
 //! | `chosen` | the model that is chosen, as stages hand it on |
+//! | `settings` | the numbers that decide, of stages without a file for theirs |
 //! | `lost_counts` | jumps of the reading by whole counts |
 //!
 //! Beside the pipeline stand [`Criterion`] (over which span models are judged), [`suggest()`] (one step of it for a given model), [`built_up()`] (a start for a fit),
@@ -59,6 +60,7 @@ mod recordings;
 mod rivals;
 mod score;
 mod screening;
+mod settings;
 mod settle;
 mod spectrum;
 mod suggest;

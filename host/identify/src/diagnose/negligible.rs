@@ -3,15 +3,11 @@
 //! effect is not named, whatever its error says.
 
 use super::models::FittedModel;
+use crate::diagnose::settings::{PART_OF_COUNT, PART_OF_TYPICAL};
 use servoid_engine::problem::Data;
 use shared::effects::{Kind, Pair, Parameter};
 use shared::units::Quantity;
 use std::f64::consts::TAU;
-
-/// Part of its typical size below which an effect is negligible: of a voltage or a torque, about 1e-4 of the supply.
-const PART_OF_TYPICAL: f64 = 1.0 / 300.0;
-/// Part of a count below which an angle is.
-const PART_OF_COUNT: f64 = 0.1;
 
 /// An effect of a model that is too small to matter.
 pub fn small_in(data: &Data, model: &FittedModel) -> Option<Kind> {

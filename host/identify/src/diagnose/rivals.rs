@@ -1,10 +1,8 @@
 //! Effects that explain a recording as well as one of the chosen model does.
 
 use super::models::{FittedModel, same};
+use crate::diagnose::settings::MOST_EQUIVALENT;
 use shared::effects::Kind;
-
-/// More models than this that explain a recording alike, and none of them is named.
-const MOST_EQUIVALENT: usize = 4;
 
 /// What may stand in the place of one effect of the chosen set.
 pub struct Rivals {

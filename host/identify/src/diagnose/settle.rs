@@ -2,6 +2,7 @@
 
 use super::models::{FittedModel, NOISE_COUNTS};
 use super::outcome::Diagnosis;
+use crate::diagnose::settings::BUDGET;
 use crate::error::Error;
 use crate::fit::{self, Fit, Options, Parameter};
 use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle};
@@ -9,9 +10,6 @@ use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
 use servoid_engine::solve::{Found, Objective};
 use shared::cost::Cost;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Evaluations for the end of a fit that stands near its minimum.
-const BUDGET: usize = 400;
 
 /// Fits the last model to its end and says what is known of its parameters. A model that is not judged by its
 /// free run over the readings as they are (in windows, with lost counts put back) stays where it is. So does one

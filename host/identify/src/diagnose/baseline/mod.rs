@@ -7,6 +7,7 @@
 
 mod models;
 mod prediction;
+mod settings;
 
 use super::candidate::several_horizons::fit_over_horizons;
 use super::chosen::Chosen;
@@ -17,20 +18,8 @@ use models::{TERMS, baseline_models, with_baseline_terms};
 pub use prediction::Prediction;
 use prediction::Windows;
 use servoid_engine::problem::{Data, Horizon};
+use settings::{AS_GOOD, CHAOTIC, ONE_WAY_GAIN, PART};
 use shared::effects::Kind;
-
-/// A model may predict worse than the baseline by this part before it is given up: less is chance.
-const AS_GOOD: f64 = 0.01;
-/// The same for a model that only an observer keeps to the readings: where a free run slips over a detent is chance, and so
-/// are its errors, which then prefer any friction.
-const CHAOTIC: f64 = 0.5;
-
-/// Where the motor never reverses, the part of the score's gain over the linear motor that lies beyond the baseline's terms in a set that
-/// is sure: a real torque of cogging gained 0.29, a once-per-revolution torque that differs from run to run 0.01.
-const ONE_WAY_GAIN: f64 = 0.1;
-
-/// Part of a diagnosis' budget that the comparison may take besides.
-const PART: f64 = 0.25;
 
 /// The best of the baseline's models.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,6 @@
 //! The linear motor with Coulomb friction, an offset and a delay, singly and together.
 
+use super::settings::{DELAYS_S, FRICTION};
 use crate::diagnose::built_up::added;
 use crate::diagnose::candidate::fit::fit_screened;
 use crate::diagnose::candidate::polish::polish;
@@ -9,10 +10,6 @@ use crate::fit::base_for;
 use rayon::prelude::*;
 use servoid_engine::problem::{ELECTRICAL_TIME_CONSTANT, Structure, VISCOUS_PART};
 use shared::effects::Kind;
-
-/// Where the fits start: Coulomb friction in parts of the supply, and delays in s.
-const FRICTION: f64 = 0.05;
-const DELAYS_S: [f64; 3] = [0.0, 0.004, 0.04];
 
 /// All that the baseline may add to the linear motor.
 pub const TERMS: [Kind; 4] = [

@@ -4,6 +4,7 @@
 use super::descent::Settings;
 use super::score::run_errors;
 use super::search::{fit_problem, search};
+use super::settings::FAR_HELD_OUT;
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{Errors, FittedModel};
 use servoid_engine::problem::FitProblem;
@@ -15,9 +16,6 @@ const NEAR: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
-/// A held-out error of more than so many times the encoder's is no matter of how well parameters are determined.
-const FAR: f64 = 10.0;
-
 /// Both recordings, run on their own.
 struct Both<'a> {
     fitted: FitProblem<'a>,
@@ -54,7 +52,7 @@ impl Objective for Both<'_> {
 pub fn fit_both(context: &Context<'_>, model: &FittedModel) -> Option<Errors> {
     let ran = model.ran();
     let structure = &model.structure;
-    let asks = ran.fitted_at_floor() && !ran.at_floor() && ran.held_out < FAR * ran.floor;
+    let asks = ran.fitted_at_floor() && !ran.at_floor() && ran.held_out < FAR_HELD_OUT * ran.floor;
     if !asks || context.span.window_s.is_some() || structure.start_speed || structure.start_offset {
         return None;
     }

@@ -8,6 +8,7 @@
 use super::descent::{Descent, FINEST, Settings, descend};
 use super::score::score_candidate;
 use super::search::fit_problem;
+use super::settings::{FAR, FEWEST, MOST, SHORTEST};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, ROOM};
 use crate::fit::{START_OFFSETS, departure, scores};
@@ -22,15 +23,6 @@ const STRETCH: Settings = Settings {
     probed: Some(0.02),
     ..Settings::THOROUGH
 };
-/// Fewest samples that say anything.
-const FEWEST: usize = 200;
-/// The shortest step is the recording's length over this.
-const SHORTEST: usize = 1000;
-/// Most stretches.
-const MOST: usize = 30;
-/// A model that is lost before this part of the recording is not taken.
-const FAR: f64 = 0.1;
-
 /// A model that follows the readings to their end, or as far as can be, from one that does not; `None` where they are lost
 /// early.
 pub fn follow_by_continuation(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> {

@@ -6,6 +6,8 @@
 //! as the simulations.
 
 use super::bounded_step::within;
+use super::settings::{BETTER, INSIDE};
+pub use super::settings::{FINEST, PROBE};
 use crate::diagnose::context::Budget;
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::solve::Objective;
@@ -72,19 +74,10 @@ pub struct Descent {
     pub evaluations: usize,
 }
 
-/// Most parts to a sample in which a model is run.
-pub const FINEST: u16 = 16;
-/// Usual step of the finite differences, as a share of the cube's side.
-pub const PROBE: f64 = 1e-5;
 /// Steps that are set by what they change stay between these.
 const PROBES: (f64, f64) = (1e-10, 1e-4);
 /// Damping stays between these.
 const DAMPING: (f64, f64) = (1e-12, 1e9);
-
-/// Distance from a wall at which a search that ended there is begun again, as a share of the cube's side.
-const INSIDE: f64 = 0.02;
-/// A second search is the better one if it lowers the sum of squares by more than this part.
-const BETTER: f64 = 0.02;
 
 /// Descends from `start`; `None` where the model cannot run there.
 ///

@@ -4,6 +4,8 @@ use super::descent::{Descent, Settings};
 use super::observer::observe_all;
 use super::score::score_candidate;
 use super::search::{fit_problem, search, search_widening};
+pub use super::settings::LOST;
+use super::settings::{AS_GOOD, ASTRAY, FIT_MEMORIES_S};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, NOISE_COUNTS, ROOM, ScreenedModel};
 use crate::error::Error;
@@ -17,15 +19,6 @@ const FULL: Settings = Settings {
     secant: true,
     ..Settings::THOROUGH
 };
-/// How long errors are remembered, stage by stage.
-const MEMORIES_S: [f64; 4] = [0.02, 0.1, 0.5, 2.5];
-/// A stage that leaves so many times the error of the one before has lost its way.
-const ASTRAY: f64 = 2.0;
-/// A simulation whose error is so many times the series-parallel one's has lost its way.
-pub const LOST: f64 = 3.0;
-/// Scores under an observer this near are as good as each other.
-const AS_GOOD: f64 = 0.04;
-
 /// Fits a screened model by full simulation.
 ///
 /// # Errors
@@ -112,7 +105,7 @@ fn fit_from(
 fn fit_with_growing_memory(context: &Context<'_>, structure: &Structure, x: &[f64]) -> Vec<f64> {
     let mut x = x.to_vec();
     let mut last = f64::INFINITY;
-    for memory_s in MEMORIES_S {
+    for memory_s in FIT_MEMORIES_S {
         let problem = FitProblem {
             horizon: Horizon::Observer(memory_s),
             ..fit_problem(context, structure, context.method)

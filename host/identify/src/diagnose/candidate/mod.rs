@@ -9,4 +9,5 @@ pub mod observer;
 pub mod polish;
 pub mod score;
 pub mod search;
+mod settings;
 pub mod several_horizons;

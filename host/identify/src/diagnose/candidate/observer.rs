@@ -4,19 +4,14 @@
 //! where a shaft slips over detents within it, all models look alike. So models that are compared are held as loosely as the
 //! best of them can follow.
 
+use super::settings::{FOLLOWS, OBSERVER_SETTLED};
 use crate::diagnose::context::Context;
-use crate::diagnose::models::{Errors, FittedModel, MEMORIES_S, NOISE_COUNTS, ObserverErrors};
+use crate::diagnose::models::{Errors, FittedModel, MEMORIES_S, ObserverErrors};
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data, Horizon, StartAngle};
 use servoid_engine::problem::{errors, rms_counts};
 use shared::cost::Cost;
 use shared::encoder::FLOOR_RMS_COUNTS;
-
-/// A model follows the readings if it errs by no more than this, counts RMS.
-const FOLLOWS: f64 = 3.0 * NOISE_COUNTS;
-
-/// An error is forgotten after so many times the time that it is remembered for.
-const SETTLED: f64 = 6.0;
 
 /// Adds the errors that are forgotten within `memory_s`.
 ///
@@ -62,7 +57,7 @@ fn settled_at(data: &Data, memory_s: f64) -> usize {
     let Some(&start) = data.time_s.first().filter(|_| data.may_start_moving(0)) else {
         return 0;
     };
-    let settled = (data.time_s).partition_point(|t| t - start < SETTLED * memory_s);
+    let settled = (data.time_s).partition_point(|t| t - start < OBSERVER_SETTLED * memory_s);
     // A recording that is no longer than that is judged as it is.
     if settled < data.len() / 2 { settled } else { 0 }
 }

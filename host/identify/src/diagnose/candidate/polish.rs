@@ -6,6 +6,7 @@ use super::descent::{FINEST, Settings};
 use super::observer::observe_like;
 use super::score::{refine_held_out_start, run_errors, score_candidate};
 use super::search::{fit_problem, search};
+use super::settings::{FINER, POLISHED, STEP_ERROR, STEP_PART};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
 use crate::error::Error;
@@ -18,16 +19,6 @@ const LAST: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
-/// An error is remembered so many times as long as where models are judged, while a model whose free run is chaotic is
-/// polished.
-const POLISHED: f64 = 5.0;
-/// Factor between step sizes that are compared.
-const FINER: u16 = 4;
-/// A finer step that changes the RMS error by less is not worth its time: counts.
-const STEP_ERROR: f64 = 0.02;
-/// The same as a part of what an error is above a count: such a model lacks something else.
-const STEP_PART: f64 = 0.1;
-
 /// Fits on from where a fit ended, with finer steps as long as they change its error, until it has
 /// converged: what is left then is not the arithmetic's.
 ///

@@ -4,6 +4,7 @@
 use super::descent::{Settings, descend};
 use super::score::score_candidate;
 use super::search::fit_problem;
+use super::settings::{HORIZONS_SETTLED, ROUNDS};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::FittedModel;
 use servoid_engine::problem::{FitProblem, Horizon};
@@ -18,11 +19,6 @@ const ROUND: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
-/// Most rounds. The weights settle in two or three.
-const ROUNDS: usize = 3;
-/// A round that lowers the sum of the errors' logarithms by less is the last.
-const SETTLED: f64 = 0.01;
-
 /// The residuals of several problems with the same unknowns, each weighted.
 struct Weighted<'a> {
     problems: Vec<(FitProblem<'a>, f64)>,
@@ -105,7 +101,7 @@ pub fn fit_over_horizons(
         }
         (x, left) = (found.x.clone(), now);
         best = Some(found);
-        if fell < SETTLED {
+        if fell < HORIZONS_SETTLED {
             break;
         }
     }

@@ -1,14 +1,9 @@
 //! How much a diagnosis may compute. It is counted in steps of a model, not in seconds, and looked at between
 //! pieces of work that do not run side by side: so a diagnosis ends at the same place on every machine.
 
+use super::settings::SEARCH;
+pub use super::settings::USUAL_STEPS;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-
-/// Steps of a model that a diagnosis may take where nobody says otherwise: ten times what 20 s at 1 kHz usually take,
-/// and between one and two minutes of one processor core of 2024.
-pub const USUAL_STEPS: u64 = 600_000_000;
-/// Part of the steps within which effects are searched for. The rest is for trying what was found against its
-/// look-alikes, without which no name is worth much.
-const SEARCH: f64 = 0.75;
 
 /// What a diagnosis may compute, and what it has computed.
 pub struct Budget<'a> {

@@ -2,10 +2,12 @@
 
 mod budget;
 mod motion;
+mod settings;
 mod span;
 
 pub use budget::{Budget, USUAL_STEPS};
 pub use motion::Motion;
+use settings::{GOLDEN, MOST_SAMPLES};
 pub use span::{Span, floor_counts, moves_both_ways, noise_counts, together_move_both_ways};
 
 use crate::fit::Options;
@@ -127,11 +129,6 @@ fn horizon(span: &Span, data: &Data) -> Horizon {
         None => Horizon::Whole,
     }
 }
-
-/// Most samples of a recording that a search runs over.
-const MOST_SAMPLES: usize = 25_000;
-/// The golden section: its multiples fall in no step with anything that repeats in a recording.
-const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// One window of each group of neighbours, where there are more samples than a search needs. Only of an angle that is no
 /// count: the windows of counts are judged by the encoder's own error, sample by sample.

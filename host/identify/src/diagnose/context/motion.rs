@@ -1,11 +1,9 @@
 //! The motion that was measured, as the effects of a series-parallel model want it.
 
+use super::settings::WINDOW_COUNTS;
 use servoid_engine::problem::Data;
 use shared::model::MeasuredInterval;
 
-/// Counts that the fastest motion passes within half a window of the speed's estimate, roughly: enough
-/// that the encoder's steps are one part in a hundred.
-const WINDOW_COUNTS: f64 = 60.0;
 /// Fewest and most samples to each side in a window.
 const HALF: (usize, usize) = (2, 12);
 

@@ -2,6 +2,7 @@
 //! recordings show the smallest effects, but only where the motor was left to the voltage: behind a current
 //! loop, or under a controller, every small error of the torque adds up without end.
 
+use super::settings::{AGAINST, FEWEST_SAMPLES, LOST, USUAL_WINDOW_S};
 use crate::diagnose::models::Errors;
 use crate::fit::{Options, SPEED_HALF_WIDTH};
 use servoid_engine::data::local_parabola;
@@ -9,11 +10,6 @@ use servoid_engine::problem::{Data, Horizon};
 use shared::encoder::FLOOR_RMS_COUNTS;
 use shared::motor::Machine;
 use std::ops::Range;
-
-/// Length of the windows when the user chose none, s.
-const USUAL_WINDOW_S: f64 = 0.5;
-/// Fewest samples of such a window.
-const FEWEST_SAMPLES: f64 = 50.0;
 
 /// How far models run on their own.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,12 +80,6 @@ impl Span {
         }
     }
 }
-
-/// A motor that strays by this part of the motion's spread was not moved by its voltage and a constant alone.
-const LOST: f64 = 0.8;
-
-/// Part of the travel that must go against the prevailing direction.
-const AGAINST: f64 = 0.05;
 
 /// Whether a twentieth of the travel at least goes against the prevailing direction.
 pub fn moves_both_ways(data: &Data) -> bool {

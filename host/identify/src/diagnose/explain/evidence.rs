@@ -2,23 +2,13 @@
 //! constants that the refit found, are drawn without any model of the effect: a sentence is only said where
 //! that drawing shows it.
 
+use super::settings::{DIFFERENT, IN_PHASE, LEVEL, LINE, SURE};
 use crate::diagnose::models::FittedModel;
 use crate::diagnose::outcome::Diagnosis;
 use crate::error::Error;
 use crate::residual_analysis::{self, Against, Bin, Line, Map, ResidualAnalysis};
 use servoid_engine::problem::Data;
 use shared::effects::{Evidence, Kind};
-
-/// A mean counts as different from zero from so many standard errors on.
-const SURE: f64 = 5.0;
-/// A level that changes by less than this part of itself from slow to fast does not grow.
-const LEVEL: f64 = 0.3;
-/// Sizes that differ by more than this part are different.
-const DIFFERENT: f64 = 0.1;
-/// A line at one order counts from this share of the missing volts on.
-const LINE: f64 = 0.2;
-/// Phases of one line in the two directions that are nearer than this belong together, degrees.
-const IN_PHASE: f64 = 40.0;
 
 /// The quantity against which the volts of an effect are drawn, where its equation names one.
 pub fn axis(kind: Kind) -> Option<Against> {

@@ -3,3 +3,4 @@
 pub mod advice;
 pub mod evidence;
 pub mod pair;
+mod settings;

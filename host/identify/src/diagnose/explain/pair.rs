@@ -1,6 +1,10 @@
 //! Whether two recordings belong together: one motor, one encoder that counts all the time, one sign.
 
 use super::evidence::plain;
+use super::settings::{
+    BEYOND, DIFFERENCE_SURE, DIFFERENT_MOTORS, EXPLAINED, JUMP_COUNTS, JUMP_TIMES, REVERSAL_S,
+    SAME_MOTOR, SELDOM, STRANGE,
+};
 use crate::diagnose::models::NOISE_COUNTS;
 use crate::diagnose::outcome::Diagnosis;
 use crate::diagnose::recordings::{HeldOut, Remark};
@@ -12,31 +16,8 @@ use servoid_engine::solve::levenberg_marquardt::LevenbergMarquardt;
 use shared::effects::Kind;
 use std::sync::atomic::AtomicBool;
 
-/// Both recordings count as explained by models of their own up to this error, counts RMS.
-const EXPLAINED: f64 = 3.0 * NOISE_COUNTS;
-/// A model of the one must be so many times worse on the other to be called a stranger to it.
-const STRANGE: f64 = 5.0;
-/// Parameters differ from so many standard errors on, and by at least this part.
-const SURE: f64 = 6.0;
-const DIFFERENT: f64 = 0.02;
-/// Where no model explains both: constants of the linear motors that differ by this factor are beyond what a
-/// single effect does to them.
-const BEYOND: f64 = 2.0;
-
-/// Ratios nearer to each other than this are those of one motor in two units.
-const SAME_MOTOR: f64 = 0.05;
-
-/// A jump of the error by at least so many counts within a sample that stays is the counter's.
-const JUMP_COUNTS: f64 = 2.0;
-/// In medians of the usual change from sample to sample.
-const JUMP_TIMES: f64 = 6.0;
-/// More than one jump in so many samples is no counter's: the model is wrong.
-const SELDOM: usize = 100;
 /// Samples to each side over which a jump must stay, and which part of it.
 const STAYS: (usize, f64) = (40, 0.7);
-
-/// An impact in a gear follows a reversal of the shaft within this time, s.
-const REVERSAL_S: f64 = 0.1;
 
 /// Samples to each side in which nothing else may change, beyond this part of the jump.
 const ALONE: (usize, f64) = (3, 0.5);
@@ -93,12 +74,13 @@ fn another_motor(
         };
         let explained = one.rms_counts < EXPLAINED && other.rms_counts < EXPLAINED;
         if explained {
-            differ = differences(&one, &other, DIFFERENT).map(|differ| {
-                match in_another_unit(&one, &other, data) {
-                    Some(unit) => format!("{differ}; {unit}"),
-                    None => differ,
-                }
-            });
+            differ =
+                differences(&one, &other, DIFFERENT_MOTORS).map(|differ| {
+                    match in_another_unit(&one, &other, data) {
+                        Some(unit) => format!("{differ}; {unit}"),
+                        None => differ,
+                    }
+                });
             break;
         }
         if effects.is_empty() {
@@ -179,7 +161,7 @@ fn differences(one: &Fit, other: &Fit, least: f64) -> Option<String> {
         let smaller = a.value.abs().min(b.value.abs());
         if a.identifiable
             && b.identifiable
-            && far > SURE * libm::hypot(s, t)
+            && far > DIFFERENCE_SURE * libm::hypot(s, t)
             && far > least * smaller
         {
             said.push(format!(

@@ -3,6 +3,7 @@
 mod fit;
 mod offset_regressor;
 
+use crate::diagnose::settings::OTHER_MOTOR;
 pub use fit::fit_linear;
 
 use super::context::Context;
@@ -10,9 +11,6 @@ use super::models::FittedModel;
 use crate::error::Error;
 use crate::fit::Options;
 use offset_regressor::regressed_beside_offset;
-
-/// A constant that lowers the linear motor's error to this part shows that the motor is another.
-const OTHER_MOTOR: f64 = 0.2;
 
 /// The linear motor and what follows from it.
 pub struct Linear<'a> {

@@ -5,6 +5,7 @@
 //! rises in the direction of motion.
 
 use super::levels::changes;
+use super::settings::{AROUND, FEWEST_CLEAR, HEIGHT, LARGEST, MOVES, NOISE, ROUNDS, SPREAD, WORSE};
 use super::step::{beside, filter, filtered, smooth, with_step};
 use crate::diagnose::models::Loss;
 
@@ -37,25 +38,8 @@ const FINE: Scale = Scale {
     degree: 1,
     least: 0.65,
 };
-/// Fewer clear losses than this, and single counts are not looked for.
-const FEWEST_CLEAR: usize = 2;
-/// Samples to each side of a change of level within which it must be a jump.
-const AROUND: usize = 32;
-/// Least height of such a jump, counts.
-const HEIGHT: f64 = 0.6;
-/// Mean square of the encoder's own error.
-const NOISE: f64 = 1.0 / 12.0;
 /// RMS error beside a jump, counts, and three standard deviations of it for a window of one sample.
 const BESIDE: (f64, f64) = (0.33, 1.35);
-/// Largest error beside a jump, counts.
-const LARGEST: f64 = 1.0;
-/// By how much a smooth course must explain a jump worse, in the encoder's mean squares.
-const WORSE: f64 = 9.0;
-/// A shaft that is slower than this many counts a sample loses none.
-const MOVES: f64 = 0.1;
-/// Rounds over all samples: what was hidden by a loss nearby is seen when that is taken away.
-const ROUNDS: usize = 4;
-
 /// How small the losses are that are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -196,9 +180,6 @@ impl Scale {
         lost.then_some(Loss { sample, counts })
     }
 }
-
-/// Two readings' quantisation, and that of the slope around them.
-const SPREAD: f64 = 1.6;
 
 /// How much the residual jumps before a sample or one next to it, beyond what it does around there.
 fn jumps(y: &[f64], at: usize) -> f64 {

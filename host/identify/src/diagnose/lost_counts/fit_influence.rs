@@ -4,18 +4,10 @@
 //! Jacobian's columns. From one sample to the next few a loss touches one difference in some hundred, so a sum
 //! of absolute differences is blind to it, and finds the shift that takes the bend back.
 
+use super::settings::{DAMPING, INFLUENCE_ROUNDS, QUANTUM, STEP};
 use nalgebra::{DMatrix, DVector};
 use servoid_engine::problem::FitProblem;
 use servoid_engine::solve::Objective;
-
-/// Step of the finite differences, as a share of the cube's side.
-const STEP: f64 = 1e-5;
-/// Rounds of reweighting.
-const ROUNDS: usize = 8;
-/// Differences below this many counts are as good as none: two readings' quantisation.
-const QUANTUM: f64 = 0.4;
-/// Damping of the shift, relative: a direction that does nothing is left alone.
-const DAMPING: f64 = 1e-9;
 
 /// Model minus reading, and how the parameters change it.
 pub struct FitInfluence {
@@ -84,7 +76,7 @@ fn shift(residual: &[f64], columns: &[Vec<f64>], lag: usize) -> Vec<f64> {
     let columns: Vec<Vec<f64>> = columns.iter().map(|c| difference(c)).collect();
     let n = columns.len();
     let mut shift = vec![0.0; n];
-    for _ in 0..ROUNDS {
+    for _ in 0..INFLUENCE_ROUNDS {
         let mut left = steps.clone();
         for (shift, column) in shift.iter().zip(&columns) {
             for (left, slope) in left.iter_mut().zip(column) {

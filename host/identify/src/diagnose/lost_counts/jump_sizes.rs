@@ -1,12 +1,8 @@
 //! The heights of all jumps at once, beside a shift of the parameters.
 
+use super::settings::{RIGHT, SIZES_DAMPING};
 use crate::diagnose::models::Loss;
 use nalgebra::{DMatrix, DVector};
-
-/// RMS error, counts, up to which the model is right but for its parameters and the jumps.
-const RIGHT: f64 = 0.45;
-/// Damping, relative.
-const DAMPING: f64 = 1e-9;
 
 /// The losses with the heights that explain `y`, model minus reading, together with any amounts of the
 /// `columns` and a constant; those that are nearer to none than to one count dropped. A drift that looked like
@@ -31,7 +27,7 @@ pub fn rounded(y: &[f64], columns: &[Vec<f64>], losses: Vec<Loss>) -> Vec<Loss> 
     let mut normal = DMatrix::from_fn(n, n, |i, j| if j < i { 0.0 } else { product(i, j) });
     normal.fill_lower_triangle_with_upper_triangle();
     for i in 0..n {
-        normal[(i, i)] *= 1.0 + DAMPING;
+        normal[(i, i)] *= 1.0 + SIZES_DAMPING;
     }
     let right = DVector::from_fn(n, |i, _| {
         if i < smooth - 1 {

@@ -1,13 +1,6 @@
 //! The most likely course of a residual that stays on levels a whole number of counts apart.
 
-/// Most levels; a residual that needs more is not near the encoder's own error.
-const MOST: usize = 48;
-/// What a change of level costs, as a logarithm of odds: about one change in a thousand samples, of any of ten
-/// sizes.
-const CHANGE: f64 = 9.0;
-/// Samples that are averaged where the levels' common fraction is looked for: readings alone spread evenly
-/// over a whole count, and have none.
-const AVERAGED: usize = 24;
+use super::settings::{AVERAGED, CHANGE, MOST};
 
 /// Changes of level in `y`, of which those with the direction of motion are allowed (`direction` is 1, −1, or 0
 /// for a shaft at rest): samples and sizes, in order. `None` where the levels are too many. Exact, by dynamic

@@ -17,6 +17,7 @@ mod laws;
 mod levels;
 mod rate;
 mod repaired;
+mod settings;
 mod step;
 
 use crate::diagnose::candidate::descent::Settings;
@@ -31,6 +32,7 @@ use repaired::{Repaired, lost, repaired};
 use servoid_engine::problem::{Data, FitProblem, Horizon, StartAngle, Structure};
 use servoid_engine::simulation::Method;
 use servoid_engine::solve::Objective;
+use settings::{NEAR, PROMISING, REPAIR_ROUNDS, SAMPLES_EACH};
 use shared::cost::Cost;
 use shared::effects::Kind;
 
@@ -39,20 +41,11 @@ const FIT: Settings = Settings {
     evaluations: 60,
     ..Settings::THOROUGH
 };
-/// Most rounds of finding and fitting.
-const ROUNDS: usize = 6;
 /// Samples over which a bend is looked for, at first and when losses are known.
 const LAGS: (usize, usize) = (8, 64);
 /// Where the rest is not the encoder's own error, only losses of so many counts are beyond doubt, and there
 /// must be so many of them in the fitted recording and in the held-out one.
 const STRONG: (f64, usize, usize) = (5.0, 3, 2);
-/// RMS error on the fitted recording, counts, that a last fit may bring down to the encoder's own.
-const PROMISING: f64 = 1.0;
-/// RMS error, counts, up to which smaller ones are believed.
-const NEAR: f64 = 0.4;
-/// Fewest samples for each loss: what jumps more often is no loss.
-const SAMPLES_EACH: usize = 40;
-
 /// The model `parent` with the losses that its residuals show; its parameters are fitted again. `None`
 /// where there are too few jumps, or too many, or where it has losses already.
 pub fn found(context: &Context<'_>, parent: &FittedModel) -> Option<FittedModel> {
@@ -175,7 +168,7 @@ fn settled(
     let structure = &parent.structure;
     let mut x = parent.x.clone();
     let mut losses = known.to_vec();
-    for _ in 0..ROUNDS {
+    for _ in 0..REPAIR_ROUNDS {
         let next = in_recording(context.data, structure, parent.method, &x, &losses, depth)?;
         let few = match depth {
             Depth::Clear => strong(&next) < STRONG.1,

@@ -1,11 +1,7 @@
 //! How the losses depend on the speed.
 
+use super::settings::{EARNED, THRESHOLDS};
 use crate::diagnose::models::Loss;
-
-/// Thresholds that are tried, as parts of the fastest speed.
-const THRESHOLDS: usize = 40;
-/// Gain in the log likelihood that a threshold must bring: about two standard deviations.
-const EARNED: f64 = 2.0;
 
 /// Share of the travel beyond a threshold that is lost, and that threshold in counts a sample: the most
 /// likely for events that come at random, in proportion to the travel beyond it. No threshold unless the

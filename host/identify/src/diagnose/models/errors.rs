@@ -1,12 +1,6 @@
 //! Errors on both recordings, and what a model is worth by them.
 
-use shared::encoder::FLOOR_RMS_COUNTS;
-
-/// Errors below this are the encoder's own, counts RMS: its floor of 0.2887 with room for a recording
-/// whose readings dwell in one part of their cells.
-pub const NOISE_COUNTS: f64 = 0.33;
-/// Room above the floor, for a recording whose readings dwell in one part of their cells.
-pub const ROOM: f64 = NOISE_COUNTS / FLOOR_RMS_COUNTS;
+pub use crate::diagnose::settings::{NOISE_COUNTS, ROOM};
 
 /// RMS errors on both recordings, counts.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,15 +3,13 @@
 use super::errors::Errors;
 use super::losses::Losses;
 use super::observer_errors::ObserverErrors;
+use crate::diagnose::settings::PROOF;
 use servoid_engine::problem::{Candidate, Structure};
 use servoid_engine::simulation::Method;
 use shared::effects::Kind;
 use shared::encoder::FLOOR_RMS_COUNTS;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-
-/// A chaotic run that was followed over such a part of the recording proves the model.
-const PROOF: f64 = 0.5;
 
 /// A fitted model with its errors.
 #[derive(Clone, Debug)]

@@ -1,9 +1,7 @@
 //! Errors that are soon forgotten: those of a run that an observer holds to the readings.
 
 use super::errors::Errors;
-
-/// How long an error may be remembered, s, the longest first.
-pub const MEMORIES_S: [f64; 3] = [0.1, 0.03, 0.01];
+pub use crate::diagnose::settings::MEMORIES_S;
 
 /// Errors that are soon forgotten.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,17 +1,11 @@
 //! What is held out of a fit: another recording, or the end of the only one.
 
+use crate::diagnose::settings::{FITTED_PART, LEAST_S, REST_S};
 use servoid_io::recording::Recording;
 use std::ops::Range;
 
-/// Part of the recording that is fitted where its end is held out.
-const FITTED_PART: f64 = 0.75;
 /// Parts of the recording between which a rest is looked for, to cut there.
 const REST_BETWEEN: Range<f64> = 0.6..0.9;
-/// How long a rest must have lasted, s.
-const REST_S: f64 = 0.05;
-/// Least length of the part that is held out, s.
-const LEAST_S: f64 = 0.25;
-
 /// What the held-out errors were measured on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HeldOut {

@@ -7,6 +7,7 @@
 use super::gains::Filter;
 use super::readings::Readings;
 use super::settings::{BLOCKS, FEWEST_READINGS, FOLDS, ORDERS, RIDGE};
+use super::settings::{FALLING, SINCE_REVERSAL_S, SLOW};
 use crate::likelihood::HUBER;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -50,13 +51,6 @@ struct Rows {
     block: Vec<usize>,
     groups: Vec<(&'static str, Vec<Vec<f64>>)>,
 }
-
-/// Part of the fastest speed below which a motor has no direction, roughly.
-const SLOW: f64 = 0.02;
-/// Times since a reversal over which something may decay, s.
-const SINCE_REVERSAL_S: [f64; 3] = [0.03, 0.15, 0.6];
-/// Parts of the fastest speed over which friction may fall.
-const FALLING: [f64; 2] = [0.03, 0.1];
 
 /// The predicted motion at one reading.
 struct Seen {

@@ -4,6 +4,7 @@
 use super::noise::Noise;
 use super::readings::Readings;
 use super::settings::UNDAMPED_INTERVAL_S;
+use super::settings::{SHORT, SHORTEST_S, UNDAMPED_S};
 use servoid_engine::problem::Data;
 use servoid_engine::simulation::Correction;
 use servoid_io::recording::Drive;
@@ -40,11 +41,6 @@ impl Plant {
         }
     }
 }
-
-/// Time constant of a motor that nothing damps, s.
-const UNDAMPED_S: f64 = 1e4;
-/// Shortest time constant, s.
-const SHORTEST_S: f64 = 1e-6;
 
 /// An observer for the readings of recordings.
 #[derive(Clone)]
@@ -163,6 +159,3 @@ impl Covariance {
         (angle, speed, variance)
     }
 }
-
-/// Part of the time constant below which the closed form of the angle's variance loses its digits.
-const SHORT: f64 = 1e-2;

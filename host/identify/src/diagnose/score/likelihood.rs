@@ -2,6 +2,7 @@
 
 use super::gains::Filter;
 use super::readings::Readings;
+use super::settings::FEWEST;
 use super::settings::MOST_LAGS;
 use crate::likelihood::{HUBER, huber};
 use std::f64::consts::TAU;
@@ -47,9 +48,6 @@ pub fn correlation_length(readings: &Readings<'_>, filter: &Filter, errors: &[f6
     let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
     mean.max(1.0)
 }
-
-/// Fewest innovations that tell how they are correlated.
-const FEWEST: usize = 20;
 
 fn correlation_time(values: &[f64]) -> Option<f64> {
     if values.len() < FEWEST {

@@ -3,7 +3,7 @@
 use super::gains::{Filter, Plant};
 use super::likelihood::likelihood;
 use super::readings::Readings;
-use super::settings::NOISE_RUNS;
+use super::settings::{MIDDLE, NOISE_RUNS, STARTS};
 use servoid_engine::problem::{Candidate, Horizon, StartAngle};
 use servoid_engine::simulation::{Method, Mode, Segment, Simulation, segments};
 use servoid_engine::solve::nelder_mead::NelderMead;
@@ -55,10 +55,6 @@ pub fn estimate(
 const SPEED_PART: (f64, f64) = (1e-7, 10.0);
 /// Least and most of a reading's variance beyond its floor, in floors.
 const BEYOND: (f64, f64) = (0.01, 1e8);
-const MIDDLE: [f64; 2] = [0.5, 0.0];
-/// Parts of the torque's range from which a search starts.
-const STARTS: [f64; 4] = [0.15, 0.4, 0.6, 0.8];
-
 /// How the unit square is stretched to a noise.
 #[derive(Clone, Copy)]
 struct Scale {

@@ -1,12 +1,10 @@
 //! At which readings an observer corrects a model, and what each of them weighs.
 
 use super::settings::{LEAST_SAMPLES, LONGEST_S, REST_READINGS, REST_S};
+use super::settings::{STILL, TIME_ROUNDING};
 use crate::diagnose::context::noise_counts;
 use servoid_engine::problem::Data;
 use std::ops::Range;
-
-/// A reading that counts may differ by so many standard deviations of its noise and still be one at rest.
-const STILL: f64 = 4.0;
 
 /// The readings of one or several recordings at which an observer corrects.
 pub struct Readings<'a> {
@@ -70,9 +68,6 @@ impl<'a> Readings<'a> {
         self.weights.iter().sum()
     }
 }
-
-/// A reading this part of a sample too early is the one that was meant.
-const TIME_ROUNDING: f64 = 1e-3;
 
 /// Whether the angle stays within `still` counts around sample `k`.
 fn rests(data: &Data, k: usize, recording: Range<usize>, still: f64) -> bool {

@@ -2,9 +2,7 @@
 
 use super::gains::{Covariance, Plant};
 use super::noise::Noise;
-
-/// Steps of the integral over a window.
-const STEPS: usize = 50;
+use super::settings::STEPS;
 
 /// RMS error in counts of a right model's free run over windows of `window_s`, each from the measured state. On recordings with
 /// repeats it is within 30 % of what the repeats differ by up to 2 s; over longer times the parameters themselves drift, which no single

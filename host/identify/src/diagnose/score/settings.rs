@@ -39,3 +39,44 @@ pub const STEP: f64 = 1e-4;
 pub const RANGE_PRECISION: f64 = 12.0;
 /// A standard error of so much of the search range, where nothing at all is 0.29, tells nothing.
 pub const KNOWN_PART: f64 = 0.2;
+
+// foretold
+
+/// Part of the fastest speed below which a motor has no direction, roughly.
+pub const SLOW: f64 = 0.02;
+/// Times since a reversal over which something may decay, s.
+pub const SINCE_REVERSAL_S: [f64; 3] = [0.03, 0.15, 0.6];
+/// Parts of the fastest speed over which friction may fall.
+pub const FALLING: [f64; 2] = [0.03, 0.1];
+
+// gains
+
+/// Time constant of a motor that nothing damps, s.
+pub const UNDAMPED_S: f64 = 1e4;
+/// Shortest time constant, s.
+pub const SHORTEST_S: f64 = 1e-6;
+/// Part of the time constant below which the closed form of the angle's variance loses its digits.
+pub const SHORT: f64 = 1e-2;
+
+// likelihood
+
+/// Fewest innovations that tell how they are correlated.
+pub const FEWEST: usize = 20;
+
+// readings
+
+/// A reading that counts may differ by so many standard deviations of its noise and still be one at rest.
+pub const STILL: f64 = 4.0;
+/// A reading this part of a sample too early is the one that was meant.
+pub const TIME_ROUNDING: f64 = 1e-3;
+
+// repeatability
+
+/// Steps of the integral over a window.
+pub const STEPS: usize = 50;
+
+// noise
+
+pub const MIDDLE: [f64; 2] = [0.5, 0.0];
+/// Parts of the torque's range from which a search starts.
+pub const STARTS: [f64; 4] = [0.15, 0.4, 0.6, 0.8];

@@ -2,6 +2,7 @@
 //! It predicts what the effect can explain, and is where the full fit starts.
 
 mod series_parallel;
+mod settings;
 mod starts;
 
 use crate::diagnose::candidate::descent::Settings;
@@ -15,26 +16,16 @@ use series_parallel::SeriesParallel;
 pub use series_parallel::follows;
 use servoid_engine::problem::{Scale, Structure};
 use servoid_engine::solve::Objective;
+pub use settings::FORMS;
+use settings::{FRICTION_SHARE, GLANCED, MOST_ORDERS, PROMISING};
 use shared::effects::{Form, Kind, MAX_EFFECTS, Starts};
 use shared::units::Quantity;
 use starts::starts;
 
-/// The textbook's form of an effect, and its relative.
-pub const FORMS: [f64; 2] = [0.0, 1.0];
-/// Where the search for a share of friction starts.
-const FRICTION_SHARE: f64 = 0.5;
-/// Most orders of a cogging torque in a model.
-const MOST_ORDERS: usize = 5;
 const SCREENING: Settings = Settings {
     tolerance: 5e-3,
     ..Settings::ROUGH
 };
-
-/// Starts that are left after a glance at all of them.
-const GLANCED: usize = 2;
-/// An effect that the series-parallel model does not follow, and that leaves more than this part of the error from its
-/// first start, gets no other.
-const PROMISING: f64 = 0.9;
 
 /// The model `parent` with `kind` added. An effect that starts from a simpler one, as bristles do from dry friction, is screened after that.
 pub fn screen(context: &Context<'_>, parent: &FittedModel, kind: Kind) -> Option<ScreenedModel> {

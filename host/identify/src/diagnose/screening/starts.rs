@@ -1,14 +1,10 @@
 //! Where the search for a new effect's parameters starts.
 
+use super::settings::{AMPLITUDE, LINES};
 use crate::diagnose::context::Context;
 use crate::diagnose::models::{FittedModel, ScreenedModel};
 use crate::diagnose::spectrum::orders;
 use shared::effects::{Kind, Starts};
-
-/// Lines of the angle's spectrum that are tried.
-const LINES: usize = 3;
-/// Part of the typical amplitude to start from.
-const AMPLITUDE: f64 = 0.5;
 
 /// Starts for the parameters of `kind`, SI, beside the model `parent`. `first` is that with the simpler effect from which some
 /// effects start.

@@ -2,19 +2,16 @@
 //! found one by one and then fitted together, by regression on the equation of motion.
 
 pub mod orders;
+mod settings;
 mod waves;
 
 pub use orders::{Line, lines};
+use settings::{MOST, WORTH};
 
 use crate::fit::scores::{EquationResidual, filtered_values};
 use nalgebra::{DMatrix, DVector};
 use orders::{Filtered, clearest, lines_of, others};
 use servoid_engine::problem::{Candidate, Data};
-
-/// Most orders that are listed.
-const MOST: usize = 12;
-/// A further order must explain this part of what the others leave.
-const WORTH: f64 = 0.1;
 
 /// The orders of a cogging torque.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,18 +4,11 @@
 //! so a descent must start in the right one. Each order's cosine and sine, as the residual's filter leaves them, are
 //! regressed on by themselves, beside friction each way and corrections of damping and inertia.
 
+use super::settings::{FEWEST, FILTERS_SAMPLES, WAVES};
 use super::waves::{HIGHEST, LANES, ROWS, Row, each_sample};
 use crate::fit::scores::{EquationResidual, equation_residuals};
 use nalgebra::{Matrix2, Matrix4, Matrix4x2, Vector2, Vector4};
 use servoid_engine::problem::{Candidate, Data};
-
-/// Filter times of the equation's residual, sample intervals: the short one where the shaft turns through a wave in a few samples, which the long one
-/// wears away (order 7 at 200 Hz: 63 % of the residual, and nothing), the long one where the counter's steps hide the wave.
-const FILTERS_SAMPLES: [f64; 2] = [1.0, 3.0];
-/// Fewest samples that must show a line for it to count.
-const FEWEST: f64 = 200.0;
-/// Fewest waves that the shaft must have turned through: what it met once or twice need not be a thing that repeats.
-const WAVES: f64 = 3.0;
 
 /// A line of the spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,20 +3,13 @@
 //! A torque that repeats with the angle acts on the shaft with its mean over each interval, `(sin kθ₁ − sin kθ₀)/(k(θ₁ − θ₀))`
 //! for a cosine; and what is left of a quick wave, late and worn away, is what the same filter makes of that mean.
 
+use super::settings::SLOW;
+pub use super::settings::{HIGHEST, LANES, ROWS};
 use crate::fit::filter::{Behind, Filter};
 use core::array::from_fn;
 use core::f64::consts::TAU;
 use servoid_engine::lanes::with_vectors;
 use servoid_engine::problem::Data;
-
-/// Highest order that is looked for.
-pub const HIGHEST: usize = 128;
-/// Orders side by side.
-pub const LANES: usize = 8;
-/// Such rows of orders.
-pub const ROWS: usize = HIGHEST / LANES;
-/// Below this many radians within an interval, the mean of a wave is that of its ends.
-const SLOW: f64 = 1e-2;
 
 /// Cosine and sine of one row of orders.
 pub type Row = [[f64; LANES]; 2];

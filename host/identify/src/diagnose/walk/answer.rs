@@ -3,6 +3,7 @@
 use super::moves;
 use super::node::Node;
 use super::pool::Pool;
+use super::settings::CANDIDATES;
 use super::settings::{CLASS_NATS, FINALISTS, NEAR};
 use crate::diagnose::candidate::several_horizons::fit_over_horizons;
 use crate::diagnose::chosen::Level;
@@ -301,9 +302,6 @@ fn levels(pool: &Pool<'_>, chosen: &FittedModel) -> Vec<Level> {
     }
     levels
 }
-
-/// Most models that are shown beside a step.
-const CANDIDATES: usize = 12;
 
 fn newest_last(model: FittedModel, before: &[Kind]) -> FittedModel {
     let newest = model.effects.iter().filter(|kind| !before.contains(kind));

@@ -1,6 +1,7 @@
 //! Forms other than the textbook's. They are searched for where the textbook's leave something to explain, and must earn
 //! their freedom as an effect must: a parameter that is free in every model would cost naming power in every diagnosis.
 
+use super::settings::FORM_PROMISING;
 use crate::diagnose::candidate::descent::Settings;
 use crate::diagnose::candidate::polish::polish;
 use crate::diagnose::candidate::search::{fit_problem, search};
@@ -10,9 +11,6 @@ use crate::diagnose::models::{Errors, FittedModel};
 use crate::diagnose::screening::FORMS;
 use crate::fit::forms::MUST_REMOVE;
 use servoid_engine::problem::Structure;
-
-/// Part of what a form must remove that its trial has to remove, since it ends before it has converged.
-const PROMISING: f64 = 0.5;
 
 /// `model` with its forms free, if that removes enough of what it leaves. `None` where nothing is left, no form is held, or
 /// free runs are chaotic.
@@ -40,7 +38,7 @@ fn tried(context: &Context<'_>, model: &FittedModel, freed: FittedModel) -> Opti
     let ran = model.ran();
     let fitted = (found.squares / context.samples() as f64).sqrt();
     let left = Errors { fitted, ..ran }.fitted_excess() / ran.fitted_excess();
-    (1.0 - left > PROMISING * MUST_REMOVE).then_some(FittedModel {
+    (1.0 - left > FORM_PROMISING * MUST_REMOVE).then_some(FittedModel {
         x: found.x,
         ..freed
     })

@@ -29,3 +29,13 @@ pub const BEAM: usize = 3;
 pub const PATIENCE: usize = 2;
 /// A simpler set is polished beside one that explains the recording if the logarithm of its errors' product is behind by no more than this.
 pub const NEAR: f64 = 3.0;
+
+// answer
+
+/// Most models that are shown beside a step.
+pub const CANDIDATES: usize = 12;
+
+// forms
+
+/// Part of what a form must remove that its trial has to remove, since it ends before it has converged.
+pub const FORM_PROMISING: f64 = 0.5;
