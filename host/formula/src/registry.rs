@@ -47,7 +47,7 @@ impl Law {
         let parameters: Vec<String> = (description.parameters.iter())
             .map(|parameter| {
                 format!(
-                    "Parameter {{ name: {:?}, quantity: Quantity::Stated({:?}), range: {:?}, widest: {:?}, typical: {:?}, amplitude: {}, neutral: {:?}, form: false }}",
+                    "Parameter {{ name: {:?}, quantity: Quantity::Stated({:?}), range: {:?}, widest: {:?}, typical: {:?}, amplitude: {}, neutral: {:?}, form: None }}",
                     parameter.name,
                     parameter.quantity.unit(),
                     parameter.range,
