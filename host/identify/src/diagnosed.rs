@@ -5,7 +5,7 @@ use crate::diagnose::{self, Budget, Diagnosis, HeldOut, Remark, pair};
 use crate::discovery::{self, Proposed};
 use crate::error::Error;
 use crate::findings::{Findings, findings};
-use crate::fit::recordings::recording_errors;
+use crate::fit::recordings::{loop_remarks, recording_errors};
 use crate::fit::{Fit, Options, RecordingError};
 use crate::likelihood;
 use crate::progress::Progress;
@@ -111,12 +111,13 @@ pub fn diagnose_data(
         last.likelihood = likelihood::section(fitted, &last, &diagnosis.last.effects, stop);
     }
     let findings = findings(&diagnosis, fitted, held_out)?;
-    let remarks = if interrupted || diagnosis.ran_out {
+    let mut remarks = if interrupted || diagnosis.ran_out {
         Vec::new()
     } else {
         pair::remarks(&diagnosis, fitted, held_out, kind, options, stop)?
     };
     let recordings = recording_errors(fitted, Some(held_out), &last.candidate, last.method)?;
+    remarks.extend(loop_remarks(&recordings).map(Remark::aside));
     Ok(Diagnosed {
         recordings,
         diagnosis,

@@ -8,7 +8,7 @@ use crate::fit::integration::Refined;
 use crate::fit::interval::{self, most_likely};
 use crate::fit::own_parameters::{self, fit_own};
 use crate::fit::profile::{self, Profile};
-use crate::fit::recordings::{add_spread, recording_errors};
+use crate::fit::recordings::{add_spread, loop_remarks, recording_errors};
 use crate::fit::report::Solved;
 use crate::fit::systematic::add_systematic;
 use crate::fit::{self, Fit, Options};
@@ -117,6 +117,7 @@ pub fn identify_data(
     };
     fit.lack_of_fit = lack_of_fit(&fit, data, validation, options);
     fit.notes.extend(notes.into_iter().flatten());
+    fit.notes.extend(loop_remarks(&fit.recordings));
     Ok(fit)
 }
 

@@ -62,6 +62,21 @@ fn friction_is_named_behind_the_loop() {
     let known = &list(&found, "position_loops")[0];
     assert_eq!(known["gain_v_per_rad"], 3.0);
     assert_eq!(known["gain_estimated"], false);
+    let replayed = list(&found, "recordings").iter();
+    let replayed: Vec<f64> = replayed
+        .map(|one| number(one, "replay_rms_counts"))
+        .collect();
+    println!("driven by its loop: {replayed:?} counts RMS");
+    assert_eq!(replayed.len(), 2);
+    assert!(replayed.iter().all(|rms| *rms < 2.0), "{replayed:?}");
+    // A loop that is not the one that drove the motor.
+    let strange = desk.json("fit a.csv --with coulomb --loop gain_v_per_rad=3 --loop damping_v_s_per_rad=0.02");
+    let notes = list(&strange, "notes").iter();
+    let told = notes.filter_map(|note| note.as_str());
+    assert!(
+        told.into_iter()
+            .any(|note| note.contains("driven by its position loop"))
+    );
 }
 
 #[test]

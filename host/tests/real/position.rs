@@ -3,6 +3,7 @@
 use crate::fits::fitted;
 use crate::limits::within;
 use crate::source::{data, vendored};
+use servoid_engine::simulation::replayed;
 use servoid_identify::fit::Fit;
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_io::position_loop::GainOrigin;
@@ -98,6 +99,24 @@ fn a_motor_is_the_same_by_its_target_and_by_its_voltage() {
             println!("{name}, {what}: {ratio:.4}");
             within(&format!("{name}, {what}"), ratio, 0.97..1.03);
         }
+    }
+}
+
+/// Behind its own loop the model goes where the servo goes: nearer to it than along the volts, since the loop takes back what the model does
+/// wrong.
+#[test]
+fn a_motor_is_driven_by_its_loop_where_the_servo_goes() {
+    let effects = [Kind::Unbalance, Kind::LoadFriction];
+    for (kp, most) in [(400, 30.0), (800, 40.0)] {
+        let told = by_target(
+            &format!("sin_time_square_kp{kp}"),
+            Some(gain_v_per_rad(kp)),
+        );
+        let data = data(&told.unwrap());
+        let fit = fitted(&data, &effects, 0.5);
+        let replayed = replayed(&data, &fit.candidate, fit.method)[0].expect("a loop");
+        println!("kp {kp}: {replayed:.2} counts RMS, along the volts {:.2}", fit.rms_counts);
+        within(&format!("kp {kp}, counts"), replayed, 5.0..most);
     }
 }
 

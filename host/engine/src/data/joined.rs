@@ -1,10 +1,11 @@
 //! Several recordings of one motor as one.
 
 use super::{Data, Recordings};
-use servoid_io::position_loop::PositionLoop;
+use servoid_io::recording::PositionDrive;
 use servoid_io::recording::Recording;
 use shared::error::ModelError;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Time from one recording to the next, s: any will do, since nothing runs across it.
 const BETWEEN_S: f64 = 1.0;
@@ -61,7 +62,7 @@ impl Data {
         }
         let mut list = recordings.into_iter();
         let mut whole = list.next().ok_or(JoinError::Empty)?;
-        let mut parts = Recordings::one(&whole.source, whole.len()).driven_by(control(&whole));
+        let mut parts = Recordings::one(&whole.source, whole.len()).driven_by(drive(&whole));
         for next in list {
             if let Some(what) = difference(&whole, &next) {
                 return Err(JoinError::Differ {
@@ -70,7 +71,7 @@ impl Data {
                     what,
                 });
             }
-            parts.push(&next.source, next.len(), control(&next));
+            parts.push(&next.source, next.len(), drive(&next));
             append(&mut whole, next);
         }
         whole.source = parts.sources().join(" + ");
@@ -84,7 +85,7 @@ impl Data {
 
     fn part(&self, index: usize, range: Range<usize>) -> Data {
         let source = &self.recordings.sources()[index];
-        let control = self.recordings.loops()[index];
+        let drive = self.recordings.drives()[index].clone();
         let start = self.time_s.get(range.start).copied().unwrap_or(0.0);
         let some = |values: &[f64]| values[range.clone()].to_vec();
         Data {
@@ -96,16 +97,16 @@ impl Data {
             measured: self.measured.rows(range.clone()),
             lengths: self.lengths.clone(),
             length_of: self.length_of[range.clone()].to_vec(),
-            recordings: Recordings::one(source, range.len()).driven_by(control),
+            recordings: Recordings::one(source, range.len()).driven_by(drive),
             end_of: None,
             ..*self
         }
     }
 }
 
-/// The position loop that made a recording's command, if one did.
-pub(super) fn control(recording: &Recording) -> Option<PositionLoop> {
-    (recording.position.as_ref()).map(|position| position.control)
+/// The position loop that made a recording's command, if one did, with its targets.
+pub(super) fn drive(recording: &Recording) -> Option<Arc<PositionDrive>> {
+    recording.position.clone().map(Arc::new)
 }
 
 /// In what two recordings differ that keeps them from being fitted together.

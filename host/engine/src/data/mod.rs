@@ -70,7 +70,7 @@ impl Data {
     /// As [`new`](Self::new).
     pub fn taken(recording: Recording) -> Result<Self, ModelError> {
         let one = Recordings::one(&recording.source, recording.len());
-        let one = one.driven_by(joined::control(&recording));
+        let one = one.driven_by(joined::drive(&recording));
         Data::of_recordings(recording, one)
     }
 
@@ -183,6 +183,7 @@ impl Data {
         for count in &mut turned.counts {
             *count += counts;
         }
+        turned.recordings = self.recordings.turned(counts);
         turned
     }
 

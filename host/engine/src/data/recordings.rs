@@ -1,7 +1,9 @@
 //! Where each of several recordings lies among the samples.
 
 use servoid_io::position_loop::PositionLoop;
+use servoid_io::recording::PositionDrive;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The recordings that samples come from, one after the other. Nothing runs from one into the next.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,8 +12,8 @@ pub struct Recordings {
     begins: Vec<usize>,
     /// Where each came from.
     sources: Vec<String>,
-    /// The position loop that made the command of each, if one did.
-    loops: Vec<Option<PositionLoop>>,
+    /// The position loop that made the command of each, if one did, with its targets.
+    drives: Vec<Option<Arc<PositionDrive>>>,
     /// Number of samples.
     end: usize,
 }
@@ -22,25 +24,25 @@ impl Recordings {
         Recordings {
             begins: vec![0],
             sources: vec![source.to_owned()],
-            loops: vec![None],
+            drives: vec![None],
             end: samples,
         }
     }
 
     /// The same, with the position loop that made the command of the last.
     #[must_use]
-    pub(super) fn driven_by(mut self, control: Option<PositionLoop>) -> Self {
-        if let Some(last) = self.loops.last_mut() {
-            *last = control;
+    pub(super) fn driven_by(mut self, drive: Option<Arc<PositionDrive>>) -> Self {
+        if let Some(last) = self.drives.last_mut() {
+            *last = drive;
         }
         self
     }
 
     /// Puts another one of so many samples behind them.
-    pub(super) fn push(&mut self, source: &str, samples: usize, control: Option<PositionLoop>) {
+    pub(super) fn push(&mut self, source: &str, samples: usize, drive: Option<Arc<PositionDrive>>) {
         self.begins.push(self.end);
         self.sources.push(source.to_owned());
-        self.loops.push(control);
+        self.drives.push(drive);
         self.end += samples;
     }
 
@@ -52,7 +54,7 @@ impl Recordings {
         Recordings {
             begins: self.begins[..count].to_vec(),
             sources: self.sources[..count].to_vec(),
-            loops: self.loops[..count].to_vec(),
+            drives: self.drives[..count].to_vec(),
             end,
         }
     }
@@ -66,9 +68,35 @@ impl Recordings {
             begins.push(end);
             end += range.len().div_ceil(every);
         }
+        let kept = |targets: &[f64]| targets.iter().copied().step_by(every).collect();
         Recordings {
             begins,
             end,
+            drives: self.with_targets(kept),
+            ..self.clone()
+        }
+    }
+
+    /// The drives with other targets, counts.
+    fn with_targets(
+        &self,
+        targets: impl Fn(&[f64]) -> Vec<f64>,
+    ) -> Vec<Option<Arc<PositionDrive>>> {
+        let with = |drive: &Arc<PositionDrive>| {
+            Arc::new(PositionDrive {
+                control: drive.control,
+                target_counts: targets(&drive.target_counts),
+            })
+        };
+        let drives = self.drives.iter();
+        drives.map(|drive| drive.as_ref().map(with)).collect()
+    }
+
+    /// The same with so many counts added to each target.
+    #[must_use]
+    pub(super) fn turned(&self, counts: f64) -> Self {
+        Recordings {
+            drives: self.with_targets(|all| all.iter().map(|target| target + counts).collect()),
             ..self.clone()
         }
     }
@@ -88,9 +116,15 @@ impl Recordings {
         &self.sources
     }
 
-    /// The position loop that made the command of each, if one did.
-    pub fn loops(&self) -> &[Option<PositionLoop>] {
-        &self.loops
+    /// The position loop that made the command of each, if one did, with its targets.
+    pub fn drives(&self) -> &[Option<Arc<PositionDrive>>] {
+        &self.drives
+    }
+
+    /// The position loops of those that have one, each with where its recording came from.
+    pub fn loops(&self) -> impl Iterator<Item = (&str, &PositionLoop)> {
+        let each = self.sources.iter().zip(&self.drives);
+        each.filter_map(|(source, drive)| Some((source.as_str(), &drive.as_ref()?.control)))
     }
 
     /// Samples of each.

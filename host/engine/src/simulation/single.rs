@@ -147,7 +147,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// State at sample `k`, where the encoder angle is `angle` counts and the speed `speed` rad/s.
-    fn start(&self, k: usize, angle: f64, speed: f64) -> State<f64> {
+    pub(super) fn start(&self, k: usize, angle: f64, speed: f64) -> State<f64> {
         let mut state = State::at(angle, speed / self.data.units.speed);
         let Some(last) = self.data.len().checked_sub(1) else {
             return state;

@@ -9,7 +9,7 @@ use super::start::problem;
 use super::validate::validation_errors;
 use crate::error::Error;
 use servoid_engine::problem::{Candidate, Data, rms_counts};
-use servoid_engine::simulation::Method;
+use servoid_engine::simulation::{Method, replayed};
 use servoid_engine::solve;
 use std::sync::atomic::AtomicBool;
 
@@ -24,11 +24,13 @@ pub struct RecordingError {
     pub samples: usize,
     /// RMS of model minus reading over the whole recording, counts.
     pub rms_counts: f64,
+    /// The same while the recording's position loop drives the model towards its targets, counts; `None` where there is none.
+    pub replay_rms_counts: Option<f64>,
     /// The parameters that this recording has for itself.
     pub own: Vec<OwnParameter>,
 }
 
-/// The error of a model on each recording, where more than one is fitted or more than one held out; else none.
+/// The error of a model on each recording, where more than one is fitted or more than one held out, or a position loop drove any; else none.
 ///
 /// # Errors
 /// Where the model cannot run.
@@ -39,25 +41,59 @@ pub fn recording_errors(
     method: Method,
 ) -> Result<Vec<RecordingError>, Error> {
     let several = |data: &Data| data.recordings.are_several();
-    if !several(fitted) && !held_out.is_some_and(several) {
+    let driven = |data: &Data| data.recordings.loops().next().is_some();
+    let asks = |data: &Data| several(data) || driven(data);
+    if !asks(fitted) && !held_out.is_some_and(asks) {
         return Ok(Vec::new());
     }
     let own = scores::whole(fitted, candidate, method)?;
-    let mut all = each(fitted, &own, false);
+    let mut all = each(fitted, &own, &replayed(fitted, candidate, method), false);
     if let Some(held_out) = held_out {
         let other = validation_errors(held_out, candidate, method)?;
-        all.extend(each(held_out, &other, true));
+        all.extend(each(
+            held_out,
+            &other,
+            &replayed(held_out, candidate, method),
+            true,
+        ));
     }
     Ok(all)
 }
 
-fn each(data: &Data, errors: &[f64], held_out: bool) -> Vec<RecordingError> {
+/// A motor behind its loop that misses the angle by so many times what it misses along the volts is driven by another loop.
+const OTHER_LOOP: f64 = 3.0;
+/// And by so many counts at least.
+const OTHER_LOOP_COUNTS: f64 = 3.0;
+
+/// What is said of recordings whose loop is not what is known of it: along the volts the model follows them, and behind the loop it does not.
+pub fn loop_remarks(recordings: &[RecordingError]) -> impl Iterator<Item = String> {
+    recordings.iter().filter_map(|one| {
+        let replayed = one.replay_rms_counts?;
+        let other = replayed > OTHER_LOOP * one.rms_counts && replayed > OTHER_LOOP_COUNTS;
+        other.then(|| {
+            format!(
+                "{}: driven by its position loop the model misses the angle by {replayed:.1} counts RMS, along the volts by {:.1}: the loop is not \
+                 what is said of it (gain, damping, limit, dead band, rate), or a delay lies between its command and the motor",
+                one.source, one.rms_counts
+            )
+        })
+    })
+}
+
+fn each(
+    data: &Data,
+    errors: &[f64],
+    replayed: &[Option<f64>],
+    held_out: bool,
+) -> Vec<RecordingError> {
     (data.recordings.ranges().zip(data.recordings.sources()))
-        .map(|(range, source)| RecordingError {
+        .zip(replayed)
+        .map(|((range, source), replayed)| RecordingError {
             source: source.clone(),
             held_out,
             samples: range.len(),
             rms_counts: rms_counts(data, &errors[range]),
+            replay_rms_counts: *replayed,
             own: Vec::new(),
         })
         .collect()

@@ -66,8 +66,8 @@ pub(super) fn remarks(
 
 /// Gains of position loops that recordings told.
 fn estimated_gains(data: &Data) -> impl Iterator<Item = String> {
-    let loops = data.recordings.loops().iter().flatten();
-    loops.filter_map(|control| match control.origin {
+    let loops = data.recordings.loops();
+    loops.filter_map(|(_, control)| match control.origin {
         GainOrigin::Given => None,
         GainOrigin::Estimated(estimate) => Some(format!(
             "the position loop's gain is estimated as {} V/rad, to {:.1} %: all that is in volts shares this error beside its \

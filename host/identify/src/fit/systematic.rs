@@ -158,7 +158,7 @@ fn stated(
 /// target has no scale that could be wrong.
 fn rescaled(problem: &FitProblem<'_>, solved: &Solved) -> Option<Vec<f64>> {
     let (data, structure) = (problem.data, &problem.structure);
-    if data.recordings.loops().iter().any(Option::is_some) {
+    if data.recordings.loops().next().is_some() {
         return None;
     }
     let units = larger_units(data).ok()?;

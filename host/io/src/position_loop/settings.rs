@@ -77,8 +77,8 @@ impl LoopSettings {
 }
 
 impl PositionLoop {
-    /// What it is told to do at an error, rad, and a speed, rad/s.
-    pub(super) fn volts(&self, error: f64, speed: f64) -> f64 {
+    /// The volts at an error, rad, and a speed, rad/s.
+    pub fn volts(&self, error: f64, speed: f64) -> f64 {
         if self.dead_band_rad > 0.0 && error.abs() <= self.dead_band_rad {
             return 0.0;
         }

@@ -198,6 +198,12 @@ pub(super) fn recordings(errors: &[RecordingError]) -> String {
             "  {role:9} {:>12.4} counts RMS  {}\n",
             error.rms_counts, error.source
         );
+        if let Some(replayed) = error.replay_rms_counts {
+            out += &format!(
+                "  {:9} {replayed:>12.4} counts RMS  driven by its position loop\n",
+                ""
+            );
+        }
         for own in &error.own {
             let value = match own.std {
                 Some(_) => with_error(own.value, own.std),

@@ -52,9 +52,9 @@ impl PositionLoop {
 
     /// Those of all recordings that have one.
     pub(crate) fn all(data: &Data) -> Vec<Self> {
-        let sources = data.recordings.sources().iter();
-        (sources.zip(data.recordings.loops()))
-            .filter_map(|(source, control)| Some(PositionLoop::new(source, control.as_ref()?)))
+        let loops = data.recordings.loops();
+        loops
+            .map(|(source, control)| PositionLoop::new(source, control))
             .collect()
     }
 }

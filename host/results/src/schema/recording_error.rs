@@ -16,6 +16,9 @@ pub struct RecordingError {
     pub samples: usize,
     /// RMS of model minus reading over the whole recording, open loop, counts.
     pub rms_counts: Option<f64>,
+    /// The same while the recording's position loop drives the model towards its targets; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub replay_rms_counts: Option<f64>,
     /// The parameters that this recording has for itself (`fit --own`); absent where it has none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub own: Vec<OwnParameter>,
@@ -53,6 +56,7 @@ impl From<&fit::RecordingError> for RecordingError {
             role: role.to_owned(),
             samples: error.samples,
             rms_counts: finite(error.rms_counts),
+            replay_rms_counts: error.replay_rms_counts.and_then(finite),
             own: error.own.iter().map(Into::into).collect(),
         }
     }

@@ -34,7 +34,7 @@ pub fn current_evidence(
 ) -> Option<CurrentEvidence> {
     // Without one there is nothing to run the model for.
     problem.data.measured.get(Measured::Current)?;
-    let is_reckoned = problem.data.recordings.loops().iter().any(Option::is_some);
+    let is_reckoned = problem.data.recordings.loops().next().is_some();
     let explained = explained(problem, candidate);
     if !explained
         && !is_reckoned
