@@ -196,6 +196,7 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
     known.kb_v_s_rad = new.kb_v_s_rad.or(known.kb_v_s_rad);
     known.inertia_kg_m2 = new.inertia_kg_m2.or(known.inertia_kg_m2);
     known.viscous_n_m_s = new.viscous_n_m_s.or(known.viscous_n_m_s);
+    known.unbalance_n_m = new.unbalance_n_m.or(known.unbalance_n_m);
     known.kt_equals_kb |= args.kt_equals_kb;
     Ok(motor)
 }

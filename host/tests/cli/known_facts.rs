@@ -120,3 +120,32 @@ fn nothing_is_made_up_where_nothing_is_known() {
         assert!(notes.contains(remedy), "no word of {remedy}: {notes}");
     }
 }
+
+/// A weight on the shaft is a torque that is known without a meter: what holds it tells R/Kt.
+#[test]
+fn with_coasting_a_known_weight_and_equal_constants_all_six_follow() {
+    let machine = Machine::preset("gearmotor").expect("a preset");
+    let torque = 0.03 * machine.stall_torque_n_m();
+    let desk = Desk::new();
+    desk.done(&format!(
+        "simulate --excite commissioning-coast --hide unbalance:torque={torque} --counts-per-rev 20000 --out rec.csv"
+    ));
+    let line = format!("fit rec.csv --with unbalance --known unbalance_n_m={torque}");
+    assert_near(
+        &desk.json(&format!("{line} --kt-equals-kb")),
+        &six(&machine),
+        "a weight",
+    );
+    assert_absent(
+        &desk.json("fit rec.csv --with unbalance --kt-equals-kb"),
+        &["kt"],
+        "no weight",
+    );
+    let without = desk.json(&line.replace("--with unbalance", ""));
+    let notes = without["notes"].as_array().expect("a list").iter();
+    let told = notes.filter_map(|note| note.as_str());
+    assert!(
+        told.into_iter()
+            .any(|note| note.contains("fit --with unbalance"))
+    );
+}

@@ -70,7 +70,8 @@ fn friction_is_named_behind_the_loop() {
     assert_eq!(replayed.len(), 2);
     assert!(replayed.iter().all(|rms| *rms < 2.0), "{replayed:?}");
     // A loop that is not the one that drove the motor.
-    let strange = desk.json("fit a.csv --with coulomb --loop gain_v_per_rad=3 --loop damping_v_s_per_rad=0.02");
+    let strange = desk
+        .json("fit a.csv --with coulomb --loop gain_v_per_rad=3 --loop damping_v_s_per_rad=0.02");
     let notes = list(&strange, "notes").iter();
     let told = notes.filter_map(|note| note.as_str());
     assert!(

@@ -243,16 +243,18 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
             columns
         },
     );
-    let known =
-        (fact(), fact(), fact(), fact(), fact(), fact()).prop_map(|(r, l, kt, kb, j, f)| Known {
+    let known = (fact(), fact(), fact(), fact(), fact(), fact(), fact()).prop_map(
+        |(r, l, kt, kb, j, f, w)| Known {
             resistance_ohm: r,
             inductance_h: l,
             kt_n_m_a: kt,
             kb_v_s_rad: kb,
             inertia_kg_m2: j,
             viscous_n_m_s: f,
+            unbalance_n_m: w,
             kt_equals_kb: kt.is_none() || kb.is_none(),
-        });
+        },
+    );
     let numbers = (
         prop::option::of("\\PC*"),
         positive(),

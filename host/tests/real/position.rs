@@ -108,14 +108,14 @@ fn a_motor_is_the_same_by_its_target_and_by_its_voltage() {
 fn a_motor_is_driven_by_its_loop_where_the_servo_goes() {
     let effects = [Kind::Unbalance, Kind::LoadFriction];
     for (kp, most) in [(400, 30.0), (800, 40.0)] {
-        let told = by_target(
-            &format!("sin_time_square_kp{kp}"),
-            Some(gain_v_per_rad(kp)),
-        );
+        let told = by_target(&format!("sin_time_square_kp{kp}"), Some(gain_v_per_rad(kp)));
         let data = data(&told.unwrap());
         let fit = fitted(&data, &effects, 0.5);
         let replayed = replayed(&data, &fit.candidate, fit.method)[0].expect("a loop");
-        println!("kp {kp}: {replayed:.2} counts RMS, along the volts {:.2}", fit.rms_counts);
+        println!(
+            "kp {kp}: {replayed:.2} counts RMS, along the volts {:.2}",
+            fit.rms_counts
+        );
         within(&format!("kp {kp}, counts"), replayed, 5.0..most);
     }
 }

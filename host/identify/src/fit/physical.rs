@@ -2,7 +2,7 @@
 //!
 //! The machine in coordinates that the data and the facts can each speak about:
 //! `ln R`, `ln Kt`, `D = Kb + b`, `m`, `τe`, and the viscous part `p = b/D`. The data determine `D`,
-//! `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact one combination. What neither determines stays in
+//! `a1·D = m + τe·b` and `a2·D = τe·m` (and sometimes `p`), each fact one combination; a known weight gives `R/Kt`. What neither determines stays in
 //! the null space of the normal equations, and every physical parameter that depends on it is reported as
 //! undetermined. Gauss–Newton, since `J = m·Kt/R` and the like are products.
 
@@ -70,6 +70,8 @@ pub struct Evidence {
     pub covariance: DMatrix<f64>,
     /// What the measured current says.
     pub current: Option<CurrentEvidence>,
+    /// Largest torque of an unbalance as the voltage that holds it, V, where the model has one.
+    pub unbalance_v: Option<Estimate>,
 }
 
 /// What data and facts say together.
@@ -141,7 +143,7 @@ fn gradient(model: &dyn Fn(&Vector) -> f64, u: &Vector, sizes: &Vector) -> Vecto
 }
 
 /// Statements of the facts.
-fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec<Statement> {
+fn facts(known: &Known, evidence: &Evidence, start: &Vector) -> Vec<Statement> {
     // A fact may be zero (no inductance, no viscous friction): then the size of what it is compared
     // with counts.
     let size = |value: f64, k: usize| {
@@ -168,7 +170,16 @@ fn facts(known: &Known, current: Option<CurrentEvidence>, start: &Vector) -> Vec
             });
         }
     }
-    match current {
+    // The voltage that holds a known torque is R/Kt times it.
+    if let (Some(fact), Some(held)) = (known.unbalance_n_m, evidence.unbalance_v) {
+        let tolerance = fact.tolerance.unwrap_or(0.0).max(CONSTANT);
+        statements.push(Statement {
+            model: Box::new(|u| u[0] - u[1]),
+            value: libm::log(held.value / fact.value),
+            std: libm::hypot(held.std / held.value, tolerance),
+        });
+    }
+    match evidence.current {
         Some(CurrentEvidence::Torque { inertia, friction }) => {
             let exact = CONSTANT * inertia.value;
             // m/R and b/R, with the coordinates that they are made of.
@@ -235,7 +246,7 @@ pub fn reconcile(evidence: &Evidence, known: &Known) -> Reconciled {
     let sizes = sizes(&start);
     let measured = determined_by_data(machine);
     let whitening = whitening(&evidence.covariance, &measured);
-    let statements = facts(known, evidence.current, &start);
+    let statements = facts(known, evidence, &start);
     // All that is stated, as rows of unit variance: slope, and what is still missing.
     let rows_at = |u: &Vector| {
         let mut rows: Vec<(Vector, f64)> = statements
@@ -433,6 +444,7 @@ mod tests {
                     machine,
                     covariance,
                     current: None,
+                    unbalance_v: None,
                 },
                 &known,
             );
@@ -468,6 +480,7 @@ mod tests {
             machine,
             covariance,
             current: None,
+            unbalance_v: None,
         };
         let fact = |value: f64| {
             Some(Fact {

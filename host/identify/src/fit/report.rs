@@ -6,7 +6,9 @@ use super::joint::Joint;
 use super::margins::{Loop, Margins};
 use super::options::Options;
 use super::parameter::{Parameter, parameters};
-use super::physical::{CONTRADICTION, Evidence, NAMES, Reconciled, determined_by_data, reconcile};
+use super::physical::{
+    CONTRADICTION, Estimate, Evidence, NAMES, Reconciled, determined_by_data, reconcile,
+};
 use super::plausibility::contradictions;
 use super::profile::Profile;
 use super::recordings::RecordingError;
@@ -26,6 +28,7 @@ use servoid_engine::solve::Found;
 use servoid_io::channel::Measured;
 use servoid_io::input::Known;
 use servoid_io::recording::Drive;
+use shared::effects::Kind;
 use shared::motor::Response;
 
 /// The error of a model with some of the effects.
@@ -299,7 +302,41 @@ fn evidence(problem: &FitProblem<'_>, candidate: &Candidate, spread: &Uncertaint
         machine: candidate.machine,
         covariance: &slope * own * slope.transpose(),
         current: current_evidence(problem, candidate, spread),
+        unbalance_v: unbalance(problem, candidate, spread),
     }
+}
+
+/// Largest torque of an unbalance, as the voltage that holds it.
+fn unbalance(
+    problem: &FitProblem<'_>,
+    candidate: &Candidate,
+    spread: &Uncertainty,
+) -> Option<Estimate> {
+    let mut effects = candidate.effects.iter();
+    let (_, values) = effects.find(|(kind, _)| *kind == Kind::Unbalance)?;
+    let mut places = Kind::Unbalance.parameters().iter().map(|parameter| {
+        let name = format!("{}.{}", Kind::Unbalance.name(), parameter.name);
+        problem
+            .structure
+            .unknowns
+            .iter()
+            .position(|unknown| unknown.name == name)
+    });
+    let (cosine, sine) = (places.next()??, places.next()??);
+    let value = libm::hypot(values[0], values[1]);
+    let slopes = [(cosine, values[0] / value), (sine, values[1] / value)];
+    let variance = |(j, by): (usize, f64)| {
+        let rows = slopes.iter();
+        rows.map(|(k, other)| by * other * spread.covariance[(j, *k)])
+            .sum::<f64>()
+    };
+    let std = slopes
+        .into_iter()
+        .map(variance)
+        .sum::<f64>()
+        .max(0.0)
+        .sqrt();
+    (value > 0.0 && std.is_finite()).then_some(Estimate { value, std })
 }
 
 /// Says in words what stays open and what would settle it.
@@ -323,6 +360,11 @@ fn describe(
         );
         return;
     }
+    if known.unbalance_n_m.is_some() && !problem.structure.effects.contains(&Kind::Unbalance) {
+        notes.push(
+            "unbalance_n_m is known, and this model has no unbalance to which it belongs: fit --with unbalance".to_owned(),
+        );
+    }
     if missing.is_empty() {
         return;
     }
@@ -337,6 +379,9 @@ fn describe(
         && known.viscous_n_m_s.is_none()
     {
         remedy.push("a stretch of coasting with the bridge open (or viscous_n_m_s), since viscous friction and back-EMF act alike");
+    }
+    if known.unbalance_n_m.is_none() && problem.structure.effects.contains(&Kind::Unbalance) {
+        remedy.push("the torque of the weight on the shaft (unbalance_n_m)");
     }
     if remedy.is_empty() {
         remedy.push("a known inertia or torque constant");

@@ -66,6 +66,8 @@ pub struct Known {
     pub inertia_kg_m2: Option<Fact>,
     /// Viscous friction, N·m·s/rad.
     pub viscous_n_m_s: Option<Fact>,
+    /// Largest torque of an eccentric weight on the shaft, `m·g·l`, N·m: of a pendulum, an arm, a mass that was put on.
+    pub unbalance_n_m: Option<Fact>,
     /// Whether torque and back-EMF constant are one number, as they are in SI units without iron losses.
     pub kt_equals_kb: bool,
 }

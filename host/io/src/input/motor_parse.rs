@@ -9,13 +9,14 @@ use super::preset::Preset;
 use super::section::{Found, NumberOrTable, Section, Text};
 use crate::channel::{Channel, Measured, PerMeasured};
 
-const FACTS: [&str; 7] = [
+const FACTS: [&str; 8] = [
     "resistance_ohm",
     "inductance_h",
     "kt_n_m_a",
     "kb_v_s_rad",
     "inertia_kg_m2",
     "viscous_n_m_s",
+    "unbalance_n_m",
     "kt_equals_kb",
 ];
 const TOP: [&str; 4] = ["name", "counts_per_rev", "supply_v", "metres_per_rev"];
@@ -160,6 +161,7 @@ fn known(mut section: Section<'_>) -> Result<Known, MotorFileError> {
         kb_v_s_rad: fact(&mut section, "kb_v_s_rad")?,
         inertia_kg_m2: fact(&mut section, "inertia_kg_m2")?,
         viscous_n_m_s: fact(&mut section, "viscous_n_m_s")?,
+        unbalance_n_m: fact(&mut section, "unbalance_n_m")?,
         kt_equals_kb: false,
     };
     let equal = section.boolean("kt_equals_kb")?;

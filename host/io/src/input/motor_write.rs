@@ -127,7 +127,7 @@ impl MotorFile {
 }
 
 impl Known {
-    /// Every fact with its key in `[known]`, in the order of the file.
+    /// Every fact of the six physical parameters with its key in `[known]`, in the order of the file.
     pub fn facts(&self) -> [(&'static str, Option<Fact>); 6] {
         [
             ("resistance_ohm", self.resistance_ohm),
@@ -145,6 +145,7 @@ fn known(known: &Known) -> String {
         .facts()
         .map(|(key, fact)| (key, fact.map(fact_text)))
         .into();
+    lines.push(("unbalance_n_m", known.unbalance_n_m.map(fact_text)));
     lines.push(("kt_equals_kb", known.kt_equals_kb.then(|| "true".into())));
     section("known", &lines)
 }
