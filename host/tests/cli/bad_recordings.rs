@@ -72,7 +72,7 @@ const BAD: &[(&str, &[&str])] = &[
         &["rec.csv:4", "2 cells", "3"],
     ),
     (
-        "t_s,voltage_v,angle_counts,enabled\n0,1,0,yes\n",
+        "t_s,voltage_v,angle_counts,enabled\n0,1,0,maybe\n",
         &["rec.csv:2:4", "neither 0 nor 1"],
     ),
     (

@@ -140,7 +140,7 @@ const LOGGERS: &[Logger] = &[
     Logger {
         header: "rst:0x1 (POWERON_RESET),boot:0x13\nwhoami: bench v2.3",
         row: |t, v, c| format!("{t} {v} {c}"),
-        file: "[columns]\ntime = 1\nvoltage = 2\nangle = 3\n",
+        file: "[columns]\ntime = \"1\"\nvoltage = \"2\"\nangle = \"3\"\n",
         flags: "--column time=1 --column voltage=2 --column angle=3",
     },
 ];

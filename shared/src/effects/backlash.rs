@@ -28,7 +28,7 @@ impl<S: Scalar> Effect<S> for Backlash<S> {
             Parameter::shape("contact_damping", Quantity::Ratio, (0.0, 1.5), 0.7),
             Parameter::friction_share("friction_share"),
         ],
-        equation: "T = k*(twist -+ gap/2) + d*d(twist)/dt beyond the gap, never pulling; 0 within",
+        equation: "T = k*(twist -+ gap/2) + d*d(twist)/dt beyond the gap, never pulling; 0 within; friction_share of the dry friction is the load's",
         signature: "acceleration too high just after a reversal of the torque, then a knock",
         exposed_by: "square waves of small amplitude; multisines of several amplitudes",
         look_alikes: &["compliance", "delay", "lugre"],

@@ -25,7 +25,7 @@ impl<S: Scalar> Effect<S> for Compliance<S> {
             Parameter::shape("damping_ratio", Quantity::Ratio, (0.0, 1.0), 0.05),
             Parameter::friction_share("friction_share"),
         ],
-        equation: "T = k*twist + d*d(twist)/dt on the motor and against the load",
+        equation: "T = k*twist + d*d(twist)/dt on the motor and against the load; friction_share of the dry friction is the load's",
         signature: "ringing after steps; a notch and a peak in the frequency response",
         exposed_by: "a chirp, multisine",
         look_alikes: &["backlash", "delay", "lugre"],

@@ -156,7 +156,7 @@ pub enum ReadFault {
     },
     /// Neither 0 nor 1.
     #[error(
-        "\"{text}\" is neither 0 nor 1; write 1 while the bridge drives the motor and 0 while it is open"
+        "\"{text}\" is neither 0 nor 1, nor a word as ON and OFF; write 1 while the bridge drives the motor and 0 while it is open"
     )]
     NotASwitch {
         /// The cell.
