@@ -62,6 +62,11 @@ impl Twin {
             bench.effects.push(hidden);
             effects.push(kind);
         }
+        if !truth::share_friction(&mut bench.effects, model) {
+            return Err(Error::Failed(
+                "the virtual bench has no other than Coulomb friction on a load".to_owned(),
+            ));
+        }
         effects.sort_unstable();
         Ok(Twin {
             bench,

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use servoid_engine::problem::Candidate;
 use servoid_plant::{Hidden, Machine};
-use shared::effects::{EffectSet, Kind, Pair};
+use shared::effects::{EffectSet, Form, Kind, Pair};
 use shared::error::ModelError;
 use shared::motor::Physical;
 
@@ -103,8 +103,8 @@ const STEPS: usize = 60;
 const MOVED: f64 = 1e-5;
 /// Largest part by which what is found may be off.
 const OFF: f64 = 1e-4;
-/// A parameter that is only the curve's form, of which the bench has few.
-const FORM: &str = "form";
+/// Friction of the bench's load: see [`share_friction`].
+const FRICTION: &str = "friction";
 /// A parameter that is a whole number.
 const ORDER: &str = "order";
 
@@ -121,21 +121,22 @@ pub fn hidden(
         // Of what repeats once a revolution there is nothing to set.
         let _ = hidden.set(ORDER, order as f64);
     }
-    let names: Vec<&str> = kind.parameters().iter().map(|p| p.name).collect();
+    let parameters = kind.parameters();
     let typical = hidden.truth(machine, counts_per_rev);
     let size = |k: usize| values[k].abs().max(1e-3 * typical[k].abs()).max(1e-12);
     let off = |hidden: &Hidden| {
         let truth = hidden.truth(machine, counts_per_rev);
         DVector::from_iterator(
-            names.len(),
-            (0..names.len()).map(|k| match names[k] {
-                FORM => 0.0,
-                _ => (truth[k] - values[k]) / size(k),
+            parameters.len(),
+            (0..parameters.len()).map(|k| match parameters[k].form {
+                // Of forms the bench has few.
+                Some(_) => 0.0,
+                None => (truth[k] - values[k]) / size(k),
             }),
         )
     };
     let keys: Vec<(&str, f64)> = (hidden.parameters())
-        .filter(|(name, ..)| *name != ORDER)
+        .filter(|(name, ..)| *name != ORDER && *name != FRICTION)
         .map(|(name, value, _)| (name, value.abs()))
         .collect();
     let mut here = off(&hidden);
@@ -178,6 +179,36 @@ pub fn hidden(
         (hidden, here) = (better, there);
     }
     (here.amax() < OFF).then_some(hidden)
+}
+
+/// Moves the load's share of the dry friction of `model` from the motor to the load among its `hidden` effects, which stand in the same order. False
+/// where the bench cannot: it has no other than Coulomb friction on a load.
+pub fn share_friction(hidden: &mut [Hidden], model: &Candidate) -> bool {
+    let share_of = |kind: Kind, values: &[f64]| {
+        let mut parameters = kind.parameters().iter().zip(values);
+        let share = parameters.find(|(parameter, _)| parameter.form == Some(Form::FrictionShare));
+        share.map(|(_, share)| *share).filter(|share| *share > 0.0)
+    };
+    let mut each = model.effects.iter().enumerate();
+    let Some((coupling, share)) =
+        each.find_map(|(k, (kind, values))| Some((k, share_of(kind, values)?)))
+    else {
+        return true;
+    };
+    let rubs = |(_, (kind, _)): &(usize, (Kind, &[f64]))| kind.needs().friction;
+    let frictions: Vec<(usize, Kind)> = (model.effects.iter().enumerate())
+        .filter(rubs)
+        .map(|(k, (kind, _))| (k, kind))
+        .collect();
+    match frictions[..] {
+        [] => true,
+        [(own, Kind::Coulomb)] => {
+            let torque = current(&hidden[own], &[("torque", 0.0)])[0];
+            let moved = hidden[own].set("torque", (1.0 - share) * torque);
+            moved.is_ok() && hidden[coupling].set(FRICTION, share * torque).is_ok()
+        }
+        _ => false,
+    }
 }
 
 fn current(hidden: &Hidden, keys: &[(&str, f64)]) -> Vec<f64> {
@@ -252,6 +283,38 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn friction_on_the_load_is_put_back_on_the_bench() {
+        let machine = Machine::gearmotor();
+        let truth = |name: &str| {
+            let typical = Hidden::typical(name, &machine).unwrap();
+            typical.truth(&machine, 2000)
+        };
+        let mut gap = truth("backlash");
+        *gap.last_mut().unwrap() = 0.4;
+        let model = |friction: Kind| {
+            let mut effects = EffectSet::default();
+            effects.push(friction, &truth(friction.name())).unwrap();
+            effects.push(Kind::Backlash, &gap).unwrap();
+            let mut bench: Vec<Hidden> = effects
+                .iter()
+                .map(|(kind, values)| hidden(kind, values, &machine, 2000).unwrap())
+                .collect();
+            let candidate = Candidate {
+                machine: physical(&machine).machine(),
+                effects,
+                start_speed: 0.0,
+                start_offset: 0.0,
+            };
+            (share_friction(&mut bench, &candidate), bench)
+        };
+        let (shared, bench) = model(Kind::Coulomb);
+        let value = |k: usize, name: &str| current(&bench[k], &[(name, 0.0)])[0];
+        let (own, of_load) = (value(0, "torque"), value(1, FRICTION));
+        assert!(shared && (of_load / (own + of_load) - 0.4).abs() < 1e-9);
+        assert!(!model(Kind::Stribeck).0);
     }
 
     #[test]
