@@ -197,7 +197,7 @@ fn friction_on_both_sides_of_a_gap_or_a_spring_leaves_the_encoders_own_error() {
                 *values.last_mut().expect("the share") = share;
                 set.push(kind, &values).expect("a valid effect");
                 for (substeps, limits) in [(COARSE, COARSE_LIMITS), (FINE, LIMITS)] {
-                    let error = rms_of(&machine, set.clone(), &run, substeps);
+                    let error = rms_of(&machine, set, &run, substeps);
                     let case = format!(
                         "{name} with {share} of the friction behind {} at {substeps} substeps",
                         kind.name()
