@@ -46,8 +46,10 @@ fn merged(samples: &mut Samples) -> Option<Spread> {
         }
     }
     let rows = keep.iter().filter(|keep| !**keep).count();
+    // Rows that all have commands of their own are of a clock that is too coarse for them.
+    let held = samples.held_commands.checked_sub(rows as u64)?;
     samples.keep(&keep);
-    samples.held_commands = samples.held_commands.saturating_sub(rows as u64);
+    samples.held_commands = held;
     Some(Spread::Merged(rows))
 }
 
@@ -136,6 +138,24 @@ mod tests {
             );
             assert!(rows.time_s.windows(2).all(|pair| pair[1] > pair[0]));
         }
+    }
+
+    #[test]
+    fn rows_that_complement_each_other_are_one_and_others_are_spread() {
+        let stamps: Vec<f64> = (0..2000).map(|k| f64::from(k / 2) * 1e-3).collect();
+        let mut rows = samples(stamps);
+        for k in (0..2000).step_by(2) {
+            rows.counts[k] = f64::NAN;
+        }
+        // An angle at every other row of a log at 2 kHz.
+        assert!(matches!(
+            spread(&mut rows.clone()),
+            Some(Spread::Even { .. })
+        ));
+        rows.held_commands = 1000;
+        assert_eq!(spread(&mut rows), Some(Spread::Merged(1000)));
+        assert_eq!((rows.len(), rows.held_commands), (1000, 0));
+        assert!(rows.counts.iter().all(|counts| !counts.is_nan()));
     }
 
     #[test]
