@@ -7,6 +7,7 @@ mod certificates;
 mod compressed;
 mod drawn_diagnoses;
 mod effects_match_bench;
+mod gearboxes;
 mod integration;
 mod lanes;
 mod likelihoods;

@@ -154,10 +154,20 @@ impl Structure {
         any.then_some(wider)
     }
 
-    /// The same with every form searched for that is held at the textbook's; `None` where none is.
+    /// The same with every form searched for that is held at the textbook's; `None` where none is. Where there is no friction, none is shared.
     pub fn with_forms_free(&self) -> Option<Structure> {
         let mut freed = self.clone();
-        freed.unknowns.iter_mut().for_each(Unknown::free);
+        let rubs = self.effects.iter().any(|kind| kind.needs().friction);
+        let shares = |unknown: &Unknown| {
+            let mut own = self.effects.iter().flat_map(|kind| kind.parameters());
+            own.any(|parameter| {
+                parameter.form == Some(Form::FrictionShare)
+                    && unknown.name.ends_with(parameter.name)
+            })
+        };
+        let free = freed.unknowns.iter_mut();
+        free.filter(|unknown| rubs || !shares(unknown))
+            .for_each(Unknown::free);
         (freed.held() < self.held()).then_some(freed)
     }
 
