@@ -138,7 +138,7 @@ fn with_coasting_a_known_weight_and_equal_constants_all_six_follow() {
     );
     assert_absent(
         &desk.json("fit rec.csv --with unbalance --kt-equals-kb"),
-        &["kt"],
+        &["resistance", "inertia"],
         "no weight",
     );
     let without = desk.json(&line.replace("--with unbalance", ""));
