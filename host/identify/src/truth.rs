@@ -185,9 +185,8 @@ pub fn hidden(
 /// where the bench cannot: it has no other than Coulomb friction on a load.
 pub fn share_friction(hidden: &mut [Hidden], model: &Candidate) -> bool {
     let share_of = |kind: Kind, values: &[f64]| {
-        let mut parameters = kind.parameters().iter().zip(values);
-        let share = parameters.find(|(parameter, _)| parameter.form == Some(Form::FrictionShare));
-        share.map(|(_, share)| *share).filter(|share| *share > 0.0)
+        let share = values.last().copied();
+        share.filter(|share| kind.form() == Some(Form::FrictionShare) && *share > 0.0)
     };
     let mut each = model.effects.iter().enumerate();
     let Some((coupling, share)) =

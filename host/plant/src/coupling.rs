@@ -1,5 +1,7 @@
 //! The elastic, perhaps loose, coupling between the motor and a second inertia.
 
+use super::effects::Param;
+
 /// Coupling between motor and load. The bench splits the machine's inertia between the two, so
 /// that a stiff coupling without gap is the plain machine again.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +17,16 @@ pub struct Coupling {
     /// Dry friction of the load, N·m.
     pub friction_n_m: f64,
 }
+
+/// Dry friction of the load, as a parameter of an effect.
+pub(super) const LOAD_FRICTION: Param = Param {
+    name: "friction",
+    unit: "N*m",
+    about: "dry friction of the load",
+    scales: false,
+    range: (0.0, f64::INFINITY),
+    typical: |_| 0.0,
+};
 
 /// Share of the dry friction that the load has, if the motor has none.
 pub(super) fn share_alone(friction_n_m: f64) -> f64 {

@@ -242,6 +242,11 @@ macro_rules! kinds {
                 }
             }
 
+            /// How its last parameter changes the textbook's equation, if it does: an effect has one form at most.
+            pub fn form(self) -> Option<Form> {
+                self.parameters().last().and_then(|parameter| parameter.form)
+            }
+
             /// What it needs of the model.
             pub fn needs(self) -> Needs {
                 match self {

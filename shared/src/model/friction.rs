@@ -60,7 +60,8 @@ struct Trial<S: Scalar> {
 }
 
 impl<S: Scalar> Trial<S> {
-    /// Takes it from `from`, with the load against the flank on `side`.
+    /// Takes it from `from`, with the load against the flank on `side`: under `forces`, of which the budget is the motor's, and with friction of
+    /// at most `behind` on the load.
     #[inline(always)]
     fn take<M: Mechanics<S>>(
         mechanics: &M,
@@ -68,10 +69,14 @@ impl<S: Scalar> Trial<S> {
         from: &Motion<S>,
         side: S,
         forces: &Forces<S>,
+        behind: S,
         open: bool,
     ) -> Self {
-        let Forces { volts, torque, .. } = *forces;
-        let (budget, behind) = mechanics.shared(&forces.budget);
+        let Forces {
+            volts,
+            torque,
+            budget,
+        } = *forces;
         let zero = S::zero();
         let pull = from.current - torque - mechanics.load(from, side);
         let sense = direction(from.speed, pull, &budget);
@@ -196,9 +201,11 @@ pub fn step_with_events<S: Scalar, M: Mechanics<S>>(
         || {
             let mut substeps = SubstepIter::new(level, LEVELS - 1);
             let mut travel = S::zero();
+            let (budget, behind) = mechanics.shared(&forces.budget);
+            let forces = &Forces { budget, ..*forces };
             while let Some(level) = substeps.next() {
                 let side = mechanics.side(motion);
-                let mut trial = Trial::take(mechanics, level, motion, side, forces, open);
+                let mut trial = Trial::take(mechanics, level, motion, side, forces, behind, open);
                 let end_side = mechanics.side(&trial.end);
                 let contact = M::COUPLED && is_zero(end_side - side).not().any();
                 let located = trial.has_event() || trial.load_turns_back.any() || contact;
@@ -207,15 +214,15 @@ pub fn step_with_events<S: Scalar, M: Mechanics<S>>(
                 }
                 if contact {
                     // Flanks part without a jump of the torque, but they touch with one.
-                    let touching = Trial::take(mechanics, level, motion, end_side, forces, open);
+                    let touching =
+                        Trial::take(mechanics, level, motion, end_side, forces, behind, open);
                     let beyond = mechanics.beyond(&trial.end, end_side);
                     let share = beyond.part_of(beyond - mechanics.beyond(motion, end_side));
                     let lands = is_zero(side).and(is_zero(end_side).not());
                     trial.resolve_contact(&touching, S::select(lands, share, S::zero()));
                 }
                 if trial.has_event() {
-                    let (budget, _) = mechanics.shared(&forces.budget);
-                    trial.resolve_event(mechanics, level, &budget);
+                    trial.resolve_event(mechanics, level, &forces.budget);
                 }
                 trial.end.angle = motion.angle.advance(trial.travel, counts_per_unit);
                 *motion = trial.end;

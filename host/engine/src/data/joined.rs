@@ -1,11 +1,9 @@
 //! Several recordings of one motor as one.
 
 use super::{Data, Recordings};
-use servoid_io::recording::PositionDrive;
 use servoid_io::recording::Recording;
 use shared::error::ModelError;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// Time from one recording to the next, s: any will do, since nothing runs across it.
 const BETWEEN_S: f64 = 1.0;
@@ -62,8 +60,9 @@ impl Data {
         }
         let mut list = recordings.into_iter();
         let mut whole = list.next().ok_or(JoinError::Empty)?;
-        let mut parts = Recordings::one(&whole.source, whole.len()).driven_by(drive(&whole));
-        for next in list {
+        let one = Recordings::one(&whole.source, whole.len());
+        let mut parts = one.driven_by(whole.position.take());
+        for mut next in list {
             if let Some(what) = difference(&whole, &next) {
                 return Err(JoinError::Differ {
                     first: whole.source,
@@ -71,7 +70,8 @@ impl Data {
                     what,
                 });
             }
-            parts.push(&next.source, next.len(), drive(&next));
+            let drive = next.position.take();
+            parts.push(&next.source, next.len(), drive);
             append(&mut whole, next);
         }
         whole.source = parts.sources().join(" + ");
@@ -85,7 +85,6 @@ impl Data {
 
     fn part(&self, index: usize, range: Range<usize>) -> Data {
         let source = &self.recordings.sources()[index];
-        let drive = self.recordings.drives()[index].clone();
         let start = self.time_s.get(range.start).copied().unwrap_or(0.0);
         let some = |values: &[f64]| values[range.clone()].to_vec();
         Data {
@@ -97,16 +96,11 @@ impl Data {
             measured: self.measured.rows(range.clone()),
             lengths: self.lengths.clone(),
             length_of: self.length_of[range.clone()].to_vec(),
-            recordings: Recordings::one(source, range.len()).driven_by(drive),
+            recordings: self.recordings.only(index),
             end_of: None,
             ..*self
         }
     }
-}
-
-/// The position loop that made a recording's command, if one did, with its targets.
-pub(super) fn drive(recording: &Recording) -> Option<Arc<PositionDrive>> {
-    recording.position.clone().map(Arc::new)
 }
 
 /// In what two recordings differ that keeps them from being fitted together.
@@ -140,8 +134,6 @@ fn append(whole: &mut Recording, next: Recording) {
         (Some(one), Some(other)) => Some(one.max(other)),
         (one, other) => one.or(other),
     };
-    // The loops stand with the recordings' borders.
-    whole.position = None;
     whole.time_s.extend(next.time_s.iter().map(|t| t + shift));
     whole.command.extend(next.command);
     whole.counts.extend(next.counts);

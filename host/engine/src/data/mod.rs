@@ -68,9 +68,9 @@ impl Data {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn taken(recording: Recording) -> Result<Self, ModelError> {
+    pub fn taken(mut recording: Recording) -> Result<Self, ModelError> {
         let one = Recordings::one(&recording.source, recording.len());
-        let one = one.driven_by(joined::drive(&recording));
+        let one = one.driven_by(recording.position.take());
         Data::of_recordings(recording, one)
     }
 
@@ -183,7 +183,7 @@ impl Data {
         for count in &mut turned.counts {
             *count += counts;
         }
-        turned.recordings = self.recordings.turned(counts);
+        turned.recordings = turned.recordings.turned(counts);
         turned
     }
 

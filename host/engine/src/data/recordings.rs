@@ -31,18 +31,18 @@ impl Recordings {
 
     /// The same, with the position loop that made the command of the last.
     #[must_use]
-    pub(super) fn driven_by(mut self, drive: Option<Arc<PositionDrive>>) -> Self {
+    pub(super) fn driven_by(mut self, drive: Option<PositionDrive>) -> Self {
         if let Some(last) = self.drives.last_mut() {
-            *last = drive;
+            *last = drive.map(Arc::new);
         }
         self
     }
 
     /// Puts another one of so many samples behind them.
-    pub(super) fn push(&mut self, source: &str, samples: usize, drive: Option<Arc<PositionDrive>>) {
+    pub(super) fn push(&mut self, source: &str, samples: usize, drive: Option<PositionDrive>) {
         self.begins.push(self.end);
         self.sources.push(source.to_owned());
-        self.drives.push(drive);
+        self.drives.push(drive.map(Arc::new));
         self.end += samples;
     }
 
@@ -56,6 +56,16 @@ impl Recordings {
             sources: self.sources[..count].to_vec(),
             drives: self.drives[..count].to_vec(),
             end,
+        }
+    }
+
+    /// One of them alone.
+    #[must_use]
+    pub(super) fn only(&self, index: usize) -> Self {
+        let samples = self.ranges().nth(index).map_or(0, |range| range.len());
+        Recordings {
+            drives: vec![self.drives[index].clone()],
+            ..Recordings::one(&self.sources[index], samples)
         }
     }
 
@@ -94,10 +104,10 @@ impl Recordings {
 
     /// The same with so many counts added to each target.
     #[must_use]
-    pub(super) fn turned(&self, counts: f64) -> Self {
+    pub(super) fn turned(self, counts: f64) -> Self {
         Recordings {
             drives: self.with_targets(|all| all.iter().map(|target| target + counts).collect()),
-            ..self.clone()
+            ..self
         }
     }
 

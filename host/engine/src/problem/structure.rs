@@ -158,33 +158,26 @@ impl Structure {
     pub fn with_forms_free(&self) -> Option<Structure> {
         let mut freed = self.clone();
         let rubs = self.effects.iter().any(|kind| kind.needs().friction);
-        let shares = |unknown: &Unknown| {
-            let mut own = self.effects.iter().flat_map(|kind| kind.parameters());
-            own.any(|parameter| {
-                parameter.form == Some(Form::FrictionShare)
-                    && unknown.name.ends_with(parameter.name)
-            })
-        };
-        let free = freed.unknowns.iter_mut();
-        free.filter(|unknown| rubs || !shares(unknown))
-            .for_each(Unknown::free);
+        let searched = self.effects.iter();
+        let searched = searched.filter(|kind| rubs || kind.form() != Some(Form::FrictionShare));
+        for name in searched.filter_map(|kind| form_name(*kind)) {
+            let of_kind = freed.unknowns.iter_mut().filter(|u| u.name == name);
+            of_kind.for_each(Unknown::free);
+        }
         (freed.held() < self.held()).then_some(freed)
     }
 
     /// The same with the form of `kind` held at `form`; a share of friction is searched for where it is not zero.
     #[must_use]
     pub fn with_form_at(mut self, kind: Kind, form: f64) -> Self {
-        for parameter in kind.parameters() {
-            let Some(own) = parameter.form else {
-                continue;
-            };
-            let name = format!("{}.{}", kind.name(), parameter.name);
-            let of_kind = |unknown: &&mut Unknown| unknown.name == name;
-            for unknown in self.unknowns.iter_mut().filter(of_kind) {
-                match own {
-                    Form::FrictionShare if form != 0.0 => unknown.free(),
-                    _ => unknown.hold_at(form),
-                }
+        let Some(name) = form_name(kind) else {
+            return self;
+        };
+        let of_kind = |unknown: &&mut Unknown| unknown.name == name;
+        for unknown in self.unknowns.iter_mut().filter(of_kind) {
+            match kind.form() {
+                Some(Form::FrictionShare) if form != 0.0 => unknown.free(),
+                _ => unknown.hold_at(form),
             }
         }
         self
@@ -430,4 +423,11 @@ fn base_unknowns(base: Base, data: &Data, centre: &Machine<f64>) -> Vec<Unknown>
             ]
         }
     }
+}
+
+/// The unknown that is the form of an effect, if it has one: its last parameter.
+fn form_name(kind: Kind) -> Option<String> {
+    kind.form()?;
+    let parameter = kind.parameters().last()?;
+    Some(format!("{}.{}", kind.name(), parameter.name))
 }

@@ -4,12 +4,11 @@
 //! it acts on the model's own angle, as it does in a simulation that uses the model (L. Ljung, *System Identification*, 2nd ed., 1999, §13.1).
 
 use super::candidate::{Candidate, Method};
-use super::single::{Simulation, step};
+use super::single::{Simulation, models, step};
 use crate::data::Data;
 use servoid_io::recording::PositionDrive;
 use shared::error::ModelError;
-use shared::model::{Model, Plan};
-use shared::motor::Machine;
+use shared::model::Model;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -41,24 +40,10 @@ struct Replay<'a> {
 
 impl<'a> Replay<'a> {
     fn new(data: &'a Data, candidate: &Candidate, method: Method) -> Result<Self, ModelError> {
-        let Candidate {
-            machine, effects, ..
-        } = *candidate;
-        let machine: Machine<f64> = machine;
-        let model = |length: &f64| {
-            let interval = data.units.interval * length / INSTANTS as f64;
-            Model::new(&Plan {
-                machine,
-                effects,
-                units: data.units.with_interval(interval),
-                discretisation: method.discretisation,
-                substeps: method.substeps,
-            })
-        };
         Ok(Replay {
             data,
             simulation: Simulation::new(data, candidate, method)?,
-            models: data.lengths.iter().map(model).collect::<Result<_, _>>()?,
+            models: models(data, candidate, method, INSTANTS)?,
         })
     }
 

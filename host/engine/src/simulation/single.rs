@@ -29,24 +29,10 @@ impl<'a> Simulation<'a> {
     /// Parameters from which no model can be made.
     pub fn new(data: &'a Data, candidate: &Candidate, method: Method) -> Result<Self, ModelError> {
         data.check_told(candidate.effects.iter().map(|(kind, _)| kind))?;
-        let models = data
-            .lengths
-            .iter()
-            .map(|length| {
-                let units = data.units.with_interval(data.units.interval * length);
-                Model::new(&Plan {
-                    machine: candidate.machine,
-                    effects: candidate.effects,
-                    units,
-                    discretisation: method.discretisation,
-                    substeps: method.substeps,
-                })
-            })
-            .collect::<Result<_, _>>()?;
         Ok(Simulation {
             data,
             machine: candidate.machine,
-            models,
+            models: models(data, candidate, method, 1)?,
         })
     }
 
@@ -207,6 +193,26 @@ impl<'a> Simulation<'a> {
             })
             .collect()
     }
+}
+
+/// A model for each length of interval in the data, which steps through so many equal parts of it.
+pub(super) fn models(
+    data: &Data,
+    candidate: &Candidate,
+    method: Method,
+    parts: usize,
+) -> Result<Vec<Model<f64>>, ModelError> {
+    let model = |length: &f64| {
+        let interval = data.units.interval * length / parts as f64;
+        Model::new(&Plan {
+            machine: candidate.machine,
+            effects: candidate.effects,
+            units: data.units.with_interval(interval),
+            discretisation: method.discretisation,
+            substeps: method.substeps,
+        })
+    };
+    data.lengths.iter().map(model).collect()
 }
 
 /// One step of a model where no time counts: whoever calls [`Model::step`] has the whole model with all effects compiled into it, a quarter

@@ -22,6 +22,7 @@
 //! | `margins` | stability margins of the position loop |
 //! | `scores` | errors over windows and of the equation, where the open loop drifts |
 //! | `validate` | the error on another recording |
+//! | `wave` | amplitude and phase of a wave of two unknowns |
 //! | `remarks` | what a user should know before believing a fit |
 //! | `own_parameters` | several recordings with parameters of their own beside the common ones |
 //! | `recordings` | the error on each of several recordings, and how far their parameters spread |
@@ -57,6 +58,7 @@ mod start;
 pub(crate) mod systematic;
 pub mod uncertainty;
 mod validate;
+mod wave;
 
 pub use bound::Bound;
 pub use correlation_time::correlation_sum;

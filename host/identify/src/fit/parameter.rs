@@ -3,6 +3,7 @@
 use super::physical::{Estimate, NAMES, Reconciled};
 use super::systematic::Systematic;
 use super::uncertainty::Uncertainty;
+use super::wave::Wave;
 use servoid_engine::problem::{Data, FitProblem, Unknown};
 use servoid_io::recording::Drive;
 use shared::effects::{self, Kind, Pair};
@@ -187,29 +188,16 @@ fn wave(
     let Some(first) = second.checked_sub(1) else {
         return Vec::new();
     };
-    let (cosine, sine) = (values[first], values[second]);
-    let amplitude = libm::hypot(cosine, sine);
-    if amplitude == 0.0 {
+    let Some(wave) = Wave::new([values[first], values[second]], [first, second], spread) else {
         return Vec::new();
-    }
-    // By the delta method.
-    let std = |along: (f64, f64)| {
-        let spread = spread.filter(|s| s.std(first).is_some() && s.std(second).is_some())?;
-        let own = |i: usize, k: usize| spread.covariance[(i, k)];
-        let variance = along.0 * along.0 * own(first, first)
-            + 2.0 * along.0 * along.1 * own(first, second)
-            + along.1 * along.1 * own(second, second);
-        (variance >= 0.0).then(|| variance.sqrt())
     };
-    let (to_cosine, to_sine) = (cosine / amplitude, sine / amplitude);
+    let ((amplitude, amplitude_std), (phase, phase_std)) = (wave.amplitude(), wave.phase());
     let size = &kind.parameters()[0];
     let name = |what: &str| format!("{}.{what}", kind.name());
-    let amplitude_std = std((to_cosine, to_sine));
-    let phase_std = std((-to_sine / amplitude, to_cosine / amplitude));
     let phase = Parameter {
         // A phase of nothing is none.
         identifiable: phase_std.is_some_and(|std| std < 0.5),
-        ..Parameter::new(name("phase"), libm::atan2(sine, cosine), "rad", phase_std)
+        ..Parameter::new(name("phase"), phase, "rad", phase_std)
     };
     vec![
         (

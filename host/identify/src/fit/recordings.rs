@@ -24,7 +24,7 @@ pub struct RecordingError {
     pub samples: usize,
     /// RMS of model minus reading over the whole recording, counts.
     pub rms_counts: f64,
-    /// The same while the recording's position loop drives the model towards its targets, counts; `None` where there is none.
+    /// The same while the recording's position loop drives the model towards its targets, counts; `None` where no loop drove the motor.
     pub replay_rms_counts: Option<f64>,
     /// The parameters that this recording has for itself.
     pub own: Vec<OwnParameter>,

@@ -16,6 +16,7 @@ use super::remarks;
 use super::scores::{self, Windowed};
 use super::uncertainty::{Uncertainty, uncertainty};
 use super::validate::validate;
+use super::wave::Wave;
 use crate::certificate::Certificate;
 use crate::error::Error;
 use crate::likelihood::Likelihood;
@@ -314,29 +315,14 @@ fn unbalance(
 ) -> Option<Estimate> {
     let mut effects = candidate.effects.iter();
     let (_, values) = effects.find(|(kind, _)| *kind == Kind::Unbalance)?;
-    let mut places = Kind::Unbalance.parameters().iter().map(|parameter| {
-        let name = format!("{}.{}", Kind::Unbalance.name(), parameter.name);
-        problem
-            .structure
-            .unknowns
-            .iter()
-            .position(|unknown| unknown.name == name)
-    });
-    let (cosine, sine) = (places.next()??, places.next()??);
-    let value = libm::hypot(values[0], values[1]);
-    let slopes = [(cosine, values[0] / value), (sine, values[1] / value)];
-    let variance = |(j, by): (usize, f64)| {
-        let rows = slopes.iter();
-        rows.map(|(k, other)| by * other * spread.covariance[(j, *k)])
-            .sum::<f64>()
-    };
-    let std = slopes
-        .into_iter()
-        .map(variance)
-        .sum::<f64>()
-        .max(0.0)
-        .sqrt();
-    (value > 0.0 && std.is_finite()).then_some(Estimate { value, std })
+    let name = format!(
+        "{}.{}",
+        Kind::Unbalance.name(),
+        Kind::Unbalance.parameters()[0].name
+    );
+    let mut unknowns = problem.structure.unknowns.iter();
+    let cosine = unknowns.position(|unknown| unknown.name == name)?;
+    Wave::new([values[0], values[1]], [cosine, cosine + 1], Some(spread))?.estimate()
 }
 
 /// Says in words what stays open and what would settle it.

@@ -93,12 +93,15 @@ pub(super) fn switch_word(text: &str) -> Option<bool> {
 
 /// 0 or 1, or a word.
 pub(super) fn switch(text: &str) -> Result<bool, ReadFault> {
+    match text.parse() {
+        Ok(1.0) => return Ok(true),
+        Ok(0.0) => return Ok(false),
+        _ => {}
+    }
     if let Some(on) = switch_word(text) {
         return Ok(on);
     }
     match number(text) {
-        Ok(1.0) => Ok(true),
-        Ok(0.0) => Ok(false),
         Err(ReadFault::EmptyCell) => Err(ReadFault::EmptyCell),
         _ => Err(ReadFault::NotASwitch { text: shown(text) }),
     }

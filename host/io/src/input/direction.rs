@@ -16,12 +16,10 @@ impl DirectionWords {
     /// # Errors
     /// A third word.
     pub(super) fn sign(&mut self, text: &str) -> Result<f64, ReadFault> {
-        if is_halt(text) {
-            return Ok(0.0);
-        }
         let place = (self.words.iter()).position(|word| word.eq_ignore_ascii_case(text));
         let place = match place {
             Some(place) => place,
+            None if is_halt(text) => return Ok(0.0),
             None if self.words.len() < 2 => {
                 self.words.push(text.to_owned());
                 self.words.len() - 1

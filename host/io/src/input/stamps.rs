@@ -29,34 +29,33 @@ pub(super) enum Spread {
 
 /// Makes one row of each two with the same stamp of which one alone tells an angle; `None` where others repeat a stamp.
 fn merged(samples: &mut Samples) -> Option<Spread> {
-    let same = |k: usize, samples: &Samples| samples.time_s[k] == samples.time_s[k - 1];
+    let mut counts = samples.counts.clone();
     let mut keep = vec![true; samples.len()];
     for k in 1..samples.len() {
-        if !same(k, samples) {
+        if samples.time_s[k] != samples.time_s[k - 1] {
             continue;
         }
-        let told = [k - 1, k].map(|k| !samples.counts[k].is_nan());
-        if !keep[k - 1] || told[0] == told[1] {
+        let [before, own] = [counts[k - 1], counts[k]];
+        if before.is_nan() == own.is_nan() {
             return None;
         }
         // The later row has the command that holds from this stamp on.
         keep[k - 1] = false;
-        if told[0] {
-            samples.counts[k] = samples.counts[k - 1];
-        }
+        counts[k] = if own.is_nan() { before } else { own };
     }
     let rows = keep.iter().filter(|keep| !**keep).count();
     // Rows that all have commands of their own are of a clock that is too coarse for them.
     let held = samples.held_commands.checked_sub(rows as u64)?;
-    samples.keep(&keep);
+    samples.counts = counts;
     samples.held_commands = held;
+    samples.keep(&keep);
     Some(Spread::Merged(rows))
 }
 
 /// Makes times increase where some repeat; `None` where they cannot be told.
 pub(super) fn spread(samples: &mut Samples) -> Option<Spread> {
     if samples.counts.iter().any(|counts| counts.is_nan())
-        && let Some(merged) = merged(&mut samples.clone()).and_then(|_| merged(samples))
+        && let Some(merged) = merged(samples)
     {
         return Some(merged);
     }

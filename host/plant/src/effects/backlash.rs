@@ -2,7 +2,7 @@
 
 use super::{Effect, Kind, Param};
 use crate::Coupling;
-use crate::coupling::share_alone;
+use crate::coupling::{LOAD_FRICTION, share_alone};
 use std::f64::consts::TAU;
 
 /// Part of the inertia is the load's, and it is driven only while the flanks touch: the torque passed on
@@ -55,14 +55,7 @@ pub(super) static KIND: Kind = Kind {
             range: (0.0, 2.0),
             typical: |_| 0.7,
         },
-        Param {
-            name: "friction",
-            unit: "N*m",
-            about: "dry friction of the load",
-            scales: false,
-            range: (0.0, f64::INFINITY),
-            typical: |_| 0.0,
-        },
+        LOAD_FRICTION,
     ],
     other_laws: &[],
     build: |values, machine| {

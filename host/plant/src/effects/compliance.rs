@@ -1,7 +1,7 @@
 //! Compliance: the load hangs on an elastic shaft.
 
 use super::{Effect, Kind, Param};
-use crate::coupling::share_alone;
+use crate::coupling::{LOAD_FRICTION, share_alone};
 use crate::{Coupling, Machine};
 use std::f64::consts::TAU;
 
@@ -43,14 +43,7 @@ pub(super) static KIND: Kind = Kind {
             range: (0.0, 2.0),
             typical: |_| 0.05,
         },
-        Param {
-            name: "friction",
-            unit: "N*m",
-            about: "dry friction of the load",
-            scales: false,
-            range: (0.0, f64::INFINITY),
-            typical: |_| 0.0,
-        },
+        LOAD_FRICTION,
     ],
     other_laws: &[],
     build: |values, _| {

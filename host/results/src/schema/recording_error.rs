@@ -16,7 +16,7 @@ pub struct RecordingError {
     pub samples: usize,
     /// RMS of model minus reading over the whole recording, open loop, counts.
     pub rms_counts: Option<f64>,
-    /// The same while the recording's position loop drives the model towards its targets; absent where there is none.
+    /// The same while the recording's position loop drives the model towards its targets; absent where no loop drove the motor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub replay_rms_counts: Option<f64>,
     /// The parameters that this recording has for itself (`fit --own`); absent where it has none.

@@ -4,6 +4,8 @@
 //! (the time stepping of J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics*, 1988): so the load slides,
 //! stops, is held and breaks loose by one formula. Its response to the torque is linear, and scales with the speed that the torque takes of the load.
 
+use crate::effects::Budget;
+use crate::model::dyadic::LEVELS;
 use crate::model::mechanics::Increment;
 use crate::scalar::{Mask, Scalar, lanes};
 
@@ -58,6 +60,43 @@ lanes!(Brakes {
     held,
     free
 });
+
+/// Dry friction on the load of a coupling.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadFriction<S: Scalar> {
+    /// Share of the dry friction that acts on the load.
+    pub share: S::Coefficient,
+    /// Longest substep in which the load does not swing back, as a level.
+    pub longest: usize,
+    /// The responses of each level.
+    pub brakes: [Brakes<S>; LEVELS],
+}
+
+lanes!(LoadFriction {
+    share,
+    longest,
+    brakes
+});
+
+impl<S: Scalar> LoadFriction<S> {
+    /// The friction that is left to the motor, and the budget of the load's.
+    #[inline(always)]
+    pub fn shared(&self, budget: &Budget<S>) -> (Budget<S>, S) {
+        let behind = budget.moving.times(self.share);
+        let own = Budget {
+            moving: budget.moving - behind,
+            holding: budget.holding - budget.holding.times(self.share),
+            bias: budget.bias,
+        };
+        (own, behind)
+    }
+
+    /// Speed that friction of `budget` takes of the free load within the shortest substep: below it the load is at rest.
+    #[inline(always)]
+    pub fn least_speed(&self, budget: S) -> S {
+        budget.times(self.brakes[LEVELS - 1].free.per_torque)
+    }
+}
 
 /// Whether a load that turned at `before` stops or reverses in a substep after which it would have `speed` without friction; `stopped` as
 /// [`Brake::brake`] says. Below the speed `least` it was at rest.

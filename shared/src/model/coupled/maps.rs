@@ -21,8 +21,6 @@ pub struct Touching<S: Scalar> {
     pub held: [[S::Coefficient; 2]; 2],
     /// Twist per slip while the load is free.
     pub flight: S::Coefficient,
-    /// What dry friction on the load does.
-    pub brakes: Brakes<S>,
 }
 
 lanes!(Touching {
@@ -30,8 +28,7 @@ lanes!(Touching {
     driven,
     coast,
     held,
-    flight,
-    brakes
+    flight
 });
 
 /// A machine split into motor and load, per unit.
@@ -75,6 +72,12 @@ impl<R: Real> Split<R> {
         })
     }
 
+    /// Speed that a torque takes of the free load within `length` intervals.
+    fn load_push(&self, machine: &Machine<R>, length: R) -> R {
+        let load = R::from_f64(1.0) - self.share;
+        length / machine.inertia * load / self.share
+    }
+
     /// Discretises a substep of `length` intervals while the flanks touch.
     ///
     /// # Errors
@@ -93,7 +96,7 @@ impl<R: Real> Split<R> {
         let (x, s) = (turn, self.twice_damping * turn);
         let (mx, ms) = (self.share * x, self.share * s);
         let load = R::from_f64(1.0) - self.share;
-        let behind = push * load / self.share;
+        let behind = self.load_push(machine, length);
         let driven = LinearSystem {
             states: [
                 [-rate, -(machine.kb * rate), zero, zero],
@@ -195,7 +198,6 @@ impl<R: Real> RealMaps<R> {
                 self.driven.inputs[0][0],
                 [angle_per_volt, angle_per_torque],
             ),
-            brakes: self.brakes(split, machine, length)?,
             driven: [driven(0)?, driven(1)?, driven(2)?, driven(3)?, driven(4)?],
             coast: [coast(0)?, coast(1)?, coast(2)?, coast(3)?],
             held: [held(0)?, held(1)?],
@@ -205,7 +207,7 @@ impl<R: Real> RealMaps<R> {
 
     /// The responses to dry friction on the load. Where the substep is so long that the load swings back within it, motor and load lose
     /// their speed together.
-    fn brakes<S: Scalar>(
+    pub fn brakes<S: Scalar>(
         &self,
         split: &Split<R>,
         machine: &Machine<R>,
@@ -213,13 +215,12 @@ impl<R: Real> RealMaps<R> {
     ) -> Result<Brakes<S>, ModelError> {
         let (zero, one) = (R::zero(), R::from_f64(1.0));
         let together = split.frequency * length > R::from_f64(core::f64::consts::FRAC_PI_2);
-        let push = length / machine.inertia;
+        let half = length * R::from_f64(0.5);
         let brake = |response: [R; 5]| {
             let [_, speed, _, slip, _] = response;
             let taken = slip - speed;
-            let rigid = push * (one - split.share);
             let (per_torque, response) = if together {
-                let half = length * R::from_f64(0.5);
+                let rigid = length / machine.inertia * (one - split.share);
                 (rigid, [zero, -one, zero, zero, -half])
             } else {
                 (taken, response.map(|by| by / taken))
@@ -240,8 +241,8 @@ impl<R: Real> RealMaps<R> {
         let [speed, twist, slip] = [0, 1, 2].map(|k| coast.inputs[k][1]);
         let coasting = [zero, speed, twist, slip, coast.angle_by_inputs[1]];
         let held = [zero, zero, held.inputs[0][0], held.inputs[1][0], zero];
-        let behind = push * (one - split.share) / split.share;
-        let twist = split.frequency * length * R::from_f64(0.5) * behind;
+        let behind = split.load_push(machine, length);
+        let twist = split.frequency * half * behind;
         Ok(Brakes {
             driven: brake(driven)?,
             coasting: brake(coasting)?,

@@ -26,7 +26,7 @@ use crate::effects::{Budget, Coupling};
 use crate::error::ModelError;
 use crate::motor::Machine;
 use crate::scalar::{Mask, Real, Scalar, lanes};
-use load_friction::turns_back;
+use load_friction::{LoadFriction, turns_back};
 use maps::{Split, Touching};
 
 /// Angle of the load's swing against the motor that a substep with friction on the load may span, rad: an eighth of a turn. The torque of
@@ -48,12 +48,6 @@ struct Joint<S: Scalar> {
     half_gap: S,
     /// Whether there is a gap.
     loose: bool,
-    /// Share of the dry friction that acts on the load.
-    friction_share: S::Coefficient,
-    /// Whether any does.
-    load_rubs: bool,
-    /// Longest substep in which the load does not swing back, as a level.
-    longest: usize,
 }
 
 lanes!(Joint {
@@ -62,10 +56,7 @@ lanes!(Joint {
     most,
     twist_per_angle,
     half_gap,
-    loose,
-    friction_share,
-    load_rubs,
-    longest
+    loose
 });
 
 /// A motor with its load: maps for each level.
@@ -73,9 +64,15 @@ lanes!(Joint {
 pub struct Coupled<S: Scalar> {
     joint: Joint<S>,
     touching: [Touching<S>; LEVELS],
+    /// Where the load has any.
+    friction: Option<LoadFriction<S>>,
 }
 
-lanes!(Coupled { joint, touching });
+lanes!(Coupled {
+    joint,
+    touching,
+    friction
+});
 
 impl<S: Scalar> Coupled<S> {
     /// The maps of a step of `step` intervals and of all its halvings, and the machine of the motor
@@ -94,23 +91,33 @@ impl<S: Scalar> Coupled<S> {
         let (motor, lengths) = shortest(&split.motor, step, depth, how);
         let mut maps = split.maps(&motor, lengths[depth], how)?;
         let mut touching = [maps.lower::<S>(&split, &motor, lengths[depth])?; LEVELS];
+        let mut brakes = match coupling.friction_share > R::zero() {
+            true => Some([maps.brakes::<S>(&split, &motor, lengths[depth])?; LEVELS]),
+            false => None,
+        };
         for level in (0..depth).rev() {
             maps = match how {
                 Discretisation::Exact => maps.twice(),
                 Discretisation::Euler => split.maps(&motor, lengths[level], how)?,
             };
             touching[level] = maps.lower::<S>(&split, &motor, lengths[level])?;
+            if let Some(brakes) = &mut brakes {
+                brakes[level] = maps.brakes::<S>(&split, &motor, lengths[level])?;
+            }
         }
-        let stiffness = split.share * split.motor.inertia * split.frequency / split.scale;
-        let damping = split.twice_damping * split.scale;
-        let twist_per_angle = split.frequency * split.scale;
-        let half_gap = coupling.half_gap * twist_per_angle;
-        let load_rubs = coupling.friction_share > R::zero();
         let short = |&level: &usize| {
             let turn = split.frequency * lengths[level];
             turn < R::from_f64(LONGEST_SWING)
         };
-        let longest = (0..depth).find(short).unwrap_or(depth);
+        let friction = brakes.map(|brakes| LoadFriction {
+            share: S::coefficient(coupling.friction_share.to_f64()),
+            longest: (0..depth).find(short).unwrap_or(depth),
+            brakes,
+        });
+        let stiffness = split.share * split.motor.inertia * split.frequency / split.scale;
+        let damping = split.twice_damping * split.scale;
+        let twist_per_angle = split.frequency * split.scale;
+        let half_gap = coupling.half_gap * twist_per_angle;
         let joint = Joint {
             damping: S::coefficient(damping.to_f64()),
             stiffness: S::coefficient(stiffness.to_f64()),
@@ -118,11 +125,13 @@ impl<S: Scalar> Coupled<S> {
             twist_per_angle: S::coefficient(twist_per_angle.to_f64()),
             half_gap: S::from_f64(half_gap.to_f64()),
             loose: coupling.half_gap > R::zero(),
-            friction_share: S::coefficient(coupling.friction_share.to_f64()),
-            load_rubs,
-            longest: if load_rubs { longest } else { 0 },
         };
-        Ok((Coupled { joint, touching }, split.motor))
+        let coupled = Coupled {
+            joint,
+            touching,
+            friction,
+        };
+        Ok((coupled, split.motor))
     }
 }
 
@@ -262,22 +271,15 @@ impl<S: Scalar> Mechanics<S> for MotorAndLoad<'_, S> {
 
     #[inline(always)]
     fn longest(&self) -> usize {
-        self.coupled.joint.longest
+        (self.coupled.friction.as_ref()).map_or(0, |friction| friction.longest)
     }
 
     #[inline(always)]
     fn shared(&self, budget: &Budget<S>) -> (Budget<S>, S) {
-        let joint = &self.coupled.joint;
-        if !joint.load_rubs {
-            return (*budget, S::zero());
+        match &self.coupled.friction {
+            Some(friction) => friction.shared(budget),
+            None => (*budget, S::zero()),
         }
-        let behind = budget.moving.times(joint.friction_share);
-        let own = Budget {
-            moving: budget.moving - behind,
-            holding: budget.holding - budget.holding.times(joint.friction_share),
-            bias: budget.bias,
-        };
-        (own, behind)
     }
 
     #[inline(always)]
@@ -291,11 +293,8 @@ impl<S: Scalar> Mechanics<S> for MotorAndLoad<'_, S> {
         budget: S,
         open: bool,
     ) -> Option<(Increment<S>, S::Mask)> {
-        let joint = &self.coupled.joint;
-        if !joint.load_rubs {
-            return None;
-        }
-        let brakes = &self.coupled.touching[level].brakes;
+        let friction = self.coupled.friction.as_ref()?;
+        let brakes = &friction.brakes[level];
         let (before, speed) = (from.speed - from.slip, end.speed - end.slip);
         let moving = if open {
             &brakes.coasting
@@ -306,14 +305,13 @@ impl<S: Scalar> Mechanics<S> for MotorAndLoad<'_, S> {
         let (by_held, stops_held) = brakes.held.brake(speed, budget);
         let mut by = select(held, by_held, by_moving);
         let mut stops = held.and(stops_held).or(held.not().and(stops_moving));
-        if joint.loose {
+        if self.coupled.joint.loose {
             let flies = is_zero(side);
             let (by_free, stops_free) = brakes.free.brake(speed, budget);
             by = select(flies, by_free, by);
             stops = flies.and(stops_free).or(flies.not().and(stops));
         }
-        let shortest = &self.coupled.touching[LEVELS - 1].brakes.free;
-        let least = budget.times(shortest.per_torque);
+        let least = friction.least_speed(budget);
         Some((by, turns_back(before, speed, stops, least)))
     }
 

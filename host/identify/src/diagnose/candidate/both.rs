@@ -16,6 +16,7 @@ const NEAR: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
+
 /// Both recordings, run on their own.
 struct Both<'a> {
     fitted: FitProblem<'a>,

@@ -23,6 +23,7 @@ const STRETCH: Settings = Settings {
     probed: Some(0.02),
     ..Settings::THOROUGH
 };
+
 /// A model that follows the readings to their end, or as far as can be, from one that does not; `None` where they are lost
 /// early.
 pub fn follow_by_continuation(context: &Context<'_>, model: &FittedModel) -> Option<FittedModel> {

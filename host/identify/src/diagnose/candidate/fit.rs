@@ -19,6 +19,7 @@ const FULL: Settings = Settings {
     secant: true,
     ..Settings::THOROUGH
 };
+
 /// Fits a screened model by full simulation.
 ///
 /// # Errors

@@ -19,6 +19,7 @@ const LAST: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
+
 /// Fits on from where a fit ended, with finer steps as long as they change its error, until it has
 /// converged: what is left then is not the arithmetic's.
 ///

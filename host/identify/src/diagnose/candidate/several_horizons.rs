@@ -19,6 +19,7 @@ const ROUND: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
+
 /// The residuals of several problems with the same unknowns, each weighted.
 struct Weighted<'a> {
     problems: Vec<(FitProblem<'a>, f64)>,

@@ -21,9 +21,9 @@ pub const IN_PHASE: f64 = 40.0;
 pub const EXPLAINED: f64 = 3.0 * NOISE_COUNTS;
 /// A model of the one must be so many times worse on the other to be called a stranger to it.
 pub const STRANGE: f64 = 5.0;
-/// Parameters differ from so many standard errors on, and by at least this part.
+/// Parameters differ from so many standard errors on.
 pub const DIFFERENCE_SURE: f64 = 6.0;
-/// The same part of a parameter, as a share of it.
+/// And by at least this part of their value.
 pub const DIFFERENT_MOTORS: f64 = 0.02;
 /// Where no model explains both: constants of the linear motors that differ by this factor are beyond what a
 /// single effect does to them.

@@ -38,6 +38,7 @@ const FINE: Scale = Scale {
     degree: 1,
     least: 0.65,
 };
+
 /// RMS error beside a jump, counts, and three standard deviations of it for a window of one sample.
 const BESIDE: (f64, f64) = (0.33, 1.35);
 /// How small the losses are that are looked for.

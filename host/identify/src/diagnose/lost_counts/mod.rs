@@ -41,6 +41,7 @@ const FIT: Settings = Settings {
     evaluations: 60,
     ..Settings::THOROUGH
 };
+
 /// Samples over which a bend is looked for, at first and when losses are known.
 const LAGS: (usize, usize) = (8, 64);
 /// Where the rest is not the encoder's own error, only losses of so many counts are beyond doubt, and there

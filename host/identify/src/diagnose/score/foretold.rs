@@ -6,8 +6,9 @@
 
 use super::gains::Filter;
 use super::readings::Readings;
-use super::settings::{BLOCKS, FEWEST_READINGS, FOLDS, ORDERS, RIDGE};
-use super::settings::{FALLING, SINCE_REVERSAL_S, SLOW};
+use super::settings::{
+    BLOCKS, FALLING, FEWEST_READINGS, FOLDS, ORDERS, RIDGE, SINCE_REVERSAL_S, SLOW,
+};
 use crate::likelihood::HUBER;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;

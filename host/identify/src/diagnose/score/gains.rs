@@ -3,8 +3,7 @@
 
 use super::noise::Noise;
 use super::readings::Readings;
-use super::settings::UNDAMPED_INTERVAL_S;
-use super::settings::{SHORT, SHORTEST_S, UNDAMPED_S};
+use super::settings::{SHORT, SHORTEST_S, UNDAMPED_INTERVAL_S, UNDAMPED_S};
 use servoid_engine::problem::Data;
 use servoid_engine::simulation::Correction;
 use servoid_io::recording::Drive;

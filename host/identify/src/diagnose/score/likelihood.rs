@@ -2,8 +2,7 @@
 
 use super::gains::Filter;
 use super::readings::Readings;
-use super::settings::FEWEST;
-use super::settings::MOST_LAGS;
+use super::settings::{FEWEST, MOST_LAGS};
 use crate::likelihood::{HUBER, huber};
 use std::f64::consts::TAU;
 use std::ops::Range;

@@ -1,7 +1,6 @@
 //! At which readings an observer corrects a model, and what each of them weighs.
 
-use super::settings::{LEAST_SAMPLES, LONGEST_S, REST_READINGS, REST_S};
-use super::settings::{STILL, TIME_ROUNDING};
+use super::settings::{LEAST_SAMPLES, LONGEST_S, REST_READINGS, REST_S, STILL, TIME_ROUNDING};
 use crate::diagnose::context::noise_counts;
 use servoid_engine::problem::Data;
 use std::ops::Range;

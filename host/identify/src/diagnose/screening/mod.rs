@@ -111,8 +111,7 @@ fn forms(parent: &FittedModel, kind: Kind) -> &'static [f64] {
 
 /// Whether the last parameter of an effect is a share of the dry friction of others.
 fn shares_friction(kind: Kind) -> bool {
-    let last = kind.parameters().last();
-    last.is_some_and(|parameter| parameter.form == Some(Form::FrictionShare))
+    kind.form() == Some(Form::FrictionShare)
 }
 
 /// A model that has lost effects, or has others in their place, where it stands.

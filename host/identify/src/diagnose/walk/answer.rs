@@ -3,8 +3,7 @@
 use super::moves;
 use super::node::Node;
 use super::pool::Pool;
-use super::settings::CANDIDATES;
-use super::settings::{CLASS_NATS, FINALISTS, NEAR};
+use super::settings::{CANDIDATES, CLASS_NATS, FINALISTS, NEAR};
 use crate::diagnose::candidate::several_horizons::fit_over_horizons;
 use crate::diagnose::chosen::Level;
 use crate::diagnose::context::Context;

@@ -25,6 +25,7 @@ const CONVERGED: Settings = Settings {
     again: false,
     ..Settings::THOROUGH
 };
+
 /// Of one that shows whether more is worth it.
 const ROUGH: Settings = Settings {
     evaluations: 40,
