@@ -12,6 +12,8 @@ const COUNTS_PER_REV: f64 = 8192.0;
 const SAMPLE_S: f64 = 1e-3;
 /// Steps of the simulation to a sample.
 const FINER: usize = 10;
+/// A period longer than any recording.
+pub(crate) const ONCE: usize = 1 << 20;
 /// Samples at rest before the first command, and between two: no window of half a second begins at an edge, where a speed is hard to tell.
 const REST: usize = 170;
 
@@ -43,6 +45,8 @@ pub(crate) struct Run {
     /// A torque that repeats three times a revolution, V.
     pub(crate) ripple_v: f64,
     pub(crate) command_seed: u64,
+    /// Holds after which the steps come again.
+    pub(crate) period: usize,
     pub(crate) noise_seed: u64,
 }
 
@@ -67,6 +71,9 @@ impl Run {
         let (mut time_s, mut command, mut counts) = (Vec::new(), Vec::new(), Vec::new());
         for k in 0..samples {
             if k >= REST && k % REST == 0 {
+                if (k / REST - 1).is_multiple_of(self.period) {
+                    commands = rng::seeded(self.command_seed);
+                }
                 volts = 12.0 * (2.0 * rng::uniform::<f64>(&mut commands) - 1.0);
             }
             time_s.push(k as f64 * SAMPLE_S);

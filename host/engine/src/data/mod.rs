@@ -219,6 +219,15 @@ impl Data {
         }
     }
 
+    /// What was asked of the motor over samples of one recording: its targets, counts, where a position loop drives it, and else its command.
+    pub fn asked(&self, samples: &Range<usize>) -> &[f64] {
+        let begin = self.recordings.holding(samples.start).start;
+        match self.recordings.drive_at(samples.start) {
+            Some(drive) => &drive.target_counts[samples.start - begin..samples.end - begin],
+            None => &self.command[samples.clone()],
+        }
+    }
+
     /// Whether the bridge is open after sample `k`.
     pub fn is_open(&self, k: usize) -> bool {
         self.open.as_ref().is_some_and(|open| open[k])

@@ -150,6 +150,12 @@ impl Recordings {
         from..self.begins.get(next).copied().unwrap_or(self.end)
     }
 
+    /// The position loop behind the command of the one that holds sample `k`.
+    pub(super) fn drive_at(&self, k: usize) -> Option<&PositionDrive> {
+        let next = self.begins.partition_point(|&begin| begin <= k);
+        self.drives[next.saturating_sub(1)].as_deref()
+    }
+
     /// Whether sample `k` is the first of its recording.
     pub fn is_first(&self, k: usize) -> bool {
         self.begins.binary_search(&k).is_ok()

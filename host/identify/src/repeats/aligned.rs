@@ -1,5 +1,6 @@
 //! Which recordings repeat one command, and which of their samples belong together.
 
+use super::periods::periods;
 use super::settings::{COMMON, EVEN, ONE_COMMAND, ONE_INTERVAL};
 use servoid_engine::problem::Data;
 use std::ops::Range;
@@ -10,7 +11,7 @@ pub struct Repeats<'a> {
     pub(super) groups: Vec<Group<'a>>,
 }
 
-/// Recordings of one command.
+/// Runs of one command.
 #[derive(Clone, Debug)]
 pub(super) struct Group<'a> {
     pub(super) members: Vec<Member<'a>>,
@@ -20,7 +21,7 @@ pub(super) struct Group<'a> {
     pub(super) interval_s: f64,
 }
 
-/// One recording of a group.
+/// One run of a group: a recording, or a period of one.
 #[derive(Clone, Debug)]
 pub(super) struct Member<'a> {
     pub(super) data: &'a Data,
@@ -31,7 +32,7 @@ pub(super) struct Member<'a> {
 }
 
 impl<'a> Repeats<'a> {
-    /// The repeats among all recordings in `sets`; `None` where no command was recorded twice.
+    /// The repeats among all recordings in `sets`, and within those that no other repeats; `None` where no command was recorded twice.
     pub fn among(sets: &[&'a Data]) -> Option<Self> {
         let mut groups: Vec<Vec<Lagged<'a>>> = Vec::new();
         for &data in sets {
@@ -57,13 +58,17 @@ impl<'a> Repeats<'a> {
         }
         let groups: Vec<Group<'a>> = groups
             .into_iter()
+            .map(|group| match group.as_slice() {
+                [alone] => alone.periods(),
+                _ => group,
+            })
             .filter(|group| group.len() > 1)
             .map(common)
             .collect();
         (!groups.is_empty()).then_some(Repeats { groups })
     }
 
-    /// Recordings that repeat another or are repeated.
+    /// Recordings, or periods of one, that repeat another or are repeated.
     pub fn runs(&self) -> usize {
         self.groups.iter().map(|group| group.members.len()).sum()
     }
@@ -75,10 +80,12 @@ impl Group<'_> {
         (seconds / self.interval_s).round().max(2.0) as usize
     }
 
-    /// Where its members were recorded.
+    /// Where its members were recorded, each once.
     pub(super) fn sources(&self) -> Vec<String> {
         let members = self.members.iter();
-        members.map(|member| member.source().to_owned()).collect()
+        let mut all: Vec<String> = members.map(|member| member.source().to_owned()).collect();
+        all.dedup();
+        all
     }
 }
 
@@ -86,12 +93,12 @@ impl Member<'_> {
     fn source(&self) -> &str {
         let places = self.data.recordings.ranges();
         let mut named = places.zip(self.data.recordings.sources());
-        let own = named.find(|(range, _)| *range == self.range);
+        let own = named.find(|(range, _)| range.contains(&self.range.start));
         own.map_or("", |(_, source)| source)
     }
 }
 
-/// A recording that begins `lag` samples before the first of its group.
+/// A run that begins `lag` samples before the first of its group.
 struct Lagged<'a> {
     data: &'a Data,
     range: Range<usize>,
@@ -99,7 +106,14 @@ struct Lagged<'a> {
     lag: isize,
 }
 
-impl Lagged<'_> {
+impl<'a> Lagged<'a> {
+    /// The periods of a recording as runs of their own.
+    fn periods(&self) -> Vec<Lagged<'a>> {
+        let each = periods(self.data, &self.range, self.interval_s);
+        let own = |range| Lagged { range, ..*self };
+        each.into_iter().map(own).collect()
+    }
+
     fn command(&self) -> &[f64] {
         &self.data.command[self.range.clone()]
     }

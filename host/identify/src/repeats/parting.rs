@@ -7,6 +7,8 @@ use super::aligned::{Group, Repeats};
 pub struct Parting {
     /// Where the runs were recorded.
     pub sources: Vec<String>,
+    /// How many there are: recordings, or periods of one.
+    pub runs: usize,
     /// Length of the windows, s.
     pub window_s: f64,
     /// Within windows, each from where it begins.
@@ -20,6 +22,7 @@ impl Repeats<'_> {
     pub fn partings(&self, window_s: f64) -> Vec<Parting> {
         let parting = |group: &Group<'_>| Parting {
             sources: group.sources(),
+            runs: group.members.len(),
             window_s,
             in_windows: deviation(std::slice::from_ref(group), |group| group.window(window_s)),
             over_run: deviation(std::slice::from_ref(group), |group| group.common),

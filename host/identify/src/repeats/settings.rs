@@ -3,6 +3,14 @@
 
 /// RMS difference of two commands that are one, as a part of the command's RMS: measured volts of one command differ a little.
 pub const ONE_COMMAND: f64 = 0.03;
+/// The same within one recording, as a part of what unrelated values of the same spread would differ by.
+pub const ONE_PERIOD: f64 = 0.03;
+/// RMS difference beyond which a command is another, in the same parts: a lag below it that was never left is no period but a slow command.
+pub const ANOTHER_PERIOD: f64 = 0.3;
+/// Values of a command that tell at most lags that it is another.
+pub const FEW_VALUES: usize = 256;
+/// Shortest run that periods are taken together to, s: as long as the fewest windows of usual length.
+pub const SHORTEST_S: f64 = 2.0;
 /// Part of the longer recording that both must hold.
 pub const COMMON: f64 = 0.8;
 /// Relative difference of two sample intervals that are one.

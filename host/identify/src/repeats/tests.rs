@@ -1,7 +1,7 @@
 //! Laws of repeats over synthetic motors that torque noise drives.
 
 use super::{LackOfFit, Repeats};
-use crate::noisy_motor::{Run, candidate};
+use crate::noisy_motor::{ONCE, Run, candidate};
 use servoid_engine::problem::Data;
 use servoid_engine::simulation::Method;
 
@@ -15,6 +15,7 @@ fn runs(count: u64, noise: f64, ripple_v: f64, seed: u64) -> Vec<Data> {
         noise,
         ripple_v,
         command_seed: seed,
+        period: ONCE,
         noise_seed: 1000 * seed + repeat,
     };
     (0..count).map(|repeat| run(repeat).recorded()).collect()
@@ -89,6 +90,7 @@ fn a_recording_that_was_cut_at_its_start_is_still_a_repeat() {
         noise: 1e8,
         ripple_v: 0.0,
         command_seed: 1,
+        period: ONCE,
         noise_seed: 1001,
     }
     .recording();
@@ -96,4 +98,46 @@ fn a_recording_that_was_cut_at_its_start_is_still_a_repeat() {
     let found = lack_of_fit(&[all[0].clone(), cut]);
     let ratio = found.noise_counts / whole.noise_counts;
     assert!((0.8..1.25).contains(&ratio), "{found:?} beside {whole:?}");
+}
+
+#[test]
+fn the_periods_of_one_recording_tell_what_repeats_tell() {
+    let (mut ratio, mut noise) = (0.0, 0.0);
+    for seed in SEEDS {
+        let periodic = Run {
+            seconds: 12.5,
+            noise: 1e9,
+            ripple_v: 0.0,
+            command_seed: seed,
+            period: 24,
+            noise_seed: seed,
+        };
+        let found = lack_of_fit(&[periodic.recorded()]);
+        // Of 4.08 s, behind a rest.
+        assert_eq!(found.runs, 3, "seed {seed}: {found:?}");
+        ratio += libm::log(found.ratio());
+        noise += libm::log(found.noise_counts / lack_of_fit(&runs(3, 1e9, 0.0, seed)).noise_counts);
+    }
+    let mean = |sum: f64| libm::exp(sum / SEEDS.count() as f64);
+    let (ratio, noise) = (mean(ratio), mean(noise));
+    println!("ratio {ratio:.3}, noise {noise:.3} of that of three recordings");
+    assert!((0.95..1.05).contains(&ratio), "{ratio}");
+    assert!((0.9..1.1).contains(&noise), "{noise}");
+}
+
+#[test]
+fn a_command_that_never_comes_again_has_no_periods() {
+    for seed in SEEDS {
+        let [once] = &runs(1, 1e8, 0.0, seed)[..] else {
+            unreachable!("one run");
+        };
+        assert!(Repeats::among(&[once]).is_none(), "seed {seed}");
+        let mut slow = once.clone();
+        // A ramp, a chirp, and a constant.
+        let laws: [fn(f64) -> f64; 3] = [|t| t, |t| libm::sin(t * t), |_| 6.0];
+        for law in laws {
+            slow.command = slow.time_s.iter().map(|&t| law(t)).collect();
+            assert!(Repeats::among(&[&slow]).is_none(), "seed {seed}");
+        }
+    }
 }

@@ -14,10 +14,13 @@ pub fn text(check: &Check) -> String {
 
 fn parting(parting: &Parting) -> String {
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let repeated = match parting.recordings.as_slice() {
+        [alone] => format!("{alone} runs its command {} times", parting.runs),
+        several => format!("{} repeat one command", several.join(", ")),
+    };
     let line = format!(
-        "{} repeat one command: a run parts from their mean by {} counts RMS in windows of {} s and by {} over the whole run; no model of this \
+        "{repeated}: a run parts from their mean by {} counts RMS in windows of {} s and by {} over the whole run; no model of this \
          motor can come nearer than that",
-        parting.recordings.join(", "),
         counts(number(parting.in_windows_counts)),
         number(parting.window_s),
         counts(number(parting.over_run_counts)),

@@ -19,7 +19,7 @@ pub struct Check {
     pub schema: String,
     /// The recordings, in the order in which they were given.
     pub recordings: Vec<Checked>,
-    /// Recordings that repeat a command of each other.
+    /// Recordings that repeat a command of each other, and those that repeat their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub repeats: Vec<Parting>,
     /// How the log was read.
@@ -30,11 +30,14 @@ pub struct Check {
     pub version: String,
 }
 
-/// Recordings of one command, and how far the motor parts from itself.
+/// Runs of one command, and how far the motor parts from itself.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Parting {
     /// The recordings.
     pub recordings: Vec<String>,
+    /// Runs of the command: recordings, or periods of one.
+    #[serde(default)]
+    pub runs: usize,
     /// Length of the windows, s.
     pub window_s: Option<f64>,
     /// RMS deviation of a run from the mean of all in windows, each from where it begins, counts.
@@ -50,6 +53,7 @@ impl From<repeats::Parting> for Parting {
             in_windows_counts: finite(parting.in_windows),
             over_run_counts: finite(parting.over_run),
             recordings: parting.sources,
+            runs: parting.runs,
         }
     }
 }

@@ -28,6 +28,7 @@ fn recording(seconds: f64, noise: f64, ripple_v: f64, seed: u64) -> Data {
         noise,
         ripple_v,
         command_seed: seed,
+        period: noisy_motor::ONCE,
         noise_seed: seed,
     }
     .recorded()
