@@ -125,6 +125,8 @@ fn plan(coulomb: f32) -> RigidPlan<f32> {
         },
         coulomb,
         load: 0.0,
+        dead_time: 0.0,
+        carriers: 0.0,
         units: PerUnit {
             volts: 1.0,
             speed: 256.0,

@@ -3,8 +3,12 @@
 //! Plain equations in SI, integrated in short steps; it shares nothing with the model that is fitted to it. What the host's
 //! virtual bench can do (every effect of the catalogue), this does not: an image reaches that over a link instead.
 
-/// Steps of the integration in a control period.
-const SUBSTEPS: u32 = 20;
+mod switched;
+
+use switched::Wave;
+
+/// Steps of the integration in a control period: waves of the bridge's carrier.
+pub const CARRIERS: u32 = 20;
 
 /// A brushed motor behind an H bridge, with an encoder.
 #[derive(Debug, Clone)]
@@ -13,7 +17,8 @@ pub struct Motor {
     pub supply: f32,
     /// Ω, of the supply and its leads.
     pub supply_resistance: f32,
-    /// Part of the supply that the bridge's dead time takes, against the current.
+    /// Dead times of both legs in a wave of the carrier, as a part of it: what they take of the supply, against a current that flows all the
+    /// time. Without any the bridge gives its mean.
     pub dead_time: f32,
     /// Ω.
     pub resistance: f32,
@@ -84,21 +89,19 @@ pub const SMALL: Motor = Motor {
 impl Motor {
     /// Moves on by `seconds` with a duty in Q15, or with an open bridge.
     pub fn advance(&mut self, duty: Option<i16>, seconds: f32) {
-        let dt = seconds / SUBSTEPS as f32;
-        let decay = libm::expf(-dt * self.resistance / self.inductance);
+        let dt = seconds / CARRIERS as f32;
         self.state.peak = 0.0;
-        for _ in 0..SUBSTEPS {
-            self.electrical(duty, decay);
-            self.mechanical(dt);
+        for _ in 0..CARRIERS {
+            let current = self.electrical(duty, dt);
+            self.mechanical(current, dt);
         }
     }
 
     /// The same while something holds the shaft.
     pub fn hold(&mut self, duty: Option<i16>, seconds: f32) {
-        let decay = libm::expf(-seconds / SUBSTEPS as f32 * self.resistance / self.inductance);
         (self.state.speed, self.state.peak) = (0.0, 0.0);
-        for _ in 0..SUBSTEPS {
-            self.electrical(duty, decay);
+        for _ in 0..CARRIERS {
+            self.electrical(duty, seconds / CARRIERS as f32);
         }
     }
 
@@ -122,40 +125,47 @@ impl Motor {
         (bus * 1000.0) as u16
     }
 
-    /// The current follows its first-order equation exactly while the speed is held.
-    fn electrical(&mut self, duty: Option<i16>, decay: f32) {
+    /// The current over a wave of the carrier, while the speed is held; returns what makes torque.
+    fn electrical(&mut self, duty: Option<i16>, dt: f32) -> f32 {
         let state = &mut self.state;
-        state.current = match duty {
-            None => 0.0,
-            Some(duty) => {
-                let part = f32::from(duty) / 32_768.0;
-                state.bus = self.supply - self.supply_resistance * part * state.current;
-                let free = state.bus * part - self.constant * state.speed;
-                let lost = self.dead_time * state.bus;
-                // The dead time opposes the current; with none it lets none flow until there is more drive than it takes.
-                let lost = if state.current != 0.0 {
-                    lost.copysign(state.current)
-                } else {
-                    lost.min(free.abs()).copysign(free)
-                };
-                let end = (free - lost) / self.resistance;
-                let next = end + (state.current - end) * decay;
-                let turned = self.dead_time > 0.0 && next * state.current < 0.0;
-                if turned { 0.0 } else { next }
-            }
+        let Some(duty) = duty else {
+            state.current = 0.0;
+            return 0.0;
         };
+        let part = f32::from(duty) / 32_768.0;
+        state.bus = self.supply - self.supply_resistance * part * state.current;
+        let emf = self.constant * state.speed;
+        if self.dead_time > 0.0 {
+            let wave = Wave {
+                bus: state.bus,
+                duty: part,
+                length: dt,
+                dead: 0.5 * self.dead_time * dt,
+                emf,
+                resistance: self.resistance,
+                inductance: self.inductance,
+            };
+            let (current, mean, peak) = wave.pass(state.current);
+            state.current = current;
+            state.peak = state.peak.max(peak);
+            return mean;
+        }
+        let decay = libm::expf(-dt * self.resistance / self.inductance);
+        let end = (state.bus * part - emf) / self.resistance;
+        state.current = end + (state.current - end) * decay;
         state.peak = state.peak.max(state.current.abs());
+        state.current
     }
 
     /// Semi-implicit Euler; friction takes up to all of the momentum.
-    fn mechanical(&mut self, dt: f32) {
+    fn mechanical(&mut self, current: f32, dt: f32) {
         let state = &mut self.state;
         let cogging = if self.cogging == 0.0 {
             0.0
         } else {
             self.cogging * libm::sinf(self.cogging_order * state.angle)
         };
-        let torque = self.constant * state.current - self.viscous * state.speed - cogging;
+        let torque = self.constant * current - self.viscous * state.speed - cogging;
         let free = state.speed + torque / self.inertia * dt;
         let grip = self.coulomb / self.inertia * dt;
         let speed = if free > grip {

@@ -76,9 +76,11 @@ pub fn prove(out: &mut impl Write) -> fmt::Result {
         line::<Fixed>(out, "fixed", name, kind)?;
     }
     for method in [Method::Pso, Method::Firefly] {
-        fitted::<f32>(out, "f32", method)?;
-        fitted::<Fixed>(out, "fixed", method)?;
+        fitted::<f32>(out, "f32", method, 0)?;
+        fitted::<Fixed>(out, "fixed", method, 0)?;
     }
+    fitted::<f32>(out, "f32", Method::Firefly, 20)?;
+    fitted::<Fixed>(out, "fixed", Method::Firefly, 20)?;
     Ok(())
 }
 
@@ -151,7 +153,12 @@ fn model<S: Arithmetic>(kind: Option<Kind>) -> Option<Model<S>> {
 
 /// A whole fit.
 #[inline(never)]
-fn fitted<S: Arithmetic>(out: &mut impl Write, format: &str, method: Method) -> fmt::Result {
+fn fitted<S: Arithmetic>(
+    out: &mut impl Write,
+    format: &str,
+    method: Method,
+    carriers: u16,
+) -> fmt::Result {
     let (mut duties, mut steps) = ([0; PERIODS], [0; PERIODS]);
     let mut rng = rng::seeded(5);
     let (mut duty, mut speed) = (0i16, 0i32);
@@ -168,11 +175,14 @@ fn fitted<S: Arithmetic>(out: &mut impl Write, format: &str, method: Method) -> 
     let settings = Settings {
         method,
         evaluations: EVALUATIONS,
+        carriers,
+        dead_time: 400,
         ..Settings::USUAL
     };
-    let name = match method {
-        Method::Pso => "pso",
-        Method::Firefly => "firefly",
+    let name = match (method, carriers) {
+        (Method::Pso, _) => "pso",
+        (Method::Firefly, 0) => "firefly",
+        (Method::Firefly, _) => "firefly behind a bridge",
     };
     let mut fit = Fit::<S>::idle();
     if !fit.begin(&trace, settings) {

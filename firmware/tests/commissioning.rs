@@ -56,6 +56,10 @@ impl<S: Arithmetic> Host<S> {
     }
 
     /// Runs until there is an outcome; `mischief` may inject a fault before each period.
+    #[expect(
+        clippy::result_large_err,
+        reason = "a failure holds the report of what was fitted"
+    )]
     fn run(
         &mut self,
         job: Job,

@@ -2,71 +2,16 @@
 //! ordinary faults (dead time, a supply that gives way, cogging, a current sensor that is off, an encoder that glitches): the guard lets
 //! them commission, none is harmed, and none is called a success beyond its limit.
 
+mod drawing;
+
+use drawing::{Drawn, draw};
 use firmware::app::{Memory, Recording};
 use firmware::phase::Fault;
-use firmware::plant::{Motor, Shaft};
+use firmware::plant::{CARRIERS, Motor};
 use firmware::trials::{bench::Bench, host::Host};
 use shared::fit::Settings;
-use shared::rng;
 use shared::wire::*;
 use std::cell::RefCell;
-
-const COUNTS: [u32; 12] = [
-    12, 28, 44, 64, 100, 400, 1_000, 2_000, 4_096, 8_192, 16_384, 65_536,
-];
-
-/// A motor and its bench.
-#[derive(Debug)]
-struct Drawn {
-    motor: Motor,
-    offset_ma: i32,
-    glitches: u32,
-    /// Limit of the current, as a part of that at rest and full supply.
-    limit: Option<f32>,
-}
-
-fn between(rng: &mut rng::Generator, low: f32, high: f32) -> f32 {
-    low * (high / low).powf(rng::uniform(rng))
-}
-
-fn draw(seed: u64) -> Drawn {
-    let mut rng = rng::seeded(seed);
-    let rng = &mut rng;
-    let counts_per_rev = COUNTS[rng::below(rng, 12) as usize];
-    let power = between(rng, 0.5, 500.0);
-    let supply = [6.0, 12.0, 24.0, 48.0][(power.log10() + 0.9).clamp(0.0, 3.0) as usize];
-    let stall = between(rng, 4.0, 10.0) * power / supply;
-    let resistance = supply / stall;
-    let fastest = between(rng, 250.0, 1200.0) / power.max(1.0).powf(0.15);
-    let constant = supply / fastest;
-    let mass = if rng::below(rng, 2) == 0 {
-        1.0
-    } else {
-        between(rng, 3.0, 20.0)
-    };
-    let mechanical = between(rng, 4e-3, 4e-2) * mass;
-    let torque = constant * stall;
-    Drawn {
-        motor: Motor {
-            supply,
-            supply_resistance: between(rng, 0.002, 0.03) * resistance,
-            dead_time: between(rng, 0.001, 0.016),
-            resistance,
-            inductance: resistance * between(rng, 1e-4, 1e-3),
-            constant,
-            inertia: mechanical * constant * constant / resistance,
-            viscous: torque / fastest * between(rng, 0.005, 0.03),
-            coulomb: torque * between(rng, 0.01, 0.06),
-            cogging: torque * between(rng, 1e-4, 5e-3),
-            cogging_order: 14.0,
-            counts_per_rev: counts_per_rev as f32,
-            state: Shaft::default(),
-        },
-        offset_ma: ((rng::uniform::<f32>(rng) - 0.5) * 0.02 * stall * 1000.0) as i32,
-        glitches: if rng::below(rng, 2) == 0 { 0 } else { 600 },
-        limit: (rng::below(rng, 2) == 0).then(|| between(rng, 0.5, 1.0)),
-    }
-}
 
 /// Limit of the verification, counts: one, or a 4,096th of a revolution.
 fn limit_counts(motor: &Motor) -> f32 {
@@ -105,6 +50,7 @@ fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
         fit: Settings {
             seed,
             evaluations: 800,
+            carriers: CARRIERS as u16,
             ..Settings::default()
         },
         limits: Limits {

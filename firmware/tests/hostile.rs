@@ -69,6 +69,8 @@ fn extreme(rng: &mut Generator) -> Job {
             seed: rng.next_u64(),
             coulomb: rng::below(rng, 2) == 0,
             load: rng::below(rng, 2) == 0,
+            carriers: rng::below(rng, 40) as u16,
+            dead_time: rng::below(rng, 65_536) as u16,
         },
         limits: Limits {
             duty: any(rng) as i16,

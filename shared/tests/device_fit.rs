@@ -2,8 +2,8 @@
 
 use shared::effects::{EffectSet, Kind};
 use shared::excite::{Experiment, Shape, commands};
-use shared::fit::{Arithmetic, Estimate, Fit, Method, Outcome, Settings};
-use shared::model::{Model, Plan, State};
+use shared::fit::{Arithmetic, Estimate, Evaluation, Fit, Method, Outcome, Settings};
+use shared::model::{Model, Motion, Plan, Rigid, RigidPlan, State};
 use shared::motor::Machine;
 use shared::rng;
 use shared::scalar::{Angle, Fixed, Readable, Scalar};
@@ -193,5 +193,105 @@ fn a_motor_that_did_not_move_with_the_drive_is_not_fitted() {
     ] {
         let trace = Trace::new(&duties, &steps);
         assert!(!Fit::<f32>::idle().begin(&trace, settings));
+    }
+}
+
+/// Whole counts of a motor behind a bridge with dead time: of the hot loop, and of the step that it is a short form of.
+fn whole_counts<S: Arithmetic>(plan: &RigidPlan<f64>, duties: &[i16]) -> Vec<[i32; 2]> {
+    let model = Rigid::<S>::new(plan).expect("a motor");
+    let mut run = Evaluation::new(model).expect("within the format");
+    let mut motion = Motion::default();
+    let both = duties.iter().map(|&duty| {
+        run.step(duty, 0);
+        S::step(&model, &mut motion, S::from_q15(duty), false);
+        [
+            run.error().floor() as i32,
+            Readable::<S>::floor(motion.angle),
+        ]
+    });
+    both.collect()
+}
+
+#[test]
+fn behind_a_bridge_the_hot_loop_is_the_step() {
+    for seed in 0..SEEDS {
+        let Motor {
+            gain,
+            mechanical,
+            electrical,
+            coulomb,
+        } = motor(seed);
+        let mut rng = rng::seeded(seed);
+        let mut part = |most: f64| most * rng::uniform::<f64>(&mut rng);
+        let viscous = part(0.3) / gain;
+        let plan = RigidPlan {
+            machine: Machine {
+                kb: 1.0 / gain - viscous,
+                damping: viscous,
+                inertia: mechanical / gain,
+                electrical,
+            },
+            coulomb,
+            load: part(0.02),
+            dead_time: part(0.05),
+            carriers: 20.0,
+            units: PerUnit::new(1.0, gain, 1.0, std::f64::consts::TAU).unwrap(),
+        };
+        let duties: Vec<i16> = (0..400)
+            .map(|k| match k % 40 {
+                0..20 => part(30_000.0) as i16,
+                20..30 => -(part(8_000.0) as i16),
+                _ => 0,
+            })
+            .collect();
+        for counts in [
+            whole_counts::<f32>(&plan, &duties),
+            whole_counts::<Fixed>(&plan, &duties),
+        ] {
+            for (k, [loops, steps]) in counts.into_iter().enumerate() {
+                assert!(
+                    (loops - steps).abs() <= 1,
+                    "seed {seed}, period {k}: {loops} {steps}, {plan:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn dead_time_takes_its_part_of_a_current_that_flows_and_nothing_of_one_that_the_ripple_turns() {
+    let steady = |dead_time: f64, load: f64, duty: f64| {
+        let plan = RigidPlan {
+            machine: Machine {
+                kb: 0.01,
+                damping: 0.0,
+                inertia: 0.2,
+                electrical: 0.5,
+            },
+            coulomb: 0.0,
+            load,
+            dead_time,
+            carriers: 20.0,
+            units: PerUnit::new(1.0, 100.0, 1.0, std::f64::consts::TAU).unwrap(),
+        };
+        let model = Rigid::<f64>::new(&plan).unwrap();
+        let mut motion = Motion::default();
+        for _ in 0..2_000 {
+            model.step(&mut motion, duty, false);
+        }
+        motion.speed
+    };
+    for dead_time in [0.0, 0.004, 0.02, 0.05] {
+        for load in [-0.2, 0.0, 0.1] {
+            for duty in [-0.7, 0.3, 0.5] {
+                let lost = if load == 0.0 { 0.0 } else { dead_time };
+                let right = duty - load - lost * load.signum();
+                let found = steady(dead_time, load, duty);
+                assert!(
+                    (found - right).abs() < 1e-3,
+                    "{dead_time} {load} {duty}: {found} {right}"
+                );
+            }
+        }
     }
 }

@@ -206,6 +206,8 @@ fn a_rigid_motor_is_the_step() {
             machine,
             coulomb: of_supply(&mut rng, 0.1).abs(),
             load: of_supply(&mut rng, 0.1),
+            dead_time: 0.0,
+            carriers: 0.0,
             units,
         };
         let drive = drive(&mut rng);

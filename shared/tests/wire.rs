@@ -22,6 +22,8 @@ fn job() -> Job {
             seed: 7,
             coulomb: true,
             load: false,
+            carriers: 20,
+            dead_time: 655,
         },
         limits: Limits {
             duty: 32_767,
@@ -160,6 +162,7 @@ fn to_host() -> Vec<ToHost> {
             reset: Reset::Watchdog,
             current_limit_ma: 40_000,
             senses_supply: true,
+            carriers: 20,
             dead_time: 273,
             encoder_latency_us: 255,
         }),

@@ -170,8 +170,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn keep(&mut self, duty: i16, step: i32, from_ma: i32, measured: Measured) {
         let step = step.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
         let current_ma = from_ma.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
-        let currents = [from_ma, measured.current_ma.unwrap_or(from_ma)];
-        let duty = self.bridge.at_winding(duty, measured.supply_mv, currents);
+        let duty = self.bridge.at_winding(duty, measured.supply_mv);
         if self.phase == Phase::Record {
             self.recording.push(duty, step);
         }

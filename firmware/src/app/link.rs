@@ -75,6 +75,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                     reset: self.board.reset(),
                     current_limit_ma: B::CURRENT_LIMIT_MA,
                     senses_supply: self.board.supply_mv().is_some(),
+                    carriers: self.board.carriers(),
                     dead_time: self.board.dead_time(),
                     encoder_latency_us: self.board.encoder_latency_us(),
                 };
@@ -205,8 +206,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             resolution_ma: B::CURRENT_RESOLUTION_MA,
         };
         self.guard = Some(Guard::new(&job, rating, self.count));
-        let ripple_ma = B::CURRENT_RESOLUTION_MA.saturating_mul(4);
-        self.bridge = Bridge::new(job.supply_mv, self.board.dead_time(), ripple_ma);
+        self.bridge = Bridge::new(job.supply_mv);
         log::started(&job);
         self.job = Some(job);
         if let Ok(phase) = self.phase.after(Event::Start) {

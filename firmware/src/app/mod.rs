@@ -152,7 +152,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             run: None,
             job: None,
             guard: None,
-            bridge: shared::bridge::Bridge::new(0, 0, 0),
+            bridge: shared::bridge::Bridge::new(0),
             duty: OPEN,
             current: 0,
             count: 0,

@@ -103,6 +103,8 @@ pub trait Parts {
     const PERIOD_US: u32;
     /// See [`Board::SLICE`].
     const SLICE: u32;
+    /// See [`Board::carriers`].
+    const CARRIERS: u16 = 0;
     /// Half bridge of motor lead +.
     type LegA: SetDutyCycle;
     /// Half bridge of motor lead −.
@@ -157,6 +159,10 @@ impl<P: Parts> Board for Generic<P> {
 
     fn drive(&mut self, duty: i16) {
         self.bridge.drive(duty);
+    }
+
+    fn carriers(&self) -> u16 {
+        P::CARRIERS
     }
 
     fn full(&self) -> u16 {

@@ -140,9 +140,14 @@ pub trait Board {
         None
     }
 
-    /// Part of the supply that the bridge's dead time takes from a duty, against the current, as a duty: twice the dead time by the
-    /// carrier's period, of [`full`](Self::full), to be made good in what is recorded. Zero where the current's sign is not known well
-    /// enough: a reading a period does not tell when it changes, and half an ampere of friction decides.
+    /// Waves of the bridge's carrier in a control period, where its transistors switch with a dead time that the fit is to find; zero
+    /// otherwise.
+    fn carriers(&self) -> u16 {
+        0
+    }
+
+    /// What the bridge's dead time takes from a duty, against the current, as the board sets it: twice the dead time by the carrier's
+    /// period, of [`full`](Self::full). The fit begins there, and finds its own. Zero if the board does not know it.
     fn dead_time(&self) -> u16 {
         0
     }

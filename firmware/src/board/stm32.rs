@@ -195,6 +195,14 @@ impl<W: Wiring> Board for Stm32<W> {
         self.position.read(count)
     }
 
+    fn carriers(&self) -> u16 {
+        CARRIERS as u16
+    }
+
+    fn dead_time(&self) -> u16 {
+        self.bridge.dead_time()
+    }
+
     fn current_ma(&mut self) -> i32 {
         self.wiring.current_ma(self.bridge.forward)
     }

@@ -7,7 +7,7 @@ use shared::rng;
 
 use crate::board::Board;
 use crate::phase::Fault;
-use crate::plant::Motor;
+use crate::plant::{CARRIERS, Motor};
 
 /// Bytes that wait on one direction of the link.
 const ROOM: usize = 2048;
@@ -176,12 +176,8 @@ impl<const SENSES: bool> Board for OnBench<'_, SENSES> {
         SENSES.then_some(bench.supply_mv.unwrap_or(bench.motor.supply_mv()))
     }
 
-    fn dead_time(&self) -> u16 {
-        if SENSES {
-            (self.0.borrow().motor.dead_time * 32_768.0) as u16
-        } else {
-            0
-        }
+    fn carriers(&self) -> u16 {
+        CARRIERS as u16
     }
 
     fn tick(&mut self) -> Result<(), Fault> {

@@ -4,7 +4,7 @@ use super::{Order, Run};
 use servoid_results::device_run::Recorded;
 use servoid_results::schema::DeviceRun;
 use servoid_results::schema::device;
-use shared::fit::{Outcome, Stop};
+use shared::fit::{Outcome, Settings, Stop};
 use shared::wire::{About, Fault, Format};
 
 /// Report of a finished run.
@@ -70,6 +70,11 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun 
     }
 }
 
+/// Dead time of a leg by the part of the supply that two take, ns.
+pub fn dead_time_ns(fit: &Settings, period_s: f64) -> f64 {
+    0.5e9 * period_s / f64::from(fit.carriers)
+}
+
 fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> device::Outcome {
     let per_count = std::f64::consts::TAU / order.counts_per_rev;
     let gain = per_count / period_s / unit_v;
@@ -83,6 +88,15 @@ fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> devi
     }
     if order.fit.load {
         measures.push(("load", unit_v, "V"));
+    }
+    if order.fit.carriers > 0 {
+        let of_supply = unit_v / order.supply_v;
+        measures.push((
+            "dead_time",
+            of_supply * dead_time_ns(&order.fit, period_s),
+            "ns",
+        ));
+        measures.push(("viscous_part", 1.0, "1"));
     }
     let parameters =
         outcome

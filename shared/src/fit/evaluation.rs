@@ -22,6 +22,31 @@ pub(super) fn explained(mean: f32) -> f32 {
     }
 }
 
+/// The current behind a bridge with dead time, in the measure of [`Arithmetic::drive`].
+#[derive(Clone, Copy, Debug)]
+struct Drawn<S> {
+    /// Whether it flows backward.
+    backward: bool,
+    /// What it was a period before.
+    before: S,
+    /// Sum of two beyond which the dead time takes all that it ever does.
+    sure: S,
+}
+
+impl<S: Arithmetic> Drawn<S> {
+    /// Goes on to the next current, if the dead time takes all of its share up to there.
+    #[inline(always)]
+    fn keeps_sense(&mut self, next: S) -> bool {
+        let sum = self.before + next;
+        let along = if self.backward { -sum } else { sum };
+        let keeps = self.sure.less(along);
+        if keeps {
+            self.before = next;
+        }
+        keeps
+    }
+}
+
 /// Room for a model. Not an `Option`, whose nothing may be marked by any number in any place: an empty room is all zeros, so
 /// that a static of it is memory that starts as zeros, and no image is copied there.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +103,8 @@ pub struct Evaluation<S: Arithmetic> {
     rows: S::Rows,
     /// `None` if the sense of the motion is not known, or friction holds the shaft.
     sliding: Option<Sliding<S>>,
+    /// Behind a bridge with dead time, while the shaft slides.
+    drawn: Option<Drawn<S>>,
     /// See [`Arithmetic::pull`].
     pull: S,
     speed: S,
@@ -102,6 +129,7 @@ impl<S: Arithmetic> Evaluation<S> {
             model: Rigid::of(zero, none),
             rows,
             sliding: None,
+            drawn: None,
             pull: zero,
             speed: zero,
             error,
@@ -125,7 +153,7 @@ impl<S: Arithmetic> Evaluation<S> {
             return false;
         };
         self.rows = rows;
-        self.sliding = None;
+        (self.sliding, self.drawn) = (None, None);
         (self.pull, self.speed, self.error) = (S::zero(), S::zero(), Default::default());
         (self.at, self.sums) = (0, Default::default());
         (self.bound, self.result) = (bound, None);
@@ -217,15 +245,22 @@ impl<S: Arithmetic> Evaluation<S> {
         }
     }
 
-    /// Enters the hot loop: makes the increments by load and friction in the sense in which the shaft turns, if it does.
+    /// Enters the hot loop: makes the increments by load, friction and dead time in the senses in which the shaft turns, if it does, and the
+    /// current flows.
     #[inline(never)]
     fn enter_sliding(&mut self) {
-        let Some((sense, [current, speed, angle])) = self.model.sliding(self.speed) else {
+        let now = S::current(&self.rows, self.pull, self.speed, S::zero());
+        let Some((sense, [current, speed, angle])) = self.model.sliding(self.speed, now) else {
             return;
         };
         let angle = S::Angle::default().advance(angle, self.model.counts_per_unit());
         let error = S::advance_error(Default::default(), angle, 0);
         let sliding = S::sliding(&self.rows, sense, (current, speed, error));
+        self.drawn = self.model.sure_current().map(|sure| Drawn {
+            backward: now.less(S::zero()),
+            before: S::drive_of(&self.rows, now),
+            sure: S::drive_of(&self.rows, sure + sure),
+        });
         self.pull = self.pull + sliding.push;
         self.sliding = Some(sliding);
     }
@@ -284,13 +319,34 @@ impl<S: Arithmetic> Evaluation<S> {
         let Some(sliding) = self.sliding else {
             return 0;
         };
+        match self.drawn {
+            None => self.slide(duties, steps, sliding, |_| true),
+            Some(mut drawn) => {
+                let (rows, push) = (self.rows, sliding.push);
+                let periods = self.slide(duties, steps, sliding, |to| {
+                    drawn.keeps_sense(S::drive(&rows, to.0, to.1, push))
+                });
+                self.drawn = Some(drawn);
+                periods
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn slide(
+        &mut self,
+        duties: &[i16],
+        steps: &[i16],
+        sliding: Sliding<S>,
+        mut goes_on: impl FnMut(&(S, S, S::AngleError)) -> bool,
+    ) -> usize {
         let rows = self.rows;
         let (mut at, mut sums) = ((self.pull, self.speed, self.error), self.sums);
         let mut periods = 0;
         for (&duty, &step) in duties.iter().zip(steps) {
             let mut to = S::step_row(&rows, at, duty, step);
             (to.0, to.1) = S::add_sliding((to.0, to.1), &sliding);
-            if !S::along(to.1, sliding.sense) {
+            if !(S::along(to.1, sliding.sense) && goes_on(&to)) {
                 break;
             }
             to.2 = to.2 + sliding.error;
@@ -318,7 +374,7 @@ impl<S: Arithmetic> Evaluation<S> {
         self.speed = motion.speed;
         self.error = S::advance_error(self.error, motion.angle, step);
         S::collect(&mut self.sums, self.error);
-        self.sliding = None;
+        (self.sliding, self.drawn) = (None, None);
     }
 
     /// Sum of the squared errors about their mean, as far as the unknown start explains that mean.

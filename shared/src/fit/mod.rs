@@ -6,7 +6,7 @@
 //! ```
 //!
 //! It searches over what voltage and angle determine: gain and the two time constants, in logarithms, and friction and
-//! load if asked for. All is per supply, per period and in counts: a device need not know its supply voltage nor its
+//! load if asked for. Behind a bridge with dead time the polish adds what that takes, and the viscous part of the damping. All is per supply, per period and in counts: a device need not know its supply voltage nor its
 //! encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
 //! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
 
@@ -57,6 +57,12 @@ pub struct Settings {
     pub coulomb: bool,
     /// Search for a constant load.
     pub load: bool,
+    /// Waves of the bridge's carrier in a control period, to fit what its dead time takes; zero takes a bridge that loses nothing.
+    #[serde(default)]
+    pub carriers: u16,
+    /// What the dead time takes by the board's own figure, as a duty: the search takes it for granted, and the polish begins there.
+    #[serde(default)]
+    pub dead_time: u16,
 }
 
 impl Settings {
@@ -68,6 +74,8 @@ impl Settings {
         seed: 1,
         coulomb: true,
         load: false,
+        carriers: 0,
+        dead_time: 0,
     };
 }
 
@@ -162,6 +170,8 @@ impl<S: Arithmetic> Fit<S> {
                 seed: 0,
                 coulomb: false,
                 load: false,
+                carriers: 0,
+                dead_time: 0,
             },
             space: Space::NONE,
             stage: Stage::Idle,
@@ -179,7 +189,7 @@ impl<S: Arithmetic> Fit<S> {
         let Some(space) = Space::around(trace, &settings) else {
             return false;
         };
-        self.stage.search(&settings, space.dim());
+        self.stage.search(&settings, space.searched());
         self.settings = settings;
         self.space = space;
         for run in &mut self.runs {
@@ -250,7 +260,7 @@ impl<S: Arithmetic> Fit<S> {
         let Some(search) = self.stage.searching() else {
             return;
         };
-        let (x, bound) = (search.ask(), search.bound());
+        let (x, bound) = (self.space.of_search(search.ask()), search.bound());
         self.asked = build(&mut self.runs[0], &self.space, &x, bound);
         if !self.asked {
             self.end(f32::INFINITY);
@@ -266,7 +276,7 @@ impl<S: Arithmetic> Fit<S> {
         };
         search.tell(mean_square);
         let best = search.best();
-        (self.best, self.least) = (best.x, best.cost);
+        (self.best, self.least) = (self.space.of_search(best.x), best.cost);
         if self.evaluations >= u32::from(self.settings.evaluations) {
             if !self.least.is_finite() {
                 self.stage = Stage::Done(Stop::NoModel);

@@ -247,6 +247,11 @@ impl<S: Scalar> StepMap<S> {
         self.speed[3]
     }
 
+    /// Current by a held volt, with the shaft turning and held, and the bridge closed.
+    pub fn current_by_volts(&self) -> [S::Coefficient; 2] {
+        [self.current[2], self.held[1]]
+    }
+
     /// Increment of the current while friction holds the shaft.
     #[inline(always)]
     pub fn step_stuck(&self, current: S, volts: S, open: bool) -> S {

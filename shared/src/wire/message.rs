@@ -159,8 +159,9 @@ pub struct Details {
     pub current_limit_ma: u32,
     /// Whether it measures the supply.
     pub senses_supply: bool,
-    /// Part of the supply that its bridge's dead time takes, as a duty, which the device makes good in what it records; zero if it does
-    /// not.
+    /// Waves of its bridge's carrier in a control period; zero if its dead time need not be fitted.
+    pub carriers: u16,
+    /// Part of the supply that its bridge's dead time takes by the board's own figure, as a duty; zero if that is not known.
     pub dead_time: u16,
     /// How long its encoder's readings are late, µs.
     pub encoder_latency_us: u32,
@@ -306,7 +307,7 @@ pub struct Rows {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Row {
     /// Duty across the winding during it in parts of the job's supply, or [`OPEN`](crate::trace::OPEN). A board that measures its
-    /// supply or knows its dead time tells what these make of the duty that it gave.
+    /// supply tells what that makes of the duty that it gave.
     pub duty: i16,
     /// Counts travelled during it.
     pub step: i16,

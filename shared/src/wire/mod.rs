@@ -27,4 +27,4 @@ pub use plan::{MOST_SEGMENTS, PLAN_SEGMENTS, PlanDigest, PlanPart, PlanStore, Se
 pub use reset::Reset;
 
 /// Version of the messages.
-pub const VERSION: u16 = 3;
+pub const VERSION: u16 = 4;

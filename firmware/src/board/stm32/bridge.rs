@@ -98,6 +98,8 @@ pub struct Bridge {
     pub(super) forward: bool,
     /// It is to drive from the carrier's next turn on.
     pub(super) begins: bool,
+    /// Clocks of the dead time in a period.
+    dead_clocks: u32,
     _pins: BridgePins,
     _break_pin: Option<Flex<'static>>,
 }
@@ -122,7 +124,8 @@ impl Bridge {
         timer.set_max_compare_value(full as u16);
         timer.set_autoreload_preload(true);
         timer.set_dead_time_clock_division(Ckd::DIV4);
-        timer.set_dead_time_value(dead_time(dead_time_ns, clock_mhz));
+        let steps = dead_time_steps(dead_time_ns, clock_mhz);
+        timer.set_dead_time_value(steps);
         // Off means low, not floating. The idle levels are low after reset and nobody changes them.
         timer.set_ossi(Ossi::IDLE_LEVEL);
         timer.set_ossr(Ossr::IDLE_LEVEL);
@@ -150,6 +153,7 @@ impl Bridge {
             driven: false,
             forward: true,
             begins: false,
+            dead_clocks: u32::from(steps) * DEAD_STEP,
             _pins: pins,
             _break_pin: None,
         };
@@ -222,15 +226,24 @@ impl Bridge {
         pac::TIM1.sr().read().uif()
     }
 
+    /// What two dead times take of a wave of the carrier, as a duty.
+    pub(super) fn dead_time(&self) -> u16 {
+        let wave = 2 * u32::from(self.legs.full);
+        (2 * self.dead_clocks * u32::from(self.legs.full_duty()) / wave.max(1)) as u16
+    }
+
     /// True while driving if the break input has switched the outputs off.
     pub(super) fn tripped(&self) -> bool {
         self.driven && !self.timer.get_moe()
     }
 }
 
+/// Clocks in a step of the dead time.
+const DEAD_STEP: u32 = 4;
+
 /// The timer's code for a dead time, rounded up: steps of four clocks, of which it can count 127 one by one.
-fn dead_time(ns: u32, clock_mhz: u32) -> u8 {
-    let steps = (ns * clock_mhz).div_ceil(4 * 1000);
+fn dead_time_steps(ns: u32, clock_mhz: u32) -> u8 {
+    let steps = (ns * clock_mhz).div_ceil(DEAD_STEP * 1000);
     assert!(steps < 128, "a dead time too long for this timer");
     steps as u8
 }

@@ -130,6 +130,12 @@ struct Order {
     coulomb: bool,
     /// Whether a constant load is searched for.
     load: bool,
+    /// Waves of the bridge's carrier in a control period, where what its dead time takes is fitted; else zero.
+    #[serde(default)]
+    carriers: u16,
+    /// What the dead time takes by the board's own figure, in Q15 of the supply.
+    #[serde(default)]
+    dead_time: u16,
 }
 
 /// The device's search methods.

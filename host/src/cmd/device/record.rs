@@ -4,7 +4,9 @@ use super::emulate;
 use crate::cli::{
     CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
 };
-use crate::device::{Conversation, Kept, Order, Progress, Reached, Run, drive, keep, segments};
+use crate::device::{
+    Conversation, Kept, Order, Progress, Reached, Run, dead_time_ns, drive, keep, segments,
+};
 use crate::error::Error;
 use crate::session::{Session, print};
 use indicatif::ProgressBar;
@@ -71,6 +73,21 @@ pub(super) struct Bench {
     pub(super) reached: Reached,
     conversation: Conversation,
     pub(super) about: About,
+}
+
+impl Bench {
+    /// `fit` with what the board's bridge asks for: where its transistors switch with a dead time, that is fitted, too.
+    ///
+    /// # Errors
+    /// A device that does not say what it is made of.
+    pub(super) fn behind_its_bridge(&mut self, fit: Settings) -> Result<Settings, Error> {
+        let details = self.conversation.details()?;
+        Ok(Settings {
+            carriers: details.carriers,
+            dead_time: details.dead_time,
+            ..fit
+        })
+    }
 }
 
 pub(super) fn open(session: &Session, port: &PortArgs, limits: &LimitArgs) -> Result<Bench, Error> {
@@ -209,6 +226,13 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
                 parameter.name, parameter.value, parameter.unit
             );
         }
+        if saved.fit.dead_time > 0 {
+            let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
+            text += &format!(
+                "  the board's timer was told a dead time of {:.0} ns\n",
+                told * dead_time_ns(&saved.fit, period_s)
+            );
+        }
     }
     text += &format!(
         "{}: {}, motor.toml, device.json\n",
@@ -231,6 +255,10 @@ pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(),
     let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let common = order(session, &bench.reached, &args.limits, Kind::Commission)?;
+    let fit = match args.no_dead_time {
+        true => common.fit,
+        false => bench.behind_its_bridge(common.fit)?,
+    };
     let order = Order {
         excite_s: args.excite,
         coast: !args.no_coast,
@@ -247,6 +275,7 @@ pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(),
             seed: session.seed,
             coulomb: args.with.iter().any(|name| name == "coulomb"),
             load: args.with.iter().any(|name| name == "load_torque"),
+            ..fit
         },
         ..common
     };

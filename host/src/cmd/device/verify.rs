@@ -95,9 +95,11 @@ pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
 }
 
 fn fitted_effects(saved: &DeviceRun) -> Vec<Kind> {
+    // At one supply voltage what the dead time takes is what brushes drop.
     let flags = [
         (saved.fit.coulomb, Kind::Coulomb),
         (saved.fit.load, Kind::LoadTorque),
+        (saved.fit.carriers > 0, Kind::BrushDrop),
     ];
     flags
         .into_iter()

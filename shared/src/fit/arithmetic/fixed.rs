@@ -98,6 +98,15 @@ impl Arithmetic for Fixed {
         pull
     }
 
+    #[inline(always)]
+    fn drive(_: &FixedRows, pull: Fixed, _: Fixed, _: Fixed) -> Fixed {
+        pull
+    }
+
+    fn drive_of(_: &FixedRows, current: Fixed) -> Fixed {
+        current
+    }
+
     fn sliding(_: &FixedRows, sense: Fixed, by: (Fixed, Fixed, i64)) -> Sliding<Fixed> {
         let (pull, speed, error) = by;
         Sliding {

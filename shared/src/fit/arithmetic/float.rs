@@ -40,6 +40,15 @@ impl Arithmetic for f32 {
         (pull - push - q * speed) / p
     }
 
+    #[inline(always)]
+    fn drive(&[_, [_, q, _], _]: &Self::Rows, pull: f32, speed: f32, push: f32) -> f32 {
+        pull - push - q * speed
+    }
+
+    fn drive_of(&[_, [p, _, _], _]: &Self::Rows, current: f32) -> f32 {
+        p * current
+    }
+
     /// The increment of the speed is part of the pull.
     fn sliding(
         &[[a, _, _], [p, q, _], [u, _, _]]: &Self::Rows,

@@ -16,7 +16,7 @@ use core::ops::Add;
 /// By current (or [pull](Arithmetic::pull)), by speed and by the winding's voltage.
 pub type Row<C> = [C; 3];
 
-/// Increments of one period by load and friction, while the shaft slides on in one sense.
+/// Increments of one period by load, friction and dead time, while the shaft slides on in one sense and the current flows in one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sliding<S: Arithmetic> {
     /// Of the pull, once, when the shaft begins to slide.
@@ -58,6 +58,10 @@ pub trait Arithmetic: Scalar<Mask = bool, Angle: Readable<Self>> + 'static {
     fn pull(rows: &Self::Rows, current: Self, speed: Self) -> Self;
     /// The current from that state, while the state contains a push.
     fn current(rows: &Self::Rows, pull: Self, speed: Self, push: Self) -> Self;
+    /// The same in a measure of the format's own, which needs no division.
+    fn drive(rows: &Self::Rows, pull: Self, speed: Self, push: Self) -> Self;
+    /// A current in that measure.
+    fn drive_of(rows: &Self::Rows, current: Self) -> Self;
     /// Increments in the hot loop by a torque that adds `by` to current, speed and error in each period.
     fn sliding(rows: &Self::Rows, sense: Self, by: (Self, Self, Self::AngleError))
     -> Sliding<Self>;

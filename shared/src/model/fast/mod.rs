@@ -5,6 +5,7 @@
 //! |---|---|---|---|
 //! | [`ConstantForce`] | forces that do not depend on the state, bridge closed | products with voltage and friction, made once | the host's searches, in every lane |
 //! | [`Rigid`] | one rigid body with Coulomb friction and a constant load | memory: it fits beside a recording on a small device | the device's fit |
+//! | `dead_time` | behind a bridge of two legs | what that takes, as the mean of a carrier wave | [`Rigid`] |
 //! | `friction_event` | friction on one rigid body, one candidate | computes of each trial only what is asked | [`Rigid`] |
 //! | [`Increments`] | no effects, bridge closed | everything but the linear map itself, for many steps at once | the host's searches, exports |
 //!
@@ -12,6 +13,7 @@
 //! duties and counts, orders its products for one core's multiplier, and differs from [`Rigid::step`] in rounding.
 
 mod constant_force;
+mod dead_time;
 mod friction_event;
 mod linear;
 mod rigid;

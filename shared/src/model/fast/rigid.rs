@@ -1,13 +1,14 @@
-//! A motor that is one rigid body, with Coulomb friction and a constant load: as much of [`Model`](crate::model::Model) as
+//! A motor that is one rigid body, with Coulomb friction and a constant load, behind a bridge with dead time: as much of [`Model`](crate::model::Model) as
 //! fits beside a recording on a small device. It has the same maps and the same friction, so the same bits.
 
+use super::dead_time::DeadTime;
 use super::friction_event::step_with_events;
 use crate::discretise::Discretisation;
 use crate::effects::Budget;
 use crate::error::ModelError;
 use crate::model::Motion;
 use crate::model::dyadic::{LEVELS, build_step_maps};
-use crate::model::friction::Forces;
+use crate::model::friction::{Forces, direction, is_zero};
 use crate::model::step_map::StepMap;
 use crate::motor::Machine;
 use crate::scalar::{Angle, Real, Scalar};
@@ -22,6 +23,10 @@ pub struct RigidPlan<R> {
     pub coulomb: R,
     /// Constant torque against positive rotation, V referred to the winding.
     pub load: R,
+    /// What the bridge's dead time takes against the current, V.
+    pub dead_time: R,
+    /// Waves of the bridge's carrier in an interval; at least one where dead time takes anything.
+    pub carriers: R,
     /// Bases of the per-unit system; one interval is one step.
     pub units: PerUnit<R>,
 }
@@ -32,9 +37,10 @@ pub struct Rigid<S: Scalar> {
     motor: [StepMap<S>; LEVELS],
     /// The load, and friction.
     forces: Forces<S>,
+    dead_time: DeadTime<S>,
     /// Whether there is friction.
     has_friction: bool,
-    /// Whether there is neither friction nor a load.
+    /// Whether there is neither friction, nor a load, nor dead time.
     free: bool,
     counts_per_unit: S::Coefficient,
 }
@@ -53,6 +59,7 @@ impl<S: Scalar> Rigid<S> {
                     bias: zero,
                 },
             },
+            dead_time: DeadTime::none(zero, none),
             has_friction: false,
             free: false,
             counts_per_unit: none,
@@ -69,7 +76,8 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         plan.machine.check()?;
         let units = &plan.units;
         self.has_friction = plan.coulomb != R::zero();
-        self.free = !self.has_friction && plan.load == R::zero();
+        let loses = plan.dead_time != R::zero();
+        self.free = !self.has_friction && !loses && plan.load == R::zero();
         let depth = if self.has_friction { LEVELS - 1 } else { 0 };
         let machine = plan.machine.lower(units);
         let one = R::from_f64(1.0);
@@ -77,6 +85,14 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         self.forces.torque = units.number(plan.load, Quantity::Torque);
         self.forces.budget = Budget::even(units.number(plan.coulomb, Quantity::Torque));
         self.counts_per_unit = S::coefficient_of(units.counts_per_unit());
+        let none = S::Coefficient::default();
+        self.dead_time = DeadTime::none(S::zero(), none);
+        if loses {
+            let waves = machine.electrical * plan.carriers;
+            let by_volts = self.motor[0].current_by_volts();
+            let lost = plan.dead_time / units.volts;
+            self.dead_time.set(lost, waves, by_volts);
+        }
         Ok(())
     }
 
@@ -101,14 +117,15 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         self.counts_per_unit
     }
 
-    /// Whether there is neither friction nor a load.
+    /// Whether there is neither friction, nor a load, nor dead time.
     pub fn is_free(&self) -> bool {
         self.free
     }
 
-    /// Sense of the motion at `speed`, and the increments of current, speed and angle by load and friction in each interval
-    /// in which the shaft turns on in that sense; `None` if friction may hold it.
-    pub fn sliding(&self, speed: S) -> Option<(S, [S; 3])> {
+    /// Sense of the motion at `speed`, and the increments of current, speed and angle by load, friction and dead time in each interval
+    /// in which the shaft turns on in that sense, and the current, if there is dead time, keeps its [sense](Self::drawn); `None` if
+    /// friction may hold it.
+    pub fn sliding(&self, speed: S, current: S) -> Option<(S, [S; 3])> {
         let sense = speed.signum();
         let torque = if !self.has_friction {
             self.forces.torque
@@ -117,13 +134,48 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         } else {
             return None;
         };
-        Some((sense, self.motor[0].by_torque(torque)))
+        let mut by = self.motor[0].by_torque(torque);
+        if self.dead_time.is_any() {
+            let lost = self.dead_time.lost * current.signum();
+            for (by, lost) in by.iter_mut().zip(self.motor[0].by_volts(-lost)) {
+                *by = *by + lost;
+            }
+        }
+        Some((sense, by))
+    }
+
+    /// Mean of the current over an interval beyond which the dead time takes all that it ever does; `None` if it takes nothing.
+    pub fn sure_current(&self) -> Option<S> {
+        self.dead_time.is_any().then_some(self.dead_time.sure)
+    }
+
+    /// The duty that the winding sees of `command`.
+    #[inline(never)]
+    fn behind_dead_time(&self, motion: &Motion<S>, command: S) -> S {
+        let Forces { torque, budget, .. } = self.forces;
+        let map = &self.motor[0];
+        let sense = direction(motion.speed, motion.current - torque, &budget);
+        let held = self.has_friction && is_zero(sense);
+        let by = if held {
+            map.step_stuck(motion.current, command, false)
+        } else {
+            let against = torque + sense * budget.moving;
+            map.free_current_and_angle(motion, command, against, false)
+                .0
+        };
+        let mean = motion.current + by * S::from_f64(0.5);
+        command - self.dead_time.of(command, mean, held)
     }
 
     /// Advances by one interval with `command` held; `open` while the bridge is open.
     #[inline(always)]
     pub fn step(&self, motion: &mut Motion<S>, command: S, open: bool) {
         let scale = self.counts_per_unit;
+        let command = if self.dead_time.is_any() && !open {
+            self.behind_dead_time(motion, command)
+        } else {
+            command
+        };
         if !self.has_friction {
             let by = self.motor[0].step_free(motion, command, self.forces.torque, open);
             motion.current = motion.current + by.current;
