@@ -23,8 +23,11 @@ pub(super) fn explained(mean: f32) -> f32 {
 }
 
 /// The current behind a bridge with dead time, in the measure of [`Arithmetic::drive`].
+// Not in an `Option`, as of `Room`.
 #[derive(Clone, Copy, Debug)]
 struct Drawn<S> {
+    /// Whether there is dead time.
+    counts: bool,
     /// Whether it flows backward.
     backward: bool,
     /// What it was a period before.
@@ -34,6 +37,16 @@ struct Drawn<S> {
 }
 
 impl<S: Arithmetic> Drawn<S> {
+    /// Without dead time.
+    const fn none(zero: S) -> Self {
+        Drawn {
+            counts: false,
+            backward: false,
+            before: zero,
+            sure: zero,
+        }
+    }
+
     /// Goes on to the next current, if the dead time takes all of its share up to there.
     #[inline(always)]
     fn keeps_sense(&mut self, next: S) -> bool {
@@ -104,7 +117,7 @@ pub struct Evaluation<S: Arithmetic> {
     /// `None` if the sense of the motion is not known, or friction holds the shaft.
     sliding: Option<Sliding<S>>,
     /// Behind a bridge with dead time, while the shaft slides.
-    drawn: Option<Drawn<S>>,
+    drawn: Drawn<S>,
     /// See [`Arithmetic::pull`].
     pull: S,
     speed: S,
@@ -129,7 +142,7 @@ impl<S: Arithmetic> Evaluation<S> {
             model: Rigid::of(zero, none),
             rows,
             sliding: None,
-            drawn: None,
+            drawn: Drawn::none(zero),
             pull: zero,
             speed: zero,
             error,
@@ -153,7 +166,7 @@ impl<S: Arithmetic> Evaluation<S> {
             return false;
         };
         self.rows = rows;
-        (self.sliding, self.drawn) = (None, None);
+        (self.sliding, self.drawn) = (None, Drawn::none(S::zero()));
         (self.pull, self.speed, self.error) = (S::zero(), S::zero(), Default::default());
         (self.at, self.sums) = (0, Default::default());
         (self.bound, self.result) = (bound, None);
@@ -256,11 +269,14 @@ impl<S: Arithmetic> Evaluation<S> {
         let angle = S::Angle::default().advance(angle, self.model.counts_per_unit());
         let error = S::advance_error(Default::default(), angle, 0);
         let sliding = S::sliding(&self.rows, sense, (current, speed, error));
-        self.drawn = self.model.sure_current().map(|sure| Drawn {
-            backward: now.less(S::zero()),
-            before: S::drive_of(&self.rows, now),
-            sure: S::drive_of(&self.rows, sure + sure),
-        });
+        if let Some(sure) = self.model.sure_current() {
+            self.drawn = Drawn {
+                counts: true,
+                backward: now.less(S::zero()),
+                before: S::drive_of(&self.rows, now),
+                sure: S::drive_of(&self.rows, sure + sure),
+            };
+        }
         self.pull = self.pull + sliding.push;
         self.sliding = Some(sliding);
     }
@@ -319,19 +335,18 @@ impl<S: Arithmetic> Evaluation<S> {
         let Some(sliding) = self.sliding else {
             return 0;
         };
-        match self.drawn {
-            None => self.slide(duties, steps, sliding, |_| true),
-            Some(mut drawn) => {
-                let (rows, push) = (self.rows, sliding.push);
-                let periods = self.slide(duties, steps, sliding, |to| {
-                    drawn.keeps_sense(S::drive(&rows, to.0, to.1, push))
-                });
-                self.drawn = Some(drawn);
-                periods
-            }
+        if !self.drawn.counts {
+            return self.slide(duties, steps, sliding, |_| true);
         }
+        let (rows, push, mut drawn) = (self.rows, sliding.push, self.drawn);
+        let periods = self.slide(duties, steps, sliding, |to| {
+            drawn.keeps_sense(S::drive(&rows, to.0, to.1, push))
+        });
+        self.drawn = drawn;
+        periods
     }
 
+    /// The same, as long as the current `goes_on`.
     #[inline(always)]
     fn slide(
         &mut self,
@@ -374,7 +389,7 @@ impl<S: Arithmetic> Evaluation<S> {
         self.speed = motion.speed;
         self.error = S::advance_error(self.error, motion.angle, step);
         S::collect(&mut self.sums, self.error);
-        (self.sliding, self.drawn) = (None, None);
+        self.sliding = None;
     }
 
     /// Sum of the squared errors about their mean, as far as the unknown start explains that mean.
