@@ -304,6 +304,47 @@ fn nothing_moves_without_the_nonce_of_a_fresh_arming() {
 }
 
 #[test]
+fn a_nonce_that_two_hosts_share_starts_one_job() {
+    let mut host = Host::<f32>::new(SMALL);
+    host.send(&ToDevice::Arm);
+    host.period();
+    let Some(ToHost::Armed { nonce, .. }) = host.received.last().cloned() else {
+        panic!("{:?}", host.received.last());
+    };
+    host.send(&start(nonce));
+    host.period();
+    let told = |host: &Host<f32>| {
+        host.received
+            .iter()
+            .rev()
+            .find_map(|message| match message {
+                ToHost::Started { run } => Some(Ok(*run)),
+                ToHost::NotStarted { run, why } => Some(Err((*run, *why))),
+                _ => None,
+            })
+    };
+    assert_eq!(told(&host), Some(Ok(nonce)));
+    let job = Job {
+        limits: Limits {
+            duty: 100,
+            ..job().limits
+        },
+        ..job()
+    };
+    let plan = PlanDigest::of(&[]);
+    host.send(&ToDevice::Start { nonce, job, plan });
+    host.period();
+    assert_eq!(
+        told(&host),
+        Some(Err((nonce, Refusal::Busy))),
+        "another job"
+    );
+    host.send(&start(nonce));
+    host.period();
+    assert_eq!(told(&host), Some(Ok(nonce)), "the same job, once more");
+}
+
+#[test]
 fn a_cogging_motor_is_not_taken_for_a_plain_one() {
     let mut host = Host::<f32>::new(Motor {
         cogging: 0.02,

@@ -168,6 +168,10 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         // Asked for again, because the answer was lost. A run that has ended since is told again, not made again: what acknowledged
         // its report was meant for an earlier one, or came late.
         if self.run == Some(nonce) {
+            // Two hosts that armed it together have the same nonce: the run is the first one's.
+            if self.job != Some(job) {
+                return Err(Refusal::Busy);
+            }
             if self.phase == Phase::Idle {
                 let ended = self.failure.map_or(Ok(()), |tripped| Err(tripped.fault));
                 self.enter(Phase::Report(ended));

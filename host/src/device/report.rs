@@ -70,9 +70,9 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun 
     }
 }
 
-/// Dead time of a leg by the part of the supply that two take, ns.
-pub fn dead_time_ns(fit: &Settings, period_s: f64) -> f64 {
-    0.5e9 * period_s / f64::from(fit.carriers)
+/// Dead time of a leg by the part of the supply that two take, s.
+pub fn dead_time_s(fit: &Settings, period_s: f64) -> f64 {
+    0.5 * period_s / f64::from(fit.carriers)
 }
 
 fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> device::Outcome {
@@ -93,8 +93,8 @@ fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> devi
         let of_supply = unit_v / order.supply_v;
         measures.push((
             "dead_time",
-            of_supply * dead_time_ns(&order.fit, period_s),
-            "ns",
+            of_supply * dead_time_s(&order.fit, period_s),
+            "s",
         ));
         measures.push(("viscous_part", 1.0, "1"));
     }

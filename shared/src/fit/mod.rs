@@ -58,10 +58,8 @@ pub struct Settings {
     /// Search for a constant load.
     pub load: bool,
     /// Waves of the bridge's carrier in a control period, to fit what its dead time takes; zero takes a bridge that loses nothing.
-    #[serde(default)]
     pub carriers: u16,
     /// What the dead time takes by the board's own figure, as a duty: the search takes it for granted, and the polish begins there.
-    #[serde(default)]
     pub dead_time: u16,
 }
 

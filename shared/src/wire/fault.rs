@@ -111,7 +111,7 @@ impl fmt::Display for Fault {
             Fault::Stall => "the shaft did not move at strong drive: free it, check the motor's and the encoder's leads",
             Fault::Overtravel => "the shaft left its allowed travel: allow more, or ask for a smaller amplitude",
             Fault::NotVerified => "the model did not predict a fresh recording: diagnose the recording on the host",
-            Fault::Runaway => "the encoder is reversed, the shaft ran against the drive: swap the encoder's channels, or the motor's leads",
+            Fault::Runaway => "the encoder is reversed, the shaft ran against the drive: swap the encoder's channels, or the motor's leads; or a load turns it, which a brake or a counterweight holds",
             Fault::Overcurrent => "the current exceeded its limit: raise the limit if the motor bears it, or ask for a smaller amplitude",
             Fault::Overheated => "the winding would get too hot: let it cool, ask for a smaller amplitude or a shorter run",
             Fault::Overspeed => "the shaft was faster than allowed: ask for a smaller amplitude",

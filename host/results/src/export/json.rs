@@ -34,6 +34,9 @@ pub(crate) struct Motor<'a> {
     parameters: Vec<Row>,
     /// Numbers that the data do not determine.
     cannot_carry: &'a [Lack],
+    /// Why they are not to be relied on, where a device said that they are not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unverified: Option<String>,
     /// Version of the program.
     version: &'static str,
 }
@@ -53,6 +56,7 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         effects: subject.terms.iter().map(|term| term.kind.name()).collect(),
         parameters,
         cannot_carry: &written.cannot_carry,
+        unverified: subject.unverified_text(),
         version: env!("CARGO_PKG_VERSION"),
     };
     let text = serde_json::to_string_pretty(&motor);

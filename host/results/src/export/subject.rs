@@ -52,6 +52,8 @@ pub struct Subject {
     pub sample_s: Option<f64>,
     /// Whether the search came to its end.
     pub converged: bool,
+    /// Why the numbers are not to be relied on, where a device said that they are not.
+    pub unverified: Option<String>,
     /// The shaft that all numbers speak of.
     pub side: Side,
     /// Every number.
@@ -68,6 +70,12 @@ const LEAST: f64 = 1e-30;
 const NUISANCES: [&str; 2] = ["start_speed", "start_offset"];
 
 impl Subject {
+    /// What stands over numbers that a device did not verify.
+    pub(super) fn unverified_text(&self) -> Option<String> {
+        let why = self.unverified.as_ref()?;
+        Some(format!("NOT VERIFIED: {why}"))
+    }
+
     /// What `result` says, on `side`. `source` is the file it was read from.
     ///
     /// # Errors
@@ -140,6 +148,7 @@ impl Subject {
             counts_per_rev: turns.transpose()?,
             sample_s: result.sample_s,
             converged: result.converged,
+            unverified: result.unverified.clone(),
             side,
             values,
             machine,

@@ -1,8 +1,8 @@
 //! `servoid.device/1`: the report of a device's run, as its folder holds it.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use shared::fit::{Estimate, Settings, Stop};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use shared::fit::{Estimate, Method, Settings, Stop};
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,6 +32,7 @@ pub struct DeviceRun {
     /// Counts a revolution.
     pub counts_per_rev: f64,
     /// How the device fitted.
+    #[serde(with = "Order")]
     #[schemars(with = "Order")]
     pub fit: Settings,
     /// Voltage at which the shaft first moved, V.
@@ -131,11 +132,52 @@ struct Order {
     /// Whether a constant load is searched for.
     load: bool,
     /// Waves of the bridge's carrier in a control period, where what its dead time takes is fitted; else zero.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_zero")]
     carriers: u16,
     /// What the dead time takes by the board's own figure, in Q15 of the supply.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_zero")]
     dead_time: u16,
+}
+
+fn is_zero(number: &u16) -> bool {
+    *number == 0
+}
+
+/// How [`Settings`] stand in a file.
+impl Order {
+    fn serialize<S: Serializer>(settings: &Settings, to: S) -> Result<S::Ok, S::Error> {
+        let order = Order {
+            method: match settings.method {
+                Method::Pso => SearchMethod::Pso,
+                Method::Firefly => SearchMethod::Firefly,
+            },
+            population: settings.population,
+            evaluations: settings.evaluations,
+            seed: settings.seed,
+            coulomb: settings.coulomb,
+            load: settings.load,
+            carriers: settings.carriers,
+            dead_time: settings.dead_time,
+        };
+        Serialize::serialize(&order, to)
+    }
+
+    fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Settings, D::Error> {
+        let order: Order = Deserialize::deserialize(from)?;
+        Ok(Settings {
+            method: match order.method {
+                SearchMethod::Pso => Method::Pso,
+                SearchMethod::Firefly => Method::Firefly,
+            },
+            population: order.population,
+            evaluations: order.evaluations,
+            seed: order.seed,
+            coulomb: order.coulomb,
+            load: order.load,
+            carriers: order.carriers,
+            dead_time: order.dead_time,
+        })
+    }
 }
 
 /// The device's search methods.
@@ -216,7 +258,12 @@ mod tests {
 
     #[test]
     fn the_keys_of_the_order_are_those_of_the_settings() {
-        let settings = serde_json::to_value(Settings::USUAL).expect("JSON");
+        let settings = Settings {
+            carriers: 20,
+            dead_time: 655,
+            ..Settings::USUAL
+        };
+        let settings = serde_json::to_value(settings).expect("JSON");
         let order: Order = serde_json::from_value(settings.clone()).expect("the same keys");
         assert_eq!(serde_json::to_value(order).expect("JSON"), settings);
     }

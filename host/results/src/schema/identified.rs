@@ -28,6 +28,8 @@ pub struct Identified {
     pub sample_s: Option<f64>,
     /// Whether the search came to its end.
     pub converged: bool,
+    /// Why the numbers are not to be relied on, where a device said that they are not.
+    pub unverified: Option<String>,
     /// Everything that was searched for, and what follows from it.
     pub parameters: Vec<Estimate>,
     /// The model itself, referred to the winding.
@@ -100,6 +102,7 @@ impl Identified {
             counts_per_rev: set_up.counts_per_rev,
             sample_s: set_up.sample_s,
             converged: found.converged.unwrap_or(false),
+            unverified: None,
             parameters: (found.parameters).ok_or(ResultFault::Missing("parameters"))?,
             model: found.model.ok_or(ResultFault::Missing(place))?,
             place,
@@ -143,6 +146,17 @@ impl Identified {
             a2: a1 * electrical,
         }
         .machine();
+        let machine = match outcome.parameters.iter().any(|p| p.name == "viscous_part") {
+            false => machine,
+            true => {
+                let damping = machine.kb * value("viscous_part")?;
+                shared::motor::Machine {
+                    kb: machine.kb - damping,
+                    damping,
+                    ..machine
+                }
+            }
+        };
         let mut model = Model {
             effects: Vec::new(),
             formulas: Vec::new(),
@@ -199,6 +213,7 @@ impl Identified {
             counts_per_rev: file.counts_per_rev,
             sample_s: file.period_us.map(|us| us * 1e-6),
             converged: outcome.converged,
+            unverified: file.failure.map(|failed| failed.message),
             parameters,
             model,
             place: "outcome",

@@ -42,6 +42,14 @@ pub(super) struct Partial {
     pub period_us: Option<f64>,
     /// Of a device's report.
     pub outcome: Option<Outcome>,
+    /// Of a device's report.
+    pub failure: Option<Failed>,
+}
+
+/// Why a device gave up.
+#[derive(Deserialize)]
+pub(super) struct Failed {
+    pub message: String,
 }
 
 /// A model and its numbers, which a diagnosis has under `final` and a fit at the top. (Flattened into both, errors would

@@ -5,7 +5,7 @@ use crate::cli::{
     CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
 };
 use crate::device::{
-    Conversation, Kept, Order, Progress, Reached, Run, dead_time_ns, drive, keep, segments,
+    Conversation, Kept, Order, Progress, Reached, Run, dead_time_s, drive, keep, segments,
 };
 use crate::error::Error;
 use crate::session::{Session, print};
@@ -147,7 +147,16 @@ fn into_folder(
     let text = summary(&saved, &run, path, &written);
     let unverified = matches!(&run.outcome, Err(failure) if failure.fault == Fault::NotVerified);
     match &saved.failure {
-        None => session.deliver(&text, &saved),
+        None => {
+            session.deliver(&text, &saved)?;
+            match saved.missing {
+                0 => Ok(()),
+                missing => Err(Error::Failed(format!(
+                    "{missing} periods never arrived: what {} holds ends at the first gap; see to the link and run it again",
+                    path.display()
+                ))),
+            }
+        }
         Some(failure) if unverified => {
             session.deliver(&text, &saved)?;
             Err(Error::Failed(format!(
@@ -175,6 +184,15 @@ fn into_folder(
                 }
             )))
         }
+    }
+}
+
+/// A number with six places, or the digits that tell of one that is small.
+fn shown(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-4 {
+        format!("{value:.2e}")
+    } else {
+        format!("{value:.6}")
     }
 }
 
@@ -222,15 +240,17 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
                 .std
                 .map_or_else(|| "not determined".to_owned(), |std| format!("± {std:.2e}"));
             text += &format!(
-                "  {:<12}{:>14.6} {:<8} {std}\n",
-                parameter.name, parameter.value, parameter.unit
+                "  {:<12}{:>14} {:<8} {std}\n",
+                parameter.name,
+                shown(parameter.value),
+                parameter.unit
             );
         }
         if saved.fit.dead_time > 0 {
             let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
             text += &format!(
-                "  the board's timer was told a dead time of {:.0} ns\n",
-                told * dead_time_ns(&saved.fit, period_s)
+                "  the board's timer was told a dead time of {:.2e} s\n",
+                told * dead_time_s(&saved.fit, period_s)
             );
         }
     }

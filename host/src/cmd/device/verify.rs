@@ -234,15 +234,15 @@ fn verdict(
             "The device's answer does not stand: its arithmetic cannot be repeated.".to_owned(),
         );
     }
-    if !agrees(stronger) {
-        return (
-            false,
-            "The device's answer does not stand: on its own recording a stronger search finds another motor. Commission \
-             again with another --seed or a larger --budget."
-                .to_owned(),
-        );
-    }
+    let other_motor = || {
+        "The device's answer does not stand: on its own recording a stronger search finds another motor. Commission \
+         again with another --seed or a larger --budget."
+            .to_owned()
+    };
     let Some(diagnosed) = diagnosed else {
+        if !agrees(stronger) {
+            return (false, other_motor());
+        }
         return (
             true,
             "The device's answer stands as far as its own recording tells; there is no long recording to diagnose (--excite 0)."
@@ -262,6 +262,10 @@ fn verdict(
              in the catalogue."
                 .to_owned(),
         );
+    }
+    // Where physics is missing, no seed finds the motor.
+    if missing.is_empty() && !agrees(stronger) {
+        return (false, other_motor());
     }
     if missing.is_empty() {
         return (

@@ -117,6 +117,25 @@ fn no_text_has_a_number_that_is_none_or_that_is_not_determined() {
 }
 
 #[test]
+fn numbers_that_a_device_did_not_verify_are_marked_in_every_format() {
+    let motor = bench::Machine::gearmotor();
+    let result = Identified {
+        unverified: Some("the fit is not verified */ -->".to_owned()),
+        ..result(&motor, &[Kind::Coulomb], Known::All)
+    };
+    for format in FORMATS {
+        let written = write(format, &subject(&result, Side::Motor)).expect("a text");
+        let marks = |text: &str| text.contains("NOT VERIFIED");
+        assert!(marks(&written.text), "{}: {}", format.name, written.text);
+        assert!(
+            written.lines().iter().any(|line| marks(line)),
+            "{}",
+            format.name
+        );
+    }
+}
+
+#[test]
 fn every_effect_goes_somewhere_or_is_said_to_be_left_out() {
     for (_, case, subject, written) in texts() {
         for term in &subject.terms {

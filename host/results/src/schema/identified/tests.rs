@@ -68,6 +68,23 @@ fn a_device_s_report_becomes_the_machine_that_has_its_response() {
 }
 
 #[test]
+fn a_device_s_viscous_part_is_the_machine_s_and_its_failure_is_told() {
+    let text = DEVICE.replace(
+        "\"std\": 0.01}]}",
+        "\"std\": 0.01}, {\"name\": \"dead_time\", \"value\": 5e-7, \"unit\": \"s\", \"std\": 1e-9}, \
+         {\"name\": \"viscous_part\", \"value\": 0.1, \"unit\": \"1\", \"std\": 0.01}]}, \
+         \"failure\": {\"fault\": \"NotVerified\", \"message\": \"70 counts\"}",
+    );
+    let read = Identified::parse(&text).expect("a report");
+    let machine = read.model.machine.machine("model").expect("a machine");
+    assert!((machine.damping / (machine.kb + machine.damping) - 0.1).abs() < 1e-12);
+    assert!((machine.kb + machine.damping - 0.025).abs() < 1e-12);
+    assert_eq!(read.unverified.as_deref(), Some("70 counts"));
+    let told = |name: &str| read.parameters.iter().any(|p| p.name == name);
+    assert!(told("dead_time") && told("viscous_part"));
+}
+
+#[test]
 fn what_is_no_result_is_refused_with_its_place_and_never_read() {
     let cases: &[(&str, &str, &str)] = &[
         ("", "", ":1:0"),
