@@ -166,10 +166,16 @@ fn the_swarm_finds_drawn_motors_in_both_formats() {
 #[test]
 fn the_outcome_does_not_depend_on_how_the_work_is_sliced() {
     let recorded = Recorded::of(&motor(3));
-    for method in [Method::Pso, Method::Firefly] {
+    for (method, carriers) in [
+        (Method::Pso, 0),
+        (Method::Firefly, 0),
+        (Method::Firefly, 20),
+    ] {
         let settings = Settings {
             method,
             evaluations: 400,
+            carriers,
+            dead_time: 30 * carriers,
             ..Settings::default()
         };
         let whole = fit::<Fixed>(&recorded, settings, u32::MAX);

@@ -23,11 +23,10 @@ impl<S: Scalar> Effect<S> for SupplySag<S> {
         name: "supply_sag",
         place: Place::Drive,
         title: "sag of the supply under load",
-        // Up to a source with the winding's resistance: a cell, or a long cable.
         parameters: &[Parameter::amplitude(
             "sag",
             Quantity::PerSquareVolt,
-            (0.0, 1.0),
+            (0.0, 0.6),
             0.06,
         )],
         equation: "v = u - k*u^2*(R*i), k = (Rs/R)/Vs^2",

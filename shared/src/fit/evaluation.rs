@@ -9,6 +9,10 @@ use crate::trace::{OPEN, Trace};
 /// Samples between two looks at the bound: as many whole turns of any format's loop.
 const BLOCK: usize = 72;
 
+/// What a period costs, in samples of the hot loop, in which the dead time has to be looked up: a slice of work must not last longer than a
+/// device's watchdog.
+const SLOW: u32 = 12;
+
 /// Largest mean error that the unknown start within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
 
@@ -123,6 +127,8 @@ pub struct Evaluation<S: Arithmetic> {
     speed: S,
     error: S::AngleError,
     at: usize,
+    /// Periods in which the dead time had to be looked up.
+    slow: u32,
     sums: S::Sums,
     /// Mean square above which the candidate does not matter.
     bound: f32,
@@ -147,6 +153,7 @@ impl<S: Arithmetic> Evaluation<S> {
             speed: zero,
             error,
             at: 0,
+            slow: 0,
             sums,
             bound: 0.0,
             result: None,
@@ -168,25 +175,30 @@ impl<S: Arithmetic> Evaluation<S> {
         self.rows = rows;
         (self.sliding, self.drawn) = (None, Drawn::none(S::zero()));
         (self.pull, self.speed, self.error) = (S::zero(), S::zero(), Default::default());
-        (self.at, self.sums) = (0, Default::default());
+        (self.at, self.slow, self.sums) = (0, 0, Default::default());
         (self.bound, self.result) = (bound, None);
         true
     }
 
-    /// Runs along at most about `samples` of the trace; returns how many it ran.
+    /// What it has cost so far beside its samples, in samples.
+    pub(super) fn extra(&self) -> u32 {
+        SLOW * self.slow
+    }
+
+    /// Runs along at most about `samples` of the trace; returns how many it ran, or what they cost.
     pub fn run(&mut self, trace: &Trace<'_>, samples: u32) -> u32 {
         let len = trace.len();
         let most = self.bound * len as f32;
         let mut ran = 0;
         while self.result.is_none() && ran < samples {
-            let from = self.at;
+            let (from, extra) = (self.at, self.extra());
             let free = from < trace.closed.min(len) && self.model.is_free();
             let to = if free {
                 // To the end of a block, so that where one looks does not depend on the slices.
                 let blocks = (samples - ran).div_ceil(BLOCK as u32) as usize;
                 (from + blocks * BLOCK).min(trace.closed).min(len)
             } else {
-                (from + BLOCK).min(len)
+                ((from / BLOCK + 1) * BLOCK).min(len)
             };
             let rows = (trace.duties.get(from..to), trace.steps.get(from..to));
             let (Some(duties), Some(steps)) = rows else {
@@ -195,10 +207,13 @@ impl<S: Arithmetic> Evaluation<S> {
             if free {
                 self.at += S::run_frictionless(self, duties, steps, most);
             } else {
-                self.run_rows(duties, steps, to <= trace.closed);
-                self.at = to;
+                let most_slow = (samples - ran) / SLOW + 1;
+                self.at += self.run_rows(duties, steps, to <= trace.closed, most_slow);
             }
-            ran += (self.at - from) as u32;
+            ran += (self.at - from) as u32 + (self.extra() - extra);
+            if self.at < to && !free {
+                continue;
+            }
             // The sum about the mean of what was seen only grows, so it may be compared before the end; and it is at most the
             // plain one.
             if self.at < len && S::surely_below(&self.sums, most) {
@@ -219,7 +234,7 @@ impl<S: Arithmetic> Evaluation<S> {
 
     /// One period: the duty acts, the count is read at its end.
     pub fn step(&mut self, duty: i16, step: i16) {
-        self.run_rows(&[duty], &[step], duty != OPEN);
+        self.run_rows(&[duty], &[step], duty != OPEN, u32::MAX);
     }
 
     /// Counts by which the model is ahead of the reading now.
@@ -233,10 +248,13 @@ impl<S: Arithmetic> Evaluation<S> {
         self.spread(periods) / periods
     }
 
-    /// Runs along rows of duties and steps; `closed` if the bridge is closed in all of them.
-    fn run_rows(&mut self, duties: &[i16], steps: &[i16], closed: bool) {
-        let mut at = 0;
-        while let (Some(&duty), Some(&step)) = (duties.get(at), steps.get(at)) {
+    /// Runs along rows of duties and steps; `closed` if the bridge is closed in all of them. Returns how many it ran: not all, once so many
+    /// were slow.
+    fn run_rows(&mut self, duties: &[i16], steps: &[i16], closed: bool, most_slow: u32) -> usize {
+        let (mut at, slow) = (0, self.slow);
+        while self.slow - slow < most_slow
+            && let (Some(&duty), Some(&step)) = (duties.get(at), steps.get(at))
+        {
             let on = match (closed, duty) {
                 (true, _) => (&duties[at..], &steps[at..]),
                 (false, OPEN) => (&duties[..0], &steps[..0]),
@@ -256,6 +274,7 @@ impl<S: Arithmetic> Evaluation<S> {
                 at += 1;
             }
         }
+        at
     }
 
     /// Enters the hot loop: makes the increments by load, friction and dead time in the senses in which the shaft turns, if it does, and the
@@ -384,6 +403,9 @@ impl<S: Arithmetic> Evaluation<S> {
             speed: self.speed,
             ..Motion::default()
         };
+        if self.model.sure_current().is_some() {
+            self.slow += 1;
+        }
         S::step(&self.model, &mut motion, command, open);
         self.pull = S::pull(&self.rows, motion.current, motion.speed);
         self.speed = motion.speed;

@@ -26,7 +26,7 @@ impl Differences {
         block: [0.0; 8],
     };
 
-    /// Runs the models side by side along about `samples` periods in all; returns how many they ran.
+    /// Runs the models side by side along about `samples` periods in all; returns how many they ran, or what they cost.
     pub(super) fn run<S: Arithmetic>(
         &mut self,
         runs: &mut Runs<S>,
@@ -35,7 +35,13 @@ impl Differences {
     ) -> u32 {
         let to = (self.at + samples as usize / 3 + 1).min(trace.len());
         let from = self.at;
+        let extra = |runs: &mut Runs<S>| -> u32 {
+            let models = runs.iter_mut().filter_map(Room::model);
+            models.map(|run| run.extra()).sum()
+        };
+        let before = extra(runs);
         for k in from..to {
+            self.at = k + 1;
             let mut errors = [0.0f32; 3];
             for (run, error) in runs.iter_mut().filter_map(Room::model).zip(&mut errors) {
                 run.step(trace.duties[k], trace.steps[k]);
@@ -53,9 +59,16 @@ impl Differences {
                     *block = 0.0;
                 }
             }
+            if self.used(from) + extra(runs) - before >= samples {
+                break;
+            }
         }
-        self.at = to;
-        3 * (to - from) as u32
+        self.used(from) + extra(runs) - before
+    }
+
+    /// Periods of three models since `from`.
+    fn used(&self, from: usize) -> u32 {
+        3 * (self.at - from) as u32
     }
 
     /// Products about the means, because the start within a count is not known. If the mean error is more than the start can
