@@ -180,9 +180,9 @@ pub struct CommissionArgs {
     /// Do not open the bridge in its pauses
     #[arg(long)]
     pub no_coast: bool,
-    /// Take the bridge for one that loses nothing; else what its dead time takes is fitted, where the board's bridge has one
+    /// Fit what the bridge's dead time takes, too, from the board's own figure on, where the board switches its bridge itself
     #[arg(long)]
-    pub no_dead_time: bool,
+    pub dead_time: bool,
     /// Length of the recording that the device fits, s; what it can hold if not given
     #[arg(long, value_name = "S")]
     pub record: Option<f64>,

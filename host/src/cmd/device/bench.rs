@@ -11,12 +11,11 @@ use shared::wire::Kind;
 
 pub(super) fn run(session: &Session, args: &DeviceBenchArgs) -> Result<(), Error> {
     let opening = resumed(args.session.as_deref())?;
-    let mut bench = open(session, &args.port, &args.limits)?;
-    let mut order = Order {
+    let bench = open(session, &args.port, &args.limits)?;
+    let order = Order {
         coast: !args.no_coast,
         ..order(session, &bench.reached, &args.limits, Kind::Record)?
     };
-    order.fit = bench.behind_its_bridge(order.fit)?;
     // What no run could be ordered with is said now, not when the motor is armed.
     order.job(&bench.about, &[])?;
     let device = Device::new(bench.reached, bench.about, order, args.runs.clone())?;

@@ -76,12 +76,18 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// `fit` with what the board's bridge asks for: where its transistors switch with a dead time, that is fitted, too.
+    /// `fit` with the dead time of the board's bridge.
     ///
     /// # Errors
-    /// A device that does not say what it is made of.
-    pub(super) fn behind_its_bridge(&mut self, fit: Settings) -> Result<Settings, Error> {
+    /// A device that does not say what it is made of, or whose bridge has no dead time that it knows of.
+    fn behind_its_bridge(&mut self, fit: Settings) -> Result<Settings, Error> {
         let details = self.conversation.details()?;
+        if details.carriers == 0 {
+            return Err(Error::Usage(
+                "--dead-time: this board does not say how often its bridge switches; leave it out"
+                    .to_owned(),
+            ));
+        }
         Ok(Settings {
             carriers: details.carriers,
             dead_time: details.dead_time,
@@ -275,9 +281,9 @@ pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(),
     let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let common = order(session, &bench.reached, &args.limits, Kind::Commission)?;
-    let fit = match args.no_dead_time {
-        true => common.fit,
-        false => bench.behind_its_bridge(common.fit)?,
+    let fit = match args.dead_time {
+        true => bench.behind_its_bridge(common.fit)?,
+        false => common.fit,
     };
     let order = Order {
         excite_s: args.excite,
