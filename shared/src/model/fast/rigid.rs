@@ -123,7 +123,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
     }
 
     /// Sense of the motion at `speed`, and the increments of current, speed and angle by load, friction and dead time in each interval
-    /// in which the shaft turns on in that sense, and the current, if there is dead time, keeps its [sense](Self::drawn); `None` if
+    /// in which the shaft turns on in that sense, and the current, if there is dead time, keeps its sense; `None` if
     /// friction may hold it.
     pub fn sliding(&self, speed: S, current: S) -> Option<(S, [S; 3])> {
         let sense = speed.signum();
