@@ -89,20 +89,27 @@ pub const SMALL: Motor = Motor {
 impl Motor {
     /// Moves on by `seconds` with a duty in Q15, or with an open bridge.
     pub fn advance(&mut self, duty: Option<i16>, seconds: f32) {
-        let dt = seconds / CARRIERS as f32;
+        let (dt, decay) = self.wave(seconds);
         self.state.peak = 0.0;
         for _ in 0..CARRIERS {
-            let current = self.electrical(duty, dt);
+            let current = self.electrical(duty, dt, decay);
             self.mechanical(current, dt);
         }
     }
 
     /// The same while something holds the shaft.
     pub fn hold(&mut self, duty: Option<i16>, seconds: f32) {
+        let (dt, decay) = self.wave(seconds);
         (self.state.speed, self.state.peak) = (0.0, 0.0);
         for _ in 0..CARRIERS {
-            self.electrical(duty, seconds / CARRIERS as f32);
+            self.electrical(duty, dt, decay);
         }
+    }
+
+    /// Length of a wave, s, and what is left of a current after it.
+    fn wave(&self, seconds: f32) -> (f32, f32) {
+        let dt = seconds / CARRIERS as f32;
+        (dt, libm::expf(-dt * self.resistance / self.inductance))
     }
 
     /// Largest of the current in the last step of time, mA.
@@ -126,7 +133,7 @@ impl Motor {
     }
 
     /// The current over a wave of the carrier, while the speed is held; returns what makes torque.
-    fn electrical(&mut self, duty: Option<i16>, dt: f32) -> f32 {
+    fn electrical(&mut self, duty: Option<i16>, dt: f32, decay: f32) -> f32 {
         let state = &mut self.state;
         let Some(duty) = duty else {
             state.current = 0.0;
@@ -150,7 +157,6 @@ impl Motor {
             state.peak = state.peak.max(peak);
             return mean;
         }
-        let decay = libm::expf(-dt * self.resistance / self.inductance);
         let end = (state.bus * part - emf) / self.resistance;
         state.current = end + (state.current - end) * decay;
         state.peak = state.peak.max(state.current.abs());

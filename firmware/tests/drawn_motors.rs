@@ -4,12 +4,11 @@
 
 mod drawing;
 
-use drawing::{Drawn, draw};
+use drawing::{Drawn, commissioning, draw, ran};
 use firmware::app::{Memory, Recording};
 use firmware::phase::Fault;
-use firmware::plant::{CARRIERS, Motor};
+use firmware::plant::Motor;
 use firmware::trials::{bench::Bench, host::Host};
-use shared::fit::Settings;
 use shared::wire::*;
 use std::cell::RefCell;
 
@@ -21,7 +20,7 @@ fn limit_counts(motor: &Motor) -> f32 {
 /// What became of it.
 #[derive(Debug)]
 struct Became {
-    outcome: Result<Report, Failure>,
+    outcome: Result<Report, Box<Failure>>,
     /// Largest current, as a part of its limit.
     peak: f32,
     /// RMS of the verification in counts.
@@ -38,23 +37,10 @@ fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
     let stall_ma = (motor.supply / motor.resistance * 1000.0) as u32;
     let limit = drawn.limit.unwrap_or(1.0);
     let current_ma = (stall_ma as f32 * limit) as u32;
+    let common = commissioning(motor, seed, 800);
     let job = Job {
-        kind: Kind::Commission,
-        amplitude: 30_000,
-        excite: 6_000,
-        coast: true,
-        record: 2_000,
-        verify: 2_000,
         verify_within: (limit_counts(motor) * 100.0) as u32,
-        seed,
-        fit: Settings {
-            seed,
-            evaluations: 800,
-            carriers: CARRIERS as u16,
-            ..Settings::default()
-        },
         limits: Limits {
-            duty: 32_000,
             current_ma: if drawn.limit.is_some() { current_ma } else { 0 },
             // Without a sensor the user has to say what the resistance is.
             stall_ma: if SENSES || drawn.limit.is_none() {
@@ -62,22 +48,11 @@ fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
             } else {
                 stall_ma
             },
-            time: 60_000,
-            ..Limits::NONE
+            ..common.limits
         },
-        counts_per_rev: motor.counts_per_rev as u32,
-        supply_mv: (motor.supply * 1000.0) as u32,
+        ..common
     };
-    assert!(host.start(job));
-    let mut outcome = None;
-    while outcome.is_none() {
-        host.period(|message| match message {
-            ToHost::Report(report) => outcome = Some(Ok(report)),
-            ToHost::Failed(failure) => outcome = Some(Err(failure)),
-            _ => {}
-        });
-    }
-    let outcome = outcome.unwrap();
+    let outcome = ran(&mut host, job);
     let report = match &outcome {
         Ok(report) => Some(report),
         Err(failure) => failure.report.as_ref(),

@@ -2,7 +2,7 @@
 
 mod drawing;
 
-use drawing::{Drawn, draw};
+use drawing::{Drawn, commissioning, draw, ran};
 use firmware::app::{Memory, Recording};
 use firmware::phase::Fault;
 use firmware::plant::{CARRIERS, Motor};
@@ -35,43 +35,23 @@ fn commission(motor: &Motor, seed: u64, told: f32) -> Option<Found> {
     let bench = RefCell::new(Bench::new(motor.clone()));
     let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
     let mut host = Host::<f32, 2000, false>::new(&bench, &mut memory, &mut recording);
+    let common = commissioning(motor, seed, 4_000);
     let job = Job {
-        kind: Kind::Commission,
-        amplitude: 30_000,
-        excite: 6_000,
-        coast: true,
-        record: 2_000,
-        verify: 2_000,
+        // None is as near: all are reported alike.
         verify_within: 1,
-        seed,
         fit: Settings {
-            seed,
-            evaluations: 4_000,
-            carriers: CARRIERS as u16,
             dead_time: (told * motor.dead_time * 32_768.0) as u16,
-            ..Settings::default()
+            ..common.fit
         },
-        limits: Limits {
-            duty: 32_000,
-            time: 60_000,
-            ..Limits::NONE
-        },
-        counts_per_rev: motor.counts_per_rev as u32,
-        supply_mv: (motor.supply * 1000.0) as u32,
+        ..common
     };
-    assert!(host.start(job));
-    let mut report = None;
-    let mut over = false;
-    while !over {
-        host.period(|message| match message {
-            ToHost::Report(own) => (report, over) = (Some(own), true),
-            ToHost::Failed(failure) => {
-                assert_eq!(failure.fault, Fault::NotVerified, "{failure:?}");
-                (report, over) = (failure.report, true);
-            }
-            _ => {}
-        });
-    }
+    let report = match ran(&mut host, job) {
+        Ok(report) => Some(report),
+        Err(failure) => {
+            assert_eq!(failure.fault, Fault::NotVerified, "{failure:?}");
+            failure.report
+        }
+    };
     let report = report?;
     let estimates: Vec<f32> = report
         .outcome

@@ -1,8 +1,11 @@
 //! Motors of half a watt to half a kilowatt with 12 to 65,536 counts a revolution, bare and with a robot's mass, and ordinary faults.
 #![allow(dead_code, reason = "each law takes the faults that it is about")]
 
-use firmware::plant::{Motor, Shaft};
+use firmware::plant::{CARRIERS, Motor, Shaft};
+use firmware::trials::host::Host;
+use shared::fit::Settings;
 use shared::rng;
+use shared::wire::*;
 
 const COUNTS: [u32; 12] = [
     12, 28, 44, 64, 100, 400, 1_000, 2_000, 4_096, 8_192, 16_384, 65_536,
@@ -59,5 +62,51 @@ pub fn draw(seed: u64) -> Drawn {
         offset_ma: ((rng::uniform::<f32>(rng) - 0.5) * 0.02 * stall * 1000.0) as i32,
         glitches: if rng::below(rng, 2) == 0 { 0 } else { 600 },
         limit: (rng::below(rng, 2) == 0).then(|| between(rng, 0.5, 1.0)),
+    }
+}
+
+/// The commissioning of a motor with as many evaluations of the search, behind a bridge whose dead time is fitted; any error is a success.
+pub fn commissioning(motor: &Motor, seed: u64, evaluations: u16) -> Job {
+    Job {
+        kind: Kind::Commission,
+        amplitude: 30_000,
+        excite: 6_000,
+        coast: true,
+        record: 2_000,
+        verify: 2_000,
+        verify_within: 0,
+        seed,
+        fit: Settings {
+            seed,
+            evaluations,
+            carriers: CARRIERS as u16,
+            ..Settings::default()
+        },
+        limits: Limits {
+            duty: 32_000,
+            time: 60_000,
+            ..Limits::NONE
+        },
+        counts_per_rev: motor.counts_per_rev as u32,
+        supply_mv: (motor.supply * 1000.0) as u32,
+    }
+}
+
+/// Runs a job to its end.
+pub fn ran<const SENSES: bool>(
+    host: &mut Host<'_, f32, 2000, SENSES>,
+    job: Job,
+) -> Result<Report, Box<Failure>> {
+    assert!(host.start(job));
+    let mut outcome = None;
+    loop {
+        host.period(|message| match message {
+            ToHost::Report(report) => outcome = Some(Ok(report)),
+            ToHost::Failed(failure) => outcome = Some(Err(Box::new(failure))),
+            _ => {}
+        });
+        if let Some(outcome) = outcome {
+            return outcome;
+        }
     }
 }

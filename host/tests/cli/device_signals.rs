@@ -33,14 +33,6 @@ fn serve(mut stream: TcpStream) -> std::io::Result<()> {
         for &byte in &buffer[..read] {
             let answer = match inbox.push::<ToDevice>(byte) {
                 Some(ToDevice::Hello) => ToHost::About(about()),
-                Some(ToDevice::Describe) => ToHost::Details(Details {
-                    reset: Reset::PowerUp,
-                    current_limit_ma: 0,
-                    senses_supply: false,
-                    carriers: 0,
-                    dead_time: 0,
-                    encoder_latency_us: 0,
-                }),
                 Some(ToDevice::Arm) => ToHost::Armed {
                     nonce: NONCE,
                     periods: 5000,

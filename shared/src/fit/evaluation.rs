@@ -30,8 +30,6 @@ pub(super) fn explained(mean: f32) -> f32 {
 // Not in an `Option`, as of `Room`.
 #[derive(Clone, Copy, Debug)]
 struct Drawn<S> {
-    /// Whether there is dead time.
-    counts: bool,
     /// Whether it flows backward.
     backward: bool,
     /// What it was a period before.
@@ -41,10 +39,9 @@ struct Drawn<S> {
 }
 
 impl<S: Arithmetic> Drawn<S> {
-    /// Without dead time.
+    /// Not known yet.
     const fn none(zero: S) -> Self {
         Drawn {
-            counts: false,
             backward: false,
             before: zero,
             sure: zero,
@@ -173,7 +170,7 @@ impl<S: Arithmetic> Evaluation<S> {
             return false;
         };
         self.rows = rows;
-        (self.sliding, self.drawn) = (None, Drawn::none(S::zero()));
+        self.sliding = None;
         (self.pull, self.speed, self.error) = (S::zero(), S::zero(), Default::default());
         (self.at, self.slow, self.sums) = (0, 0, Default::default());
         (self.bound, self.result) = (bound, None);
@@ -288,9 +285,9 @@ impl<S: Arithmetic> Evaluation<S> {
         let angle = S::Angle::default().advance(angle, self.model.counts_per_unit());
         let error = S::advance_error(Default::default(), angle, 0);
         let sliding = S::sliding(&self.rows, sense, (current, speed, error));
-        if let Some(sure) = self.model.sure_current() {
+        if self.model.loses() {
+            let sure = self.model.sure_current();
             self.drawn = Drawn {
-                counts: true,
                 backward: now.less(S::zero()),
                 before: S::drive_of(&self.rows, now),
                 sure: S::drive_of(&self.rows, sure + sure),
@@ -354,7 +351,7 @@ impl<S: Arithmetic> Evaluation<S> {
         let Some(sliding) = self.sliding else {
             return 0;
         };
-        if !self.drawn.counts {
+        if !self.model.loses() {
             return self.slide(duties, steps, sliding, |_| true);
         }
         let (rows, push, mut drawn) = (self.rows, sliding.push, self.drawn);
@@ -403,7 +400,7 @@ impl<S: Arithmetic> Evaluation<S> {
             speed: self.speed,
             ..Motion::default()
         };
-        if self.model.sure_current().is_some() {
+        if self.model.loses() {
             self.slow += 1;
         }
         S::step(&self.model, &mut motion, command, open);

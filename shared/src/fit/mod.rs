@@ -6,8 +6,8 @@
 //! ```
 //!
 //! It searches over what voltage and angle determine: gain and the two time constants, in logarithms, and friction and
-//! load if asked for. Behind a bridge with dead time the polish adds what that takes, and the viscous part of the damping. All is per supply, per period and in counts: a device need not know its supply voltage nor its
-//! encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
+//! load if asked for. Behind a bridge with dead time the polish adds what that takes, and the viscous part of the damping.
+//! All is per supply, per period and in counts: a device need not know its supply voltage nor its encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
 //! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
 
 mod arithmetic;

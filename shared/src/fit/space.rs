@@ -30,10 +30,10 @@ pub enum Unknown {
     Coulomb,
     /// Constant load against positive rotation, as a part of the supply.
     Load,
-    /// What the bridge's dead time takes, as a part of the supply. Not searched for, but polished from zero: in six dimensions twenty
-    /// fireflies miss a quarter of even ideal motors.
+    /// What the bridge's dead time takes, as a part of the supply. Not searched for, but polished from the board's own figure: in six dimensions
+    /// twenty fireflies miss a quarter of even ideal motors.
     DeadTime,
-    /// Part of the damping that is viscous friction, likewise: nothing but the current's sign tells it from back-EMF.
+    /// Part of the damping that is viscous friction, polished from zero: nothing but the current's sign tells it from back-EMF.
     Viscous,
 }
 

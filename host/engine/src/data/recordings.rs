@@ -145,15 +145,19 @@ impl Recordings {
 
     /// Samples of the one that holds sample `k`.
     pub fn holding(&self, k: usize) -> Range<usize> {
+        let index = self.index(k);
+        self.begins[index]..self.begins.get(index + 1).copied().unwrap_or(self.end)
+    }
+
+    /// Which of them holds sample `k`.
+    fn index(&self, k: usize) -> usize {
         let next = self.begins.partition_point(|&begin| begin <= k);
-        let from = self.begins[next.saturating_sub(1)];
-        from..self.begins.get(next).copied().unwrap_or(self.end)
+        next.saturating_sub(1)
     }
 
     /// The position loop behind the command of the one that holds sample `k`.
     pub(super) fn drive_at(&self, k: usize) -> Option<&PositionDrive> {
-        let next = self.begins.partition_point(|&begin| begin <= k);
-        self.drives[next.saturating_sub(1)].as_deref()
+        self.drives[self.index(k)].as_deref()
     }
 
     /// Whether sample `k` is the first of its recording.

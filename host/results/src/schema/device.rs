@@ -1,7 +1,7 @@
 //! `servoid.device/1`: the report of a device's run, as its folder holds it.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use shared::fit::{Estimate, Method, Settings, Stop};
 use std::fmt;
 use std::fs;
@@ -117,10 +117,12 @@ impl fmt::Display for Failure {
 
 /// The keys of [`Settings`], which the firmware shares and which knows nothing of schemas.
 #[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(remote = "Settings")]
 #[schemars(rename = "Settings")]
 struct Order {
     /// The method.
-    method: SearchMethod,
+    #[schemars(with = "SearchMethod")]
+    method: Method,
     /// Particles or fireflies.
     population: u8,
     /// Evaluations of the search; those of the polish come on top.
@@ -141,43 +143,6 @@ struct Order {
 
 fn is_zero(number: &u16) -> bool {
     *number == 0
-}
-
-/// How [`Settings`] stand in a file.
-impl Order {
-    fn serialize<S: Serializer>(settings: &Settings, to: S) -> Result<S::Ok, S::Error> {
-        let order = Order {
-            method: match settings.method {
-                Method::Pso => SearchMethod::Pso,
-                Method::Firefly => SearchMethod::Firefly,
-            },
-            population: settings.population,
-            evaluations: settings.evaluations,
-            seed: settings.seed,
-            coulomb: settings.coulomb,
-            load: settings.load,
-            carriers: settings.carriers,
-            dead_time: settings.dead_time,
-        };
-        Serialize::serialize(&order, to)
-    }
-
-    fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Settings, D::Error> {
-        let order: Order = Deserialize::deserialize(from)?;
-        Ok(Settings {
-            method: match order.method {
-                SearchMethod::Pso => Method::Pso,
-                SearchMethod::Firefly => Method::Firefly,
-            },
-            population: order.population,
-            evaluations: order.evaluations,
-            seed: order.seed,
-            coulomb: order.coulomb,
-            load: order.load,
-            carriers: order.carriers,
-            dead_time: order.dead_time,
-        })
-    }
 }
 
 /// The device's search methods.
@@ -264,7 +229,8 @@ mod tests {
             ..Settings::USUAL
         };
         let settings = serde_json::to_value(settings).expect("JSON");
-        let order: Order = serde_json::from_value(settings.clone()).expect("the same keys");
-        assert_eq!(serde_json::to_value(order).expect("JSON"), settings);
+        let order = Order::deserialize(&settings).expect("the same keys");
+        let written = Order::serialize(&order, serde_json::value::Serializer);
+        assert_eq!(written.expect("JSON"), settings);
     }
 }

@@ -264,10 +264,10 @@ fn verdict(
         );
     }
     // Where physics is missing, no seed finds the motor.
-    if missing.is_empty() && !agrees(stronger) {
-        return (false, other_motor());
-    }
     if missing.is_empty() {
+        if !agrees(stronger) {
+            return (false, other_motor());
+        }
         return (
             true,
             "The device's answer stands: same bits, same motor, and no physics missing.".to_owned(),

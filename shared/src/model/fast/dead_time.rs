@@ -4,8 +4,8 @@
 //! dead time `t_d` the two legs lose `D = 2·t_d/T` of the supply against the current's sign (Holmes and Lipo, *Pulse Width Modulation for
 //! Power Converters*, 2003, section 12.2). With both legs on one carrier, the ripple of a winding `L/R = τ` at the duty `d` reaches to
 //! `r = |d|·(1 − |d|)·T/(4·τ)` of the current at rest on either side of the mean, and every edge lies at an end of it: as long as the
-//! current changes its sign within a wave, an edge that loses nothing stands beside each that does not lose either, and nothing is lost.
-//! Beyond, all of it is, as soon as the current no longer dies within the dead time, over `w = D·T/(4·τ)`.
+//! current changes its sign within a wave, no edge loses anything. Beyond, all of `D` is lost, as soon as the current no longer dies within
+//! the dead time, over `w = D·T/(4·τ)`.
 //!
 //! Over an interval in which the current's mean would be `q` without the loss and falls by `c/2` with each volt lost, what is lost is
 //! `D·min(1, (|q| − r)/(w + D·c/2))`: the implicit equation, solved.

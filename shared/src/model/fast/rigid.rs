@@ -135,7 +135,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
             return None;
         };
         let mut by = self.motor[0].by_torque(torque);
-        if self.dead_time.is_any() {
+        if self.loses() {
             let lost = self.dead_time.lost * current.signum();
             for (by, lost) in by.iter_mut().zip(self.motor[0].by_volts(-lost)) {
                 *by = *by + lost;
@@ -144,9 +144,15 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         Some((sense, by))
     }
 
-    /// Mean of the current over an interval beyond which the dead time takes all that it ever does; `None` if it takes nothing.
-    pub fn sure_current(&self) -> Option<S> {
-        self.dead_time.is_any().then_some(self.dead_time.sure)
+    /// Whether a bridge with dead time stands before it.
+    #[inline(always)]
+    pub fn loses(&self) -> bool {
+        self.dead_time.is_any()
+    }
+
+    /// Mean of the current over an interval beyond which the dead time takes all that it ever does.
+    pub fn sure_current(&self) -> S {
+        self.dead_time.sure
     }
 
     /// The duty that the winding sees of `command`.
@@ -171,7 +177,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
     #[inline(always)]
     pub fn step(&self, motion: &mut Motion<S>, command: S, open: bool) {
         let scale = self.counts_per_unit;
-        let command = if self.dead_time.is_any() && !open {
+        let command = if self.loses() && !open {
             self.behind_dead_time(motion, command)
         } else {
             command
