@@ -4,7 +4,7 @@ use firmware::app::{Memory, Recording};
 use firmware::phase::{Fault, Phase};
 use firmware::plant::{Motor, SMALL};
 use firmware::trials::{self, bench::Bench};
-use shared::fit::{Arithmetic, Fit, Outcome, Settings};
+use shared::fit::{Arithmetic, Fit, Grade, Outcome, Settings};
 use shared::scalar::Fixed;
 use shared::trace::{OPEN, Trace};
 use shared::wire::*;
@@ -135,6 +135,7 @@ fn job() -> Job {
         record: 2_000,
         verify: 1_500,
         verify_within: 60,
+        accept: Grade::Floor,
         seed: 3,
         fit: Settings::default(),
         limits: Limits {
@@ -228,12 +229,11 @@ fn it_does_not_matter_how_long_after_a_periods_end_the_carrier_takes_the_duty_ov
         let rows = host.rows(Stage::Excite);
         assert!(rows.iter().any(|row| row.duty == OPEN));
         let (mut fit, _) = host.fitted_again();
-        assert!(fit.predict());
-        let motor = fit.prediction().expect("it predicts");
+        assert!(fit.predict(2_000, rows.len() as u32, 50));
         for row in &rows {
-            motor.step(row.duty, row.step);
+            fit.observe(row.duty, row.step);
         }
-        let coasted = motor.mean_square(rows.len() as u32).sqrt();
+        let coasted = fit.predicted().expect("it predicts").mean_square.sqrt();
         println!("{coasted} counts over the long excitation");
         let values = [0, 1, 2].map(|k| outcome.estimates[k].value);
         (values, coasted)

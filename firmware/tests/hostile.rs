@@ -6,7 +6,7 @@ use firmware::phase::{Bridge, Phase};
 use firmware::plant::{Motor, SMALL};
 use firmware::trials::bench::Bench;
 use firmware::trials::host::Host;
-use shared::fit::{Method, Settings};
+use shared::fit::{Grade, Method, Settings};
 use shared::rng::{self, Generator, Rng};
 use shared::trace::OPEN;
 use shared::wire::*;
@@ -57,6 +57,7 @@ fn extreme(rng: &mut Generator) -> Job {
         record: any(rng) as u16,
         verify: any(rng) as u32,
         verify_within: any(rng) as u32,
+        accept: [Grade::No, Grade::Control, Grade::Floor][rng::below(rng, 3) as usize],
         seed: rng.next_u64(),
         fit: Settings {
             method: if rng::below(rng, 2) == 0 {

@@ -96,7 +96,8 @@ fn job() -> Job {
         coast: true,
         record: RECORD as u16,
         verify: 400,
-        verify_within: 0,
+        verify_within: 100,
+        accept: shared::fit::Grade::No,
         seed: 3,
         fit: Settings {
             evaluations: 100,

@@ -37,8 +37,6 @@ fn commission(motor: &Motor, seed: u64, told: f32) -> Option<Found> {
     let mut host = Host::<f32, 2000, false>::new(&bench, &mut memory, &mut recording);
     let common = commissioning(motor, seed, 4_000);
     let job = Job {
-        // None is as near: all are reported alike.
-        verify_within: 1,
         fit: Settings {
             dead_time: (told * motor.dead_time * 32_768.0) as u16,
             ..common.fit

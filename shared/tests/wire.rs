@@ -1,7 +1,7 @@
 //! The link: bytes that must not change, and bytes that must do no harm.
 
 use proptest::prelude::*;
-use shared::fit::{Estimate, Method, Outcome, Settings, Stop};
+use shared::fit::{Estimate, Grade, Method, Outcome, Predicted, Reason, Settings, Stop, Verdict};
 use shared::rng::{self, Rng};
 use shared::wire::*;
 
@@ -14,6 +14,7 @@ fn job() -> Job {
         record: 2_000,
         verify: 4_000,
         verify_within: 50,
+        accept: Grade::Control,
         seed: 0x0123_4567_89ab_cdef,
         fit: Settings {
             method: Method::Firefly,
@@ -57,9 +58,19 @@ fn report() -> Report {
             evaluations: 4_096,
             stop: Stop::Converged,
         }),
-        verified: Some(Verified {
+        verified: Some(Predicted {
             mean_square: 0.09,
             periods: 4_000,
+            by_persistence: 0.03,
+            gain: 0.001,
+            mechanical: -0.002,
+        }),
+        verdict: Some(Verdict {
+            grade: Grade::Control,
+            reason: Reason::Left,
+            gain: 0.011,
+            mechanical: 0.025,
+            acceleration: 0.024,
         }),
     }
 }

@@ -108,7 +108,8 @@ fn job() -> Job {
         coast: false,
         record: RECORD,
         verify: 0,
-        verify_within: 0,
+        verify_within: 100,
+        accept: shared::fit::Grade::No,
         seed: 0,
         fit: Settings {
             evaluations: 10,

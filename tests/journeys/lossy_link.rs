@@ -180,7 +180,8 @@ fn job() -> Job {
         coast: false,
         record: 0,
         verify: 0,
-        verify_within: 0,
+        verify_within: 100,
+        accept: shared::fit::Grade::No,
         seed: 0,
         fit: Settings::USUAL,
         limits: Limits {

@@ -174,12 +174,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if self.phase == Phase::Record {
             self.recording.push(duty, step);
         }
-        if self.phase == Phase::Verify
-            && let Some(verified) = &mut self.report.verified
-            && let Some(prediction) = self.memory.fit.prediction()
-        {
-            prediction.step(duty, step);
-            verified.periods += 1;
+        if self.phase == Phase::Verify && self.predicts {
+            self.memory.fit.observe(duty, step);
         }
         self.report.periods = self.report.periods.saturating_add(1);
         if let Work::Play {
@@ -247,13 +243,15 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     }
 
     pub(super) fn verified(&mut self, job: &Job) {
-        if let Some(verified) = &mut self.report.verified
-            && let Some(prediction) = self.memory.fit.prediction()
+        let fit = &mut self.memory.fit;
+        if self.predicts
+            && let Some(predicted) = fit.predicted()
         {
-            verified.mean_square = prediction.mean_square(verified.periods);
-            let within = job.verify_within as f32 * 0.01;
-            if within > 0.0 && verified.mean_square > within * within {
-                let seen = verified.mean_square.min(1e9) * 10_000.0;
+            let verdict = fit.verdict(&predicted, job.verify_within as f32 * 0.01);
+            self.report.verified = Some(predicted);
+            self.report.verdict = Some(verdict);
+            if verdict.grade < job.accept {
+                let seen = predicted.mean_square.min(1e9) * 10_000.0;
                 let seen = Real::sqrt(seen) as i32;
                 return self.trip(Tripped {
                     fault: Fault::NotVerified,

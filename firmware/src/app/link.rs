@@ -202,6 +202,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             run: nonce,
             ..NO_REPORT
         };
+        self.predicts = false;
         self.failure = None;
         let rating = Rating {
             period_us: B::PERIOD_US,

@@ -118,6 +118,8 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
     silence: u32,
     repeat: u32,
     report: Report,
+    /// The fitted motor is ready to predict.
+    predicts: bool,
     failure: Option<Tripped>,
     /// Stage and period in which the failure came.
     failed_in: (Phase, u32),
@@ -131,6 +133,7 @@ const NO_REPORT: Report = Report {
     limited: 0,
     outcome: None,
     verified: None,
+    verdict: None,
 };
 
 impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
@@ -161,6 +164,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             silence: 0,
             repeat: 0,
             report: NO_REPORT,
+            predicts: false,
             failure: None,
             failed_in: (Phase::Idle, 0),
         };

@@ -5,10 +5,12 @@ use crate::board::Board;
 use crate::guard::Tripped;
 use crate::phase::{Fault, Phase};
 use shared::fit::{Arithmetic, Outcome};
-use shared::wire::{Failure, ToHost, Verified};
+use shared::wire::{Failure, ToHost};
 
 /// A report is sent again after this long, until the host says something that shows that it has it.
 const REPEAT_US: u32 = 500_000;
+/// A prediction is judged by what grows in this time.
+const PREDICTED_US: u32 = 50_000;
 /// The fit's progress is sent this often.
 const PROGRESS_US: u32 = 200_000;
 
@@ -61,13 +63,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Builds the fitted motor to predict with. That takes longer than a period may, so it is done while the bridge is open.
     #[inline(never)]
     pub(super) fn predict(&mut self) {
-        if self.job.is_none_or(|job| job.verify == 0) {
+        let Some(job) = self.job.filter(|job| job.verify > 0) else {
             return;
-        }
-        self.report.verified = self.memory.fit.predict().then_some(Verified {
-            mean_square: 0.0,
-            periods: 0,
-        });
+        };
+        let fitted = self.recording.trace().len();
+        let window = Self::periods(PREDICTED_US);
+        self.predicts = self.memory.fit.predict(fitted, job.verify, window);
     }
 
     #[inline(never)]

@@ -60,6 +60,7 @@ pub struct DevKit;
 impl Parts for DevKit {
     const NAME: &'static str = "ESP32-C6";
     const PERIOD_US: u32 = 1000;
+    const CARRIERS: u16 = 20;
     // As the F103, whose multiplier is as good, at twice its clock.
     const SLICE: u32 = 120;
     type LegA = PwmPin<'static, MCPWM0<'static>, 0, true>;

@@ -47,7 +47,9 @@ use super::pio_encoder::Encoder;
 use super::port::EitherPort;
 
 /// Compare value of an output that is always high: the carrier counts up to the step before it and down again, at 20 kHz.
-const FULL: u16 = (CORE_HZ / 20_000 / 2) as u16;
+const FULL: u16 = (CORE_HZ / (1000 * CARRIERS) / 2) as u16;
+/// Its waves in a control period.
+const CARRIERS: u32 = 20;
 /// Number of the pin that enables the bridge.
 const ENABLE: usize = 18;
 /// Part of the PWM that has the bridge's pins.
@@ -72,6 +74,7 @@ impl Parts for Pico {
     const NAME: &'static str = chip::NAME;
     const PERIOD_US: u32 = 1000;
     const SLICE: u32 = chip::SAMPLES;
+    const CARRIERS: u16 = CARRIERS as u16;
     type LegA = PwmOutput<'static>;
     type LegB = PwmOutput<'static>;
     type Enable = Output<'static>;

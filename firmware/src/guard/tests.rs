@@ -1,5 +1,5 @@
 use super::*;
-use shared::fit::Settings;
+use shared::fit::{Grade, Settings};
 use shared::wire::Kind;
 
 const PERIOD_US: u32 = 1000;
@@ -18,7 +18,8 @@ fn guard(limits: Limits) -> Guard {
         coast: false,
         record: 0,
         verify: 0,
-        verify_within: 0,
+        verify_within: 100,
+        accept: Grade::No,
         seed: 0,
         fit: Settings::USUAL,
         limits,

@@ -7,7 +7,7 @@ pub mod host;
 use core::cell::RefCell;
 use core::fmt::{self, Write};
 
-use shared::fit::{Arithmetic, Settings};
+use shared::fit::{Arithmetic, Grade, Settings};
 use shared::wire::{Job, Kind, Limits, ToDevice, ToHost};
 
 use crate::app::{Memory, Recording};
@@ -205,7 +205,8 @@ impl Trial {
             coast: false,
             record: RECORD as u16,
             verify: 700,
-            verify_within: 0,
+            verify_within: 100,
+            accept: Grade::No,
             seed: 3,
             fit: Settings {
                 evaluations: 200,

@@ -3,9 +3,10 @@
 
 use firmware::plant::{CARRIERS, Motor, Shaft};
 use firmware::trials::host::Host;
-use shared::fit::Settings;
+use shared::fit::{Grade, Outcome, Settings};
 use shared::rng;
 use shared::wire::*;
+use std::f32::consts::TAU;
 
 const COUNTS: [u32; 12] = [
     12, 28, 44, 64, 100, 400, 1_000, 2_000, 4_096, 8_192, 16_384, 65_536,
@@ -74,7 +75,8 @@ pub fn commissioning(motor: &Motor, seed: u64, evaluations: u16) -> Job {
         coast: true,
         record: 2_000,
         verify: 2_000,
-        verify_within: 0,
+        verify_within: 100,
+        accept: Grade::No,
         seed,
         fit: Settings {
             seed,
@@ -90,6 +92,35 @@ pub fn commissioning(motor: &Motor, seed: u64, evaluations: u16) -> Job {
         counts_per_rev: motor.counts_per_rev as u32,
         supply_mv: (motor.supply * 1000.0) as u32,
     }
+}
+
+/// Gain (counts a period under the whole supply), time constant (periods) and their ratio, each as the range between a supply that holds and one
+/// that is part of the winding.
+pub fn truth(motor: &Motor) -> [[f32; 2]; 3] {
+    let of = |resistance: f32| {
+        let all = motor.constant + resistance * motor.viscous / motor.constant;
+        let gain = motor.supply / all / TAU * motor.counts_per_rev * 1e-3;
+        let mechanical = motor.inertia * resistance / (motor.constant * all) * 1e3;
+        [gain, mechanical, gain / mechanical]
+    };
+    let (stiff, soft) = (
+        of(motor.resistance),
+        of(motor.resistance + motor.supply_resistance),
+    );
+    [0, 1, 2].map(|k| [stiff[k].min(soft[k]), stiff[k].max(soft[k])])
+}
+
+/// By which part a value is outside of a range.
+pub fn outside(value: f32, [low, high]: [f32; 2]) -> f32 {
+    (value / high - 1.0).max(1.0 - value / low).max(0.0)
+}
+
+/// Parts by which a fit's gain, time constant and their ratio are off.
+pub fn off(outcome: &Outcome, motor: &Motor) -> [f32; 3] {
+    let [gain, mechanical] = [0, 1].map(|k| outcome.estimates[k].value);
+    let truth = truth(motor);
+    let found = [gain, mechanical, gain / mechanical];
+    [0, 1, 2].map(|k| outside(found[k], truth[k]))
 }
 
 /// Runs a job to its end.

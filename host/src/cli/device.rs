@@ -159,6 +159,15 @@ pub struct DeviceBenchArgs {
     pub page_port: u16,
 }
 
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// Yes
+    On,
+    /// No
+    Off,
+}
+
 /// Search methods on the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DeviceMethod {
@@ -180,17 +189,17 @@ pub struct CommissionArgs {
     /// Do not open the bridge in its pauses
     #[arg(long)]
     pub no_coast: bool,
-    /// Fit what the bridge's dead time takes, too, from the board's own figure on, where the board switches its bridge itself
-    #[arg(long)]
-    pub dead_time: bool,
+    /// Fit what the bridge's dead time takes, too; on where the board knows how often its bridge switches
+    #[arg(long, value_enum, value_name = "WHETHER", num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    pub dead_time: Option<Switch>,
     /// Length of the recording that the device fits, s; what it can hold if not given
     #[arg(long, value_name = "S")]
     pub record: Option<f64>,
     /// Length of the verification, s
     #[arg(long, default_value_t = 4.0, value_name = "S")]
     pub verify: f64,
-    /// Most that the verification may leave, counts RMS, for the run to be a success; 0 takes any [default: 1, or a 4,096th of a
-    /// revolution if that is more]
+    /// Most that fit and verification may leave, counts RMS, for the run to be a success; 0 takes any. Without it, a motor whose numbers are
+    /// good for control is a success, and what an encoder leaves is 1 count, or a 4,096th of a revolution if that is more
     #[arg(long, value_name = "COUNTS")]
     pub verify_within: Option<f64>,
     /// Search method on the device

@@ -19,6 +19,9 @@ pub struct ExportArgs {
     /// Where it goes; stdout if not given
     #[arg(long, short, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Compute gains from the numbers of a device that did not verify them, too
+    #[arg(long)]
+    pub force: bool,
     /// Which shaft the numbers speak of
     #[arg(long, value_enum, default_value_t = SideName::Motor)]
     pub side: SideName,

@@ -59,6 +59,10 @@ pub(super) fn run(session: &Session, args: &ExportArgs) -> Result<(), Error> {
             fault: ResultFault::Model(fault),
         }),
     })?;
+    let computes_gains = [CURRENT, SPEED].concat().contains(&format.name);
+    if computes_gains && !args.force {
+        subject.needs_grade(format.name)?;
+    }
     let written = (format.write)(&subject, &options)?;
     for line in written.lines() {
         session.remark(&line);

@@ -3,7 +3,7 @@
 use super::DeviceError;
 use servoid_io::output::CommandSequence;
 use servoid_results::device_run::DutyScale;
-use shared::fit::Settings;
+use shared::fit::{Grade, Settings};
 use shared::trace::OPEN;
 use shared::wire::{About, Job, Kind, Limits, Segment};
 
@@ -22,8 +22,10 @@ pub struct Order {
     pub record_s: Option<f64>,
     /// Length of the verification, s.
     pub verify_s: f64,
-    /// Error that the verification may leave, counts RMS; any if zero or none.
+    /// Error that is the encoder's, counts RMS; the usual one if none.
     pub verify_within: Option<f64>,
+    /// The least that what the device finds must be good for, or the run fails.
+    pub accept: Grade,
     /// Seed of the excitations.
     pub seed: u64,
     /// Settings of the device's fit.
@@ -50,8 +52,8 @@ pub struct Order {
 const ASIDE_S: f64 = 30.0;
 
 impl Order {
-    /// Error that a verification may leave unless the user says otherwise, counts RMS: what the encoder hides.
-    pub fn usual_limit(&self) -> f64 {
+    /// Error that is the encoder's unless the user says otherwise, counts RMS.
+    fn usual_limit(&self) -> f64 {
         (self.counts_per_rev / 4096.0).max(1.0)
     }
 
@@ -145,10 +147,11 @@ impl Order {
             verify,
             verify_within: positive(
                 "--verify-within",
-                self.verify_within.filter(|counts| *counts != 0.0),
+                Some(self.verify_within.unwrap_or(self.usual_limit())),
                 100.0,
                 1e9,
             )?,
+            accept: self.accept,
             seed: self.seed,
             fit: self.fit,
             limits: Limits {

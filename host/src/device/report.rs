@@ -4,7 +4,7 @@ use super::{Order, Run};
 use servoid_results::device_run::Recorded;
 use servoid_results::schema::DeviceRun;
 use servoid_results::schema::device;
-use shared::fit::{Outcome, Settings, Stop};
+use shared::fit::{self, Outcome, Reason, Settings, Stop, Verdict};
 use shared::wire::{About, Fault, Format};
 
 /// Report of a finished run.
@@ -40,6 +40,12 @@ pub fn report(run: &Run, order: &Order) -> DeviceRun {
         saved.verified_rms_counts = report
             .verified
             .map(|verified| f64::from(verified.mean_square).sqrt());
+        saved.predicted = report.verified.as_ref().map(predicted);
+        if let Some(verdict) = &report.verdict {
+            saved.grade = Some(grade(verdict.grade));
+            saved.reason = reason(verdict).map(str::to_owned);
+            saved.within = Some(within(verdict));
+        }
     }
     saved
 }
@@ -63,10 +69,64 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun 
         amplitude_v: 0.0,
         outcome: None,
         verified_rms_counts: None,
+        grade: None,
+        reason: None,
+        within: None,
+        predicted: None,
         failure: None,
         limited_periods: None,
         missing: recorded.iter().map(Recorded::missing).sum(),
         partial: true,
+    }
+}
+
+fn finite(x: f32) -> Option<f64> {
+    Some(f64::from(x)).filter(|x| x.is_finite())
+}
+
+fn predicted(verified: &fit::Predicted) -> device::Predicted {
+    device::Predicted {
+        by_persistence: finite(verified.by_persistence),
+        gain_moved: finite(verified.gain),
+        a1_moved: finite(verified.mechanical),
+    }
+}
+
+fn grade(grade: fit::Grade) -> device::Grade {
+    match grade {
+        fit::Grade::No => device::Grade::No,
+        fit::Grade::Control => device::Grade::Control,
+        fit::Grade::Floor => device::Grade::Floor,
+    }
+}
+
+fn within(verdict: &Verdict) -> device::Within {
+    device::Within {
+        gain: finite(verdict.gain),
+        a1: finite(verdict.mechanical),
+        acceleration: finite(verdict.acceleration),
+    }
+}
+
+/// Why a grade is no better, and what to do.
+fn reason(verdict: &Verdict) -> Option<&'static str> {
+    match verdict.reason {
+        Reason::None => None,
+        Reason::Left => Some(
+            "the model leaves more than the encoder does: good for gains; `servoid device verify` looks for the physics that is missing",
+        ),
+        Reason::Undetermined => Some(
+            "the recording does not determine gain and time constant well enough: use a finer encoder, a longer --record or a larger \
+             --amplitude",
+        ),
+        Reason::Disagrees => Some(
+            "the verification has another gain or time constant than the recording: the load, the supply or the friction changed between \
+             them, or the encoder is too coarse; commission again with a longer --record and --verify",
+        ),
+        Reason::Predicts => Some(
+            "the model predicts 50 ms ahead hardly better than a constant speed does: the motion is too small for the encoder, or the physics \
+             that matters is missing; use a larger --amplitude",
+        ),
     }
 }
 

@@ -270,6 +270,8 @@ fn found(saved: &DeviceRun) -> Value {
         "parameters": saved.outcome.as_ref().map(|outcome| &outcome.parameters),
         "rms_counts": saved.outcome.as_ref().map(|outcome| outcome.rms_counts),
         "verified_rms_counts": saved.verified_rms_counts,
+        "grade": saved.grade,
+        "reason": saved.reason,
         "failure": saved.failure.as_ref().map(|failure| &failure.message),
     })
 }

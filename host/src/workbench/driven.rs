@@ -104,7 +104,6 @@ pub(super) fn commission(bench: &Arc<Bench>, seconds: f64) -> Result<(), Error> 
         excite_s: seconds,
         record_s: None,
         verify_s: VERIFY_S,
-        verify_within: Some(common.usual_limit()),
         fit: Settings {
             method: Method::Pso,
             ..common.fit

@@ -11,17 +11,26 @@
 //! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
 
 mod arithmetic;
+mod cholesky;
+mod covariance;
+mod differences;
 mod evaluation;
 mod outcome;
 mod polish;
+mod prediction;
 mod space;
+mod verdict;
 
 pub use arithmetic::Arithmetic;
+use covariance::Covariance;
 pub use evaluation::Evaluation;
 use evaluation::{Room, Runs, build};
 pub use outcome::{Estimate, Outcome, Stop};
 use polish::Polish;
+pub use prediction::Predicted;
+use prediction::Prediction;
 pub use space::{MOST, Point, Space, Unknown};
+pub use verdict::{Grade, Reason, Verdict};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
 use crate::rng;
@@ -105,6 +114,7 @@ enum Stage {
     Firefly(Firefly<f32, POPULATION, MOST>),
     Polish(Polish),
     Done(Stop),
+    Predict(Prediction),
 }
 
 impl Stage {
@@ -151,10 +161,31 @@ pub struct Fit<S: Arithmetic> {
     /// The search has asked for the cost of the model in the first run.
     asked: bool,
     evaluations: u32,
+    /// Evaluations left of the search.
+    left: u32,
     best: Point,
     least: f32,
-    curvature: Option<polish::Curvature>,
+    covariance: Covariance,
+    /// Searches that are over.
+    rounds: u32,
+    /// The best of them.
+    kept: Kept,
 }
+
+/// Where a search and its polish ended.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    space: Space,
+    best: Point,
+    least: f32,
+    covariance: Covariance,
+}
+
+/// Most searches in a fit.
+const ROUNDS: u32 = 3;
+/// Mean squared error, counts², of a model that the encoder's reading cannot be told from: a reading that is anywhere within a count has 1/12.
+/// Above it a search from elsewhere may find better.
+const FLOOR: f32 = 0.25;
 
 impl<S: Arithmetic> Fit<S> {
     /// Not begun. A fit begins where it stays, because it is larger than a device's stack. All of it is zero, so a static of it
@@ -176,9 +207,17 @@ impl<S: Arithmetic> Fit<S> {
             runs: [Room::EMPTY; 3],
             asked: false,
             evaluations: 0,
+            left: 0,
             best: [0.0; MOST],
             least: 0.0,
-            curvature: None,
+            covariance: Covariance::NONE,
+            rounds: 0,
+            kept: Kept {
+                space: Space::NONE,
+                best: [0.0; MOST],
+                least: 0.0,
+                covariance: Covariance::NONE,
+            },
         }
     }
 
@@ -187,18 +226,65 @@ impl<S: Arithmetic> Fit<S> {
         let Some(space) = Space::around(trace, &settings) else {
             return false;
         };
-        self.stage.search(&settings, space.searched());
         self.settings = settings;
         self.space = space;
+        self.evaluations = 0;
+        self.rounds = 0;
+        self.search();
+        self.keep();
+        true
+    }
+
+    /// Begins a search in the space.
+    fn search(&mut self) {
+        let mut settings = self.settings;
+        settings.seed = settings.seed.wrapping_add(self.rounds.into());
+        self.stage.search(&settings, self.space.searched());
         for run in &mut self.runs {
             run.clear();
         }
         self.asked = false;
-        self.evaluations = 0;
+        self.left = settings.evaluations.into();
         self.best = [0.5; MOST];
         self.least = f32::INFINITY;
-        self.curvature = None;
-        true
+        self.covariance = Covariance::NONE;
+    }
+
+    fn keep(&mut self) {
+        self.kept = Kept {
+            space: self.space,
+            best: self.best,
+            least: self.least,
+            covariance: self.covariance,
+        };
+    }
+
+    /// Ends a search: goes on to another from elsewhere, or to the end with the best of all.
+    fn end_round(&mut self, trace: &Trace<'_>, stop: Stop) {
+        self.rounds += 1;
+        if self.least < self.kept.least {
+            self.keep();
+        }
+        if self.kept.least > FLOOR
+            && self.rounds < ROUNDS
+            && let Some(mut space) = Space::around(trace, &self.settings)
+        {
+            match self.rounds {
+                1 => space.hold_elsewhere(),
+                _ => space.hold_as(&self.kept.best),
+            }
+            self.space = space;
+            self.search();
+        } else {
+            let kept = self.kept;
+            (self.space, self.best) = (kept.space, kept.best);
+            (self.least, self.covariance) = (kept.least, kept.covariance);
+            self.stage = Stage::Done(if self.least.is_finite() {
+                Stop::Converged
+            } else {
+                stop
+            });
+        }
     }
 
     /// Evaluations so far, and about how many there will be.
@@ -219,18 +305,22 @@ impl<S: Arithmetic> Fit<S> {
         let mut left = samples;
         while left > 0 {
             let used = match &mut self.stage {
-                Stage::Idle => return Some(self.outcome(trace, Stop::NoModel)),
+                Stage::Idle | Stage::Predict(_) => return Some(self.outcome(Stop::NoModel)),
                 Stage::Done(stop) => {
                     let stop = *stop;
-                    return Some(self.outcome(trace, stop));
+                    return Some(self.outcome(stop));
                 }
                 Stage::Polish(polish) => {
                     let used = polish.work(&self.space, trace, &mut self.runs, left);
                     (self.best, self.least) = polish.best();
-                    if let Some(curvature) = polish.done(&self.space, trace.len()) {
+                    if polish.is_done() {
                         self.evaluations += polish.evaluations();
-                        self.curvature = curvature;
-                        self.stage = Stage::Done(Stop::Converged);
+                        // Where the count stands still, readings repeat and say nothing new.
+                        let readings = trace.steps.iter().filter(|&&step| step != 0).count();
+                        let repeats = trace.len() as f32 / readings.max(1) as f32;
+                        let dim = self.space.dim();
+                        polish.covariance(&mut self.covariance, dim, self.least * repeats);
+                        self.end_round(trace, Stop::Converged);
                     }
                     used
                 }
@@ -238,12 +328,12 @@ impl<S: Arithmetic> Fit<S> {
                     Some(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
-                            self.end(mean_square);
+                            self.end(trace, mean_square);
                         }
                         used
                     }
                     _ => {
-                        self.next();
+                        self.next(trace);
                         BUILD
                     }
                 },
@@ -254,31 +344,31 @@ impl<S: Arithmetic> Fit<S> {
     }
 
     /// Asks for the next point and builds its model.
-    fn next(&mut self) {
+    fn next(&mut self, trace: &Trace<'_>) {
         let Some(search) = self.stage.searching() else {
             return;
         };
         let (x, bound) = (self.space.of_search(search.ask()), search.bound());
         self.asked = build(&mut self.runs[0], &self.space, &x, bound);
         if !self.asked {
-            self.end(f32::INFINITY);
+            self.end(trace, f32::INFINITY);
         }
     }
 
     /// Tells the cost of the point, and goes on to the polish when the search is done.
-    fn end(&mut self, mean_square: f32) {
+    fn end(&mut self, trace: &Trace<'_>, mean_square: f32) {
         self.asked = false;
         self.evaluations += 1;
+        self.left = self.left.saturating_sub(1);
         let Some(search) = self.stage.searching() else {
             return;
         };
         search.tell(mean_square);
         let best = search.best();
         (self.best, self.least) = (self.space.of_search(best.x), best.cost);
-        if self.evaluations >= u32::from(self.settings.evaluations) {
+        if self.left == 0 {
             if !self.least.is_finite() {
-                self.stage = Stage::Done(Stop::NoModel);
-                return;
+                return self.end_round(trace, Stop::NoModel);
             }
             self.stage = Stage::Polish(Polish::EMPTY);
             if let Stage::Polish(polish) = &mut self.stage {
@@ -287,27 +377,70 @@ impl<S: Arithmetic> Fit<S> {
         }
     }
 
-    fn outcome(&self, trace: &Trace<'_>, stop: Stop) -> Outcome {
+    fn outcome(&self, stop: Stop) -> Outcome {
         Outcome::new(
             &self.space,
-            trace,
             self.best,
             self.least,
-            self.curvature.as_ref(),
+            &self.covariance,
             self.evaluations,
             stop,
         )
     }
 
-    /// Builds the best motor so far, to predict with it; the fit is over. Returns false if there is none.
-    pub fn predict(&mut self) -> bool {
+    /// Gets the best motor ready to predict about so many periods, judged over windows of `window` periods; the fit of the `fitted` periods is
+    /// over. Returns false if there is none.
+    pub fn predict(&mut self, fitted: usize, periods: u32, window: u32) -> bool {
         self.asked = false;
-        build(&mut self.runs[0], &self.space, &self.best, f32::INFINITY)
+        self.stage = Stage::Predict(Prediction::EMPTY);
+        let Stage::Predict(prediction) = &mut self.stage else {
+            return false;
+        };
+        prediction.begin(
+            &mut self.runs,
+            &self.space,
+            &self.best,
+            &self.covariance,
+            (self.least, fitted),
+            (periods, window),
+        )
     }
 
-    /// The motor that [`predict`](Self::predict) built.
-    pub fn prediction(&mut self) -> Option<&mut Evaluation<S>> {
-        self.runs[0].model()
+    /// One period of what the motor predicts: the duty acted, and the reading is `step` counts further.
+    pub fn observe(&mut self, duty: i16, step: i16) {
+        if let Stage::Predict(prediction) = &mut self.stage {
+            prediction.step(&mut self.runs, duty, step);
+        }
+    }
+
+    /// How well it predicted so far; `None` if it does not.
+    // Out of line, for the sake of the stack.
+    #[inline(never)]
+    pub fn predicted(&mut self) -> Option<Predicted> {
+        match &self.stage {
+            Stage::Predict(prediction) => {
+                Some(prediction.so_far(&mut self.runs, &self.space, &self.best))
+            }
+            _ => None,
+        }
+    }
+
+    /// What the motor is good for, by how well it `predicted`; `within` is the largest error of an encoder, counts RMS.
+    #[inline(never)]
+    pub fn verdict(&self, predicted: &Predicted, within: f32) -> Verdict {
+        let gradients = [0, 1].map(|k| {
+            let gradient = self.space.gradient(k, &self.best);
+            let value = self.space.value(k, &self.best);
+            gradient.map(|x| x / value)
+        });
+        let [gain, mechanical] = gradients.map(|gradient| self.covariance.std(&gradient));
+        let [g, m] = gradients;
+        let mut ratio = g;
+        for (x, m) in ratio.iter_mut().zip(m) {
+            *x -= m;
+        }
+        let stds = [gain, mechanical, self.covariance.std(&ratio)];
+        Verdict::of(stds, self.least, predicted, within)
     }
 }
 

@@ -1,8 +1,7 @@
 //! What a fit found.
 
-use super::polish::Curvature;
+use super::covariance::Covariance;
 use super::{MOST, Point, Space};
-use crate::trace::Trace;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +21,7 @@ pub enum Stop {
 pub struct Estimate {
     /// In the device's own measure, see [`Unknown`](super::Unknown).
     pub value: f32,
-    /// From the curvature of the cost; infinite where the trace does not determine the value.
+    /// From the curvature of the cost and from what the model leaves; infinite where there is no model.
     pub std: f32,
 }
 
@@ -43,23 +42,18 @@ pub struct Outcome {
 impl Outcome {
     pub(super) fn new(
         space: &Space,
-        trace: &Trace<'_>,
         best: Point,
         least: f32,
-        curvature: Option<&Curvature>,
+        covariance: &Covariance,
         evaluations: u32,
         stop: Stop,
     ) -> Self {
-        // Where the count stands still, readings repeat and say nothing new.
-        let readings = trace.steps.iter().filter(|&&step| step != 0).count();
         let mut estimates = Vec::new();
         for k in 0..space.dim() {
             // There is room for all.
             let _ = estimates.push(Estimate {
                 value: space.value(k, &best),
-                std: curvature.map_or(f32::INFINITY, |curvature| {
-                    curvature.std(&space.gradient(k, &best), least, readings)
-                }),
+                std: covariance.std(&space.gradient(k, &best)),
             });
         }
         Outcome {

@@ -71,6 +71,8 @@ const MECHANICAL: usize = 1;
 const MOST_FRICTION: f32 = 0.5;
 /// What a dead time takes, a part of the supply: 2.5 µs at 20 kHz.
 const MOST_DEAD_TIME: f32 = 0.1;
+/// 500 ns at 20 kHz.
+const ORDINARY_DEAD_TIME: f32 = 0.02;
 /// Viscous part of the damping.
 const MOST_VISCOUS: f32 = 0.3;
 
@@ -153,6 +155,20 @@ impl Space {
     pub(super) fn of_search(&self, mut x: Point) -> Point {
         x[self.searched..].copy_from_slice(&self.held[self.searched..]);
         x
+    }
+
+    /// Searches on from the other end: with nothing lost where the board told a dead time, and with an ordinary one where it told none.
+    pub(super) fn hold_elsewhere(&mut self) {
+        let told = self.held[self.searched] > 0.0;
+        self.held = [0.0; MOST];
+        if !told && self.dim > self.searched {
+            self.held[self.searched] = ORDINARY_DEAD_TIME / MOST_DEAD_TIME;
+        }
+    }
+
+    /// Searches on with what is not searched for where it ended in another search.
+    pub(super) fn hold_as(&mut self, x: &Point) {
+        self.held[self.searched..].copy_from_slice(&x[self.searched..]);
     }
 
     /// Number of unknowns.

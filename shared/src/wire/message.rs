@@ -3,7 +3,7 @@
 //! understand each other.
 
 use super::{Fault, PlanDigest, PlanPart, Reset};
-use crate::fit::{Outcome, Settings};
+use crate::fit::{Grade, Outcome, Predicted, Settings, Verdict};
 use heapless::{String, Vec};
 use serde::{Deserialize, Serialize};
 
@@ -238,8 +238,10 @@ pub struct Job {
     pub record: u16,
     /// Periods of the verification.
     pub verify: u32,
-    /// Largest error of the verification that the model may leave, hundredths of a count RMS; zero takes any.
+    /// Largest error of fit and verification that is an encoder's, hundredths of a count RMS.
     pub verify_within: u32,
+    /// The least that the model must be good for, or the run fails.
+    pub accept: Grade,
     /// Seed of the excitations.
     pub seed: u64,
     /// How to fit.
@@ -334,17 +336,9 @@ pub struct Report {
     /// The fit, if one was asked for.
     pub outcome: Option<Outcome>,
     /// How well it predicts, if that was asked for.
-    pub verified: Option<Verified>,
-}
-
-/// How well the model predicts what it has not seen.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Verified {
-    /// Mean squared error, counts².
-    pub mean_square: f32,
-    /// Over so many periods.
-    pub periods: u32,
+    pub verified: Option<Predicted>,
+    /// What it is good for, if that was asked for.
+    pub verdict: Option<Verdict>,
 }
 
 /// How a run was given up.

@@ -21,10 +21,10 @@ pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
 pub use message::{
     About, Details, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows,
-    Stage, ToDevice, ToHost, Verified,
+    Stage, ToDevice, ToHost,
 };
 pub use plan::{MOST_SEGMENTS, PLAN_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
 pub use reset::Reset;
 
 /// Version of the messages.
-pub const VERSION: u16 = 4;
+pub const VERSION: u16 = 5;

@@ -24,6 +24,16 @@ pub enum ExportError {
         /// The format.
         format: &'static str,
     },
+    /// Gains are asked of numbers that the device calls good for nothing.
+    #[error(
+        "{format} computes gains, and the device did not verify these numbers: {reason}. Commission again, or add --force"
+    )]
+    Unverified {
+        /// The format.
+        format: &'static str,
+        /// Why they are no better.
+        reason: String,
+    },
     /// A loop that cannot be closed as asked.
     #[error("{0}")]
     Loop(String),

@@ -6,6 +6,7 @@ use super::side::Side;
 use super::subject::Subject;
 use super::table::{Row, rows};
 use super::written::{Lack, Written};
+use crate::schema::device::Grade;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -34,6 +35,12 @@ pub(crate) struct Motor<'a> {
     parameters: Vec<Row>,
     /// Numbers that the data do not determine.
     cannot_carry: &'a [Lack],
+    /// What a device said they are good for: `floor`, `control` or `no`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grade: Option<Grade>,
+    /// Why for no more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
     /// Why they are not to be relied on, where a device said that they are not.
     #[serde(skip_serializing_if = "Option::is_none")]
     unverified: Option<String>,
@@ -44,6 +51,7 @@ pub(crate) struct Motor<'a> {
 pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, ExportError> {
     let mut written = Written::new(subject);
     let parameters = rows(subject, &mut written);
+    let graded = subject.grade.as_ref();
     let motor = Motor {
         schema: "servoid.motor/1",
         source: &subject.source,
@@ -56,7 +64,11 @@ pub(super) fn write(subject: &Subject, _options: &Options) -> Result<Written, Ex
         effects: subject.terms.iter().map(|term| term.kind.name()).collect(),
         parameters,
         cannot_carry: &written.cannot_carry,
-        unverified: subject.unverified_text(),
+        grade: graded.map(|graded| graded.grade),
+        reason: graded.and_then(|graded| graded.reason.as_deref()),
+        unverified: graded
+            .filter(|graded| graded.grade == Grade::No)
+            .and(subject.grade_text()),
         version: env!("CARGO_PKG_VERSION"),
     };
     let text = serde_json::to_string_pretty(&motor);

@@ -116,7 +116,7 @@ pub fn result(motor: &bench::Machine, kinds: &[Kind], known: Known) -> Identifie
         counts_per_rev: Some(2000.0),
         sample_s: Some(1e-3),
         converged: known != Known::Nothing,
-        unverified: None,
+        grade: None,
         parameters,
         model,
         place: "model",

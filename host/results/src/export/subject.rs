@@ -2,7 +2,8 @@
 
 use super::error::{ExportError, FIT_AGAIN, NAME_RESISTANCE};
 use super::side::Side;
-use crate::schema::{Identified, ModelFault};
+use crate::schema::device::Grade;
+use crate::schema::{Graded, Identified, ModelFault};
 use servoid_io::recording::Drive;
 use shared::effects::Kind;
 use shared::motor::{Machine, Response};
@@ -52,8 +53,8 @@ pub struct Subject {
     pub sample_s: Option<f64>,
     /// Whether the search came to its end.
     pub converged: bool,
-    /// Why the numbers are not to be relied on, where a device said that they are not.
-    pub unverified: Option<String>,
+    /// What a device said its numbers are good for.
+    pub grade: Option<Graded>,
     /// The shaft that all numbers speak of.
     pub side: Side,
     /// Every number.
@@ -70,10 +71,33 @@ const LEAST: f64 = 1e-30;
 const NUISANCES: [&str; 2] = ["start_speed", "start_offset"];
 
 impl Subject {
-    /// What stands over numbers that a device did not verify.
-    pub(super) fn unverified_text(&self) -> Option<String> {
-        let why = self.unverified.as_ref()?;
-        Some(format!("NOT VERIFIED: {why}"))
+    /// What stands over the numbers of a device.
+    pub(super) fn grade_text(&self) -> Option<String> {
+        let Graded { grade, reason } = self.grade.as_ref()?;
+        let why = reason.iter().map(|why| format!(": {why}"));
+        let why: String = why.collect();
+        Some(match grade {
+            Grade::No => format!("NOT VERIFIED{why}"),
+            Grade::Control => format!("verified for control{why}"),
+            Grade::Floor => format!("verified{why}"),
+        })
+    }
+
+    /// Refuses to compute gains from what a device calls good for nothing.
+    ///
+    /// # Errors
+    /// Its grade is `no`.
+    pub fn needs_grade(&self, format: &'static str) -> Result<(), ExportError> {
+        match &self.grade {
+            Some(Graded {
+                grade: Grade::No,
+                reason,
+            }) => Err(ExportError::Unverified {
+                format,
+                reason: reason.clone().unwrap_or_default(),
+            }),
+            _ => Ok(()),
+        }
     }
 
     /// What `result` says, on `side`. `source` is the file it was read from.
@@ -148,7 +172,7 @@ impl Subject {
             counts_per_rev: turns.transpose()?,
             sample_s: result.sample_s,
             converged: result.converged,
-            unverified: result.unverified.clone(),
+            grade: result.grade.clone(),
             side,
             values,
             machine,

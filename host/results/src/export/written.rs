@@ -56,7 +56,7 @@ pub struct Written {
 impl Written {
     /// Nothing yet.
     pub fn new(subject: &Subject) -> Self {
-        let mut remarks: Vec<String> = subject.unverified_text().into_iter().collect();
+        let mut remarks: Vec<String> = subject.grade_text().into_iter().collect();
         let once = [Kind::Unbalance, Kind::EncEcc];
         for term in &subject.terms {
             if subject.side != Side::Motor && once.contains(&term.kind) {

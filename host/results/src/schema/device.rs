@@ -43,6 +43,18 @@ pub struct DeviceRun {
     pub outcome: Option<Outcome>,
     /// Error of the verification on the device, counts RMS.
     pub verified_rms_counts: Option<f64>,
+    /// What the numbers are good for, if they were verified: `floor` for all, `control` for gains, `no` for nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grade: Option<Grade>,
+    /// Why for no more, and what to do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// How well the numbers are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<Within>,
+    /// How well they predicted what the fit had not seen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub predicted: Option<Predicted>,
     /// Why the run was given up; null if it was not.
     pub failure: Option<Failure>,
     /// Periods in which the current's limit held the drive back; what was driven is recorded.
@@ -52,6 +64,50 @@ pub struct DeviceRun {
     pub missing: usize,
     /// Whether the run is incomplete: periods are missing, or it was given up or broke off.
     pub partial: bool,
+}
+
+/// What a device's numbers are good for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Grade {
+    /// For nothing that they are needed for.
+    No,
+    /// For gains, though what the model leaves is more than the encoder's.
+    Control,
+    /// For all: what the model leaves is the encoder's.
+    Floor,
+}
+
+impl fmt::Display for Grade {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Grade::No => "no",
+            Grade::Control => "control",
+            Grade::Floor => "floor",
+        })
+    }
+}
+
+/// Parts by which numbers may be off, with a probability of 95 %; null where nothing is known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Within {
+    /// The gain.
+    pub gain: Option<f64>,
+    /// The time constant.
+    pub a1: Option<f64>,
+    /// Gain over time constant, the acceleration from standstill.
+    pub acceleration: Option<f64>,
+}
+
+/// How well a device's model predicted what its fit had not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Predicted {
+    /// RMS of the error that grows in 50 ms, as a part of that of one who takes it that the speed stays; null if the recording was too short.
+    pub by_persistence: Option<f64>,
+    /// By which part the gain would differ by the verification.
+    pub gain_moved: Option<f64>,
+    /// By which part the time constant would.
+    pub a1_moved: Option<f64>,
 }
 
 /// What the device found.

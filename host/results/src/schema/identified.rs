@@ -28,14 +28,23 @@ pub struct Identified {
     pub sample_s: Option<f64>,
     /// Whether the search came to its end.
     pub converged: bool,
-    /// Why the numbers are not to be relied on, where a device said that they are not.
-    pub unverified: Option<String>,
+    /// What a device said its numbers are good for.
+    pub grade: Option<Graded>,
     /// Everything that was searched for, and what follows from it.
     pub parameters: Vec<Estimate>,
     /// The model itself, referred to the winding.
     pub model: Model,
     /// Where the model stands in the file.
     pub place: &'static str,
+}
+
+/// What a device said its numbers are good for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Graded {
+    /// The grade.
+    pub grade: device::Grade,
+    /// Why it is no better.
+    pub reason: Option<String>,
 }
 
 /// No number of a motor is as large, and what is computed from smaller ones stays finite.
@@ -102,7 +111,7 @@ impl Identified {
             counts_per_rev: set_up.counts_per_rev,
             sample_s: set_up.sample_s,
             converged: found.converged.unwrap_or(false),
-            unverified: None,
+            grade: None,
             parameters: (found.parameters).ok_or(ResultFault::Missing("parameters"))?,
             model: found.model.ok_or(ResultFault::Missing(place))?,
             place,
@@ -130,6 +139,17 @@ impl Identified {
     /// The device's three numbers say of a machine what voltage and angle can; its friction is in volts already.
     fn device(schema: String, file: Partial) -> Result<Self, ResultFault> {
         let outcome = file.outcome.ok_or(ResultFault::NotFitted)?;
+        let grade = match (file.grade, file.failure) {
+            (Some(grade), _) => Some(Graded {
+                grade,
+                reason: file.reason,
+            }),
+            // A device of before there were grades, or one that gave up.
+            (None, failure) => failure.map(|failed| Graded {
+                grade: device::Grade::No,
+                reason: Some(failed.message),
+            }),
+        };
         let value = |name: &'static str| {
             let found = outcome.parameters.iter().find(|p| p.name == name);
             let value = found
@@ -213,7 +233,7 @@ impl Identified {
             counts_per_rev: file.counts_per_rev,
             sample_s: file.period_us.map(|us| us * 1e-6),
             converged: outcome.converged,
-            unverified: file.failure.map(|failed| failed.message),
+            grade,
             parameters,
             model,
             place: "outcome",

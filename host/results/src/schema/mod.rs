@@ -64,7 +64,7 @@ pub use document::{Document, DocumentError, DocumentFault};
 pub use estimate::{Estimate, Margins};
 pub use fit::{Demo, Fit};
 pub use hypotheses_fault::{DiagnosisError, DiagnosisFault};
-pub use identified::Identified;
+pub use identified::{Graded, Identified};
 pub use identified_fault::{ResultError, ResultFault};
 pub use likelihood::Likelihood;
 pub use model::{Integrator, Machine, Model, ModelParameter};

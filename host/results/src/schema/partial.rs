@@ -44,6 +44,10 @@ pub(super) struct Partial {
     pub outcome: Option<Outcome>,
     /// Of a device's report.
     pub failure: Option<Failed>,
+    /// Of a device's report.
+    pub grade: Option<device::Grade>,
+    /// Of a device's report.
+    pub reason: Option<String>,
 }
 
 /// Why a device gave up.

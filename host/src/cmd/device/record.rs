@@ -2,7 +2,7 @@
 
 use super::emulate;
 use crate::cli::{
-    CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
+    CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs, Switch,
 };
 use crate::device::{
     Conversation, Kept, Order, Progress, Reached, Run, dead_time_s, drive, keep, segments,
@@ -13,7 +13,7 @@ use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
 use servoid_results::device_run::{COLUMNS, Folder, Lines};
 use servoid_results::schema::DeviceRun;
-use shared::fit::{Method, Settings};
+use shared::fit::{Grade, Method, Settings};
 use shared::wire::{About, Fault, Kind, Segment, Stage};
 use std::path::Path;
 
@@ -52,6 +52,7 @@ pub(super) fn order(
         record_s: Some(0.0),
         verify_s: 0.0,
         verify_within: None,
+        accept: Grade::Control,
         seed: session.seed,
         fit: Settings {
             seed: session.seed,
@@ -76,13 +77,20 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// `fit` with the dead time of the board's bridge.
+    /// `fit` with the dead time of the board's bridge, if the board knows how often that switches and the user does not want otherwise.
     ///
     /// # Errors
-    /// A device that does not say what it is made of, or whose bridge has no dead time that it knows of.
-    fn behind_its_bridge(&mut self, fit: Settings) -> Result<Settings, Error> {
+    /// A device that does not say what it is made of, or one that does not know it though the user wants it fitted.
+    fn behind_its_bridge(
+        &mut self,
+        fit: Settings,
+        asked: Option<Switch>,
+    ) -> Result<Settings, Error> {
+        if asked == Some(Switch::Off) {
+            return Ok(fit);
+        }
         let details = self.conversation.details()?;
-        if details.carriers == 0 {
+        if details.carriers == 0 && asked.is_some() {
             return Err(Error::Usage(
                 "--dead-time: this board does not say how often its bridge switches; leave it out"
                     .to_owned(),
@@ -165,9 +173,10 @@ fn into_folder(
         }
         Some(failure) if unverified => {
             session.deliver(&text, &saved)?;
+            let why = saved.reason.clone().unwrap_or_default();
             Err(Error::Failed(format!(
-                "the fit is not verified: {:.2} counts RMS on what it had not seen, more than {:.2} (--verify-within); \
-                 `servoid device verify {}` looks for what its model lacks",
+                "the fit is not verified: {:.2} counts RMS on what it had not seen, of which an encoder leaves {:.2}; {why}. `servoid device \
+                 verify {}` looks for what its model lacks",
                 f64::from(failure.seen) * 0.01,
                 f64::from(failure.limit) * 0.01,
                 path.display()
@@ -252,6 +261,7 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
                 parameter.unit
             );
         }
+        text += &verdict(saved);
         if saved.fit.dead_time > 0 {
             let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
             text += &format!(
@@ -276,21 +286,46 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
     text
 }
 
+/// What the numbers are good for, and why for no more.
+fn verdict(saved: &DeviceRun) -> String {
+    let (Some(grade), Some(within)) = (saved.grade, &saved.within) else {
+        return String::new();
+    };
+    let part = |x: Option<f64>| match x {
+        Some(x) => format!("{:.2} %", x * 100.0),
+        None => "nothing".to_owned(),
+    };
+    let text = format!(
+        "verdict: {grade}: gain known to {}, time constant to {}, acceleration from standstill to {} (95 %)\n",
+        part(within.gain),
+        part(within.a1),
+        part(within.acceleration),
+    );
+    match &saved.reason {
+        None => text,
+        Some(reason) => text + &format!("  {reason}\n"),
+    }
+}
+
 /// `servoid device commission`.
 pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(), Error> {
     let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
     let common = order(session, &bench.reached, &args.limits, Kind::Commission)?;
-    let fit = match args.dead_time {
-        true => bench.behind_its_bridge(common.fit)?,
-        false => common.fit,
+    let fit = bench.behind_its_bridge(common.fit, args.dead_time)?;
+    // A limit that the user names is kept to the count.
+    let (verify_within, accept) = match args.verify_within {
+        None => (None, Grade::Control),
+        Some(0.0) => (None, Grade::No),
+        within => (within, Grade::Floor),
     };
     let order = Order {
         excite_s: args.excite,
         coast: !args.no_coast,
         record_s: args.record,
         verify_s: args.verify,
-        verify_within: Some(args.verify_within.unwrap_or(common.usual_limit())),
+        verify_within,
+        accept,
         fit: Settings {
             method: match args.algorithm {
                 DeviceMethod::Pso => Method::Pso,

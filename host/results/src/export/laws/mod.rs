@@ -6,7 +6,8 @@ mod numbers;
 
 use super::samples::{DIGITS, KNOWN, Known, linear, result, subject};
 use super::{ExportError, FORMATS, Format, Options, Side, Subject, Written};
-use crate::schema::Identified;
+use crate::schema::device::Grade;
+use crate::schema::{Graded, Identified};
 use servoid_io::input::MotorFile;
 use servoid_plant as bench;
 use shared::effects::Kind;
@@ -120,7 +121,10 @@ fn no_text_has_a_number_that_is_none_or_that_is_not_determined() {
 fn numbers_that_a_device_did_not_verify_are_marked_in_every_format() {
     let motor = bench::Machine::gearmotor();
     let result = Identified {
-        unverified: Some("the fit is not verified */ -->".to_owned()),
+        grade: Some(Graded {
+            grade: Grade::No,
+            reason: Some("the fit is not verified */ -->".to_owned()),
+        }),
         ..result(&motor, &[Kind::Coulomb], Known::All)
     };
     for format in FORMATS {

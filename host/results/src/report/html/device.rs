@@ -102,8 +102,12 @@ fn lead(run: &DeviceRun) -> String {
             counts(rms)
         )
     });
+    let grade = run.grade.map_or(String::new(), |grade| {
+        let why = run.reason.as_ref().map(|why| format!(": {why}"));
+        format!(" Its verdict is {grade}{}.", why.unwrap_or_default())
+    });
     format!(
-        "The device fitted its own motor to {} counts RMS in {} model runs.{verified} Whether that stands, `servoid device \
+        "The device fitted its own motor to {} counts RMS in {} model runs.{verified}{grade} Whether that stands, `servoid device \
          verify` says.",
         counts(outcome.rms_counts),
         outcome.evaluations

@@ -79,7 +79,9 @@ fn a_device_s_viscous_part_is_the_machine_s_and_its_failure_is_told() {
     let machine = read.model.machine.machine("model").expect("a machine");
     assert!((machine.damping / (machine.kb + machine.damping) - 0.1).abs() < 1e-12);
     assert!((machine.kb + machine.damping - 0.025).abs() < 1e-12);
-    assert_eq!(read.unverified.as_deref(), Some("70 counts"));
+    let graded = read.grade.expect("a grade");
+    assert_eq!(graded.grade, super::device::Grade::No);
+    assert_eq!(graded.reason.as_deref(), Some("70 counts"));
     let told = |name: &str| read.parameters.iter().any(|p| p.name == name);
     assert!(told("dead_time") && told("viscous_part"));
 }

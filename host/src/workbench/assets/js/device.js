@@ -102,5 +102,12 @@ function found(device) {
   const verified = own.verified_rms_counts === null ? "" : `, ${counts(own.verified_rms_counts)} counts on what it had not seen`;
   const text = own.parameters ? own.parameters.map((one) => `${spoken(one.name)} ${digits(one.value, 4)} ${one.unit}`).join(" · ") : "";
   at("found").textContent = own.failure
-    ? `The device says: ${own.failure}. ${text}` : `The device found ${text}: ${counts(own.rms_counts)} counts${verified}.`;
+    ? `The device says: ${own.failure}. ${text}` : `The device found ${text}: ${counts(own.rms_counts)} counts${verified}${good(own)}.`;
+}
+
+/** What the device says that its numbers are good for. */
+function good(own) {
+  if (!own.grade) return "";
+  const grade = { floor: "good for all", control: "good for gains", no: "good for nothing" }[own.grade];
+  return own.reason ? `; ${grade}: ${own.reason}` : `; ${grade}`;
 }

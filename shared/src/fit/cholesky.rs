@@ -1,6 +1,6 @@
 //! Inverse of a small symmetric matrix, by Cholesky's method without roots (`L·D·Lᵀ`).
 
-use crate::fit::MOST;
+use super::MOST;
 
 /// A matrix over the unknowns.
 pub(super) type Matrix = [[f32; MOST]; MOST];

@@ -4,17 +4,13 @@
 //! two others, each displaced along one axis, for each pair of axes in turn. So the normal equations need the room of three
 //! models, however many unknowns there are, and d·(d − 1)/2 passes fill them.
 
-mod cholesky;
-mod curvature;
-mod sensitivity;
-
+use super::cholesky::{Matrix, inverse};
+use super::covariance::Covariance;
+use super::differences::{Differences, Products};
 use super::evaluation::{Runs, build};
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
 use crate::trace::Trace;
-use cholesky::{Matrix, inverse};
-pub use curvature::Curvature;
-use sensitivity::Differences;
 
 /// Most rounds.
 const ROUNDS: u32 = 20;
@@ -42,6 +38,8 @@ struct Normal {
     matrix: Matrix,
     /// Sensitivity by error.
     slope: [f32; MOST],
+    /// Slopes of the blocks of the trace, by each other.
+    scatter: Matrix,
 }
 
 /// The next piece of work. Models are not part of it: a device has no room to move them, so they are built in place.
@@ -90,6 +88,7 @@ impl Polish {
         normal: Normal {
             matrix: [[0.0; MOST]; MOST],
             slope: [0.0; MOST],
+            scatter: [[0.0; MOST]; MOST],
         },
         damping: 0.0,
         trial: [0.0; MOST],
@@ -121,15 +120,16 @@ impl Polish {
         self.evaluations
     }
 
-    /// The curvature, once the work is done; `None` in it if there is none in some direction.
-    pub fn done(&self, space: &Space, periods: usize) -> Option<Option<Curvature>> {
-        matches!(self.work, Work::Done).then(|| {
-            let every = [true; MOST];
-            inverse(&self.normal.matrix, space.dim(), 0.0, &every).map(|inverse| Curvature {
-                inverse,
-                periods: periods as f32,
-            })
-        })
+    /// Whether the work is done.
+    pub fn is_done(&self) -> bool {
+        matches!(self.work, Work::Done)
+    }
+
+    /// Sets the covariance of where it ended, with the variance of a reading, counts².
+    // Out of line, for the sake of the stack.
+    #[inline(never)]
+    pub(super) fn covariance(&self, to: &mut Covariance, dim: usize, variance: f32) {
+        to.set(dim, &self.normal.matrix, &self.normal.scatter, variance);
     }
 
     /// Runs models along at most about `samples` periods of the trace; returns how many it ran.
@@ -150,7 +150,7 @@ impl Polish {
                 for (k, x) in points.iter().enumerate() {
                     built &= build(&mut runs[k], space, x, f32::INFINITY);
                 }
-                self.differences = Differences::default();
+                self.differences.begin(trace.len());
                 self.work = if built { Work::Run(a, b) } else { Work::Done };
                 3 * super::BUILD
             }
@@ -200,8 +200,8 @@ impl Polish {
     }
 
     /// Enters a pair into the normal equations, or tries better displacements.
-    fn take(&mut self, space: &Space, a: usize, b: usize, products: [f32; 5], periods: usize) {
-        let [ea, eb, aa, ab, bb] = products;
+    fn take(&mut self, space: &Space, a: usize, b: usize, products: Products, periods: usize) {
+        let ([ea, eb], [aa, ab, bb]) = (products.slopes, products.squares);
         self.periods = periods.max(1) as f32;
         if self.tries < 4 {
             let mut unfit = false;
@@ -236,6 +236,11 @@ impl Polish {
         normal.matrix[b][b] = bb / (hb * hb);
         normal.matrix[a][b] = ab / (ha * hb);
         normal.matrix[b][a] = normal.matrix[a][b];
+        let [aa, ab, bb] = products.scatter;
+        normal.scatter[a][a] = aa / (ha * ha);
+        normal.scatter[b][b] = bb / (hb * hb);
+        normal.scatter[a][b] = ab / (ha * hb);
+        normal.scatter[b][a] = normal.scatter[a][b];
         self.work = if b + 1 < space.dim() {
             Work::Displace(a, b + 1)
         } else if a + 2 < space.dim() {

@@ -1,0 +1,181 @@
+//! A fitted motor predicts a recording that it has not seen, period by period, as a device drives it.
+//!
+//! Beside it run two motors that are displaced in gain over time constant and in the time constant, all else as the fitted recording wants it
+//! then. So one step of Gauss and Newton's method tells, at the end, which gain and time constant the new recording would have.
+
+use super::covariance::Covariance;
+use super::differences::Differences;
+use super::evaluation::{Runs, build};
+use super::{Arithmetic, MOST, Point, Space};
+use crate::scalar::Real;
+use serde::{Deserialize, Serialize};
+
+/// How well a fitted motor predicts what it has not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Predicted {
+    /// Mean squared error, counts².
+    pub mean_square: f32,
+    /// Over so many periods.
+    pub periods: u32,
+    /// RMS of the error that grows in 50 ms, as a part of that of one who takes it that the speed stays; not a number where none could be seen.
+    pub by_persistence: f32,
+    /// By which part the gain would differ by this recording.
+    pub gain: f32,
+    /// By which part the time constant would.
+    pub mechanical: f32,
+}
+
+/// A displacement moves the reading by about this, counts RMS …
+const VISIBLE: f32 = 1.0;
+/// … or by this part of the error that the fit left.
+const ROUGH: f32 = 0.3;
+/// Longest displacement, of the cube's edge: three percent of an ordinary range of logarithms.
+const LONGEST: f32 = 0.003;
+
+/// A prediction under way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Prediction {
+    differences: Differences,
+    /// By how much the two are displaced.
+    moved: [f32; 2],
+    window: Window,
+}
+
+/// Errors over windows of time.
+#[derive(Clone, Copy, Debug)]
+struct Window {
+    periods: u32,
+    left: u32,
+    /// Travel in the last whole window, counts; a window before it is there.
+    before: i32,
+    ended: u32,
+    travelled: i32,
+    error: f32,
+    /// Sums of squares of the model's error and of persistence's.
+    sums: [f32; 2],
+}
+
+impl Window {
+    const EMPTY: Self = Window {
+        periods: 0,
+        left: 0,
+        before: 0,
+        ended: 0,
+        travelled: 0,
+        error: 0.0,
+        sums: [0.0; 2],
+    };
+
+    fn step(&mut self, step: i16, error: f32) {
+        self.travelled += i32::from(step);
+        self.left -= 1;
+        if self.left > 0 {
+            return;
+        }
+        self.left = self.periods;
+        if self.ended > 0 {
+            let by_model = error - self.error;
+            let by_persistence = (self.travelled - self.before) as f32;
+            self.sums[0] += by_model * by_model;
+            self.sums[1] += by_persistence * by_persistence;
+        }
+        self.ended += 1;
+        (self.before, self.travelled, self.error) = (self.travelled, 0, error);
+    }
+}
+
+impl Prediction {
+    pub(super) const EMPTY: Self = Prediction {
+        differences: Differences::EMPTY,
+        moved: [0.0; 2],
+        window: Window::EMPTY,
+    };
+
+    /// Begins a prediction of about so many periods by the motor at `best`, which left `least` counts² of its recording of `periods`. Says
+    /// whether there is such a motor.
+    // Out of line, for the sake of the stack.
+    #[inline(never)]
+    pub(super) fn begin<S: Arithmetic>(
+        &mut self,
+        runs: &mut Runs<S>,
+        space: &Space,
+        best: &Point,
+        covariance: &Covariance,
+        (least, fitted): (f32, usize),
+        (periods, window): (u32, u32),
+    ) -> bool {
+        self.differences.begin(periods as usize);
+        self.window = Window {
+            periods: window.max(1),
+            left: window.max(1),
+            ..Window::EMPTY
+        };
+        let mut built = build(&mut runs[0], space, best, f32::INFINITY);
+        for (k, moved) in self.moved.iter_mut().enumerate() {
+            // The fit's standard deviation of the coordinate is the move that adds σ² to the sum of squares.
+            let mut axis = [0.0; MOST];
+            axis[k] = 1.0;
+            let std = covariance.curvature_std(&axis);
+            let seen = Real::sqrt(least / fitted.max(1) as f32);
+            let visible = VISIBLE.max(ROUGH * Real::sqrt(least));
+            *moved = if seen > 0.0 {
+                std * visible / seen
+            } else {
+                LONGEST
+            }
+            .min(LONGEST);
+            let along = covariance.along(k);
+            let mut x = *best;
+            for (j, (x, by)) in x.iter_mut().zip(along).enumerate() {
+                *x += *moved * by;
+                if j > 1 {
+                    *x = x.clamp(0.0, 1.0);
+                }
+            }
+            built &= build(&mut runs[k + 1], space, &x, f32::INFINITY);
+        }
+        built
+    }
+
+    /// One period: the duty acted, and the reading is `step` counts further.
+    pub(super) fn step<S: Arithmetic>(&mut self, runs: &mut Runs<S>, duty: i16, step: i16) {
+        self.differences.step(runs, duty, step);
+        if let Some(model) = runs[0].model() {
+            self.window.step(step, model.error());
+        }
+    }
+
+    /// How well it predicted so far.
+    pub(super) fn so_far<S: Arithmetic>(
+        &self,
+        runs: &mut Runs<S>,
+        space: &Space,
+        best: &Point,
+    ) -> Predicted {
+        let periods = self.differences.at as u32;
+        let mut differences = self.differences;
+        let products = differences.products();
+        let ([ea, eb], [aa, ab, bb]) = (products.slopes, products.squares);
+        let determinant = aa * bb - ab * ab;
+        let moves = [
+            -(bb * ea - ab * eb) / determinant * self.moved[0],
+            -(aa * eb - ab * ea) / determinant * self.moved[1],
+        ];
+        // Of the logarithms.
+        let by = |k: usize| {
+            let gradient = space.gradient(k, best);
+            (gradient[0] * moves[0] + gradient[1] * moves[1]) / space.value(k, best)
+        };
+        let [by_model, by_persistence] = self.window.sums;
+        Predicted {
+            mean_square: runs[0]
+                .model()
+                .map_or(f32::INFINITY, |model| model.mean_square(periods)),
+            periods,
+            by_persistence: Real::sqrt(by_model / by_persistence),
+            gain: by(0),
+            mechanical: by(1),
+        }
+    }
+}
