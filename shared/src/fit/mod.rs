@@ -113,6 +113,8 @@ enum Stage {
     Pso(Pso<f32, POPULATION, MOST>),
     Firefly(Firefly<f32, POPULATION, MOST>),
     Polish(Polish),
+    /// A search is over: another from elsewhere, or none. By the next slice, for the sake of the stack.
+    Over(Stop),
     Done(Stop),
     Predict(Prediction),
 }
@@ -151,11 +153,30 @@ impl Stage {
     }
 }
 
+/// Where a search, or its polish, is.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    space: Space,
+    best: Point,
+    /// Mean squared error there, counts².
+    least: f32,
+    covariance: Covariance,
+}
+
+impl Found {
+    /// Nothing yet: all zeros.
+    const NONE: Self = Found {
+        space: Space::NONE,
+        best: [0.0; MOST],
+        least: 0.0,
+        covariance: Covariance::NONE,
+    };
+}
+
 /// A fit under way.
 #[derive(Clone, Debug)]
 pub struct Fit<S: Arithmetic> {
     settings: Settings,
-    space: Space,
     stage: Stage,
     runs: Runs<S>,
     /// The search has asked for the cost of the model in the first run.
@@ -163,29 +184,19 @@ pub struct Fit<S: Arithmetic> {
     evaluations: u32,
     /// Evaluations left of the search.
     left: u32,
-    best: Point,
-    least: f32,
-    covariance: Covariance,
-    /// Searches that are over.
-    rounds: u32,
-    /// The best of them.
-    kept: Kept,
-}
-
-/// Where a search and its polish ended.
-#[derive(Clone, Copy, Debug)]
-struct Kept {
-    space: Space,
-    best: Point,
-    least: f32,
-    covariance: Covariance,
+    now: Found,
+    /// The best of the searches that are over, and how many those are.
+    kept: Found,
+    over: u32,
 }
 
 /// Most searches in a fit.
-const ROUNDS: u32 = 3;
+const SEARCHES: u32 = 3;
 /// Mean squared error, counts², of a model that the encoder's reading cannot be told from: a reading that is anywhere within a count has 1/12.
 /// Above it a search from elsewhere may find better.
 const FLOOR: f32 = 0.25;
+/// Two searches end alike within this part of the mean squared error.
+const ALIKE: f32 = 0.01;
 
 impl<S: Arithmetic> Fit<S> {
     /// Not begun. A fit begins where it stays, because it is larger than a device's stack. All of it is zero, so a static of it
@@ -202,22 +213,14 @@ impl<S: Arithmetic> Fit<S> {
                 carriers: 0,
                 dead_time: 0,
             },
-            space: Space::NONE,
             stage: Stage::Idle,
             runs: [Room::EMPTY; 3],
             asked: false,
             evaluations: 0,
             left: 0,
-            best: [0.0; MOST],
-            least: 0.0,
-            covariance: Covariance::NONE,
-            rounds: 0,
-            kept: Kept {
-                space: Space::NONE,
-                best: [0.0; MOST],
-                least: 0.0,
-                covariance: Covariance::NONE,
-            },
+            now: Found::NONE,
+            kept: Found::NONE,
+            over: 0,
         }
     }
 
@@ -227,77 +230,70 @@ impl<S: Arithmetic> Fit<S> {
             return false;
         };
         self.settings = settings;
-        self.space = space;
+        self.now.space = space;
         self.evaluations = 0;
-        self.rounds = 0;
+        self.over = 0;
         self.search();
-        self.keep();
+        self.kept = self.now;
         true
     }
 
     /// Begins a search in the space.
     fn search(&mut self) {
         let mut settings = self.settings;
-        settings.seed = settings.seed.wrapping_add(self.rounds.into());
-        self.stage.search(&settings, self.space.searched());
+        settings.seed = settings.seed.wrapping_add(self.over.into());
+        self.stage.search(&settings, self.now.space.searched());
         for run in &mut self.runs {
             run.clear();
         }
         self.asked = false;
         self.left = settings.evaluations.into();
-        self.best = [0.5; MOST];
-        self.least = f32::INFINITY;
-        self.covariance = Covariance::NONE;
+        self.now.best = [0.5; MOST];
+        self.now.least = f32::INFINITY;
+        self.now.covariance = Covariance::NONE;
     }
 
-    fn keep(&mut self) {
-        self.kept = Kept {
-            space: self.space,
-            best: self.best,
-            least: self.least,
-            covariance: self.covariance,
-        };
-    }
-
-    /// Ends a search: goes on to another from elsewhere, or to the end with the best of all.
-    fn end_round(&mut self, trace: &Trace<'_>, stop: Stop) {
-        self.rounds += 1;
-        if self.least < self.kept.least {
-            self.keep();
+    /// Goes on from the end of a search to another from elsewhere, or to the end with the best of all.
+    // Out of line, for the sake of the stack.
+    #[inline(never)]
+    fn go_on(&mut self, trace: &Trace<'_>, stop: Stop) {
+        self.over += 1;
+        let gained = self.kept.least - self.now.least;
+        if gained > 0.0 {
+            self.kept = self.now;
         }
-        if self.kept.least > FLOOR
-            && self.rounds < ROUNDS
-            && let Some(mut space) = Space::around(trace, &self.settings)
-        {
-            match self.rounds {
-                1 => space.hold_elsewhere(),
-                _ => space.hold_as(&self.kept.best),
+        // Two searches from different places that end alike have found what there is.
+        let alike = self.over > 1 && gained.abs() < ALIKE * self.kept.least;
+        let on = self.kept.least > FLOOR && self.over < SEARCHES && !alike;
+        match Space::around(trace, &self.settings) {
+            Some(mut space) if on => {
+                match self.over {
+                    1 => space.hold_elsewhere(),
+                    _ => space.hold_as(&self.kept.best),
+                }
+                self.now.space = space;
+                self.search();
             }
-            self.space = space;
-            self.search();
-        } else {
-            let kept = self.kept;
-            (self.space, self.best) = (kept.space, kept.best);
-            (self.least, self.covariance) = (kept.least, kept.covariance);
-            self.stage = Stage::Done(if self.least.is_finite() {
-                Stop::Converged
-            } else {
-                stop
-            });
+            _ => {
+                self.now = self.kept;
+                let found = self.now.least.is_finite();
+                self.stage = Stage::Done(if found { Stop::Converged } else { stop });
+            }
         }
     }
 
     /// Evaluations so far, and about how many there will be.
     pub fn progress(&self) -> (u32, u32) {
-        let dim = self.space.dim() as u32;
-        let search = u32::from(self.settings.evaluations);
-        let polish = 3 * dim * dim;
-        (self.evaluations, (search + polish).max(self.evaluations))
+        let dim = self.now.space.dim() as u32;
+        (
+            self.evaluations,
+            self.evaluations + self.left + 3 * dim * dim,
+        )
     }
 
     /// Least mean squared error so far, counts².
     pub fn least(&self) -> f32 {
-        self.least
+        self.now.least
     }
 
     /// Runs a model along at most about `samples` periods of the trace. Returns the outcome once there is one.
@@ -306,21 +302,26 @@ impl<S: Arithmetic> Fit<S> {
         while left > 0 {
             let used = match &mut self.stage {
                 Stage::Idle | Stage::Predict(_) => return Some(self.outcome(Stop::NoModel)),
+                Stage::Over(stop) => {
+                    let stop = *stop;
+                    self.go_on(trace, stop);
+                    BUILD
+                }
                 Stage::Done(stop) => {
                     let stop = *stop;
                     return Some(self.outcome(stop));
                 }
                 Stage::Polish(polish) => {
-                    let used = polish.work(&self.space, trace, &mut self.runs, left);
-                    (self.best, self.least) = polish.best();
+                    let used = polish.work(&self.now.space, trace, &mut self.runs, left);
+                    (self.now.best, self.now.least) = polish.best();
                     if polish.is_done() {
                         self.evaluations += polish.evaluations();
                         // Where the count stands still, readings repeat and say nothing new.
                         let readings = trace.steps.iter().filter(|&&step| step != 0).count();
                         let repeats = trace.len() as f32 / readings.max(1) as f32;
-                        let dim = self.space.dim();
-                        polish.covariance(&mut self.covariance, dim, self.least * repeats);
-                        self.end_round(trace, Stop::Converged);
+                        let dim = self.now.space.dim();
+                        polish.covariance(&mut self.now.covariance, dim, self.now.least * repeats);
+                        self.stage = Stage::Over(Stop::Converged);
                     }
                     used
                 }
@@ -328,12 +329,12 @@ impl<S: Arithmetic> Fit<S> {
                     Some(evaluation) if self.asked => {
                         let used = evaluation.run(trace, left);
                         if let Some(mean_square) = evaluation.result() {
-                            self.end(trace, mean_square);
+                            self.end(mean_square);
                         }
                         used
                     }
                     _ => {
-                        self.next(trace);
+                        self.next();
                         BUILD
                     }
                 },
@@ -344,19 +345,19 @@ impl<S: Arithmetic> Fit<S> {
     }
 
     /// Asks for the next point and builds its model.
-    fn next(&mut self, trace: &Trace<'_>) {
+    fn next(&mut self) {
         let Some(search) = self.stage.searching() else {
             return;
         };
-        let (x, bound) = (self.space.of_search(search.ask()), search.bound());
-        self.asked = build(&mut self.runs[0], &self.space, &x, bound);
+        let (x, bound) = (self.now.space.of_search(search.ask()), search.bound());
+        self.asked = build(&mut self.runs[0], &self.now.space, &x, bound);
         if !self.asked {
-            self.end(trace, f32::INFINITY);
+            self.end(f32::INFINITY);
         }
     }
 
     /// Tells the cost of the point, and goes on to the polish when the search is done.
-    fn end(&mut self, trace: &Trace<'_>, mean_square: f32) {
+    fn end(&mut self, mean_square: f32) {
         self.asked = false;
         self.evaluations += 1;
         self.left = self.left.saturating_sub(1);
@@ -365,24 +366,25 @@ impl<S: Arithmetic> Fit<S> {
         };
         search.tell(mean_square);
         let best = search.best();
-        (self.best, self.least) = (self.space.of_search(best.x), best.cost);
+        (self.now.best, self.now.least) = (self.now.space.of_search(best.x), best.cost);
         if self.left == 0 {
-            if !self.least.is_finite() {
-                return self.end_round(trace, Stop::NoModel);
+            if !self.now.least.is_finite() {
+                self.stage = Stage::Over(Stop::NoModel);
+                return;
             }
             self.stage = Stage::Polish(Polish::EMPTY);
             if let Stage::Polish(polish) = &mut self.stage {
-                polish.begin(&mut self.space, &self.best, self.least);
+                polish.begin(&mut self.now.space, &self.now.best, self.now.least);
             }
         }
     }
 
     fn outcome(&self, stop: Stop) -> Outcome {
         Outcome::new(
-            &self.space,
-            self.best,
-            self.least,
-            &self.covariance,
+            &self.now.space,
+            self.now.best,
+            self.now.least,
+            &self.now.covariance,
             self.evaluations,
             stop,
         )
@@ -398,10 +400,10 @@ impl<S: Arithmetic> Fit<S> {
         };
         prediction.begin(
             &mut self.runs,
-            &self.space,
-            &self.best,
-            &self.covariance,
-            (self.least, fitted),
+            &self.now.space,
+            &self.now.best,
+            &self.now.covariance,
+            (self.now.least, fitted),
             (periods, window),
         )
     }
@@ -419,7 +421,7 @@ impl<S: Arithmetic> Fit<S> {
     pub fn predicted(&mut self) -> Option<Predicted> {
         match &self.stage {
             Stage::Predict(prediction) => {
-                Some(prediction.so_far(&mut self.runs, &self.space, &self.best))
+                Some(prediction.so_far(&mut self.runs, &self.now.space, &self.now.best))
             }
             _ => None,
         }
@@ -429,18 +431,18 @@ impl<S: Arithmetic> Fit<S> {
     #[inline(never)]
     pub fn verdict(&self, predicted: &Predicted, within: f32) -> Verdict {
         let gradients = [0, 1].map(|k| {
-            let gradient = self.space.gradient(k, &self.best);
-            let value = self.space.value(k, &self.best);
+            let gradient = self.now.space.gradient(k, &self.now.best);
+            let value = self.now.space.value(k, &self.now.best);
             gradient.map(|x| x / value)
         });
-        let [gain, mechanical] = gradients.map(|gradient| self.covariance.std(&gradient));
+        let [gain, mechanical] = gradients.map(|gradient| self.now.covariance.std(&gradient));
         let [g, m] = gradients;
         let mut ratio = g;
         for (x, m) in ratio.iter_mut().zip(m) {
             *x -= m;
         }
-        let stds = [gain, mechanical, self.covariance.std(&ratio)];
-        Verdict::of(stds, self.least, predicted, within)
+        let stds = [gain, mechanical, self.now.covariance.std(&ratio)];
+        Verdict::of(stds, self.now.least, predicted, within)
     }
 }
 
