@@ -2,7 +2,7 @@
 
 mod drawing;
 
-use drawing::{Drawn, commissioning, draw, ran};
+use drawing::{Drawn, commissioning, draw, ran, truth};
 use firmware::app::{Memory, Recording};
 use firmware::phase::Fault;
 use firmware::plant::{CARRIERS, Motor};
@@ -10,7 +10,6 @@ use firmware::trials::{bench::Bench, host::Host};
 use shared::fit::Settings;
 use shared::wire::*;
 use std::cell::RefCell;
-use std::f32::consts::TAU;
 
 /// The motor of a seed, with dead time as its only fault: so many seconds at each edge of a carrier of 20 kHz.
 fn with_dead_time(seed: u64, seconds: f32) -> Motor {
@@ -58,12 +57,9 @@ fn commission(motor: &Motor, seed: u64, told: f32) -> Option<Found> {
         .iter()
         .map(|own| own.value)
         .collect();
-    let all = motor.constant + motor.resistance * motor.viscous / motor.constant;
-    let truth = [
-        motor.supply / all / TAU * motor.counts_per_rev * 1e-3,
-        motor.inertia * motor.resistance / (motor.constant * all) * 1e3,
-        motor.coulomb * motor.resistance / (motor.constant * motor.supply),
-    ];
+    let [gain, first_order, _] = truth(motor).map(|[low, _]| low);
+    let coulomb = motor.coulomb * motor.resistance / (motor.constant * motor.supply);
+    let truth = [gain, first_order, coulomb];
     let off = |k: usize, place: usize| (estimates[place] / truth[k] - 1.0).abs();
     Some(Found {
         off: [off(0, 0), off(1, 1), off(2, 3)],

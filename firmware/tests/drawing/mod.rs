@@ -100,8 +100,9 @@ pub fn truth(motor: &Motor) -> [[f32; 2]; 3] {
     let of = |resistance: f32| {
         let all = motor.constant + resistance * motor.viscous / motor.constant;
         let gain = motor.supply / all / TAU * motor.counts_per_rev * 1e-3;
-        let mechanical = motor.inertia * resistance / (motor.constant * all) * 1e3;
-        [gain, mechanical, gain / mechanical]
+        let lag = motor.inertia * resistance + motor.inductance * motor.viscous;
+        let first_order = lag / (motor.constant * all) * 1e3;
+        [gain, first_order, gain / first_order]
     };
     let (stiff, soft) = (
         of(motor.resistance),

@@ -276,7 +276,11 @@ impl Polish {
     fn aim(&mut self, space: &Space) -> Work {
         let n = space.dim();
         let matrix = &self.normal.matrix;
-        let mut free = [true; MOST];
+        // What nothing depends on stays where it is.
+        let mut free = [false; MOST];
+        for (k, free) in free.iter_mut().enumerate() {
+            *free = matrix[k][k] > 0.0;
+        }
         let mut step = [0.0; MOST];
         while self.damping <= MOST_DAMPING {
             let Some(inverse) = inverse(matrix, n, self.damping, &free) else {

@@ -6,7 +6,7 @@
 
 use super::{Arithmetic, Settings};
 use crate::model::{Rigid, RigidPlan};
-use crate::motor::Machine;
+use crate::motor::Response;
 use crate::scalar::Real;
 use crate::trace::Trace;
 use crate::units::PerUnit;
@@ -22,9 +22,9 @@ pub type Point = [f32; MOST];
 pub enum Unknown {
     /// Steady speed under the whole supply, counts a period.
     Gain,
-    /// Mechanical time constant (with an electrical one: the first-order coefficient), periods.
-    Mechanical,
-    /// Electrical time constant, periods.
+    /// First-order coefficient a1 of the response to voltage, which is nearly the mechanical time constant, periods.
+    FirstOrder,
+    /// Second-order coefficient a2 by a1, the electrical time constant if nothing is viscous, periods.
     Electrical,
     /// Coulomb friction, as a part of the supply.
     Coulomb,
@@ -33,7 +33,8 @@ pub enum Unknown {
     /// What the bridge's dead time takes, as a part of the supply. Not searched for, but polished from the board's own figure: in six dimensions
     /// twenty fireflies miss a quarter of even ideal motors.
     DeadTime,
-    /// Part of the damping that is viscous friction, polished from zero: nothing but the current's sign tells it from back-EMF.
+    /// Part of the damping that is viscous friction, polished from zero: nothing but the current's sign tells it from back-EMF. The response to
+    /// voltage does not depend on it.
     Viscous,
 }
 
@@ -107,7 +108,7 @@ impl Space {
             gain * (SHORTEST / GAIN_BELOW) / longest,
             Real::ln(ABRUPT * GAIN_BELOW * longest),
         );
-        space.push(Unknown::Mechanical, SHORTEST, Real::ln(longest / SHORTEST));
+        space.push(Unknown::FirstOrder, SHORTEST, Real::ln(longest / SHORTEST));
         let [low, high] = ELECTRICAL;
         space.push(Unknown::Electrical, low, high - low);
         if settings.coulomb {
@@ -214,13 +215,13 @@ impl Space {
     // Out of line, as `build`, and for the sake of short instructions, which reach the first kilobyte of a stack.
     #[inline(never)]
     pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> bool {
-        let (mut gain, mut mechanical, mut electrical) = (1.0, 1.0, 0.0);
+        let (mut gain, mut first_order, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);
         let (mut dead_time, mut viscous) = (0.0, 0.0);
         for (k, unknown) in self.unknowns().iter().enumerate() {
             let slot = match unknown {
                 Unknown::Gain => &mut gain,
-                Unknown::Mechanical => &mut mechanical,
+                Unknown::FirstOrder => &mut first_order,
                 Unknown::Electrical => &mut electrical,
                 Unknown::Coulomb => &mut coulomb,
                 Unknown::Load => &mut load,
@@ -229,19 +230,18 @@ impl Space {
             };
             *slot = self.value(k, x);
         }
-        if electrical > SLOWEST_WINDING * mechanical {
+        // Beyond the second there is no machine with this response.
+        if electrical > SLOWEST_WINDING * first_order || 4.0 * viscous * electrical > first_order {
             return false;
         }
         // A count is the unit of angle, a period that of time, the supply that of voltage: SI in all but name.
-        let all = 1.0 / gain;
-        let damping = viscous * all;
+        let response = Response {
+            gain,
+            a1: first_order,
+            a2: first_order * electrical,
+        };
         let plan = RigidPlan {
-            machine: Machine {
-                kb: all - damping,
-                damping,
-                inertia: mechanical * all,
-                electrical,
-            },
+            machine: response.machine_with_damping(viscous / gain),
             coulomb,
             load,
             dead_time,

@@ -160,23 +160,16 @@ impl Identified {
         };
         let (gain, a1, electrical) = (value("gain")?, value("a1")?, value("electrical")?);
         super::number("gain", gain, gain > 0.0, "a positive number")?;
-        let machine = Response {
+        let viscous = match outcome.parameters.iter().any(|p| p.name == "viscous_part") {
+            false => 0.0,
+            true => value("viscous_part")?,
+        };
+        let response = Response {
             gain,
             a1,
             a2: a1 * electrical,
-        }
-        .machine();
-        let machine = match outcome.parameters.iter().any(|p| p.name == "viscous_part") {
-            false => machine,
-            true => {
-                let damping = machine.kb * value("viscous_part")?;
-                shared::motor::Machine {
-                    kb: machine.kb - damping,
-                    damping,
-                    ..machine
-                }
-            }
         };
+        let machine = response.machine_with_damping(viscous / gain);
         let mut model = Model {
             effects: Vec::new(),
             formulas: Vec::new(),
