@@ -127,6 +127,7 @@ fn plan(coulomb: f32) -> RigidPlan<f32> {
         load: 0.0,
         dead_time: 0.0,
         carriers: 0.0,
+        supply: 0.0,
         units: PerUnit {
             volts: 1.0,
             speed: 256.0,

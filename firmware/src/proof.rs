@@ -177,6 +177,7 @@ fn fitted<S: Arithmetic>(
         evaluations: EVALUATIONS,
         carriers,
         dead_time: 400,
+        supply: carriers > 0,
         ..Settings::USUAL
     };
     let name = match (method, carriers) {

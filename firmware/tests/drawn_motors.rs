@@ -7,7 +7,7 @@ mod drawing;
 use drawing::{Drawn, commissioning, draw, off, ran};
 use firmware::app::{Memory, Recording};
 use firmware::trials::{bench::Bench, host::Host};
-use shared::fit::Grade;
+use shared::fit::{Grade, Settings};
 use shared::wire::*;
 use std::cell::RefCell;
 
@@ -31,6 +31,10 @@ fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
     let current_ma = (stall_ma as f32 * limit) as u32;
     let common = commissioning(motor, seed, 4_000);
     let job = Job {
+        fit: Settings {
+            supply: !SENSES,
+            ..common.fit
+        },
         limits: Limits {
             current_ma: if drawn.limit.is_some() { current_ma } else { 0 },
             // Without a sensor the user has to say what the resistance is.

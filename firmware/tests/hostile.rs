@@ -71,6 +71,7 @@ fn extreme(rng: &mut Generator) -> Job {
             coulomb: rng::below(rng, 2) == 0,
             load: rng::below(rng, 2) == 0,
             carriers: rng::below(rng, 40) as u16,
+            supply: rng::below(rng, 2) == 0,
             dead_time: rng::below(rng, 65_536) as u16,
         },
         limits: Limits {

@@ -241,6 +241,7 @@ fn behind_a_bridge_the_hot_loop_is_the_step() {
             load: part(0.02),
             dead_time: part(0.05),
             carriers: 20.0,
+            supply: 0.0,
             units: PerUnit::new(1.0, gain, 1.0, std::f64::consts::TAU).unwrap(),
         };
         let duties: Vec<i16> = (0..400)
@@ -278,6 +279,7 @@ fn dead_time_takes_its_part_of_a_current_that_flows_and_nothing_of_one_that_the_
             load,
             dead_time,
             carriers: 20.0,
+            supply: 0.0,
             units: PerUnit::new(1.0, 100.0, 1.0, std::f64::consts::TAU).unwrap(),
         };
         let model = Rigid::<f64>::new(&plan).unwrap();

@@ -208,6 +208,7 @@ fn a_rigid_motor_is_the_step() {
             load: of_supply(&mut rng, 0.1),
             dead_time: 0.0,
             carriers: 0.0,
+            supply: 0.0,
             units,
         };
         let drive = drive(&mut rng);

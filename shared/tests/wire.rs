@@ -25,6 +25,7 @@ fn job() -> Job {
             load: false,
             carriers: 20,
             dead_time: 655,
+            supply: true,
         },
         limits: Limits {
             duty: 32_767,

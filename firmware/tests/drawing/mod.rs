@@ -82,6 +82,7 @@ pub fn commissioning(motor: &Motor, seed: u64, evaluations: u16) -> Job {
             seed,
             evaluations,
             carriers: CARRIERS as u16,
+            supply: true,
             ..Settings::default()
         },
         limits: Limits {

@@ -158,6 +158,9 @@ fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> devi
         ));
         measures.push(("viscous_part", 1.0, "1"));
     }
+    if order.fit.supply {
+        measures.push(("supply_part", 1.0, "1"));
+    }
     let parameters =
         outcome
             .estimates

@@ -52,10 +52,10 @@ impl Covariance {
             for (c, sum) in row.iter_mut().enumerate().take(n) {
                 *sum = (0..n).fold(0.0, |sum, k| sum + inverse[a][k] * scatter[k][c]);
             }
-            for b in 0..n {
+            for (b, beside) in inverse[a].iter().enumerate().take(n) {
                 let sum = (0..n).fold(0.0, |sum, k| sum + row[k] * inverse[k][b]);
                 self.scatter[a][b] = few * sum;
-                self.curvature[a][b] = variance * inverse[a][b];
+                self.curvature[a][b] = variance * beside;
             }
         }
     }

@@ -260,7 +260,7 @@ impl<S: Arithmetic> Evaluation<S> {
             let taken = if self.model.is_free() {
                 S::run_frictionless(self, on.0, on.1, f32::INFINITY)
             } else {
-                if self.sliding.is_none() {
+                if self.sliding.is_none() && !self.model.sags() {
                     self.enter_sliding();
                 }
                 S::run_sliding(self, on.0, on.1)
@@ -348,7 +348,8 @@ impl<S: Arithmetic> Evaluation<S> {
     /// Runs along periods in which the shaft slides on, with the bridge closed; returns how many those were.
     #[inline(always)]
     pub(super) fn run_sliding(&mut self, duties: &[i16], steps: &[i16]) -> usize {
-        let Some(sliding) = self.sliding else {
+        // What a supply loses changes with every duty.
+        let (Some(sliding), false) = (self.sliding, self.model.sags()) else {
             return 0;
         };
         if !self.model.loses() {
@@ -400,7 +401,7 @@ impl<S: Arithmetic> Evaluation<S> {
             speed: self.speed,
             ..Motion::default()
         };
-        if self.model.loses() {
+        if self.model.loses() || self.model.sags() {
             self.slow += 1;
         }
         S::step(&self.model, &mut motion, command, open);

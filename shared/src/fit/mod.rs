@@ -6,7 +6,8 @@
 //! ```
 //!
 //! It searches over what voltage and angle determine: gain and the two time constants, in logarithms, and friction and
-//! load if asked for. Behind a bridge with dead time the polish adds what that takes, and the viscous part of the damping.
+//! load if asked for. Behind a bridge with dead time the polish adds what that takes, and the viscous part of the damping; behind a supply
+//! that is not measured, its resistance.
 //! All is per supply, per period and in counts: a device need not know its supply voltage nor its encoder's resolution. The search itself is in f32 on every device; the model runs in `S`, f32 or fixed point. The same
 //! trace, settings and `S` give the same bits anywhere, which is how the host checks a device.
 
@@ -70,6 +71,8 @@ pub struct Settings {
     pub carriers: u16,
     /// What the dead time takes by the board's own figure, as a duty: the search takes it for granted, and the polish begins there.
     pub dead_time: u16,
+    /// Fit the resistance of a supply that is not measured.
+    pub supply: bool,
 }
 
 impl Settings {
@@ -83,6 +86,7 @@ impl Settings {
         load: false,
         carriers: 0,
         dead_time: 0,
+        supply: false,
     };
 }
 
@@ -212,6 +216,7 @@ impl<S: Arithmetic> Fit<S> {
                 load: false,
                 carriers: 0,
                 dead_time: 0,
+                supply: false,
             },
             stage: Stage::Idle,
             runs: [Room::EMPTY; 3],

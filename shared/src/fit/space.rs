@@ -12,7 +12,7 @@ use crate::trace::Trace;
 use crate::units::PerUnit;
 
 /// Most unknowns.
-pub const MOST: usize = 7;
+pub const MOST: usize = 8;
 
 /// A point of the unit cube.
 pub type Point = [f32; MOST];
@@ -36,6 +36,8 @@ pub enum Unknown {
     /// Part of the damping that is viscous friction, polished from zero: nothing but the current's sign tells it from back-EMF. The response to
     /// voltage does not depend on it.
     Viscous,
+    /// Resistance of the supply as a part of the winding's, polished from zero.
+    Supply,
 }
 
 /// The unknowns and their ranges.
@@ -74,6 +76,8 @@ const MOST_FRICTION: f32 = 0.5;
 const MOST_DEAD_TIME: f32 = 0.1;
 /// 500 ns at 20 kHz.
 const ORDINARY_DEAD_TIME: f32 = 0.02;
+/// Resistance of the supply, a part of the winding's.
+const MOST_SUPPLY: f32 = 0.3;
 /// Viscous part of the damping.
 const MOST_VISCOUS: f32 = 0.3;
 
@@ -125,6 +129,9 @@ impl Space {
             space.push(Unknown::DeadTime, 0.0, MOST_DEAD_TIME);
             space.push(Unknown::Viscous, 0.0, MOST_VISCOUS);
         }
+        if settings.supply {
+            space.push(Unknown::Supply, 0.0, MOST_SUPPLY);
+        }
         Some(space)
     }
 
@@ -162,7 +169,7 @@ impl Space {
     pub(super) fn hold_elsewhere(&mut self) {
         let told = self.held[self.searched] > 0.0;
         self.held = [0.0; MOST];
-        if !told && self.dim > self.searched {
+        if !told && self.carriers > 0.0 {
             self.held[self.searched] = ORDINARY_DEAD_TIME / MOST_DEAD_TIME;
         }
     }
@@ -217,7 +224,7 @@ impl Space {
     pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> bool {
         let (mut gain, mut first_order, mut electrical) = (1.0, 1.0, 0.0);
         let (mut coulomb, mut load) = (0.0, 0.0);
-        let (mut dead_time, mut viscous) = (0.0, 0.0);
+        let (mut dead_time, mut viscous, mut supply) = (0.0, 0.0, 0.0);
         for (k, unknown) in self.unknowns().iter().enumerate() {
             let slot = match unknown {
                 Unknown::Gain => &mut gain,
@@ -227,6 +234,7 @@ impl Space {
                 Unknown::Load => &mut load,
                 Unknown::DeadTime => &mut dead_time,
                 Unknown::Viscous => &mut viscous,
+                Unknown::Supply => &mut supply,
             };
             *slot = self.value(k, x);
         }
@@ -246,6 +254,7 @@ impl Space {
             load,
             dead_time,
             carriers: self.carriers,
+            supply,
             units: PerUnit {
                 volts: 1.0,
                 speed: power_of_two_above(gain),

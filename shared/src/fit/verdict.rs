@@ -75,7 +75,7 @@ impl Verdict {
         }
         let beyond = |values: [f32; 3], factor: f32| {
             let mut pairs = values.iter().zip(MOST_OFF);
-            pairs.any(|(value, most)| !(factor * value <= most))
+            pairs.any(|(value, most)| value.is_nan() || factor * value > most)
         };
         let encoder = within * within;
         let reason = if beyond(off, 1.0) {

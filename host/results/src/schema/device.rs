@@ -195,6 +195,9 @@ struct Order {
     /// What the dead time takes by the board's own figure, in Q15 of the supply.
     #[serde(default, skip_serializing_if = "is_zero")]
     dead_time: u16,
+    /// Whether the resistance of a supply that is not measured is fitted.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    supply: bool,
 }
 
 fn is_zero(number: &u16) -> bool {
@@ -282,6 +285,7 @@ mod tests {
         let settings = Settings {
             carriers: 20,
             dead_time: 655,
+            supply: true,
             ..Settings::USUAL
         };
         let settings = serde_json::to_value(settings).expect("JSON");

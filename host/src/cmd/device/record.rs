@@ -77,7 +77,8 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// `fit` with the dead time of the board's bridge, if the board knows how often that switches and the user does not want otherwise.
+    /// `fit` with what is between the supply and the winding: a resistance where the supply is not measured; and the dead time of the board's
+    /// bridge, if the board knows how often that switches and the user does not want otherwise.
     ///
     /// # Errors
     /// A device that does not say what it is made of, or one that does not know it though the user wants it fitted.
@@ -86,10 +87,14 @@ impl Bench {
         fit: Settings,
         asked: Option<Switch>,
     ) -> Result<Settings, Error> {
+        let details = self.conversation.details()?;
+        let fit = Settings {
+            supply: !details.senses_supply,
+            ..fit
+        };
         if asked == Some(Switch::Off) {
             return Ok(fit);
         }
-        let details = self.conversation.details()?;
         if details.carriers == 0 && asked.is_some() {
             return Err(Error::Usage(
                 "--dead-time: this board does not say how often its bridge switches; leave it out"

@@ -100,6 +100,7 @@ fn fitted_effects(saved: &DeviceRun) -> Vec<Kind> {
         (saved.fit.coulomb, Kind::Coulomb),
         (saved.fit.load, Kind::LoadTorque),
         (saved.fit.carriers > 0, Kind::BrushDrop),
+        (saved.fit.supply, Kind::SupplySag),
     ];
     flags
         .into_iter()

@@ -25,6 +25,8 @@ pub struct RigidPlan<R> {
     pub load: R,
     /// What the bridge's dead time takes against the current, V.
     pub dead_time: R,
+    /// Resistance of the supply as a part of the winding's: a bridge at the duty `d` takes `d·i` of it, so the winding loses `d²` of that.
+    pub supply: R,
     /// Waves of the bridge's carrier in an interval; at least one where dead time takes anything.
     pub carriers: R,
     /// Bases of the per-unit system; one interval is one step.
@@ -38,6 +40,10 @@ pub struct Rigid<S: Scalar> {
     /// The load, and friction.
     forces: Forces<S>,
     dead_time: DeadTime<S>,
+    /// See [`RigidPlan::supply`].
+    supply: S::Coefficient,
+    /// Whether there is a supply that gives way.
+    sags: bool,
     /// Whether there is friction.
     has_friction: bool,
     /// Whether there is neither friction, nor a load, nor dead time.
@@ -60,6 +66,8 @@ impl<S: Scalar> Rigid<S> {
                 },
             },
             dead_time: DeadTime::none(zero, none),
+            supply: none,
+            sags: false,
             has_friction: false,
             free: false,
             counts_per_unit: none,
@@ -77,7 +85,8 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         let units = &plan.units;
         self.has_friction = plan.coulomb != R::zero();
         let loses = plan.dead_time != R::zero();
-        self.free = !self.has_friction && !loses && plan.load == R::zero();
+        self.sags = plan.supply != R::zero();
+        self.free = !self.has_friction && !loses && !self.sags && plan.load == R::zero();
         let depth = if self.has_friction { LEVELS - 1 } else { 0 };
         let machine = plan.machine.lower(units);
         let one = R::from_f64(1.0);
@@ -93,6 +102,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
             let lost = plan.dead_time / units.volts;
             self.dead_time.set(lost, waves, by_volts);
         }
+        self.supply = S::coefficient_of(plan.supply);
         Ok(())
     }
 
@@ -155,9 +165,15 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
         self.dead_time.sure
     }
 
+    /// Whether the supply gives way.
+    #[inline(always)]
+    pub fn sags(&self) -> bool {
+        self.sags
+    }
+
     /// The duty that the winding sees of `command`.
     #[inline(never)]
-    fn behind_dead_time(&self, motion: &Motion<S>, command: S) -> S {
+    fn behind_bridge(&self, motion: &Motion<S>, command: S) -> S {
         let Forces { torque, budget, .. } = self.forces;
         let map = &self.motor[0];
         let sense = direction(motion.speed, motion.current - torque, &budget);
@@ -169,16 +185,30 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
             map.free_current_and_angle(motion, command, against, false)
                 .0
         };
-        let mean = motion.current + by * S::from_f64(0.5);
-        command - self.dead_time.of(command, mean, held)
+        let half = S::from_f64(0.5);
+        let mut mean = motion.current + by * half;
+        let mut sag = S::zero();
+        if self.sags {
+            // What is lost lowers the current that loses it: two terms of the series.
+            let by_volts = map.current_by_volts()[usize::from(held)];
+            let square = command * command;
+            let first = (square * mean).times(self.supply);
+            let less = mean - first.times(by_volts) * half;
+            sag = (square * less).times(self.supply);
+            mean = less;
+        }
+        if self.loses() {
+            sag = sag + self.dead_time.of(command, mean, held);
+        }
+        command - sag
     }
 
     /// Advances by one interval with `command` held; `open` while the bridge is open.
     #[inline(always)]
     pub fn step(&self, motion: &mut Motion<S>, command: S, open: bool) {
         let scale = self.counts_per_unit;
-        let command = if self.loses() && !open {
-            self.behind_dead_time(motion, command)
+        let command = if (self.loses() || self.sags) && !open {
+            self.behind_bridge(motion, command)
         } else {
             command
         };
