@@ -131,8 +131,8 @@ impl Stage {
         let population = settings.population.clamp(2, POPULATION as u8) as usize;
         let (evaluations, seed) = (settings.evaluations, settings.seed);
         match settings.method {
-            Method::Pso => *self = Stage::Pso(Pso::idle(rng::seeded(seed))),
-            Method::Firefly => *self = Stage::Firefly(Firefly::idle(rng::seeded(seed))),
+            Method::Pso => self.swarm(seed),
+            Method::Firefly => self.fireflies(seed),
         }
         match self {
             Stage::Pso(pso) => pso.begin(dim, population, SWARM),
@@ -145,6 +145,17 @@ impl Stage {
             }
             _ => {}
         }
+    }
+
+    // Each is made on the stack and moved here: apart, so that there is never room for both.
+    #[inline(never)]
+    fn swarm(&mut self, seed: u64) {
+        *self = Stage::Pso(Pso::idle(rng::seeded(seed)));
+    }
+
+    #[inline(never)]
+    fn fireflies(&mut self, seed: u64) {
+        *self = Stage::Firefly(Firefly::idle(rng::seeded(seed)));
     }
 
     /// The search, while it runs.
