@@ -1,8 +1,8 @@
 //! The phases of a self-identification, and the one rule that leads from each to the next.
 //!
 //! ```text
-//! Idle → Probe → Excite → Record → Fit → Verify → Report → Idle
-//!          └────────┴────────┴──────┴───────┴────────↗  any fault, at any time
+//! Idle → Probe → Excite → Record → Fit → Verify → Rehearse → Tune → Report → Idle
+//!          └────────┴────────┴──────┴───────┴────────┴────────┴────────↗  any fault, at any time
 //! ```
 //!
 //! The rule is two pure functions, [`Phase::after`] an event and [`Phase::failed`] by a fault, and whether the bridge may
@@ -30,6 +30,10 @@ pub enum Phase {
     Fit,
     /// Drives a recording that the fit has not seen, and compares it with the model's prediction.
     Verify,
+    /// Computes gains, and foresees a step with them; the bridge is open and the motor coasts.
+    Rehearse,
+    /// Drives that step in a closed loop.
+    Tune,
     /// Repeats the report until the host acknowledges it; the bridge is open.
     Report(Result<(), Fault>),
 }
@@ -65,7 +69,9 @@ impl Phase {
             (Phase::Excite, Event::Done) => Ok(Phase::Record),
             (Phase::Record, Event::Done) => Ok(Phase::Fit),
             (Phase::Fit, Event::Done) => Ok(Phase::Verify),
-            (Phase::Verify, Event::Done) => Ok(Phase::Report(Ok(()))),
+            (Phase::Verify, Event::Done) => Ok(Phase::Rehearse),
+            (Phase::Rehearse, Event::Done) => Ok(Phase::Tune),
+            (Phase::Tune, Event::Done) => Ok(Phase::Report(Ok(()))),
             (Phase::Report(_), Event::Done) => Ok(Phase::Idle),
             (phase, event) => Err(Refused { phase, event }),
         }
@@ -85,8 +91,10 @@ impl Phase {
     #[must_use]
     pub fn bridge(self) -> Bridge {
         match self {
-            Phase::Probe | Phase::Excite | Phase::Record | Phase::Verify => Bridge::Driven,
-            Phase::Idle | Phase::Fit | Phase::Report(_) => Bridge::Open,
+            Phase::Probe | Phase::Excite | Phase::Record | Phase::Verify | Phase::Tune => {
+                Bridge::Driven
+            }
+            Phase::Idle | Phase::Fit | Phase::Rehearse | Phase::Report(_) => Bridge::Open,
         }
     }
 }
@@ -111,6 +119,8 @@ impl Phase {
             Phase::Record => Stage::Record,
             Phase::Fit => Stage::Fit,
             Phase::Verify => Stage::Verify,
+            Phase::Rehearse => Stage::Rehearse,
+            Phase::Tune => Stage::Tune,
             Phase::Report(_) => Stage::Report,
         }
     }
@@ -187,7 +197,17 @@ mod tests {
         use Phase::*;
         assert_eq!(
             passed,
-            [Probe, Excite, Record, Fit, Verify, Report(Ok(())), Idle]
+            [
+                Probe,
+                Excite,
+                Record,
+                Fit,
+                Verify,
+                Rehearse,
+                Tune,
+                Report(Ok(())),
+                Idle
+            ]
         );
     }
 

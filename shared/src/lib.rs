@@ -17,7 +17,8 @@
 //! 8. [`cost`]: how far the model is from the recording;
 //! 9. [`optim`]: particle swarm, firefly and random search, by ask and tell;
 //! 10. [`fit`]: the device's fit, a slice at a time: search, then Levenberg and Marquardt's method;
-//! 11. [`wire`]: the messages between device and host.
+//! 11. [`servo`]: gains by a fitted motor, and the loop that they are for;
+//! 12. [`wire`]: the messages between device and host.
 //!
 //! `examples/` shows the flow in programs of a page: `simulate_effect`, `fixed_point`, `fit_on_device`.
 #![cfg_attr(not(test), no_std)]
@@ -58,4 +59,5 @@ pub mod optim;
 
 // On the device.
 pub mod fit;
+pub mod servo;
 pub mod wire;

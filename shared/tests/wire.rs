@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 use shared::fit::{Estimate, Grade, Method, Outcome, Predicted, Reason, Settings, Stop, Verdict};
 use shared::rng::{self, Rng};
+use shared::servo::{Gains, Response};
 use shared::wire::*;
 
 fn job() -> Job {
@@ -72,6 +73,28 @@ fn report() -> Report {
             gain: 0.011,
             mechanical: 0.025,
             acceleration: 0.024,
+        }),
+        tuned: Some(Tuned {
+            gains: Gains {
+                position: 0.02,
+                speed: 0.2,
+                back_emf: 0.002,
+                friction: 0.02,
+                decay: 0.98,
+                time_constant: 50.0,
+                observer: [0.4, 0.05, 0.004],
+            },
+            step: -120,
+            foreseen: Response {
+                overshoot: 0.01,
+                settling: 140,
+                left: -0.5,
+            },
+            seen: Response {
+                overshoot: 0.02,
+                settling: 150,
+                left: 0.5,
+            },
         }),
     }
 }

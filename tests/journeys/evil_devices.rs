@@ -4,7 +4,7 @@ use host::device::{Conversation, DeviceError, Expected, Run, follow};
 use shared::fit::{Estimate, Outcome, Settings, Stop};
 use shared::wire::{
     About, Deframer, Failure, Fault, Format, Job, Kind, LONGEST_FRAME, Limits, Refusal, Report,
-    Row, Rows, Stage, ToDevice, ToHost, VERSION, Verified, encode,
+    Row, Rows, Stage, ToDevice, ToHost, VERSION, encode,
 };
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read, Result as Io, Write};
@@ -158,10 +158,15 @@ fn report(periods: u32) -> Report {
             evaluations: 100,
             stop: Stop::Converged,
         }),
-        verified: Some(Verified {
+        verified: Some(shared::fit::Predicted {
             mean_square: 0.1,
             periods: 10,
+            by_persistence: 0.1,
+            gain: 0.0,
+            mechanical: 0.0,
         }),
+        verdict: None,
+        tuned: None,
     }
 }
 

@@ -23,14 +23,15 @@ const PROBE_BRAKE_US: u32 = 100_000;
 
 impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Length of a driving phase in periods, where it is known in advance.
-    pub(super) fn length(phase: Phase, job: &Job) -> u32 {
+    pub(super) fn length(&self, phase: Phase, job: &Job) -> u32 {
         match (phase, job.kind) {
             (Phase::Probe, Kind::Play) => 0,
             (Phase::Probe, _) => Script::GROWING_STEPS * Self::periods(PROBE_STEP_US),
             (Phase::Excite, Kind::Play) => u32::MAX,
             (Phase::Excite, _) => job.excite,
-            (Phase::Record, Kind::Commission) => job.record.into(),
-            (Phase::Verify, Kind::Commission) => job.verify,
+            (Phase::Record, kind) if kind.fits() => job.record.into(),
+            (Phase::Verify, kind) if kind.fits() => job.verify,
+            (Phase::Tune, Kind::Tune) => self.memory.trial.periods(),
             _ => 0,
         }
     }
@@ -47,9 +48,10 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             (Phase::Excite, _) => Which::Excite { coast: job.coast },
             (Phase::Record, _) => Which::Record,
             (Phase::Verify, _) => Which::Verify,
+            (Phase::Tune, _) => return Some(Script::Servo),
             _ => return None,
         };
-        let length = Self::length(self.phase, job);
+        let length = self.length(self.phase, job);
         Some(Script::excitation(which, length, amplitude, job.seed))
     }
 
@@ -106,7 +108,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                     next: None,
                     batch: None,
                 };
-                self.ready(&job);
+                self.ready(&job, step);
             }
             Work::Play {
                 batch: batch @ None,
@@ -114,7 +116,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             } => {
                 *batch = Some(Batch::new(self.report.run, self.phase.stage(), self.count));
                 self.begun_at = self.count;
-                self.ready(&job);
+                self.ready(&job, step);
             }
             Work::Play { next, .. } => {
                 let ends = next.is_none();
@@ -123,12 +125,14 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                     return;
                 }
                 if !ends {
-                    self.ready(&job);
+                    self.ready(&job, step);
                 } else if self.phase == Phase::Probe {
                     let unmoved = |guard: &Guard| guard.unmoved(measured.current_ma);
                     self.fail(self.guard.as_ref().map_or(Fault::Stall, unmoved));
                 } else if self.phase == Phase::Verify {
                     self.verified(&job);
+                } else if self.phase == Phase::Tune {
+                    self.tuned();
                 } else {
                     self.done();
                 }
@@ -139,12 +143,22 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
 
     /// Prepares the next duty.
     #[inline(never)]
-    pub(super) fn ready(&mut self, job: &Job) {
+    pub(super) fn ready(&mut self, job: &Job, step: i32) {
+        let closed_loop = self.phase == Phase::Tune;
+        let asked = if closed_loop {
+            self.steps(step).map(|part| (part * 32_767.0) as i16)
+        } else {
+            None
+        };
         let Work::Play { script, next, .. } = &mut self.work else {
             return;
         };
         let limit = job.limits.duty;
-        *next = script.next(self.memory.plan.segments()).map(|duty| {
+        let ordered = match script {
+            Script::Servo => asked,
+            script => script.next(self.memory.plan.segments()),
+        };
+        *next = ordered.map(|duty| {
             if duty == OPEN {
                 return OPEN;
             }
@@ -154,6 +168,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             self.report.limited += u32::from(bounded != ordered);
             bounded
         });
+        if let (true, Some(duty)) = (closed_loop, *next) {
+            self.servo_acts(duty);
+        }
     }
 
     #[inline(never)]

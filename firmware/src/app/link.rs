@@ -1,6 +1,7 @@
 //! The application's side of the link: identification, arming and starting, retransmission of the recording.
 
 use super::recording::Batch;
+use super::tune::Trial;
 use super::{App, NO_REPORT};
 use crate::board::Board;
 use crate::guard::{Guard, Rating};
@@ -185,7 +186,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if self.armed.take().map(|(armed, _)| armed) != Some(nonce) {
             return Err(Refusal::NotArmed);
         }
-        let commission = job.kind == Kind::Commission;
+        let commission = job.kind.fits();
         let fits = usize::from(job.record) <= N && (job.record >= 50 || !commission);
         let sane = job.amplitude > 0 && job.limits.duty > 0 && job.limits.time > 0;
         if !fits || !sane {
@@ -197,6 +198,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         self.run = Some(nonce);
         self.at = 0;
         self.begun_at = self.count;
+        self.home = self.count;
+        self.memory.trial = Trial::NONE;
         self.recording.clear();
         self.report = Report {
             run: nonce,

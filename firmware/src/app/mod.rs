@@ -15,6 +15,7 @@
 //! | `link` | messages to and from the host; arming and starting |
 //! | `drive` | periods with the bridge closed: brake, play, check, record |
 //! | `rest` | periods with it open: fit, report the outcome |
+//! | `tune` | gains, and a step that tries them |
 //! | `script` | which duty comes next |
 //! | `recording`, `outbox` | the data of a run; the send buffer |
 
@@ -24,6 +25,7 @@ mod outbox;
 mod recording;
 mod rest;
 mod script;
+mod tune;
 
 use crate::board::Board;
 use crate::guard::{Guard, Tripped};
@@ -37,6 +39,7 @@ use shared::fit::{Arithmetic, Fit};
 use shared::rng::{self, Rng};
 use shared::trace::OPEN;
 use shared::wire::{Deframer, Job, Kind, Report, ToHost};
+use tune::Trial;
 
 /// Activity of a phase.
 #[allow(
@@ -58,6 +61,8 @@ enum Work {
     },
     /// Fits.
     Fit,
+    /// Foresees a step with the fitted motor.
+    Rehearse,
     /// Has fitted.
     Fitted,
 }
@@ -68,6 +73,7 @@ enum Work {
 pub struct Memory<S: Arithmetic> {
     fit: Fit<S>,
     plan: Plan,
+    trial: Trial,
     inbox: Deframer,
     outbox: Outbox,
 }
@@ -78,6 +84,7 @@ impl<S: Arithmetic> Memory<S> {
         Memory {
             fit: Fit::idle(),
             plan: Plan::new(),
+            trial: Trial::NONE,
             inbox: Deframer::new(),
             outbox: Outbox::new(),
         }
@@ -113,6 +120,8 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
     current: i32,
     count: i32,
     begun_at: i32,
+    /// Where the run began.
+    home: i32,
     /// Periods since the run began, since the host last spoke, and since a repeated message was sent.
     at: u32,
     silence: u32,
@@ -134,6 +143,7 @@ const NO_REPORT: Report = Report {
     outcome: None,
     verified: None,
     verdict: None,
+    tuned: None,
 };
 
 impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
@@ -160,6 +170,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             current: 0,
             count: 0,
             begun_at: 0,
+            home: 0,
             at: 0,
             silence: 0,
             repeat: 0,
@@ -280,7 +291,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         }
         self.phase = phase;
         self.work = match (phase.bridge(), phase, self.job) {
-            (Bridge::Driven, _, Some(job)) if Self::length(phase, &job) == 0 => {
+            (Bridge::Driven, _, Some(job)) if self.length(phase, &job) == 0 => {
                 return phase.after(Event::Done).ok();
             }
             (Bridge::Driven, _, Some(_)) => {
@@ -290,20 +301,23 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 self.apply(0);
                 Work::Brake { still: 0, all: 0 }
             }
-            (_, Phase::Fit, Some(job)) if job.kind == Kind::Commission => {
+            (_, Phase::Fit, Some(job)) if job.kind.fits() => {
                 if !self.memory.fit.begin(&self.recording.trace(), job.fit) {
                     return Some(self.failed_by(Tripped::by(Fault::NothingToFit)));
                 }
                 Work::Fit
             }
-            (_, Phase::Fit, _) => return phase.after(Event::Done).ok(),
+            (_, Phase::Rehearse, Some(job)) if job.kind == Kind::Tune && self.rehearse(&job) => {
+                Work::Rehearse
+            }
+            (_, Phase::Fit | Phase::Rehearse, _) => return phase.after(Event::Done).ok(),
             _ => Work::Rest,
         };
         if let (true, Some(job)) = (changed, self.job) {
             let stage = ToHost::Stage {
                 stage: phase.stage(),
                 at: self.at,
-                length: Self::length(phase, &job),
+                length: self.length(phase, &job),
                 run: self.report.run,
             };
             self.memory.outbox.post(&stage);

@@ -80,6 +80,8 @@ pub enum Script {
         /// Periods left.
         left: u32,
     },
+    /// A closed loop makes the duties.
+    Servo,
     /// The plan that the host sent: the segment, and the periods of it that are done.
     Plan {
         /// Index of the present segment.
@@ -185,6 +187,7 @@ impl Script {
                 }
                 Some((command.drive * f32::from(*amplitude)) as i16)
             }
+            Script::Servo => None,
             Script::Plan { at, done } => {
                 while plan.get(*at)?.periods <= *done {
                     *at += 1;

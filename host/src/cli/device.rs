@@ -31,6 +31,8 @@ pub enum DeviceVerb {
     Info(OnDevice),
     /// Has the motor identify itself: probe, excite, record, fit, verify
     Commission(CommissionArgs),
+    /// Commissions a motor, computes the gains of a position and a speed loop on the device, and tries them by a step there
+    Tune(CommissionArgs),
     /// Excites the motor and records, without a fit on the device
     Record(RecordArgs),
     /// As record, and prints each period as a line of CSV as it comes

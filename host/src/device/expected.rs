@@ -3,7 +3,7 @@
 
 use super::DeviceError;
 use servoid_results::device_run::Recorded;
-use shared::wire::{About, Job, Kind, Report, Rows, Segment, Stage};
+use shared::wire::{About, Job, Kind, Report, Rows, Segment, Stage, Tuned};
 use std::time::Duration;
 
 /// Longest probe, s: each of its steps, its brake, its last step, and braking before all of them.
@@ -16,6 +16,9 @@ const MODEL_S: f64 = 10.0;
 const STILL: Duration = Duration::from_secs(60);
 /// Shortest and longest control periods that make sense, µs.
 const PERIODS_US: std::ops::RangeInclusive<u32> = 10..=1_000_000;
+
+/// Longest step that tries a servo, periods.
+const LONGEST_STEP: u32 = 11_000;
 
 /// The bounds of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +36,8 @@ impl Expected {
         let played = plan.iter().map(|segment| u32::from(segment.periods)).sum();
         let driven_s = f64::from(job.limits.time) * period_s + PROBE_S;
         let models = match job.kind {
-            Kind::Commission => f64::from(job.fit.evaluations) + 100.0,
+            // Up to three searches, and their polish.
+            Kind::Commission | Kind::Tune => 3.0 * f64::from(job.fit.evaluations) + 1000.0,
             Kind::Record | Kind::Play => 0.0,
         };
         let longest_s = driven_s * SLOWER + models * MODEL_S;
@@ -53,7 +57,8 @@ impl Expected {
             Stage::Excite => self.job.excite,
             Stage::Record => self.job.record.into(),
             Stage::Verify => self.job.verify,
-            Stage::Idle | Stage::Fit | Stage::Report => 0,
+            Stage::Tune if self.job.kind == Kind::Tune => LONGEST_STEP,
+            Stage::Idle | Stage::Fit | Stage::Rehearse | Stage::Tune | Stage::Report => 0,
         }
     }
 
@@ -109,6 +114,18 @@ impl Expected {
         }
         if let Some(verified) = &report.verified {
             numbers.push(("the error of the verification", verified.mean_square, 0.0));
+        }
+        if let Some(Tuned {
+            gains,
+            foreseen,
+            seen,
+            ..
+        }) = &report.tuned
+        {
+            let of_gains = [gains.position, gains.speed, gains.back_emf, gains.friction];
+            numbers.extend(of_gains.map(|gain| ("a gain", gain, 0.0)));
+            let of_step = [foreseen.overshoot, foreseen.left, seen.overshoot, seen.left];
+            numbers.extend(of_step.map(|number| ("a step's answer", number, f32::MIN)));
         }
         match numbers
             .iter()

@@ -5,7 +5,8 @@ use servoid_results::device_run::Recorded;
 use servoid_results::schema::DeviceRun;
 use servoid_results::schema::device;
 use shared::fit::{self, Outcome, Reason, Settings, Stop, Verdict};
-use shared::wire::{About, Fault, Format};
+use shared::servo::Response;
+use shared::wire::{About, Fault, Format, Tuned};
 
 /// Report of a finished run.
 pub fn report(run: &Run, order: &Order) -> DeviceRun {
@@ -41,6 +42,8 @@ pub fn report(run: &Run, order: &Order) -> DeviceRun {
             .verified
             .map(|verified| f64::from(verified.mean_square).sqrt());
         saved.predicted = report.verified.as_ref().map(predicted);
+        let unit_v = scale.unit_v();
+        saved.tuned = (report.tuned.as_ref()).map(|own| tuned(own, period_s, order, unit_v));
         if let Some(verdict) = &report.verdict {
             saved.grade = Some(grade(verdict.grade));
             saved.reason = reason(verdict).map(str::to_owned);
@@ -73,6 +76,7 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun 
         reason: None,
         within: None,
         predicted: None,
+        tuned: None,
         failure: None,
         limited_periods: None,
         missing: recorded.iter().map(Recorded::missing).sum(),
@@ -127,6 +131,27 @@ fn reason(verdict: &Verdict) -> Option<&'static str> {
             "the model predicts 50 ms ahead hardly better than a constant speed does: the motion is too small for the encoder, or the physics \
              that matters is missing; use a larger --amplitude",
         ),
+    }
+}
+
+fn tuned(tuned: &Tuned, period_s: f64, order: &Order, unit_v: f64) -> device::Tuned {
+    let gains = &tuned.gains;
+    // Part of the unit by counts a period, as V·s/rad.
+    let by_speed = unit_v * order.counts_per_rev / std::f64::consts::TAU * period_s;
+    let answer = |own: &Response| device::Answer {
+        overshoot: own.overshoot.into(),
+        settling_s: f64::from(own.settling) * period_s,
+        left_counts: own.left.into(),
+    };
+    device::Tuned {
+        position_1_s: f64::from(gains.position) / period_s,
+        speed_v_s_rad: f64::from(gains.speed) * by_speed,
+        back_emf_v_s_rad: f64::from(gains.back_emf) * by_speed,
+        friction_v: f64::from(gains.friction) * unit_v,
+        observer: gains.observer.map(f64::from),
+        step_counts: tuned.step,
+        foreseen: answer(&tuned.foreseen),
+        seen: answer(&tuned.seen),
     }
 }
 

@@ -35,6 +35,7 @@ pub use verdict::{Grade, Reason, Verdict};
 
 use crate::optim::{Firefly, FireflySettings, Optimiser, Pso, PsoSettings};
 use crate::rng;
+use crate::servo::Gains;
 use crate::trace::Trace;
 use serde::{Deserialize, Serialize};
 
@@ -441,6 +442,33 @@ impl<S: Arithmetic> Fit<S> {
             }
             _ => None,
         }
+    }
+
+    /// Gains by the fitted motor, whose gain over time constant may be off by the part `off`.
+    pub fn gains(&self, off: f32) -> Gains {
+        let mut values = [0.0; 3];
+        for (k, value) in values.iter_mut().enumerate() {
+            *value = self.now.space.value(k, &self.now.best);
+        }
+        let [gain, first_order, electrical] = values;
+        let coulomb = (self.now.space.unknowns().iter()).position(|own| *own == Unknown::Coulomb);
+        let friction = coulomb.map_or(0.0, |k| self.now.space.value(k, &self.now.best));
+        Gains::of(gain, [first_order, electrical], friction, off)
+    }
+
+    /// Puts the fitted motor to rest, to be [`moved`](Self::moved). Returns false if there is none.
+    pub fn rest(&mut self) -> bool {
+        let (space, best) = (&self.now.space, &self.now.best);
+        build(&mut self.runs[0], space, best, f32::INFINITY)
+    }
+
+    /// Moves the fitted motor for a period; gives its angle then, counts from where it rested.
+    pub fn moved(&mut self, duty: i16) -> f32 {
+        let Some(model) = self.runs[0].model() else {
+            return 0.0;
+        };
+        model.step(duty, 0);
+        model.error()
     }
 
     /// What the motor is good for, by how well it `predicted`; `within` is the largest error of an encoder, counts RMS.

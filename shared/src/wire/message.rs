@@ -4,6 +4,7 @@
 
 use super::{Fault, PlanDigest, PlanPart, Reset};
 use crate::fit::{Grade, Outcome, Predicted, Settings, Verdict};
+use crate::servo::{Gains, Response};
 use heapless::{String, Vec};
 use serde::{Deserialize, Serialize};
 
@@ -194,6 +195,10 @@ pub enum Stage {
     Verify,
     /// Done or given up; the bridge is open.
     Report,
+    /// Computes gains, and foresees a step with them; the bridge is open.
+    Rehearse,
+    /// Drives the step in a closed loop.
+    Tune,
 }
 
 /// Why a command was refused.
@@ -220,6 +225,16 @@ pub enum Kind {
     Record,
     /// Play the plan that was uploaded.
     Play,
+    /// As [`Commission`](Kind::Commission); then rehearse and tune, if the numbers are good enough for it.
+    Tune,
+}
+
+impl Kind {
+    /// Whether the device fits.
+    #[must_use]
+    pub fn fits(self) -> bool {
+        matches!(self, Kind::Commission | Kind::Tune)
+    }
 }
 
 /// A run as ordered.
@@ -339,6 +354,22 @@ pub struct Report {
     pub verified: Option<Predicted>,
     /// What it is good for, if that was asked for.
     pub verdict: Option<Verdict>,
+    /// The servo that it makes, if that was asked for.
+    pub tuned: Option<Tuned>,
+}
+
+/// A servo, and the step that tried it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tuned {
+    /// Its gains.
+    pub gains: Gains,
+    /// The step, counts.
+    pub step: i32,
+    /// How the fitted motor answers it.
+    pub foreseen: Response,
+    /// How the motor did.
+    pub seen: Response,
 }
 
 /// How a run was given up.

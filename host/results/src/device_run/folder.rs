@@ -20,10 +20,11 @@ pub struct Folder {
 }
 
 /// Files of a run, with the stage that each comes from.
-pub(super) const RECORDINGS: [(&str, Stage); 3] = [
+pub(super) const RECORDINGS: [(&str, Stage); 4] = [
     ("recording.csv", Stage::Excite),
     ("fitted.csv", Stage::Record),
     ("verify.csv", Stage::Verify),
+    ("tune.csv", Stage::Tune),
 ];
 pub(super) const MOTOR: &str = "motor.toml";
 

@@ -55,6 +55,9 @@ pub struct DeviceRun {
     /// How well they predicted what the fit had not seen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub predicted: Option<Predicted>,
+    /// The servo that the motor makes, where that was asked for and its numbers are good enough.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tuned: Option<Tuned>,
     /// Why the run was given up; null if it was not.
     pub failure: Option<Failure>,
     /// Periods in which the current's limit held the drive back; what was driven is recorded.
@@ -108,6 +111,38 @@ pub struct Predicted {
     pub gain_moved: Option<f64>,
     /// By which part the time constant would.
     pub a1_moved: Option<f64>,
+}
+
+/// A servo that a device made of its motor, and the step that tried it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Tuned {
+    /// Speed that the position loop asks for by the angle that is left, 1/s.
+    pub position_1_s: f64,
+    /// Voltage that the speed loop asks for by the speed that is left, V·s/rad.
+    pub speed_v_s_rad: f64,
+    /// Voltage that a speed takes, V·s/rad.
+    pub back_emf_v_s_rad: f64,
+    /// Voltage that friction takes.
+    pub friction_v: f64,
+    /// Gains of the observer by a count: counts, counts a period, parts of the supply.
+    pub observer: [f64; 3],
+    /// The step, counts.
+    pub step_counts: i32,
+    /// How the fitted motor answers it.
+    pub foreseen: Answer,
+    /// How the motor did.
+    pub seen: Answer,
+}
+
+/// How a step was answered.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Answer {
+    /// Largest excess over the target, a part of the step.
+    pub overshoot: f64,
+    /// Until the angle stays within a twentieth of the step, or two counts, s.
+    pub settling_s: f64,
+    /// Where it was in the end, counts from the target.
+    pub left_counts: f64,
 }
 
 /// What the device found.

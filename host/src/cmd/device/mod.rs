@@ -10,13 +10,14 @@ use crate::device::{Conversation, serial_ports};
 use crate::error::Error;
 use crate::session::Session;
 use serde::Serialize;
-use shared::wire::{About, Format, ToDevice};
+use shared::wire::{About, Format, Kind, ToDevice};
 
 pub(super) fn run(session: &Session, args: &DeviceArgs) -> Result<(), Error> {
     match &args.verb {
         DeviceVerb::List => list(session),
         DeviceVerb::Info(args) => info(session, args),
-        DeviceVerb::Commission(args) => record::commission(session, args),
+        DeviceVerb::Commission(args) => record::commission(session, args, Kind::Commission),
+        DeviceVerb::Tune(args) => record::commission(session, args, Kind::Tune),
         DeviceVerb::Record(args) => record::record(session, args),
         DeviceVerb::Stream(args) => record::stream(session, args),
         DeviceVerb::Run(args) => record::play(session, args),

@@ -13,6 +13,7 @@ use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
 use servoid_results::device_run::{COLUMNS, Folder, Lines};
 use servoid_results::schema::DeviceRun;
+use servoid_results::schema::device::{Answer, Tuned};
 use shared::fit::{Grade, Method, Settings};
 use shared::wire::{About, Fault, Kind, Segment, Stage};
 use std::path::Path;
@@ -267,6 +268,7 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
             );
         }
         text += &verdict(saved);
+        text += &saved.tuned.as_ref().map_or(String::new(), tuned);
         if saved.fit.dead_time > 0 {
             let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
             text += &format!(
@@ -291,6 +293,29 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
     text
 }
 
+/// The servo, and how its step went.
+fn tuned(tuned: &Tuned) -> String {
+    let answer = |of: &Answer| {
+        format!(
+            "overshoot {:.1} %, settled after {:.3} s, {:+.1} counts left",
+            100.0 * of.overshoot,
+            of.settling_s,
+            of.left_counts
+        )
+    };
+    format!(
+        "servo: position loop {:.4} 1/s, speed loop {} V*s/rad with {} V*s/rad of back-EMF and {} V of friction fed forward\n\
+         a step of {} counts\n  foreseen {}\n  seen     {}\n",
+        tuned.position_1_s,
+        shown(tuned.speed_v_s_rad),
+        shown(tuned.back_emf_v_s_rad),
+        shown(tuned.friction_v),
+        tuned.step_counts,
+        answer(&tuned.foreseen),
+        answer(&tuned.seen)
+    )
+}
+
 /// What the numbers are good for, and why for no more.
 fn verdict(saved: &DeviceRun) -> String {
     let (Some(grade), Some(within)) = (saved.grade, &saved.within) else {
@@ -312,11 +337,15 @@ fn verdict(saved: &DeviceRun) -> String {
     }
 }
 
-/// `servoid device commission`.
-pub(super) fn commission(session: &Session, args: &CommissionArgs) -> Result<(), Error> {
+/// `servoid device commission` and, with [`Kind::Tune`], `tune`.
+pub(super) fn commission(
+    session: &Session,
+    args: &CommissionArgs,
+    kind: Kind,
+) -> Result<(), Error> {
     let folder = Folder::new(&args.out)?;
     let mut bench = open(session, &args.port, &args.limits)?;
-    let common = order(session, &bench.reached, &args.limits, Kind::Commission)?;
+    let common = order(session, &bench.reached, &args.limits, kind)?;
     let fit = bench.behind_its_bridge(common.fit, args.dead_time)?;
     // A limit that the user names is kept to the count.
     let (verify_within, accept) = match args.verify_within {
