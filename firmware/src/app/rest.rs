@@ -19,11 +19,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn rest(&mut self, punctual: bool) {
         match (&self.work, self.phase) {
             (Work::Fit, Phase::Fit) => self.fit(),
-            (Work::Rehearse, Phase::Rehearse) => {
-                if self.rehearsed() {
-                    self.foreseen();
-                }
-            }
+            (Work::Rehearse, Phase::Rehearse) => self.rehearsed(),
             (Work::Fitted, Phase::Fit | Phase::Rehearse) if punctual => {
                 // The next phase drives: only for a host that has spoken since.
                 match self.check_link() {

@@ -124,9 +124,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         true
     }
 
-    /// Goes on with the fitted motor's step; true at its end.
+    /// Goes on with the fitted motor's step.
     #[inline(never)]
-    pub(super) fn rehearsed(&mut self) -> bool {
+    pub(super) fn rehearsed(&mut self) {
         let memory = &mut *self.memory;
         let trial = &mut memory.trial;
         for _ in 0..B::SLICE / SAMPLES + 1 {
@@ -140,15 +140,14 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             trial.duty = next;
             trial.over += 1;
             if trial.over > trial.periods {
-                return true;
+                return self.foreseen();
             }
         }
-        false
     }
 
     /// Keeps what was foreseen, and begins the same step of the motor.
     #[inline(never)]
-    pub(super) fn foreseen(&mut self) {
+    fn foreseen(&mut self) {
         let trial = &mut self.memory.trial;
         if let Some(tuned) = &mut self.report.tuned {
             tuned.foreseen = trial.step.response();
