@@ -129,12 +129,16 @@ fn servoid(arguments: &[&str]) -> Output {
 }
 
 fn commission(bench: &Bench, motor: &Motor, out: &Path, more: &[&str]) -> Output {
+    driven("commission", bench, motor, out, more)
+}
+
+fn driven(verb: &str, bench: &Bench, motor: &Motor, out: &Path, more: &[&str]) -> Output {
     let port = format!("tcp:{}", bench.address);
     let (supply, counts) = (motor.supply.to_string(), motor.counts_per_rev.to_string());
     let fixed = [
         "-q",
         "device",
-        "commission",
+        verb,
         "--port",
         &port,
         "--supply-v",
@@ -225,6 +229,28 @@ fn the_images_of_the_other_boards_identify_a_motor_too() {
         let held_out = saved(&out)["verified_rms_counts"].as_f64().unwrap();
         println!("{board}: {held_out} counts held out");
         assert!(held_out < HELD_OUT, "{board}: {held_out}");
+    }
+}
+
+/// The step that an image drives in a closed loop is the one that it foresaw.
+#[test]
+fn the_images_make_a_servo_of_a_motor() {
+    let motor = &MOTORS[5];
+    for board in ["stm32f427", "stm32f446"] {
+        let out = folder(&format!("{board} tuned")).join("run");
+        let bench = Bench::of(board, &motor.flags());
+        let output = driven("tune", &bench, motor, &out, &["--excite", "0"]);
+        assert!(output.status.success(), "{board}: {output:?}");
+        let tuned = &saved(&out)["tuned"];
+        println!("{board}: {tuned}");
+        let of = |who: &str, what: &str| tuned[who][what].as_f64().unwrap();
+        let slower = of("seen", "settling_s") / of("foreseen", "settling_s");
+        assert!((0.85..1.15).contains(&slower), "{board}: {tuned}");
+        assert!(
+            of("seen", "overshoot") < of("foreseen", "overshoot") + 0.15,
+            "{board}: {tuned}"
+        );
+        assert!(out.join("tune.csv").exists());
     }
 }
 
