@@ -32,12 +32,12 @@ async function start({ bench: [program, ...fixed] }, image, flags) {
 }
 
 // A bench, and what the host says to the device on it: its exit code, and the run that it kept.
-async function commission(board, name, benchFlags, flags) {
+async function commission(board, name, benchFlags, flags, verb = "commission") {
   const { bench, address } = await start(board, board.image, ["--counts-per-rev", COUNTS, ...benchFlags]);
   try {
     const out = join(folder, `${board.name} ${name}`.replaceAll(" ", "-"));
     const given = ["--port", `tcp:${address}`, "--supply-v", "12", "--counts-per-rev", COUNTS, "--out", out];
-    const run = await servoid(["device", "commission", ...given, ...flags]);
+    const run = await servoid(["device", verb, ...given, ...flags]);
     return { run, out, saved: JSON.parse(readFileSync(join(out, "device.json"), "utf8")) };
   } finally {
     bench.kill();
@@ -77,11 +77,11 @@ for (const board of BOARDS) {
   });
 
   for (const [port, portFlags] of Object.entries(board.ports)) {
-    test(`${board.name}, ${port}: it finds the motor; the host finds the same bits, and no physics missing`, async () => {
+    test(`${board.name}, ${port}: it finds the motor and makes a servo of it; the host finds the same bits, and no physics missing`, async () => {
       // Fewer models than usual: while the Pico's chip computes, its emulator takes six seconds for one of its own.
       // And a second to verify, as long as what its log holds to fit: over two, what the gain is not known to would be a quarter of a
       // count, and the error between 0.31 and 0.38 by where the shaft happened to stand.
-      const { run, out, saved } = await commission(board, `whole ${port}`, portFlags, ["--budget", "400", "--verify", "1"]);
+      const { run, out, saved } = await commission(board, `whole ${port}`, portFlags, ["--budget", "400", "--verify", "1"], "tune");
       assert.equal(run.code, 0, run.text);
       const value = (name) => saved.outcome.parameters.find((p) => p.name === name).value;
       const [gain, lag] = new Motor(TEN_WATTS).truth();
@@ -89,6 +89,10 @@ for (const board of BOARDS) {
       console.log(`gain ${off[0]}, a1 ${off[1]} off, ${saved.outcome.rms_counts} counts, ${saved.verified_rms_counts} held out`);
       assert.ok(Math.abs(off[0]) < 1e-4 && Math.abs(off[1]) < 1e-3, `${off}`);
       assert.ok(saved.verified_rms_counts < 0.35);
+      const { foreseen, seen } = saved.tuned;
+      console.log(`a step of ${saved.tuned.step_counts} counts: foreseen ${JSON.stringify(foreseen)}, seen ${JSON.stringify(seen)}`);
+      assert.ok(Math.abs(seen.settling_s / foreseen.settling_s - 1) < 0.15);
+      assert.ok(Math.abs(seen.overshoot - foreseen.overshoot) < 0.15);
       const told = JSON.parse((await servoid(["device", "verify", out, "--json", "-"])).text);
       console.log(told.diagnosis.summary);
       assert.ok(told.same_bits && told.stands, told.verdict);
