@@ -212,7 +212,7 @@ fn run(script: Script) -> (Result<Run, DeviceError>, usize, Option<ToDevice>) {
 
 #[test]
 fn a_device_that_makes_no_sense_ends_with_the_reason_and_what_came_is_kept() {
-    let cases: [(&str, Script, &str); 12] = [
+    let cases: [(&str, Script, &str); 13] = [
         (
             "falls silent",
             |k, _| good(k, |_| Some(vec![])),
@@ -248,7 +248,22 @@ fn a_device_that_makes_no_sense_ends_with_the_reason_and_what_came_is_kept() {
                     }])
                 })
             },
-            "has not come to its end",
+            "which cannot be",
+        ),
+        (
+            "goes round its stages for ever",
+            |k, _| {
+                good(k, |k| {
+                    let stage = [Stage::Record, Stage::Fit, Stage::Verify][k as usize % 3];
+                    Some(vec![ToHost::Stage {
+                        stage,
+                        at: 0,
+                        length: 10,
+                        run: NONCE,
+                    }])
+                })
+            },
+            "nothing new",
         ),
         (
             "sends rows beyond its stage",

@@ -17,6 +17,9 @@ const STILL: Duration = Duration::from_secs(60);
 /// Shortest and longest control periods that make sense, µs.
 const PERIODS_US: std::ops::RangeInclusive<u32> = 10..=1_000_000;
 
+/// Searches of a fit, and most models of the polish after each.
+const SEARCHES: u32 = 3;
+const MOST_OF_POLISH: u32 = 10_000;
 /// Longest step that tries a servo, periods.
 const LONGEST_STEP: u32 = 11_000;
 
@@ -36,8 +39,9 @@ impl Expected {
         let played = plan.iter().map(|segment| u32::from(segment.periods)).sum();
         let driven_s = f64::from(job.limits.time) * period_s + PROBE_S;
         let models = match job.kind {
-            // Up to three searches, and their polish.
-            Kind::Commission | Kind::Tune => 3.0 * f64::from(job.fit.evaluations) + 1000.0,
+            Kind::Commission | Kind::Tune => {
+                f64::from(SEARCHES) * (f64::from(job.fit.evaluations) + 300.0)
+            }
             Kind::Record | Kind::Play => 0.0,
         };
         let longest_s = driven_s * SLOWER + models * MODEL_S;
@@ -76,6 +80,20 @@ impl Expected {
             seconds: limit.as_secs_f64(),
             still: still > STILL,
         })
+    }
+
+    /// Checks that no more models were run than a fit can take.
+    ///
+    /// # Errors
+    /// More.
+    pub fn check_models(&self, done: u32) -> Result<(), DeviceError> {
+        let most = SEARCHES * (u32::from(self.job.fit.evaluations) + MOST_OF_POLISH);
+        if done > most {
+            return Err(nonsense(format!(
+                "{done} models of a fit of at most {most}"
+            )));
+        }
+        Ok(())
     }
 
     /// Checks that rows are some that were ordered.

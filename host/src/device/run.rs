@@ -83,7 +83,7 @@ fn until_the_end(
 ) -> Result<Result<Report, Failure>, DeviceError> {
     let begun = conversation.now();
     let (mut said, mut heard, mut advanced) = (begun, begun, begun);
-    let mut models = 0;
+    let (mut models, mut stages) = (0, Vec::new());
     let mut stopped: Option<Instant> = None;
     loop {
         let now = conversation.now();
@@ -116,7 +116,11 @@ fn until_the_end(
             ToHost::About(now) if now.boot != about.boot => return Err(DeviceError::Restarted),
             ToHost::Stage { stage, length, .. } => {
                 let known = length > 0 && length < u32::MAX && stage != Stage::Probe;
-                advanced = now;
+                // Each once: a device that goes round and round brings nothing new.
+                if !stages.contains(&stage) {
+                    stages.push(stage);
+                    advanced = now;
+                }
                 progress(Progress::Stage(stage, known.then_some(length)))?;
             }
             ToHost::Rows(rows) => {
@@ -127,6 +131,7 @@ fn until_the_end(
                 progress(Progress::Rows(&rows))?;
             }
             ToHost::Fitting { done, of, .. } => {
+                expected.check_models(done)?;
                 if done > models {
                     (models, advanced) = (done, now);
                 }
