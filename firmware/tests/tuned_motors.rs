@@ -53,6 +53,7 @@ fn a_step_is_answered_as_it_was_foreseen() {
             continue;
         };
         tuned += 1;
+        let seen = seen.expect("the step was driven");
         let settles = (seen.settling as f32 / foreseen.settling as f32 - 1.0).abs() < 0.15;
         let shoots = (seen.overshoot - foreseen.overshoot).abs() < 0.15;
         let good = settles && shoots && seen.overshoot < 0.5;

@@ -90,11 +90,11 @@ fn report() -> Report {
                 settling: 140,
                 left: -0.5,
             },
-            seen: Response {
+            seen: Some(Response {
                 overshoot: 0.02,
                 settling: 150,
                 left: 0.5,
-            },
+            }),
         }),
     }
 }

@@ -7,7 +7,7 @@ use crate::board::Board;
 use crate::guard::{Guard, LONGEST_WINDOW_MS, Measured, Tripped};
 use crate::phase::{Fault, Phase};
 use core::mem::replace;
-use shared::fit::Arithmetic;
+use shared::fit::{Arithmetic, Grade};
 use shared::scalar::Real;
 use shared::trace::OPEN;
 use shared::wire::{Job, Kind, Row, ToHost};
@@ -261,21 +261,22 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
 
     pub(super) fn verified(&mut self, job: &Job) {
         let fit = &mut self.memory.fit;
+        // A motor that cannot even predict is good for nothing.
+        let (mut grade, mut mean_square) = (Grade::No, 0.0);
         if self.predicts
             && let Some(predicted) = fit.predicted()
         {
             let verdict = fit.verdict(&predicted, job.verify_within as f32 * 0.01);
+            (grade, mean_square) = (verdict.grade, predicted.mean_square);
             self.report.verified = Some(predicted);
             self.report.verdict = Some(verdict);
-            if verdict.grade < job.accept {
-                let seen = predicted.mean_square.min(1e9) * 10_000.0;
-                let seen = Real::sqrt(seen) as i32;
-                return self.trip(Tripped {
-                    fault: Fault::NotVerified,
-                    seen,
-                    limit: job.verify_within as i32,
-                });
-            }
+        }
+        if grade < job.accept {
+            return self.trip(Tripped {
+                fault: Fault::NotVerified,
+                seen: Real::sqrt(mean_square.min(1e9) * 10_000.0) as i32,
+                limit: job.verify_within as i32,
+            });
         }
         self.done();
     }

@@ -29,7 +29,7 @@ pub(super) struct Trial {
     step: Step,
     /// Its length, counts, and its sense.
     counts: f32,
-    forward: bool,
+    back: bool,
     /// Periods in all, and over.
     periods: u32,
     over: u32,
@@ -46,11 +46,12 @@ fn whole(angle: f32) -> i32 {
 }
 
 impl Trial {
+    /// None: all zeros.
     pub(super) const NONE: Self = Trial {
         servo: Servo::IDLE,
         step: Step::NONE,
         counts: 0.0,
-        forward: true,
+        back: false,
         periods: 0,
         over: 0,
         read: 0,
@@ -64,19 +65,15 @@ impl Trial {
 
     /// Counts to where it goes.
     fn target(&self) -> f32 {
-        if self.forward {
-            self.counts
-        } else {
-            -self.counts
-        }
+        if self.back { -self.counts } else { self.counts }
     }
 
     /// Counts that were travelled, along it.
     fn along(&self, counts: i32) -> i32 {
-        if self.forward {
-            counts
-        } else {
+        if self.back {
             counts.saturating_neg()
+        } else {
+            counts
         }
     }
 }
@@ -109,7 +106,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         *trial = Trial {
             counts: counts as i32 as f32,
             // Back to where the run began, so that it stays within the limits of travel.
-            forward: self.count.wrapping_sub(self.home) <= 0,
+            back: self.count.wrapping_sub(self.home) > 0,
             periods: (WATCHED * gains.settling() + beside).min(LONGEST) as u32,
             ..Trial::NONE
         };
@@ -119,7 +116,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             gains,
             step: trial.target() as i32,
             foreseen: Response::default(),
-            seen: Response::default(),
+            seen: None,
         });
         true
     }
@@ -179,7 +176,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Keeps how the motor answered.
     pub(super) fn tuned(&mut self) {
         if let Some(tuned) = &mut self.report.tuned {
-            tuned.seen = self.memory.trial.step.response();
+            tuned.seen = Some(self.memory.trial.step.response());
         }
         self.done();
     }

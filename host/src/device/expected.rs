@@ -142,8 +142,10 @@ impl Expected {
         {
             let of_gains = [gains.position, gains.speed, gains.back_emf, gains.friction];
             numbers.extend(of_gains.map(|gain| ("a gain", gain, 0.0)));
-            let of_step = [foreseen.overshoot, foreseen.left, seen.overshoot, seen.left];
-            numbers.extend(of_step.map(|number| ("a step's answer", number, f32::MIN)));
+            for answer in [Some(*foreseen), *seen].into_iter().flatten() {
+                let of_step = [answer.overshoot, answer.left];
+                numbers.extend(of_step.map(|number| ("a step's answer", number, f32::MIN)));
+            }
         }
         match numbers
             .iter()

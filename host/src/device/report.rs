@@ -151,7 +151,7 @@ fn tuned(tuned: &Tuned, period_s: f64, order: &Order, unit_v: f64) -> device::Tu
         observer: gains.observer.map(f64::from),
         step_counts: tuned.step,
         foreseen: answer(&tuned.foreseen),
-        seen: answer(&tuned.seen),
+        seen: tuned.seen.as_ref().map(answer),
     }
 }
 

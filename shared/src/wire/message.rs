@@ -368,8 +368,8 @@ pub struct Tuned {
     pub step: i32,
     /// How the fitted motor answers it.
     pub foreseen: Response,
-    /// How the motor did.
-    pub seen: Response,
+    /// How the motor did; nothing if its step was given up.
+    pub seen: Option<Response>,
 }
 
 /// How a run was given up.

@@ -130,8 +130,8 @@ pub struct Tuned {
     pub step_counts: i32,
     /// How the fitted motor answers it.
     pub foreseen: Answer,
-    /// How the motor did.
-    pub seen: Answer,
+    /// How the motor did; null if its step was given up.
+    pub seen: Option<Answer>,
 }
 
 /// How a step was answered.

@@ -312,7 +312,10 @@ fn tuned(tuned: &Tuned) -> String {
         shown(tuned.friction_v),
         tuned.step_counts,
         answer(&tuned.foreseen),
-        answer(&tuned.seen)
+        tuned
+            .seen
+            .as_ref()
+            .map_or_else(|| "nothing: the step was given up".to_owned(), answer)
     )
 }
 
