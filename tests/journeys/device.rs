@@ -90,8 +90,17 @@ fn servoid(words: &[&str], json: &Path) -> (Option<Value>, Option<String>) {
 }
 
 fn commission(device: &Device, out: &Path, more: &[&str]) -> (Option<Value>, Option<String>) {
+    identify("commission", device, out, more)
+}
+
+fn identify(
+    verb: &str,
+    device: &Device,
+    out: &Path,
+    more: &[&str],
+) -> (Option<Value>, Option<String>) {
     let out_text = out.display().to_string();
-    let mut words = vec!["device", "commission", "--out", &out_text];
+    let mut words = vec!["device", verb, "--out", &out_text];
     words.extend(device.bench());
     words.extend(more);
     servoid(&words, &out.with_extension("commission.json"))
@@ -131,12 +140,62 @@ fn a_motor_with_friction_commissions_itself_and_its_answer_stands() {
 }
 
 #[test]
+fn a_motor_makes_a_servo_of_itself_and_its_gains_go_where_they_are_good() {
+    let folder = tempfile::tempdir().unwrap();
+    let device = Device::with(&["coulomb"]);
+    let out = folder.path().join("servo");
+    let (saved, error) = identify("tune", &device, &out, &["--excite", "0"]);
+    assert_eq!(error, None);
+    let mut saved = saved.unwrap();
+    assert_eq!(saved["grade"], "floor", "{saved}");
+    let tuned = saved["tuned"].clone();
+    let of = |who: &str, what: &str| tuned[who][what].as_f64().unwrap();
+    let slower = of("seen", "settling_s") / of("foreseen", "settling_s");
+    assert!((0.85..1.15).contains(&slower), "{tuned}");
+    assert!(
+        of("seen", "overshoot") < of("foreseen", "overshoot") + 0.15,
+        "{tuned}"
+    );
+    assert!(of("seen", "left_counts").abs() <= 2.0, "{tuned}");
+    assert!(out.join("tune.csv").exists());
+    // Of a motor that is good for nothing no gains are computed, unless they are asked for with force.
+    let out_text = out.display().to_string();
+    let export = |more: &[&str]| {
+        let words = ["export", &out_text, "--to", "gains"];
+        servoid(&[&words, more].concat(), &out.with_extension("gains.json"))
+    };
+    let (written, error) = export(&[]);
+    assert_eq!(error, None);
+    let head = written.unwrap()["text"].to_string();
+    assert!(head.contains("verified") && !head.contains("NOT"), "{head}");
+    saved["grade"] = "no".into();
+    saved["reason"] = "too coarse".into();
+    fs::write(out.join("device.json"), saved.to_string()).unwrap();
+    let error = export(&[]).1.expect("refused");
+    assert!(
+        error.contains("too coarse") && error.contains("--force"),
+        "{error}"
+    );
+    let (written, error) = export(&["--force"]);
+    assert_eq!(error, None);
+    let head = written.unwrap()["text"].to_string();
+    assert!(head.contains("NOT VERIFIED: too coarse"), "{head}");
+}
+
+#[test]
 fn a_hidden_effect_is_named_by_the_host_and_the_error_falls() {
     let folder = tempfile::tempdir().unwrap();
     let device = Device::with(&["cogging"]);
     let out = folder.path().join("cogging");
+    // The device says that its model lacks something, and what it is good for all the same.
     let (saved, error) = commission(&device, &out, &[]);
-    // The device says that its model is not to be trusted, and keeps all that it has.
+    assert_eq!(error, None);
+    let saved = saved.unwrap();
+    assert_eq!(saved["grade"], "control", "{saved}");
+    assert!(saved["reason"].as_str().unwrap().contains("device verify"));
+    // Who wants it to the count is told that it is not.
+    let strict = folder.path().join("strict");
+    let (saved, error) = commission(&device, &strict, &["--verify-within", "1"]);
     let error = error.expect("not verified");
     assert!(error.contains("not verified"), "{error}");
     assert_eq!(saved.unwrap()["partial"], false);
