@@ -204,6 +204,8 @@ pub struct Fit<S: Arithmetic> {
     /// The best of the searches that are over, and how many those are.
     kept: Found,
     over: u32,
+    /// The supply's resistance was added to the best.
+    extended: bool,
 }
 
 /// Most searches in a fit.
@@ -211,6 +213,8 @@ const SEARCHES: u32 = 3;
 /// Mean squared error, counts², of a model that the encoder's reading cannot be told from: a reading that is anywhere within a count has 1/12.
 /// Above it a search from elsewhere may find better.
 const FLOOR: f32 = 0.25;
+/// The supply's resistance is kept where this part of the mean squared error is left by it, or less.
+const EXPLAINS: f32 = 0.25;
 /// Two searches end alike within this part of the mean squared error.
 const ALIKE: f32 = 0.01;
 
@@ -238,6 +242,7 @@ impl<S: Arithmetic> Fit<S> {
             now: Found::NONE,
             kept: Found::NONE,
             over: 0,
+            extended: false,
         }
     }
 
@@ -250,6 +255,7 @@ impl<S: Arithmetic> Fit<S> {
         self.now.space = space;
         self.evaluations = 0;
         self.over = 0;
+        self.extended = false;
         self.search();
         self.kept = self.now;
         true
@@ -274,6 +280,12 @@ impl<S: Arithmetic> Fit<S> {
     // Out of line, for the sake of the stack.
     #[inline(never)]
     fn go_on(&mut self, trace: &Trace<'_>, stop: Stop) {
+        if self.extended {
+            if self.now.least < EXPLAINS * self.kept.least {
+                self.kept = self.now;
+            }
+            return self.finish(stop);
+        }
         self.over += 1;
         let gained = self.kept.least - self.now.least;
         if gained > 0.0 {
@@ -291,11 +303,29 @@ impl<S: Arithmetic> Fit<S> {
                 self.now.space = space;
                 self.search();
             }
-            _ => {
+            _ if self.settings.supply && self.kept.least > FLOOR && self.kept.least.is_finite() => {
+                self.extended = true;
                 self.now = self.kept;
-                let found = self.now.least.is_finite();
-                self.stage = Stage::Done(if found { Stop::Converged } else { stop });
+                self.now.space.add_supply();
+                self.polish();
             }
+            _ => self.finish(stop),
+        }
+    }
+
+    /// Ends with the best.
+    fn finish(&mut self, stop: Stop) {
+        self.now = self.kept;
+        let found = self.now.least.is_finite();
+        self.stage = Stage::Done(if found { Stop::Converged } else { stop });
+    }
+
+    /// Begins the polish where the search ended.
+    #[inline(never)]
+    fn polish(&mut self) {
+        self.stage = Stage::Polish(Polish::EMPTY);
+        if let Stage::Polish(polish) = &mut self.stage {
+            polish.begin(&mut self.now.space, &self.now.best, self.now.least);
         }
     }
 
@@ -389,10 +419,7 @@ impl<S: Arithmetic> Fit<S> {
                 self.stage = Stage::Over(Stop::NoModel);
                 return;
             }
-            self.stage = Stage::Polish(Polish::EMPTY);
-            if let Stage::Polish(polish) = &mut self.stage {
-                polish.begin(&mut self.now.space, &self.now.best, self.now.least);
-            }
+            self.polish();
         }
     }
 

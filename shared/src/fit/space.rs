@@ -36,7 +36,8 @@ pub enum Unknown {
     /// Part of the damping that is viscous friction, polished from zero: nothing but the current's sign tells it from back-EMF. The response to
     /// voltage does not depend on it.
     Viscous,
-    /// Resistance of the supply as a part of the winding's, polished from zero.
+    /// Resistance of the supply as a part of the winding's, polished from zero when all else is, and kept only where it explains most of what
+    /// was left: a little of everything that the model lacks looks like it.
     Supply,
 }
 
@@ -51,6 +52,8 @@ pub struct Space {
     held: Point,
     /// Waves of the bridge's carrier in a period.
     carriers: f32,
+    /// How far the origin was moved, see [`about`](Self::about).
+    moved: Point,
     /// Values where all coordinates are zero.
     origin: Point,
     /// What a coordinate of one adds: to a logarithm, or to a value.
@@ -89,6 +92,7 @@ impl Space {
         searched: 0,
         held: [0.0; MOST],
         carriers: 0.0,
+        moved: [0.0; MOST],
         origin: [0.0; MOST],
         span: [0.0; MOST],
     };
@@ -129,9 +133,6 @@ impl Space {
             space.push(Unknown::DeadTime, 0.0, MOST_DEAD_TIME);
             space.push(Unknown::Viscous, 0.0, MOST_VISCOUS);
         }
-        if settings.supply {
-            space.push(Unknown::Supply, 0.0, MOST_SUPPLY);
-        }
         Some(space)
     }
 
@@ -142,16 +143,22 @@ impl Space {
         self.dim += 1;
     }
 
-    /// Puts the origin of the logarithms at `x`, whose coordinates along them become zero; returns what they were. An f32 along
+    /// Adds the resistance of the supply.
+    pub(super) fn add_supply(&mut self) {
+        self.push(Unknown::Supply, 0.0, MOST_SUPPLY);
+    }
+
+    /// Puts the origin of the logarithms at `x`, whose coordinates along them become zero; returns what they are in the unit cube. An f32 along
     /// the whole range of a logarithm has steps of a millionth of the value, and a gain that is off by that much is a tenth of a
     /// count off after a hundred thousand; near zero its steps are as fine as those of the value.
     pub(super) fn about(&mut self, x: &mut Point) -> Point {
         let (gain, mechanical) = (self.value(GAIN, x), self.value(MECHANICAL, x));
         (self.origin[GAIN], self.origin[MECHANICAL]) = (gain, mechanical);
-        let mut from = [0.0; MOST];
-        (from[GAIN], from[MECHANICAL]) = (x[GAIN], x[MECHANICAL]);
-        (x[GAIN], x[MECHANICAL]) = (0.0, 0.0);
-        from
+        for k in [GAIN, MECHANICAL] {
+            self.moved[k] += x[k];
+            x[k] = 0.0;
+        }
+        self.moved
     }
 
     /// Number of unknowns that are searched for; the others are only polished.
