@@ -128,6 +128,7 @@ fn plan(coulomb: f32) -> RigidPlan<f32> {
         dead_time: 0.0,
         carriers: 0.0,
         supply: 0.0,
+        full: 1.0,
         units: PerUnit {
             volts: 1.0,
             speed: 256.0,

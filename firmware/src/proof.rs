@@ -178,6 +178,7 @@ fn fitted<S: Arithmetic>(
         carriers,
         dead_time: 400,
         supply: carriers > 0,
+        full: 16_800,
         ..Settings::USUAL
     };
     let name = match (method, carriers) {

@@ -72,6 +72,7 @@ fn extreme(rng: &mut Generator) -> Job {
             load: rng::below(rng, 2) == 0,
             carriers: rng::below(rng, 40) as u16,
             supply: rng::below(rng, 2) == 0,
+            full: any(rng) as u16,
             dead_time: rng::below(rng, 65_536) as u16,
         },
         limits: Limits {

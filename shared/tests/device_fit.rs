@@ -242,6 +242,7 @@ fn behind_a_bridge_the_hot_loop_is_the_step() {
             dead_time: part(0.05),
             carriers: 20.0,
             supply: 0.0,
+            full: 1.0,
             units: PerUnit::new(1.0, gain, 1.0, std::f64::consts::TAU).unwrap(),
         };
         let duties: Vec<i16> = (0..400)
@@ -280,6 +281,7 @@ fn dead_time_takes_its_part_of_a_current_that_flows_and_nothing_of_one_that_the_
             dead_time,
             carriers: 20.0,
             supply: 0.0,
+            full: 1.0,
             units: PerUnit::new(1.0, 100.0, 1.0, std::f64::consts::TAU).unwrap(),
         };
         let model = Rigid::<f64>::new(&plan).unwrap();

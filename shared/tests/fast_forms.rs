@@ -209,6 +209,7 @@ fn a_rigid_motor_is_the_step() {
             dead_time: 0.0,
             carriers: 0.0,
             supply: 0.0,
+            full: 1.0,
             units,
         };
         let drive = drive(&mut rng);

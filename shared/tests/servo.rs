@@ -52,6 +52,7 @@ impl Motor {
             dead_time: 0.0,
             carriers: 0.0,
             supply: 0.0,
+            full: 1.0,
             units: PerUnit::new(1.0, f64::from(self.gain), 1.0, std::f64::consts::TAU).unwrap(),
         };
         Evaluation::new(Rigid::new(&plan).expect("a motor")).expect("within f32")

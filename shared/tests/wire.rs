@@ -27,6 +27,7 @@ fn job() -> Job {
             carriers: 20,
             dead_time: 655,
             supply: true,
+            full: 16_800,
         },
         limits: Limits {
             duty: 32_767,

@@ -162,7 +162,7 @@ impl Expected {
         if whole {
             for part in recorded
                 .iter_mut()
-                .filter(|part| part.stage != Stage::Probe)
+                .filter(|part| !matches!(part.stage, Stage::Probe | Stage::Tune))
             {
                 part.rows.resize(self.rows(part.stage) as usize, None);
             }

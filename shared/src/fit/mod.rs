@@ -74,6 +74,8 @@ pub struct Settings {
     pub dead_time: u16,
     /// Fit the resistance of a supply that is not measured.
     pub supply: bool,
+    /// Duty that is the whole supply, which the carrier's ripple and the supply's current depend on; zero for 32,768.
+    pub full: u16,
 }
 
 impl Settings {
@@ -88,6 +90,7 @@ impl Settings {
         carriers: 0,
         dead_time: 0,
         supply: false,
+        full: 0,
     };
 }
 
@@ -213,8 +216,8 @@ const SEARCHES: u32 = 3;
 /// Mean squared error, counts², of a model that the encoder's reading cannot be told from: a reading that is anywhere within a count has 1/12.
 /// Above it a search from elsewhere may find better.
 const FLOOR: f32 = 0.25;
-/// The supply's resistance is kept where this part of the mean squared error is left by it, or less.
-const EXPLAINS: f32 = 0.25;
+/// The supply's resistance is kept where no more than this part of the mean squared error is left by it.
+const EXPLAINS: f32 = 0.5;
 /// Two searches end alike within this part of the mean squared error.
 const ALIKE: f32 = 0.01;
 
@@ -233,6 +236,7 @@ impl<S: Arithmetic> Fit<S> {
                 carriers: 0,
                 dead_time: 0,
                 supply: false,
+                full: 0,
             },
             stage: Stage::Idle,
             runs: [Room::EMPTY; 3],

@@ -52,6 +52,8 @@ pub struct Space {
     held: Point,
     /// Waves of the bridge's carrier in a period.
     carriers: f32,
+    /// Duty that is the whole supply, a part of the unit.
+    full: f32,
     /// How far the origin was moved, see [`about`](Self::about).
     moved: Point,
     /// Values where all coordinates are zero.
@@ -92,6 +94,7 @@ impl Space {
         searched: 0,
         held: [0.0; MOST],
         carriers: 0.0,
+        full: 1.0,
         moved: [0.0; MOST],
         origin: [0.0; MOST],
         span: [0.0; MOST],
@@ -126,6 +129,10 @@ impl Space {
             space.push(Unknown::Load, -MOST_FRICTION, 2.0 * MOST_FRICTION);
         }
         space.searched = space.dim;
+        space.full = match settings.full {
+            0 => 1.0,
+            full => f32::from(full) * (1.0 / 32_768.0),
+        };
         if settings.carriers > 0 {
             space.carriers = settings.carriers.into();
             let told = f32::from(settings.dead_time) * (1.0 / 32_768.0);
@@ -261,6 +268,7 @@ impl Space {
             load,
             dead_time,
             carriers: self.carriers,
+            full: self.full,
             supply,
             units: PerUnit {
                 volts: 1.0,

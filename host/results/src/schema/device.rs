@@ -233,6 +233,9 @@ struct Order {
     /// Whether the resistance of a supply that is not measured is fitted.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     supply: bool,
+    /// Duty that is the whole supply; absent for 32,768.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    full: u16,
 }
 
 fn is_zero(number: &u16) -> bool {
@@ -321,6 +324,7 @@ mod tests {
             carriers: 20,
             dead_time: 655,
             supply: true,
+            full: 16_800,
             ..Settings::USUAL
         };
         let settings = serde_json::to_value(settings).expect("JSON");

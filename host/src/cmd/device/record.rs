@@ -91,6 +91,7 @@ impl Bench {
         let details = self.conversation.details()?;
         let fit = Settings {
             supply: !details.senses_supply,
+            full: self.about.full,
             ..fit
         };
         if asked == Some(Switch::Off) {

@@ -25,6 +25,8 @@ pub struct RigidPlan<R> {
     pub load: R,
     /// What the bridge's dead time takes against the current, V.
     pub dead_time: R,
+    /// The command that is the whole supply, V.
+    pub full: R,
     /// Resistance of the supply as a part of the winding's: a bridge at the duty `d` takes `d·i` of it, so the winding loses `d²` of that.
     pub supply: R,
     /// Waves of the bridge's carrier in an interval; at least one where dead time takes anything.
@@ -42,6 +44,8 @@ pub struct Rigid<S: Scalar> {
     dead_time: DeadTime<S>,
     /// See [`RigidPlan::supply`].
     supply: S::Coefficient,
+    /// Part of the supply by command.
+    duty_by_command: S::Coefficient,
     /// Whether there is a supply that gives way.
     sags: bool,
     /// Whether there is friction.
@@ -67,6 +71,7 @@ impl<S: Scalar> Rigid<S> {
             },
             dead_time: DeadTime::none(zero, none),
             supply: none,
+            duty_by_command: none,
             sags: false,
             has_friction: false,
             free: false,
@@ -103,6 +108,7 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
             self.dead_time.set(lost, waves, by_volts);
         }
         self.supply = S::coefficient_of(plan.supply);
+        self.duty_by_command = S::coefficient_of(units.volts / plan.full);
         Ok(())
     }
 
@@ -186,19 +192,20 @@ impl<S: Scalar<Mask = bool>> Rigid<S> {
                 .0
         };
         let half = S::from_f64(0.5);
+        let duty = command.times(self.duty_by_command);
         let mut mean = motion.current + by * half;
         let mut sag = S::zero();
         if self.sags {
             // What is lost lowers the current that loses it: two terms of the series.
             let by_volts = map.current_by_volts()[usize::from(held)];
-            let square = command * command;
+            let square = duty * duty;
             let first = (square * mean).times(self.supply);
             let less = mean - first.times(by_volts) * half;
             sag = (square * less).times(self.supply);
             mean = less;
         }
         if self.loses() {
-            sag = sag + self.dead_time.of(command, mean, held);
+            sag = sag + self.dead_time.of(duty, mean, held);
         }
         command - sag
     }
