@@ -94,7 +94,7 @@ impl Space {
         searched: 0,
         held: [0.0; MOST],
         carriers: 0.0,
-        full: 1.0,
+        full: 0.0,
         moved: [0.0; MOST],
         origin: [0.0; MOST],
         span: [0.0; MOST],
