@@ -89,10 +89,10 @@ for (const board of BOARDS) {
       console.log(`gain ${off[0]}, a1 ${off[1]} off, ${saved.outcome.rms_counts} counts, ${saved.verified_rms_counts} held out`);
       assert.ok(Math.abs(off[0]) < 1e-4 && Math.abs(off[1]) < 1e-3, `${off}`);
       assert.ok(saved.verified_rms_counts < 0.35);
-      const { foreseen, seen } = saved.tuned;
-      console.log(`a step of ${saved.tuned.step_counts} counts: foreseen ${JSON.stringify(foreseen)}, seen ${JSON.stringify(seen)}`);
-      assert.ok(Math.abs(seen.settling_s / foreseen.settling_s - 1) < 0.15);
-      assert.ok(Math.abs(seen.overshoot - foreseen.overshoot) < 0.15);
+      const { predicted, measured } = saved.tuned;
+      console.log(`a step of ${saved.tuned.step_counts} counts: predicted ${JSON.stringify(predicted)}, measured ${JSON.stringify(measured)}`);
+      assert.ok(Math.abs(measured.settling_s / predicted.settling_s - 1) < 0.15);
+      assert.ok(Math.abs(measured.overshoot - predicted.overshoot) < 0.15);
       const told = JSON.parse((await servoid(["device", "verify", out, "--json", "-"])).text);
       console.log(told.diagnosis.summary);
       assert.ok(told.same_bits && told.stands, told.verdict);

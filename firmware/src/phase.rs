@@ -1,7 +1,7 @@
 //! The phases of a self-identification, and the one rule that leads from each to the next.
 //!
 //! ```text
-//! Idle → Probe → Excite → Record → Fit → Verify → Rehearse → Tune → Report → Idle
+//! Idle → Probe → Excite → Record → Fit → Verify → Simulate → Tune → Report → Idle
 //!          └────────┴────────┴──────┴───────┴────────┴────────┴────────↗  any fault, at any time
 //! ```
 //!
@@ -30,8 +30,8 @@ pub enum Phase {
     Fit,
     /// Drives a recording that the fit has not seen, and compares it with the model's prediction.
     Verify,
-    /// Computes gains, and foresees a step with them; the bridge is open and the motor coasts.
-    Rehearse,
+    /// Computes gains, and simulates a step with them; the bridge is open and the motor coasts.
+    Simulate,
     /// Drives that step in a closed loop.
     Tune,
     /// Repeats the report until the host acknowledges it; the bridge is open.
@@ -69,8 +69,8 @@ impl Phase {
             (Phase::Excite, Event::Done) => Ok(Phase::Record),
             (Phase::Record, Event::Done) => Ok(Phase::Fit),
             (Phase::Fit, Event::Done) => Ok(Phase::Verify),
-            (Phase::Verify, Event::Done) => Ok(Phase::Rehearse),
-            (Phase::Rehearse, Event::Done) => Ok(Phase::Tune),
+            (Phase::Verify, Event::Done) => Ok(Phase::Simulate),
+            (Phase::Simulate, Event::Done) => Ok(Phase::Tune),
             (Phase::Tune, Event::Done) => Ok(Phase::Report(Ok(()))),
             (Phase::Report(_), Event::Done) => Ok(Phase::Idle),
             (phase, event) => Err(Refused { phase, event }),
@@ -94,7 +94,7 @@ impl Phase {
             Phase::Probe | Phase::Excite | Phase::Record | Phase::Verify | Phase::Tune => {
                 Bridge::Driven
             }
-            Phase::Idle | Phase::Fit | Phase::Rehearse | Phase::Report(_) => Bridge::Open,
+            Phase::Idle | Phase::Fit | Phase::Simulate | Phase::Report(_) => Bridge::Open,
         }
     }
 }
@@ -119,7 +119,7 @@ impl Phase {
             Phase::Record => Stage::Record,
             Phase::Fit => Stage::Fit,
             Phase::Verify => Stage::Verify,
-            Phase::Rehearse => Stage::Rehearse,
+            Phase::Simulate => Stage::Simulate,
             Phase::Tune => Stage::Tune,
             Phase::Report(_) => Stage::Report,
         }
@@ -203,7 +203,7 @@ mod tests {
                 Record,
                 Fit,
                 Verify,
-                Rehearse,
+                Simulate,
                 Tune,
                 Report(Ok(())),
                 Idle

@@ -5,11 +5,8 @@
 mod drawing;
 
 use drawing::{Drawn, commissioning, draw, off, ran};
-use firmware::app::{Memory, Recording};
-use firmware::trials::{bench::Bench, host::Host};
 use shared::fit::{Grade, Settings};
 use shared::wire::*;
-use std::cell::RefCell;
 
 /// What became of it.
 #[derive(Debug)]
@@ -21,11 +18,7 @@ struct Became {
 
 fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
     let motor = &drawn.motor;
-    let mut bench = Bench::new(motor.clone());
-    (bench.offset_ma, bench.glitches) = (drawn.offset_ma, drawn.glitches);
-    let bench = RefCell::new(bench);
-    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
-    let mut host = Host::<f32, 2000, SENSES>::new(&bench, &mut memory, &mut recording);
+    let bench = drawn.bench();
     let stall_ma = (motor.supply / motor.resistance * 1000.0) as u32;
     let limit = drawn.limit.unwrap_or(1.0);
     let current_ma = (stall_ma as f32 * limit) as u32;
@@ -47,7 +40,7 @@ fn commission<const SENSES: bool>(drawn: &Drawn, seed: u64) -> Became {
         },
         ..common
     };
-    let outcome = ran(&mut host, job);
+    let outcome = ran::<SENSES>(&bench, job);
     Became {
         peak: bench.borrow().peak_ma as f32 / current_ma.max(1) as f32,
         outcome,
@@ -79,7 +72,7 @@ fn drawn_motors_commission_and_none_is_harmed() {
             let outcome = report.outcome.as_ref().expect("a fit");
             let verdict = report.verdict.expect("a verdict");
             grades[usize::from(senses)][verdict.grade as usize] += 1;
-            let stated = [verdict.gain, verdict.mechanical, verdict.acceleration];
+            let stated = [verdict.gain, verdict.time_constant, verdict.acceleration];
             let off = off(outcome, &drawn.motor);
             if verdict.grade > Grade::No
                 && off.iter().zip(stated).any(|(off, stated)| *off > stated)

@@ -3,10 +3,9 @@
 mod drawing;
 
 use drawing::{Drawn, commissioning, draw, ran, truth};
-use firmware::app::{Memory, Recording};
 use firmware::phase::Fault;
 use firmware::plant::{CARRIERS, Motor};
-use firmware::trials::{bench::Bench, host::Host};
+use firmware::trials::bench::Bench;
 use shared::fit::Settings;
 use shared::wire::*;
 use std::cell::RefCell;
@@ -32,8 +31,6 @@ struct Found {
 /// Commissions a motor whose board takes its dead time for `told` times what it is.
 fn commission(motor: &Motor, seed: u64, told: f32) -> Option<Found> {
     let bench = RefCell::new(Bench::new(motor.clone()));
-    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
-    let mut host = Host::<f32, 2000, false>::new(&bench, &mut memory, &mut recording);
     let common = commissioning(motor, seed, 4_000);
     let job = Job {
         fit: Settings {
@@ -42,7 +39,7 @@ fn commission(motor: &Motor, seed: u64, told: f32) -> Option<Found> {
         },
         ..common
     };
-    let report = match ran(&mut host, job) {
+    let report = match ran::<false>(&bench, job) {
         Ok(report) => Some(report),
         Err(failure) => {
             assert_eq!(failure.fault, Fault::NotVerified, "{failure:?}");

@@ -1,4 +1,4 @@
-//! The servo's laws: on drawn motors a step is answered as gains foresee, with friction, a coarse encoder, and a motor that is not quite the fitted one.
+//! The servo's laws: on drawn motors a step is answered as the gains predict, with friction, a coarse encoder, and a motor that is not quite the fitted one.
 
 use shared::fit::Evaluation;
 use shared::model::{Rigid, RigidPlan};

@@ -66,13 +66,13 @@ fn report() -> Report {
             periods: 4_000,
             by_persistence: 0.03,
             gain: 0.001,
-            mechanical: -0.002,
+            time_constant: -0.002,
         }),
         verdict: Some(Verdict {
             grade: Grade::Control,
             reason: Reason::Left,
             gain: 0.011,
-            mechanical: 0.025,
+            time_constant: 0.025,
             acceleration: 0.024,
         }),
         tuned: Some(Tuned {
@@ -86,12 +86,12 @@ fn report() -> Report {
                 observer: [0.4, 0.05, 0.004],
             },
             step: -120,
-            foreseen: Response {
+            predicted: Response {
                 overshoot: 0.01,
                 settling: 140,
                 left: -0.5,
             },
-            seen: Some(Response {
+            measured: Some(Response {
                 overshoot: 0.02,
                 settling: 150,
                 left: 0.5,

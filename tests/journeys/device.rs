@@ -150,13 +150,13 @@ fn a_motor_makes_a_servo_of_itself_and_its_gains_go_where_they_are_good() {
     assert_eq!(saved["grade"], "floor", "{saved}");
     let tuned = saved["tuned"].clone();
     let of = |who: &str, what: &str| tuned[who][what].as_f64().unwrap();
-    let slower = of("seen", "settling_s") / of("foreseen", "settling_s");
+    let slower = of("measured", "settling_s") / of("predicted", "settling_s");
     assert!((0.85..1.15).contains(&slower), "{tuned}");
     assert!(
-        of("seen", "overshoot") < of("foreseen", "overshoot") + 0.15,
+        of("measured", "overshoot") < of("predicted", "overshoot") + 0.15,
         "{tuned}"
     );
-    assert!(of("seen", "left_counts").abs() <= 2.0, "{tuned}");
+    assert!(of("measured", "left_counts").abs() <= 2.0, "{tuned}");
     assert!(out.join("tune.csv").exists());
     // Of a motor that is good for nothing no gains are computed, unless they are asked for with force.
     let out_text = out.display().to_string();

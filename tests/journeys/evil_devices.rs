@@ -163,7 +163,7 @@ fn report(periods: u32) -> Report {
             periods: 10,
             by_persistence: 0.1,
             gain: 0.0,
-            mechanical: 0.0,
+            time_constant: 0.0,
         }),
         verdict: None,
         tuned: None,

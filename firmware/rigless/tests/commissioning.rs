@@ -232,7 +232,7 @@ fn the_images_of_the_other_boards_identify_a_motor_too() {
     }
 }
 
-/// The step that an image drives in a closed loop is the one that it foresaw.
+/// The step that an image drives in a closed loop is the one that it predicted.
 #[test]
 fn the_images_make_a_servo_of_a_motor() {
     let motor = &MOTORS[5];
@@ -244,10 +244,10 @@ fn the_images_make_a_servo_of_a_motor() {
         let tuned = &saved(&out)["tuned"];
         println!("{board}: {tuned}");
         let of = |who: &str, what: &str| tuned[who][what].as_f64().unwrap();
-        let slower = of("seen", "settling_s") / of("foreseen", "settling_s");
+        let slower = of("measured", "settling_s") / of("predicted", "settling_s");
         assert!((0.85..1.15).contains(&slower), "{board}: {tuned}");
         assert!(
-            of("seen", "overshoot") < of("foreseen", "overshoot") + 0.15,
+            of("measured", "overshoot") < of("predicted", "overshoot") + 0.15,
             "{board}: {tuned}"
         );
         assert!(out.join("tune.csv").exists());

@@ -145,20 +145,13 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     #[inline(never)]
     pub(super) fn ready(&mut self, job: &Job, step: i32) {
         let closed_loop = self.phase == Phase::Tune;
-        let asked = if closed_loop {
-            self.steps(step).map(|part| (part * 32_767.0) as i16)
-        } else {
-            None
-        };
+        let asked = closed_loop.then(|| self.closed_loop(step)).flatten();
         let Work::Play { script, next, .. } = &mut self.work else {
             return;
         };
         let limit = job.limits.duty;
-        let ordered = match script {
-            Script::Servo => asked,
-            script => script.next(self.memory.plan.segments()),
-        };
-        *next = ordered.map(|duty| {
+        let scripted = script.next(self.memory.plan.segments());
+        *next = asked.or(scripted).map(|duty| {
             if duty == OPEN {
                 return OPEN;
             }

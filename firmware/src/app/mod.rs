@@ -61,8 +61,8 @@ enum Work {
     },
     /// Fits.
     Fit,
-    /// Foresees a step with the fitted motor.
-    Rehearse,
+    /// Simulates a step of the fitted motor.
+    Simulate,
     /// Has fitted.
     Fitted,
 }
@@ -307,10 +307,10 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 }
                 Work::Fit
             }
-            (_, Phase::Rehearse, Some(job)) if job.kind == Kind::Tune && self.rehearse(&job) => {
-                Work::Rehearse
+            (_, Phase::Simulate, Some(job)) if job.kind == Kind::Tune && self.plan_step(&job) => {
+                Work::Simulate
             }
-            (_, Phase::Fit | Phase::Rehearse, _) => return phase.after(Event::Done).ok(),
+            (_, Phase::Fit | Phase::Simulate, _) => return phase.after(Event::Done).ok(),
             _ => Work::Rest,
         };
         if let (true, Some(job)) = (changed, self.job) {

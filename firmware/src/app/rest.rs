@@ -19,8 +19,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn rest(&mut self, punctual: bool) {
         match (&self.work, self.phase) {
             (Work::Fit, Phase::Fit) => self.fit(),
-            (Work::Rehearse, Phase::Rehearse) => self.rehearsed(),
-            (Work::Fitted, Phase::Fit | Phase::Rehearse) if punctual => {
+            (Work::Simulate, Phase::Simulate) => self.simulate(),
+            (Work::Fitted, Phase::Fit | Phase::Simulate) if punctual => {
                 // The next phase drives: only for a host that has spoken since.
                 match self.check_link() {
                     Ok(()) if self.silence <= 1 => self.done(),

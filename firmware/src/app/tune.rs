@@ -1,4 +1,4 @@
-//! From a fitted motor to a servo: gains, a step that the fitted motor foresees, and the same step of the motor.
+//! From a fitted motor to a servo: gains, a step that is simulated with the fitted motor, and the same step of the motor.
 
 use super::{App, Work};
 use crate::board::Board;
@@ -37,6 +37,11 @@ pub(super) struct Trial {
     read: i32,
     at: i32,
     duty: f32,
+}
+
+/// A part of the supply as a duty, which is never the one that stands for an open bridge.
+fn as_duty(part: f32) -> i16 {
+    (part * 32_767.0) as i16
 }
 
 /// The whole counts below an angle.
@@ -82,7 +87,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Computes the gains and the step, and puts the fitted motor to rest. Returns false if its numbers are not good enough, or the limits leave
     /// no room for a step.
     #[inline(never)]
-    pub(super) fn rehearse(&mut self, job: &Job) -> bool {
+    pub(super) fn plan_step(&mut self, job: &Job) -> bool {
         let good = |verdict: &Verdict| verdict.grade >= Grade::Control;
         let Some(verdict) = self.report.verdict.filter(good) else {
             return false;
@@ -115,15 +120,15 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         self.report.tuned = Some(Tuned {
             gains,
             step: trial.target() as i32,
-            foreseen: Response::default(),
-            seen: None,
+            predicted: Response::default(),
+            measured: None,
         });
         true
     }
 
-    /// Goes on with the fitted motor's step.
+    /// Simulates a slice of the fitted motor's step.
     #[inline(never)]
-    pub(super) fn rehearsed(&mut self) {
+    pub(super) fn simulate(&mut self) {
         let memory = &mut *self.memory;
         let trial = &mut memory.trial;
         for _ in 0..B::SLICE / SAMPLES + 1 {
@@ -132,22 +137,22 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             let target = trial.target();
             let next = trial.servo.next(read - trial.read, target);
             // The duty that the last reading gave acts until the next one. The motor began in the middle of a count.
-            let angle = memory.fit.moved((trial.duty * 32_767.0) as i16);
+            let angle = memory.fit.moved(as_duty(trial.duty));
             (trial.read, trial.at) = (read, whole(angle + 0.5));
             trial.duty = next;
             trial.over += 1;
             if trial.over > trial.periods {
-                return self.foreseen();
+                return self.simulated();
             }
         }
     }
 
-    /// Keeps what was foreseen, and begins the same step of the motor.
+    /// Keeps what was predicted, and begins the same step of the motor.
     #[inline(never)]
-    fn foreseen(&mut self) {
+    fn simulated(&mut self) {
         let trial = &mut self.memory.trial;
         if let Some(tuned) = &mut self.report.tuned {
-            tuned.foreseen = trial.step.response();
+            tuned.predicted = trial.step.response();
             let limit = trial.servo.limit();
             trial.servo.begin(tuned.gains, limit);
         }
@@ -157,9 +162,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         self.work = Work::Fitted;
     }
 
-    /// The next duty of the step, a part of the supply; `None` at its end.
+    /// The next duty of the step; `None` at its end.
     #[inline(never)]
-    pub(super) fn steps(&mut self, step: i32) -> Option<f32> {
+    pub(super) fn closed_loop(&mut self, step: i32) -> Option<i16> {
         let travelled = self.count.wrapping_sub(self.begun_at);
         let trial = &mut self.memory.trial;
         if trial.over > 0 {
@@ -170,13 +175,13 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
         trial.over += 1;
         let target = trial.target();
-        Some(trial.servo.next(step, target))
+        Some(as_duty(trial.servo.next(step, target)))
     }
 
     /// Keeps how the motor answered.
     pub(super) fn tuned(&mut self) {
         if let Some(tuned) = &mut self.report.tuned {
-            tuned.seen = Some(self.memory.trial.step.response());
+            tuned.measured = Some(self.memory.trial.step.response());
         }
         self.done();
     }

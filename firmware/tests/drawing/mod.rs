@@ -1,11 +1,13 @@
 //! Motors of half a watt to half a kilowatt with 12 to 65,536 counts a revolution, bare and with a robot's mass, and ordinary faults.
 #![allow(dead_code, reason = "each law takes the faults that it is about")]
 
+use firmware::app::{Memory, Recording};
 use firmware::plant::{CARRIERS, Motor, Shaft};
-use firmware::trials::host::Host;
+use firmware::trials::{bench::Bench, host::Host};
 use shared::fit::{Grade, Outcome, Settings};
 use shared::rng;
 use shared::wire::*;
+use std::cell::RefCell;
 use std::f32::consts::TAU;
 
 const COUNTS: [u32; 12] = [
@@ -125,11 +127,19 @@ pub fn off(outcome: &Outcome, motor: &Motor) -> [f32; 3] {
     [0, 1, 2].map(|k| outside(found[k], truth[k]))
 }
 
-/// Runs a job to its end.
-pub fn ran<const SENSES: bool>(
-    host: &mut Host<'_, f32, 2000, SENSES>,
-    job: Job,
-) -> Result<Report, Box<Failure>> {
+impl Drawn {
+    /// Its bench, with the faults of sensor and encoder.
+    pub fn bench(&self) -> RefCell<Bench> {
+        let mut bench = Bench::new(self.motor.clone());
+        (bench.offset_ma, bench.glitches) = (self.offset_ma, self.glitches);
+        RefCell::new(bench)
+    }
+}
+
+/// Runs a job on a bench to its end.
+pub fn ran<const SENSES: bool>(bench: &RefCell<Bench>, job: Job) -> Result<Report, Box<Failure>> {
+    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
+    let mut host = Host::<f32, 2000, SENSES>::new(bench, &mut memory, &mut recording);
     assert!(host.start(job));
     let mut outcome = None;
     loop {

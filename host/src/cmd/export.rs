@@ -59,7 +59,7 @@ pub(super) fn run(session: &Session, args: &ExportArgs) -> Result<(), Error> {
             fault: ResultFault::Model(fault),
         }),
     })?;
-    let computes_gains = [CURRENT, SPEED].concat().contains(&format.name);
+    let computes_gains = CURRENT.contains(&format.name) || SPEED.contains(&format.name);
     if computes_gains && !args.force {
         subject.needs_grade(format.name)?;
     }

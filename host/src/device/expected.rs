@@ -3,6 +3,7 @@
 
 use super::DeviceError;
 use servoid_results::device_run::Recorded;
+use shared::fit::SEARCHES;
 use shared::wire::{About, Job, Kind, Report, Rows, Segment, Stage, Tuned};
 use std::time::Duration;
 
@@ -17,8 +18,7 @@ const STILL: Duration = Duration::from_secs(60);
 /// Shortest and longest control periods that make sense, µs.
 const PERIODS_US: std::ops::RangeInclusive<u32> = 10..=1_000_000;
 
-/// Searches of a fit, and most models of the polish after each.
-const SEARCHES: u32 = 3;
+/// Most models of the polish after each search.
 const MOST_OF_POLISH: u32 = 10_000;
 /// Longest step that tries a servo, periods.
 const LONGEST_STEP: u32 = 11_000;
@@ -62,7 +62,7 @@ impl Expected {
             Stage::Record => self.job.record.into(),
             Stage::Verify => self.job.verify,
             Stage::Tune if self.job.kind == Kind::Tune => LONGEST_STEP,
-            Stage::Idle | Stage::Fit | Stage::Rehearse | Stage::Tune | Stage::Report => 0,
+            Stage::Idle | Stage::Fit | Stage::Simulate | Stage::Tune | Stage::Report => 0,
         }
     }
 
@@ -135,14 +135,14 @@ impl Expected {
         }
         if let Some(Tuned {
             gains,
-            foreseen,
-            seen,
+            predicted,
+            measured,
             ..
         }) = &report.tuned
         {
             let of_gains = [gains.position, gains.speed, gains.back_emf, gains.friction];
             numbers.extend(of_gains.map(|gain| ("a gain", gain, 0.0)));
-            for answer in [Some(*foreseen), *seen].into_iter().flatten() {
+            for answer in [Some(*predicted), *measured].into_iter().flatten() {
                 let of_step = [answer.overshoot, answer.left];
                 numbers.extend(of_step.map(|number| ("a step's answer", number, f32::MIN)));
             }

@@ -92,7 +92,7 @@ fn predicted(verified: &fit::Predicted) -> device::Predicted {
     device::Predicted {
         by_persistence: finite(verified.by_persistence),
         gain_moved: finite(verified.gain),
-        a1_moved: finite(verified.mechanical),
+        a1_moved: finite(verified.time_constant),
     }
 }
 
@@ -107,7 +107,7 @@ fn grade(grade: fit::Grade) -> device::Grade {
 fn within(verdict: &Verdict) -> device::Within {
     device::Within {
         gain: finite(verdict.gain),
-        a1: finite(verdict.mechanical),
+        a1: finite(verdict.time_constant),
         acceleration: finite(verdict.acceleration),
     }
 }
@@ -150,8 +150,8 @@ fn tuned(tuned: &Tuned, period_s: f64, order: &Order, unit_v: f64) -> device::Tu
         friction_v: f64::from(gains.friction) * unit_v,
         observer: gains.observer.map(f64::from),
         step_counts: tuned.step,
-        foreseen: answer(&tuned.foreseen),
-        seen: tuned.seen.as_ref().map(answer),
+        predicted: answer(&tuned.predicted),
+        measured: tuned.measured.as_ref().map(answer),
     }
 }
 
@@ -191,14 +191,11 @@ fn outcome(outcome: &Outcome, period_s: f64, order: &Order, unit_v: f64) -> devi
             .estimates
             .iter()
             .zip(measures)
-            .map(|(estimate, (name, scale, unit))| {
-                let std = f64::from(estimate.std) * scale;
-                device::Parameter {
-                    name: name.to_owned(),
-                    value: f64::from(estimate.value) * scale,
-                    unit: unit.to_owned(),
-                    std: std.is_finite().then_some(std),
-                }
+            .map(|(estimate, (name, scale, unit))| device::Parameter {
+                name: name.to_owned(),
+                value: f64::from(estimate.value) * scale,
+                unit: unit.to_owned(),
+                std: finite(estimate.std).map(|std| std * scale),
             });
     device::Outcome {
         parameters: parameters.collect(),

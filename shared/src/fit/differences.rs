@@ -9,7 +9,7 @@ use crate::trace::Trace;
 pub(super) const BLOCKS: usize = 16;
 
 /// Products of the error and of both differences, summed along the trace.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Differences {
     pub(super) at: usize,
     /// Periods in a block.

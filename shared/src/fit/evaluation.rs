@@ -13,6 +13,9 @@ const BLOCK: usize = 72;
 /// device's watchdog.
 const SLOW: u32 = 12;
 
+/// Cost of building a model, in samples: with friction there are eight maps to make.
+pub(super) const BUILD: u32 = 100;
+
 /// Largest mean error that the unknown start within a count can explain, counts.
 const UNKNOWN_START: f32 = 0.5;
 

@@ -29,7 +29,7 @@ pub struct Estimate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Outcome {
-    /// One for each unknown: gain, mechanical and electrical time constant, then friction and load if asked for.
+    /// One for each unknown: gain, first-order coefficient and electrical time constant, then friction and load if asked for.
     pub estimates: Vec<Estimate, MOST>,
     /// Mean squared error, counts².
     pub mean_square: f32,

@@ -7,7 +7,7 @@
 use super::cholesky::{Matrix, inverse};
 use super::covariance::Covariance;
 use super::differences::{Differences, Products};
-use super::evaluation::{Runs, build};
+use super::evaluation::{BUILD, Runs, build};
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
 use crate::trace::Trace;
@@ -152,7 +152,7 @@ impl Polish {
                 }
                 self.differences.begin(trace.len());
                 self.work = if built { Work::Run(a, b) } else { Work::Done };
-                3 * super::BUILD
+                3 * BUILD
             }
             Work::Run(_, _) if self.differences.at < trace.len() => {
                 self.differences.run(runs, trace, samples)
@@ -169,7 +169,7 @@ impl Polish {
                 if !build(&mut runs[0], space, &trial, bound) {
                     self.judge(space, f32::INFINITY);
                 }
-                super::BUILD
+                BUILD
             }
             Work::Try => {
                 let Some(trial) = runs[0].model() else {

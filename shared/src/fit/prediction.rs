@@ -23,7 +23,7 @@ pub struct Predicted {
     /// By which part the gain would differ by this recording.
     pub gain: f32,
     /// By which part the time constant would.
-    pub mechanical: f32,
+    pub time_constant: f32,
 }
 
 /// A displacement moves the reading by about this, counts RMS …
@@ -175,7 +175,7 @@ impl Prediction {
             periods,
             by_persistence: Real::sqrt(by_model / by_persistence),
             gain: by(0),
-            mechanical: by(1),
+            time_constant: by(1),
         }
     }
 }

@@ -74,7 +74,7 @@ const ELECTRICAL: [f32; 2] = [0.02, 50.0];
 const SLOWEST_WINDING: f32 = 4.0;
 /// Places among the coordinates: the logarithms, before all others.
 const GAIN: usize = 0;
-const MECHANICAL: usize = 1;
+const FIRST_ORDER: usize = 1;
 /// Friction and load, parts of the supply.
 const MOST_FRICTION: f32 = 0.5;
 /// What a dead time takes, a part of the supply: 2.5 µs at 20 kHz.
@@ -159,9 +159,9 @@ impl Space {
     /// the whole range of a logarithm has steps of a millionth of the value, and a gain that is off by that much is a tenth of a
     /// count off after a hundred thousand; near zero its steps are as fine as those of the value.
     pub(super) fn about(&mut self, x: &mut Point) -> Point {
-        let (gain, mechanical) = (self.value(GAIN, x), self.value(MECHANICAL, x));
-        (self.origin[GAIN], self.origin[MECHANICAL]) = (gain, mechanical);
-        for k in [GAIN, MECHANICAL] {
+        let (gain, mechanical) = (self.value(GAIN, x), self.value(FIRST_ORDER, x));
+        (self.origin[GAIN], self.origin[FIRST_ORDER]) = (gain, mechanical);
+        for k in [GAIN, FIRST_ORDER] {
             self.moved[k] += x[k];
             x[k] = 0.0;
         }
@@ -207,9 +207,9 @@ impl Space {
     pub fn value(&self, k: usize, x: &Point) -> f32 {
         let mut added = self.span[k] * x[k];
         if k == GAIN {
-            added += self.span[MECHANICAL] * x[MECHANICAL];
+            added += self.span[FIRST_ORDER] * x[FIRST_ORDER];
         }
-        if k > MECHANICAL {
+        if k > FIRST_ORDER {
             self.origin[k] + added
         } else {
             self.origin[k] * Real::exp(added)
@@ -218,7 +218,7 @@ impl Space {
 
     /// By how much the value of unknown `k` changes with each coordinate of `x`.
     pub fn gradient(&self, k: usize, x: &Point) -> Point {
-        let scale = if k > MECHANICAL {
+        let scale = if k > FIRST_ORDER {
             1.0
         } else {
             self.value(k, x)
@@ -226,7 +226,7 @@ impl Space {
         let mut gradient = [0.0; MOST];
         gradient[k] = self.span[k] * scale;
         if k == GAIN {
-            gradient[MECHANICAL] = self.span[MECHANICAL] * scale;
+            gradient[FIRST_ORDER] = self.span[FIRST_ORDER] * scale;
         }
         gradient
     }

@@ -43,7 +43,7 @@ pub struct Verdict {
     /// Part by which the gain may be off, with a probability of 95 %.
     pub gain: f32,
     /// The same of the time constant.
-    pub mechanical: f32,
+    pub time_constant: f32,
     /// The same of gain over time constant, the acceleration from standstill, from which gains are computed.
     pub acceleration: f32,
 }
@@ -62,9 +62,11 @@ impl Verdict {
     /// well it predicted, with the largest error that is an encoder's, counts RMS.
     pub(super) fn of(stds: [f32; 3], least: f32, predicted: &Predicted, within: f32) -> Self {
         let Predicted {
-            gain, mechanical, ..
+            gain,
+            time_constant,
+            ..
         } = *predicted;
-        let moves = [gain, mechanical, gain - mechanical];
+        let moves = [gain, time_constant, gain - time_constant];
         let mut off = [f32::INFINITY; 3];
         for (k, off) in off.iter_mut().enumerate() {
             let (std, moved) = (WITHIN * stds[k], WITHIN * moves[k]);
@@ -98,7 +100,7 @@ impl Verdict {
             },
             reason,
             gain: off[0],
-            mechanical: off[1],
+            time_constant: off[1],
             acceleration: off[2],
         }
     }

@@ -5,7 +5,7 @@
 use super::Gains;
 
 /// A servo under way.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Servo {
     gains: Gains,
     /// Largest duty, a part of the supply.
@@ -28,15 +28,7 @@ const ASKED: f32 = 0.5;
 impl Servo {
     /// With nothing done.
     pub const IDLE: Self = Servo {
-        gains: Gains {
-            position: 0.0,
-            speed: 0.0,
-            back_emf: 0.0,
-            friction: 0.0,
-            decay: 0.0,
-            time_constant: 0.0,
-            observer: [0.0; 3],
-        },
+        gains: Gains::NONE,
         limit: 0.0,
         read: 0,
         ahead: 0.0,
@@ -67,7 +59,7 @@ impl Servo {
         self.ahead += angle * says;
         self.speed += speed * says;
         self.disturbance += disturbance * says;
-        self.foresee();
+        self.predict();
         let asked = self.gains.position * (target - self.read as f32 - self.ahead);
         self.next = self.duty(asked);
         self.next
@@ -84,7 +76,7 @@ impl Servo {
     }
 
     /// Goes on to the next reading, under the duty that acts now.
-    fn foresee(&mut self) {
+    fn predict(&mut self) {
         let Gains {
             back_emf,
             decay,

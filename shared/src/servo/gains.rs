@@ -13,7 +13,7 @@ use crate::scalar::Real;
 use serde::{Deserialize, Serialize};
 
 /// Gains of a servo, per period, per count, and as parts of the supply.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gains {
     /// Speed asked for by a count off, a period.
@@ -42,6 +42,17 @@ const POSITION_BY_SPEED: f32 = 0.25;
 const MOST_BY_A_COUNT: f32 = 0.1;
 
 impl Gains {
+    /// Of no motor: all zeros.
+    pub(super) const NONE: Self = Gains {
+        position: 0.0,
+        speed: 0.0,
+        back_emf: 0.0,
+        friction: 0.0,
+        decay: 0.0,
+        time_constant: 0.0,
+        observer: [0.0; 3],
+    };
+
     /// Of a motor of a gain (counts a period under the whole supply), time constants (periods) and friction (a part of the supply), whose
     /// gain over time constant may be off by the part `off`: a loop is laid out for the fastest motor that it may be.
     pub fn of(gain: f32, [mechanical, electrical]: [f32; 2], friction: f32, off: f32) -> Self {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! fit → gains → servo: count → observer → position and speed loop → duty
-//!                 └── the same loop on the fitted motor, which foresees the step → response
+//!                 └── the same loop on the fitted motor, which predicts the step → response
 //! ```
 //!
 //! All is in the device's own measure, as in [`fit`](crate::fit): counts, periods, and parts of the supply.

@@ -15,7 +15,7 @@ pub struct Response {
 }
 
 /// A step under way.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Step {
     target: f32,
     band: f32,

@@ -195,8 +195,8 @@ pub enum Stage {
     Verify,
     /// Done or given up; the bridge is open.
     Report,
-    /// Computes gains, and foresees a step with them; the bridge is open.
-    Rehearse,
+    /// Computes gains, and simulates a step with them; the bridge is open.
+    Simulate,
     /// Drives the step in a closed loop.
     Tune,
 }
@@ -225,7 +225,7 @@ pub enum Kind {
     Record,
     /// Play the plan that was uploaded.
     Play,
-    /// As [`Commission`](Kind::Commission); then rehearse and tune, if the numbers are good enough for it.
+    /// As [`Commission`](Kind::Commission); then simulate and tune, if the numbers are good enough for it.
     Tune,
 }
 
@@ -367,9 +367,9 @@ pub struct Tuned {
     /// The step, counts.
     pub step: i32,
     /// How the fitted motor answers it.
-    pub foreseen: Response,
+    pub predicted: Response,
     /// How the motor did; nothing if its step was given up.
-    pub seen: Option<Response>,
+    pub measured: Option<Response>,
 }
 
 /// How a run was given up.

@@ -129,9 +129,9 @@ pub struct Tuned {
     /// The step, counts.
     pub step_counts: i32,
     /// How the fitted motor answers it.
-    pub foreseen: Answer,
+    pub predicted: Answer,
     /// How the motor did; null if its step was given up.
-    pub seen: Option<Answer>,
+    pub measured: Option<Answer>,
 }
 
 /// How a step was answered.

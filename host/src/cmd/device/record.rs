@@ -306,15 +306,15 @@ fn tuned(tuned: &Tuned) -> String {
     };
     format!(
         "servo: position loop {:.4} 1/s, speed loop {} V*s/rad with {} V*s/rad of back-EMF and {} V of friction fed forward\n\
-         a step of {} counts\n  foreseen {}\n  seen     {}\n",
+         a step of {} counts\n  predicted {}\n  measured  {}\n",
         tuned.position_1_s,
         shown(tuned.speed_v_s_rad),
         shown(tuned.back_emf_v_s_rad),
         shown(tuned.friction_v),
         tuned.step_counts,
-        answer(&tuned.foreseen),
+        answer(&tuned.predicted),
         tuned
-            .seen
+            .measured
             .as_ref()
             .map_or_else(|| "nothing: the step was given up".to_owned(), answer)
     )

@@ -1,0 +1,91 @@
+//! What follows from a fitted motor: what it predicts, what it is good for, and the servo that it makes.
+
+use super::evaluation::build;
+use super::prediction::Prediction;
+use super::stage::Stage;
+use super::{Arithmetic, Fit, Predicted, Unknown, Verdict};
+use crate::servo::Gains;
+
+impl<S: Arithmetic> Fit<S> {
+    /// Gets the best motor ready to predict about so many periods, judged over windows of `window` periods; the fit of the `fitted` periods is
+    /// over. Returns false if no motor was fitted.
+    pub fn predict(&mut self, fitted: usize, periods: u32, window: u32) -> bool {
+        self.asked = false;
+        self.stage = Stage::Predict(Prediction::EMPTY);
+        let Stage::Predict(prediction) = &mut self.stage else {
+            return false;
+        };
+        prediction.begin(
+            &mut self.runs,
+            &self.now.space,
+            &self.now.best,
+            &self.now.covariance,
+            (self.now.least, fitted),
+            (periods, window),
+        )
+    }
+
+    /// One period of what the motor predicts: the duty acted, and the reading is `step` counts further.
+    pub fn observe(&mut self, duty: i16, step: i16) {
+        if let Stage::Predict(prediction) = &mut self.stage {
+            prediction.step(&mut self.runs, duty, step);
+        }
+    }
+
+    /// How well it predicted so far; `None` if it does not.
+    // Out of line, for the sake of the stack.
+    #[inline(never)]
+    pub fn predicted(&mut self) -> Option<Predicted> {
+        match &self.stage {
+            Stage::Predict(prediction) => {
+                Some(prediction.so_far(&mut self.runs, &self.now.space, &self.now.best))
+            }
+            _ => None,
+        }
+    }
+
+    /// Gains by the fitted motor, whose gain over time constant may be off by the part `off`.
+    pub fn gains(&self, off: f32) -> Gains {
+        let mut values = [0.0; 3];
+        for (k, value) in values.iter_mut().enumerate() {
+            *value = self.now.space.value(k, &self.now.best);
+        }
+        let [gain, first_order, electrical] = values;
+        let coulomb = (self.now.space.unknowns().iter()).position(|own| *own == Unknown::Coulomb);
+        let friction = coulomb.map_or(0.0, |k| self.now.space.value(k, &self.now.best));
+        Gains::of(gain, [first_order, electrical], friction, off)
+    }
+
+    /// Puts the fitted motor to rest, to be [`moved`](Self::moved). Returns false if no motor was fitted.
+    pub fn rest(&mut self) -> bool {
+        let (space, best) = (&self.now.space, &self.now.best);
+        build(&mut self.runs[0], space, best, f32::INFINITY)
+    }
+
+    /// Moves the fitted motor for a period; gives its angle then, counts from where it rested.
+    pub fn moved(&mut self, duty: i16) -> f32 {
+        let Some(model) = self.runs[0].model() else {
+            return 0.0;
+        };
+        model.step(duty, 0);
+        model.error()
+    }
+
+    /// What the motor is good for, by how well it `predicted`; `within` is the largest error of an encoder, counts RMS.
+    #[inline(never)]
+    pub fn verdict(&self, predicted: &Predicted, within: f32) -> Verdict {
+        let gradients = [0, 1].map(|k| {
+            let gradient = self.now.space.gradient(k, &self.now.best);
+            let value = self.now.space.value(k, &self.now.best);
+            gradient.map(|x| x / value)
+        });
+        let [gain, time_constant] = gradients.map(|gradient| self.now.covariance.std(&gradient));
+        let [g, m] = gradients;
+        let mut ratio = g;
+        for (x, m) in ratio.iter_mut().zip(m) {
+            *x -= m;
+        }
+        let stds = [gain, time_constant, self.now.covariance.std(&ratio)];
+        Verdict::of(stds, self.now.least, predicted, within)
+    }
+}
